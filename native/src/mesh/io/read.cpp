@@ -1,0 +1,63 @@
+#include "mesh/io/read.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "base/errors.h"
+#include "mesh/io/formats.h"
+
+namespace holomorph::mesh {
+
+namespace {
+
+struct Format {
+  std::string_view extension;
+  Polygons (*read)(const FileText&);
+};
+
+constexpr std::array<Format, 4> formats{
+    {{".obj", read_obj}, {".off", read_off}, {".ply", read_ply}, {".stl", read_stl}}};
+
+std::string utf8(const std::filesystem::path& path) {
+  const auto text = path.u8string();
+  return {text.begin(), text.end()};
+}
+
+const Format& format_of(const std::filesystem::path& path) {
+  auto extension = utf8(path.extension());
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const auto& format : formats)
+    if (format.extension == extension) return format;
+  throw InvalidMesh(utf8(path) + ": the file name must end in .obj, .off, .ply or .stl");
+}
+
+FileText load(const std::filesystem::path& path) {
+  FileText file{utf8(path), {}};
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) file.fail("there is no such file");
+  if (std::filesystem::is_directory(status)) file.fail("this is a directory, not a mesh file");
+  const auto size = std::filesystem::file_size(path, error);
+  std::ifstream stream(path, std::ios::binary);
+  if (error || !stream) file.fail("the file cannot be opened for reading");
+  file.bytes.resize(size);
+  if (size > 0 && !stream.read(file.bytes.data(), static_cast<std::streamsize>(size)))
+    file.fail("the file cannot be read to its end");
+  return file;
+}
+
+}  // namespace
+
+void FileText::fail(std::string_view reason) const { throw InvalidMesh(name + ": " + std::string(reason)); }
+
+Polygons read(const std::filesystem::path& path) {
+  const auto& format = format_of(path);
+  return format.read(load(path));
+}
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,21 @@
+// Polygon meshes from files, in double precision, with every polygon, vertex and order as the file has them.
+#pragma once
+
+#include <filesystem>
+
+#include "mesh/polygons.h"
+
+namespace holomorph::mesh {
+
+/// The polygons of an OBJ, OFF, PLY or STL file; the extension decides, in upper or lower case.
+/// OBJ: `v` and `f` lines, negative indices, continued lines; other lines are skipped.
+/// OFF: text, with normals, colours or texture coordinates skipped; 4D, nD and binary OFF are refused.
+/// PLY: text and binary of either byte order; elements and properties that are not polygons or positions are skipped.
+/// STL: text and binary; corners with equal coordinates (-0 equals 0) become one vertex, in order of first appearance.
+/// Indices beyond the vertices, coordinates that are not finite and faces with fewer than 3 corners pass: they are
+/// the mesh's faults, and its validation names them.
+/// \throw InvalidMesh if the file cannot be read or is malformed; the sentence names file and line, byte or element.
+/// Cost: linear in the file's size, which is held in memory.
+Polygons read(const std::filesystem::path& path);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,140 @@
+#include "mesh/io/scanner.h"
+
+#include <charconv>
+#include <limits>
+#include <string>
+
+#include "base/errors.h"
+
+namespace holomorph::mesh {
+
+namespace {
+
+constexpr std::size_t longest_quotation = 40;  // characters of a wrong word that a message repeats
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// CR LF counts once, by its LF.
+bool is_newline(const char* p, const char* end) { return *p == '\n' || (*p == '\r' && (end - p < 2 || p[1] != '\n')); }
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+/// Length of a continuation (backslash, newline) at `p`, 0 if there is none.
+std::size_t continuation(const char* p, const char* end) {
+  if (*p != '\\') return 0;
+  if (end - p >= 2 && is_newline(p + 1, end)) return 2;
+  return end - p >= 3 && p[1] == '\r' ? 3 : 0;
+}
+
+std::string_view without_plus(std::string_view word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+';
+  return plus ? word.substr(1) : word;
+}
+
+/// A number too small or too large for a double, which from_chars leaves unconverted: its sign times 0 or infinity.
+double beyond_range(std::string_view word) {
+  const auto exponent = word.find_first_of("eE");
+  const bool tiny = exponent != std::string_view::npos ? word.substr(exponent + 1).starts_with('-')
+                                                       : word.find_first_of("123456789") > word.find('.');
+  const double magnitude = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+  return word.starts_with('-') ? -magnitude : magnitude;
+}
+
+}  // namespace
+
+std::string quoted(std::string_view word) {
+  std::string text = "'";
+  for (const char c : word.substr(0, longest_quotation)) text += (c >= ' ' && c <= '~') ? c : '?';
+  if (word.size() > longest_quotation) text += "...";
+  return text + "'";
+}
+
+Scanner::Scanner(const FileText& file, Comments comments, std::size_t start, std::int64_t first_line)
+    : file_(&file),
+      next_(file.bytes.data() + start),
+      end_(file.bytes.data() + file.bytes.size()),
+      comments_(comments),
+      line_(first_line) {
+  if (start == 0 && file.bytes.starts_with(byte_order_mark)) next_ += byte_order_mark.size();
+}
+
+void Scanner::skip_blanks() {
+  while (next_ != end_) {
+    if (is_newline(next_, end_)) {
+      return;
+    } else if (is_blank(*next_)) {
+      ++next_;
+    } else if (const auto length = continuation(next_, end_)) {
+      next_ += length;
+      ++line_;
+    } else {
+      return;
+    }
+  }
+}
+
+bool Scanner::at_line_end() {
+  skip_blanks();
+  return next_ == end_ || is_newline(next_, end_) || (comments_ == Comments::after_hash && *next_ == '#');
+}
+
+bool Scanner::at_end() {
+  while (at_line_end()) {
+    if (next_ == end_) return true;
+    next_line();
+  }
+  return false;
+}
+
+void Scanner::next_line() {
+  while (next_ != end_ && !is_newline(next_, end_)) ++next_;
+  if (next_ == end_) return;
+  ++next_;
+  ++line_;
+}
+
+std::string_view Scanner::word() {
+  if (at_line_end()) return {};
+  const char* const first = next_;
+  while (next_ != end_ && !is_blank(*next_) && *next_ != '\n' && !continuation(next_, end_)) ++next_;
+  return {first, static_cast<std::size_t>(next_ - first)};
+}
+
+std::string_view Scanner::word_on_any_line(std::string_view what) {
+  if (at_end()) fail("the file ends where " + std::string(what) + " is expected");
+  return word();
+}
+
+double Scanner::real(std::string_view word, std::string_view what) const {
+  const auto digits = without_plus(word);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool whole = stop == digits.data() + digits.size();
+  if (whole && error == std::errc::result_out_of_range) return beyond_range(digits);
+  if (!whole || error != std::errc{}) fail(std::string(what) + " is expected, but found " + quoted(word));
+  return value;
+}
+
+std::int64_t Scanner::integer(std::string_view word, std::string_view what) const {
+  const auto digits = without_plus(word);
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (stop != digits.data() + digits.size() || error != std::errc{})
+    fail(std::string(what) + " is expected, but found " + quoted(word));
+  return value;
+}
+
+std::int64_t Scanner::count(std::string_view word, std::string_view what, std::size_t bytes_each) const {
+  const auto value = integer(word, what);
+  if (value < 0) fail(std::string(what) + " is negative: " + std::to_string(value));
+  const auto room = static_cast<std::uint64_t>(end_ - next_) / bytes_each + 1;  // the last word may lack its separator
+  if (static_cast<std::uint64_t>(value) > room)
+    fail(std::string(what) + " is " + std::to_string(value) + ", more than the rest of the file can hold");
+  return value;
+}
+
+void Scanner::fail(std::string_view reason) const {
+  throw InvalidMesh(file_->name + ", line " + std::to_string(line_) + ": " + std::string(reason));
+}
+
+}  // namespace holomorph::mesh
