@@ -1,0 +1,171 @@
+"""The rooms and the arrows between them: what includes or imports what, read from the sources."""
+
+import ast
+import re
+import warnings
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+NATIVE = ROOT / "native" / "src"
+FACADE = ROOT / "native" / "holomorph"
+ADDON = ROOT / "addon"
+
+# Each room of native/src, and the rooms that it may include directly or through them.
+ROOM_BELOW = {
+    "base": [],
+    "mesh": ["base"],
+    "solver": ["base"],
+    "topology": ["mesh"],
+    "forms": ["topology", "solver"],
+    "conformal": ["forms"],
+    "uv": ["conformal"],
+    "pipeline": ["uv"],
+    "bindings": ["pipeline"],
+}
+# The add-on's bottom and top; every other module is between them.
+ADDON_LEVEL = {"compatibility": 0, "native": 0, "operators": 2, "panel": 3, "__init__": 4, "headless": 5}
+HEADER_LINES = 110
+FILE_LINES = 300
+
+
+def rooms_below(room):
+    below = set(ROOM_BELOW[room])
+    for lower in ROOM_BELOW[room]:
+        below |= rooms_below(lower)
+    return below
+
+
+def cpp_files():
+    return sorted([*NATIVE.rglob("*.h"), *NATIVE.rglob("*.cpp")])
+
+
+def python_files(folder):
+    return sorted(path for path in folder.rglob("*.py") if "lib" not in path.relative_to(folder).parts)
+
+
+def identify(path):
+    return str(path.relative_to(ROOT))
+
+
+def includes(path):
+    return re.findall(r'^\s*#\s*include\s*([<"][^>"]+[>"])', path.read_text(encoding="utf-8"), re.MULTILINE)
+
+
+def imports(path):
+    """Names imported anywhere in a file, with a leading dot for its own package's."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level:
+            names |= {"." + node.module} if node.module else {"." + alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names.add(node.module)
+    return names
+
+
+def siblings(path):
+    """The add-on's modules that one of them imports."""
+    return sorted(name[1:].split(".")[0] for name in imports(path) if name.startswith("."))
+
+
+def addon_level(name):
+    return ADDON_LEVEL.get(name, 1)
+
+
+def length(path):
+    return len(path.read_text(encoding="utf-8").splitlines())
+
+
+def test_includes_go_down():
+    wrong = []
+    for path in cpp_files():
+        room = path.relative_to(NATIVE).parts[0]
+        for include in includes(path):
+            if not include.startswith('"'):
+                continue
+            name = include.strip('"')
+            found = (
+                (path.parent / name).exists() if "/" not in name else name.split("/")[0] in {room, *rooms_below(room)}
+            )
+            if not found:
+                wrong.append(f"{identify(path)} includes {include}")
+    assert not wrong
+
+
+def test_only_bindings_know_python_and_only_mesh_io_knows_files():
+    wrong = []
+    for path in cpp_files():
+        relative = path.relative_to(NATIVE)
+        headers = {include.strip('<>"') for include in includes(path)}
+        forbidden = {"iostream", "random", "ctime"}  # nothing is printed, and the same input gives the same bits
+        if relative.parts[:2] != ("mesh", "io"):
+            forbidden |= {"fstream", "cstdio", "filesystem"}
+        if relative.parts[0] != "bindings":
+            forbidden |= {name for name in headers if name.startswith("pybind11") or name == "Python.h"}
+        wrong += [f"{identify(path)} includes {name}" for name in sorted(headers & forbidden)]
+    assert not wrong
+
+
+def test_nothing_prints_ends_the_process_or_is_random():
+    call = re.compile(r"\b(?:printf|puts|perror|rand|srand|abort|exit|terminate)\s*\(")
+    assert not [identify(path) for path in cpp_files() if call.search(path.read_text(encoding="utf-8"))]
+
+
+def test_targets_link_downwards_and_name_every_source():
+    text = (ROOT / "native" / "CMakeLists.txt").read_text(encoding="utf-8")
+    rooms = re.findall(r"^holomorph_room\((\w+)(.*?)\)", text, re.MULTILINE | re.DOTALL)
+    assert [name for name, _ in rooms] == [room for room in ROOM_BELOW if room != "bindings"]
+    named = set(re.findall(r"src/(bindings/[\w/]+\.cpp)", text))
+    for name, body in rooms:
+        named |= {f"{name}/{source}" for source in re.findall(r"[\w/]+\.cpp", body)}
+        assert set(re.findall(r"\bholomorph_(\w+)", body)) & set(ROOM_BELOW) <= rooms_below(name)
+    assert named == {str(path.relative_to(NATIVE)) for path in NATIVE.rglob("*.cpp")}
+
+
+def test_the_package_knows_nothing_of_blender():
+    blender = {"bpy", "bmesh", "mathutils", "gpu", "gpu_extras", "bl_ui", "addon"}
+    wrong = {identify(path): {name.split(".")[0] for name in imports(path)} & blender for path in python_files(FACADE)}
+    assert not {path: names for path, names in wrong.items() if names}
+
+
+def test_addon_imports_go_down():
+    wrong = []
+    for path in python_files(ADDON):
+        own = addon_level(path.stem)
+        wrong += [f"{path.stem} imports {name}" for name in siblings(path) if addon_level(name) > own]
+    assert not wrong
+
+
+def test_addon_imports_have_no_circle():
+    graph = {path.stem: siblings(path) for path in python_files(ADDON)}
+
+    def visit(name, trail):
+        assert name not in trail, " -> ".join([*trail, name])
+        for target in graph.get(name, ()):
+            visit(target, [*trail, name])
+
+    for name in graph:
+        visit(name, [])
+
+
+def test_only_mesh_io_touches_mesh_arrays():
+    touching = {path.stem for path in python_files(ADDON) if re.search(r"\bforeach_[gs]et\b", path.read_text("utf-8"))}
+    assert touching <= {"mesh_io"}
+
+
+def test_headers_fit_a_screen():
+    assert not {identify(path): count for path in NATIVE.rglob("*.h") if (count := length(path)) > HEADER_LINES}
+
+
+def test_long_files_are_listed():
+    """A long file should be a table or a formula: those that are long are shown with the test's warnings."""
+    for path in [*cpp_files(), *python_files(FACADE), *python_files(ADDON)]:
+        if length(path) > FILE_LINES:
+            warnings.warn(f"{identify(path)} has {length(path)} lines", stacklevel=1)
+
+
+def test_nothing_is_left_for_later():
+    mark = re.compile(r"\b(?:TODO|FIXME|XXX|HACK)\b")
+    files = [*cpp_files(), *python_files(FACADE), *python_files(ADDON)]
+    assert not [identify(path) for path in files if mark.search(path.read_text(encoding="utf-8"))]
