@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holomorph: conformal UV maps for closed surfaces with handles, in Blender."""
+
+bl_info = {
+    "name": "Holomorph",
+    "description": "Conformal UV maps for closed surfaces with handles",
+    "author": "The Holomorph authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "3D View and UV Editor > Sidebar > Holomorph; UV menus",
+    "category": "UV",
+}
+
+
+def register():
+    from . import native, operators, panel
+
+    native.forget()
+    operators.register()
+    panel.register()
+
+
+def unregister():
+    from . import operators, panel
+
+    panel.unregister()
+    operators.unregister()

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The whole job from the command line, without a window:
+
+blender -b [file.blend] --python-exit-code 1 --python addon/headless.py -- [mesh file] --output out.blend ...
+
+Ends with 0 if some component got its maps, otherwise with 1 and one sentence on the error stream.
+"""
+
+import argparse
+import importlib.util
+import sys
+import time
+from pathlib import Path
+
+import bpy
+
+PACKAGE = "holomorph_addon"  # the add-on's package name when this file is run as a script
+SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
+Z_UP_FROM_Y_UP = 1.5707963267948966  # radians about the x axis, as Blender's own importers turn OBJ files
+
+
+class UsageError(Exception):
+    """What the user asked for cannot be done; the text is one sentence."""
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise UsageError(message)
+
+
+def addon_package():
+    """The add-on's modules, whether or not the add-on is installed and enabled in this Blender."""
+    if PACKAGE not in sys.modules:
+        folder = Path(__file__).resolve().parent
+        spec = importlib.util.spec_from_file_location(
+            PACKAGE, folder / "__init__.py", submodule_search_locations=[str(folder)]
+        )
+        sys.modules[PACKAGE] = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(sys.modules[PACKAGE])
+    return importlib.import_module
+
+
+def parse(arguments):
+    parser = Parser(
+        prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
+        description="Conformal UV maps for the closed surfaces with handles in a mesh file or a .blend file.",
+    )
+    parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY or STL; else the meshes of the .blend")
+    parser.add_argument("--output", type=Path, help="where to save the .blend with the maps")
+    parser.add_argument("--render", type=Path, help="where to save a picture (PNG) with the checker")
+    parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
+    parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
+    parser.add_argument("--forms", type=int, default=8, help="at most so many maps of single forms")
+    parser.add_argument("--shown", type=int, default=0, help="the active map: 0 is the main one")
+    parser.add_argument("--density", type=float, default=1.0, help="factor of all UV lengths")
+    parser.add_argument("--rotation", type=float, default=0.0, help="degrees by which all maps are turned")
+    parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
+    parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
+    parser.add_argument("--checker-scale", type=float, default=24.0, help="squares per UV unit")
+    parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
+    parser.add_argument("--resolution", type=int, default=960, help="pixels of the picture's sides")
+    parser.add_argument("--samples", type=int, default=32, help="samples per pixel")
+    options = parser.parse_args(arguments)
+    for path in (options.output, options.render, options.report):
+        if path is not None and not path.resolve().parent.is_dir():
+            raise UsageError(f"{path}: the folder {path.resolve().parent} does not exist")
+    if options.forms < 0 or options.density <= 0 or options.checker_scale <= 0 or options.shown < 0:
+        raise UsageError("--forms and --shown cannot be negative; --density and --checker-scale must be positive")
+    if options.resolution < 1 or options.samples < 1:
+        raise UsageError("--resolution and --samples must be at least 1")
+    return options
+
+
+def import_mesh(options, holomorph, mesh_io):
+    """The mesh file as an object, in an otherwise empty scene unless a .blend was opened."""
+    if not options.mesh.is_file():
+        raise UsageError(f"{options.mesh}: no such file")
+    surface = holomorph.Surface.read(str(options.mesh))
+    if not bpy.data.filepath:
+        for obj in list(bpy.data.objects):
+            bpy.data.objects.remove(obj)
+    mesh = mesh_io.new_mesh(
+        options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets
+    )
+    mesh_io.shade_smooth(mesh, SHARP_ANGLE)
+    obj = bpy.data.objects.new(mesh.name, mesh)
+    up = options.up or ("Y" if options.mesh.suffix.lower() == ".obj" else "Z")
+    if up == "Y":
+        obj.rotation_euler.x = Z_UP_FROM_Y_UP
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    return obj
+
+
+def objects_of(options, holomorph, mesh_io):
+    if options.mesh is not None:
+        return [import_mesh(options, holomorph, mesh_io)]
+    if not bpy.data.filepath:
+        raise UsageError("name a mesh file after --, or a .blend file before --python")
+    meshes = [o for o in bpy.context.view_layer.objects if o.type == "MESH"]
+    missing = set(options.object) - {o.name for o in meshes}
+    if missing:
+        raise UsageError(f"there is no mesh object named {sorted(missing)[0]!r} in the scene")
+    if options.object:
+        meshes = [o for o in meshes if o.name in options.object]
+    if not meshes:
+        raise UsageError("there is no mesh object in the scene")
+    return meshes
+
+
+def process(options):
+    """Does the job; returns the sentences about what was not done."""
+    load = addon_package()
+    native = load(f"{PACKAGE}.native")
+    if native.problem():
+        raise UsageError(native.problem())
+    jobs, maps, mesh_io, report, run = (
+        load(f"{PACKAGE}.{name}") for name in ("jobs", "maps", "mesh_io", "report", "run")
+    )
+    holomorph = native.load()
+    start = time.perf_counter()
+    try:
+        objects = objects_of(options, holomorph, mesh_io)
+    except holomorph.Error as error:
+        raise UsageError(str(error)) from error
+    bpy.context.view_layer.update()
+    targets = run.collect(objects)
+    job = jobs.Job(run.polygons_to_solve(targets))
+    job.run()
+    outcome = run.write(
+        bpy.context,
+        targets,
+        run.align(targets, job.results),
+        maps.MapOptions(options.forms, options.density, options.rotation * Z_UP_FROM_Y_UP / 90),
+        run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams),
+    )
+    content = report.run_report(outcome.entries)
+    content["seconds"] = time.perf_counter() - start
+    if options.report is not None:
+        options.report.write_text(report.as_json(content, indent=1) + "\n", encoding="utf-8")
+    if not outcome.done:
+        raise UsageError("no maps were made: " + "; ".join(outcome.problems))
+    print(f"Holomorph: maps written to {', '.join(outcome.done)} in {content['seconds']:.2f} s")
+    if options.output is not None:
+        path = str(options.output.resolve())
+        bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
+    if options.render is not None:
+        studio = load(f"{PACKAGE}.studio")
+        shown = [o for o in objects if o.name in outcome.done]
+        studio.render(shown, str(options.render.resolve()), options.resolution, options.samples)
+    return outcome.problems + outcome.notes
+
+
+def main():
+    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    try:
+        for sentence in process(parse(arguments)):
+            print(f"Holomorph: {sentence}", file=sys.stderr)
+    except (UsageError, OSError, RuntimeError) as error:
+        # RuntimeError is how Blender's own operators report a file that cannot be written.
+        print(f"Holomorph: {' '.join(str(error).split())}", file=sys.stderr)
+        sys.stderr.flush()
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Between Blender's meshes and arrays: the only room that calls foreach_get and foreach_set.
+
+Positions and UVs are double precision on our side and float32 on Blender's. Corners are in the order of
+the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
+"""
+
+import functools
+import hashlib
+import re
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from . import compatibility
+
+MAIN_MAP = "Holomorphic"
+OUR_MAP = re.compile(rf"^{MAIN_MAP}( [1-9][0-9]*)?$")
+
+
+@dataclass(frozen=True)
+class Polygons:
+    """A mesh's polygons as arrays; `loops` gives the loop of each corner, or None where they agree."""
+
+    vertices: np.ndarray  # (#V,3) float64, in the object's frame without its translation
+    corner_vertices: np.ndarray  # (#C,) int32
+    face_offsets: np.ndarray  # (#F+1,) int32
+    loops: np.ndarray | None
+
+    @functools.cached_property
+    def fingerprint(self):
+        """A hash of geometry and topology: equal meshes under equal scale have equal fingerprints."""
+        digest = hashlib.blake2b(digest_size=16)
+        for array in (self.vertices, self.corner_vertices, self.face_offsets):
+            digest.update(str(array.shape).encode())
+            digest.update(np.ascontiguousarray(array).data)
+        return digest.hexdigest()
+
+
+def _get(values, width, dtype):
+    collection, name = values
+    array = np.empty(len(collection) * width, dtype)
+    collection.foreach_get(name, array)
+    return array
+
+
+def read_polygons(mesh, linear):
+    """Copies the polygons out of `mesh`, positions multiplied by the 3x3 matrix `linear`.
+
+    The object's rotation and translation do not change angles, its scale and shear do. Nothing is checked
+    here: Blender's own ``validate`` would repair the artist's mesh, so the library judges the arrays.
+    """
+    positions = _get(compatibility.position_values(mesh), 3, np.float32).reshape(-1, 3)
+    with np.errstate(all="ignore"):  # a NaN is the library's to name
+        vertices = positions.astype(np.float64) @ np.asarray(linear, np.float64).T
+    corner_vertices = _get(compatibility.corner_vertex_values(mesh), 1, np.int32)
+    starts = _get((mesh.polygons, "loop_start"), 1, np.int32)
+    sizes = _get((mesh.polygons, "loop_total"), 1, np.int32)
+    offsets = np.zeros(len(starts) + 1, np.int32)
+    np.cumsum(sizes, out=offsets[1:])
+    loops = None
+    if not np.array_equal(starts, offsets[:-1]) or offsets[-1] != len(corner_vertices):
+        loops = np.repeat(starts - offsets[:-1], sizes) + np.arange(offsets[-1], dtype=np.int32)
+        corner_vertices = corner_vertices[loops]
+    return Polygons(vertices, corner_vertices, offsets, loops)
+
+
+@dataclass(frozen=True)
+class WrittenMap:
+    """A map as it stands on the mesh: `kind` is "uv_map", or "attribute" where no UV slot was free."""
+
+    name: str
+    kind: str
+
+
+def remove_maps(mesh):
+    """Removes the maps of an earlier run, and no other."""
+    for name in [layer.name for layer in mesh.uv_layers if OUR_MAP.match(layer.name)]:
+        mesh.uv_layers.remove(mesh.uv_layers[name])
+    ours = [
+        a.name
+        for a in mesh.attributes
+        if a.domain == "CORNER" and a.data_type == "FLOAT2" and OUR_MAP.match(a.name)
+    ]
+    for name in ours:
+        mesh.attributes.remove(mesh.attributes[name])
+
+
+def write_map(mesh, polygons, name, uv):
+    """Writes (#C,2) float32 `uv` as a new UV map, or as a corner attribute when all slots are taken."""
+    values = np.ascontiguousarray(uv, np.float32)
+    if polygons.loops is not None:
+        scattered = np.zeros((len(mesh.loops), 2), np.float32)
+        scattered[polygons.loops] = values
+        values = scattered
+    # References to layers do not survive the next `new`: look up by name, keep nothing.
+    if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:
+        layer = mesh.uv_layers.new(name=name, do_init=False)
+        collection, prop = compatibility.uv_values(layer)
+        collection.foreach_set(prop, values.ravel())
+        return WrittenMap(layer.name, "uv_map")
+    attribute = mesh.attributes.new(name, "FLOAT2", "CORNER")
+    attribute.data.foreach_set("vector", values.ravel())
+    return WrittenMap(attribute.name, "attribute")
+
+
+def read_map(mesh, name):
+    """(#loops,2) float32 of a UV map or corner attribute."""
+    layer = mesh.uv_layers.get(name)
+    if layer is not None:
+        return _get(compatibility.uv_values(layer), 2, np.float32).reshape(-1, 2)
+    return _get((mesh.attributes[name].data, "vector"), 2, np.float32).reshape(-1, 2)
+
+
+def show_map(mesh, name):
+    """Makes a UV map the active one, in the editors and for rendering; an attribute cannot be."""
+    layer = mesh.uv_layers.get(name)
+    if layer is not None:
+        mesh.uv_layers.active = layer
+        layer.active_render = True
+
+
+def read_seams(mesh):
+    """(#mesh edges,) bool."""
+    return _get((mesh.edges, "use_seam"), 1, bool)
+
+
+def add_seams(mesh, vertex_pairs):
+    """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
+    ends = np.sort(_get(compatibility.edge_vertex_values(mesh), 2, np.int32).reshape(-1, 2), axis=1)
+    pairs = np.sort(np.asarray(vertex_pairs, np.int64).reshape(-1, 2), axis=1)
+    count = len(mesh.vertices)
+    wanted = np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])
+    before = read_seams(mesh)
+    mesh.edges.foreach_set("use_seam", before | wanted)
+    return int(np.count_nonzero(wanted & ~before))
+
+
+def new_mesh(name, vertices, corner_vertices, face_offsets):
+    """A Blender mesh of these polygons, vertices and corners in their order."""
+    mesh = bpy.data.meshes.new(name)
+    corners = np.ascontiguousarray(corner_vertices, np.int32)
+    offsets = np.ascontiguousarray(face_offsets, np.int32)
+    mesh.vertices.add(len(vertices))
+    mesh.vertices.foreach_set("co", np.ascontiguousarray(vertices, np.float32).ravel())
+    mesh.loops.add(len(corners))
+    mesh.loops.foreach_set("vertex_index", corners)
+    mesh.polygons.add(len(offsets) - 1)
+    mesh.polygons.foreach_set("loop_start", offsets[:-1].copy())
+    mesh.polygons.foreach_set("loop_total", np.diff(offsets))  # needed before 4.1, accepted after
+    mesh.update(calc_edges=True)
+    return mesh
+
+
+def shade_smooth(mesh, sharp_angle):
+    """Smooth shading, edges sharper than `sharp_angle` (radians) excepted."""
+    mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
+    compatibility.keep_sharp_edges(mesh, sharp_angle)
+    mesh.update()
+
+
+def world_points(obj):
+    """(#V,3) float64 positions of an object's mesh in the world."""
+    positions = _get(compatibility.position_values(obj.data), 3, np.float32).reshape(-1, 3)
+    matrix = np.array(obj.matrix_world, np.float64)
+    return positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Finds the native package ``holomorph``, or says in one sentence what is missing.
+
+Three arrangements are known: installed as a wheel (an extension, or pip), beside the add-on in
+``lib/<tag>`` (the zip for Blender before 4.2), and in a checkout under ``build/lib/<tag>``.
+Neither NumPy nor ``holomorph`` is imported at registration: the panel must draw without them.
+"""
+
+import functools
+import importlib
+import importlib.util
+import platform
+import sys
+from pathlib import Path
+
+NAME = "holomorph"
+
+
+class NativeMissing(Exception):
+    """The native part cannot be used; the text is one sentence for the artist."""
+
+
+def python_tag():
+    """The tag of this interpreter's builds, for example ``cp311``."""
+    return f"cp{sys.version_info[0]}{sys.version_info[1]}"
+
+
+def _looked_for():
+    return f"Python {platform.python_version()} on {platform.system()} {platform.machine()}"
+
+
+def _package_folders():
+    here = Path(__file__).resolve().parent
+    return [here / "lib" / python_tag() / NAME, here.parent / "build" / "lib" / python_tag() / NAME]
+
+
+def _import_from(folder):
+    """Imports the package in `folder` under its own name, leaving ``sys.path`` alone."""
+    spec = importlib.util.spec_from_file_location(
+        NAME, folder / "__init__.py", submodule_search_locations=[str(folder)]
+    )
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[NAME] = module
+    try:
+        spec.loader.exec_module(module)
+    except ImportError:
+        for name in [n for n in sys.modules if n == NAME or n.startswith(NAME + ".")]:
+            del sys.modules[name]
+        raise
+    return module
+
+
+def _find():
+    try:
+        return importlib.import_module(NAME)
+    except ModuleNotFoundError as error:
+        if error.name != NAME:
+            raise
+    for folder in _package_folders():
+        if (folder / "__init__.py").is_file():
+            return _import_from(folder)
+    raise NativeMissing(f"Holomorph's native part for {_looked_for()} is not installed")
+
+
+@functools.lru_cache(maxsize=1)
+def _load():
+    try:
+        importlib.import_module("numpy")
+    except ImportError:
+        return None, f"Holomorph needs NumPy, which this Blender's {_looked_for()} does not have"
+    try:
+        return _find(), ""
+    except NativeMissing as error:
+        return None, str(error)
+    except ImportError as error:
+        return None, f"Holomorph's native part does not load with {_looked_for()}: {error}"
+
+
+def problem():
+    """One sentence saying why the native part cannot be used, or an empty string."""
+    return _load()[1]
+
+
+def load():
+    """The module ``holomorph``; raises `NativeMissing`."""
+    module, sentence = _load()
+    if module is None:
+        raise NativeMissing(sentence)
+    return module
+
+
+def forget():
+    """Looks again at the next call (after an installation, or at registration)."""
+    _load.cache_clear()

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar tab "Holomorph" of the 3D view and the UV editor, and the entries in both UV menus."""
+
+import textwrap
+
+import bpy
+
+from . import native
+from .operators import HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
+
+LINE_WIDTH = 36  # characters that fit a sidebar of the default width
+
+
+class _HolomorphPanel:
+    bl_label = "Holomorph"
+    bl_category = "Holomorph"
+    bl_region_type = "UI"
+
+    def draw(self, context):
+        layout = self.layout
+        layout.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
+        if native.problem():
+            _draw_sentence(layout, native.problem())
+            return
+        obj = context.active_object
+        if obj is not None and obj.type == "MESH":
+            _draw_result(layout, obj)
+
+
+class HOLOMORPH_PT_view3d(_HolomorphPanel, bpy.types.Panel):
+    bl_space_type = "VIEW_3D"
+
+
+class HOLOMORPH_PT_image(_HolomorphPanel, bpy.types.Panel):
+    bl_space_type = "IMAGE_EDITOR"
+
+
+def _draw_sentence(layout, sentence):
+    column = layout.column(align=True)
+    lines = textwrap.wrap(sentence, LINE_WIDTH)
+    for index, line in enumerate(lines):
+        column.label(text=line, icon="ERROR" if index == 0 else "BLANK1")
+
+
+def _draw_result(layout, obj):
+    from . import material, report
+
+    if material.has_checker(obj):
+        layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
+    stored = obj.get(report.PROPERTY)
+    if stored:
+        column = layout.column(align=True)
+        for line in report.summary(stored):
+            column.label(text=line)
+
+
+def _draw_menu_entry(self, _context):
+    self.layout.separator()
+    self.layout.operator_context = "INVOKE_DEFAULT"
+    self.layout.operator(HOLOMORPH_OT_maps.bl_idname)
+
+
+CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image)
+MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    for name in MENUS:
+        getattr(bpy.types, name).append(_draw_menu_entry)
+
+
+def unregister():
+    for name in MENUS:
+        getattr(bpy.types, name).remove(_draw_menu_entry)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

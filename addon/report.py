@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report: what was computed, as JSON in a custom property of each object and in a text datablock."""
+
+import functools
+import json
+import math
+
+import bpy
+import numpy as np
+
+from . import maps, native
+
+PROPERTY = "holomorph_report"
+TEXT = "Holomorphic Report"
+
+
+def component_report(component, options):
+    """One connected part: topology, and either why it was skipped or what was computed."""
+    surface = component.surface
+    entry = {
+        "faces": len(surface.face_index),
+        "vertices": len(surface.vertex_index),
+        "genus": surface.genus,
+        "boundary_count": surface.boundary_count,
+        "done": component.structure is not None,
+    }
+    if component.structure is None:
+        return {**entry, "skipped": component.reason}
+    structure = component.structure
+    lower, upper = structure.period_bounds
+    angle, density_ratio, flipped = maps.main_quality(component, options)
+    return {
+        **entry,
+        "period_matrix": _complex(structure.period_matrix),
+        "imaginary_part_bounds": {"lower": lower, "upper": upper},
+        "residuals": structure.residuals,
+        "solver": structure.solver,
+        "timings": structure.timings,
+        "seam_edges": len(structure.seams),
+        "balanced_coefficients": _complex(component.balanced),
+        "main_map": {"mean_angle": angle, "density_ratio": density_ratio, "flipped": flipped},
+    }
+
+
+def object_report(obj, solved, written, new_seams, options):
+    """One object: its maps as written and its components."""
+    return {
+        "object": obj.name,
+        "mesh": obj.data.name,
+        "vertices": len(solved.surface.vertices),
+        "faces": len(solved.surface.face_offsets) - 1,
+        "done": solved.form_count > 0,
+        "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
+        "seams_added": new_seams,
+        "repairs": solved.surface.repairs,
+        "seconds": solved.seconds,
+        "components": [component_report(c, options) for c in solved.components],
+    }
+
+
+def refusal_report(name, sentence):
+    """One object that was left untouched, and why."""
+    return {"object": name, "done": False, "refused": sentence}
+
+
+def as_json(value, indent=None):
+    """Standard JSON of NumPy arrays, dataclasses and numbers; what is not finite becomes null."""
+    return json.dumps(_plain(value), indent=indent, allow_nan=False)
+
+
+def store_on_object(obj, entry):
+    obj[PROPERTY] = as_json(entry)
+
+
+def store_text(entries):
+    """Replaces the text datablock with the report of all objects of one run."""
+    text = bpy.data.texts.get((TEXT, None)) or bpy.data.texts.new(TEXT)
+    text.from_string(as_json(run_report(entries), indent=1))
+
+
+def run_report(entries):
+    return {
+        "holomorph": getattr(native.load(), "__version__", ""),
+        "blender": bpy.app.version_string,
+        "objects": entries,
+    }
+
+
+@functools.lru_cache(maxsize=16)
+def summary(stored):
+    """Short lines for the panel out of a stored report."""
+    entry = json.loads(stored)
+    lines = [f"{len(entry['maps'])} maps"]
+    for index, part in enumerate(entry["components"], 1):
+        text = f"Part {index}: genus {part['genus']}"
+        if part["done"]:
+            quality = part["main_map"]
+            if part["genus"] == 1:
+                (re,), (im,) = part["period_matrix"]["real"][0:1][0], part["period_matrix"]["imag"][0:1][0]
+                text += f", tau {re:.4f} + {im:.4f} i"
+            text += f", s1/s2 {quality['mean_angle']:.4f}"
+        else:
+            text += ", skipped"
+        lines.append(text)
+    return lines
+
+
+def _complex(array):
+    array = np.asarray(array)
+    return {"real": array.real, "imag": array.imag}
+
+
+def _plain(value):
+    if isinstance(value, np.ndarray):
+        return _plain(value.tolist())
+    if isinstance(value, dict):
+        return {str(k): _plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    if isinstance(value, np.generic):
+        return _plain(value.item())
+    if isinstance(value, complex):
+        return {"real": _plain(value.real), "imag": _plain(value.imag)}
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if value is None or isinstance(value, (str, int)):
+        return value
+    return {k: _plain(getattr(value, k)) for k in _public_names(value)}
+
+
+def _public_names(value):
+    """The fields of a result object that is not a plain container."""
+    if hasattr(value, "__dataclass_fields__"):
+        return [k for k in value.__dataclass_fields__ if not k.startswith("_")]
+    if hasattr(value, "_fields"):
+        return value._fields
+    return [k for k in vars(value) if not k.startswith("_")]

@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The main job in Blender's main thread: collect objects, (a `Job` solves), write what was solved."""
+
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+from . import compatibility, maps, material, mesh_io, native, report
+
+CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
+
+
+@dataclass(frozen=True)
+class Target:
+    """An object to treat; it is found again by name, since Python's references do not survive everything."""
+
+    name: str
+    library: str | None
+    polygons: mesh_io.Polygons | None
+    refused: str = ""
+
+    def find(self):
+        return bpy.data.objects.get((self.name, self.library))
+
+
+@dataclass
+class Outcome:
+    """What a run did: names of the objects that got maps, sentences for the artist, the report's entries."""
+
+    done: list = field(default_factory=list)
+    problems: list = field(default_factory=list)
+    notes: list = field(default_factory=list)
+    entries: list = field(default_factory=list)
+    forms: int = 0
+
+    def refuse(self, name, sentence):
+        self.problems.append(f"{name}: {sentence}")
+        self.entries.append(report.refusal_report(name, sentence))
+
+
+def mesh_objects(context):
+    """The mesh objects the operator is about, the active one first."""
+    if context.mode == "EDIT_MESH":
+        objects = compatibility.objects_being_edited(context)
+    else:
+        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH"]
+    active = context.view_layer.objects.active
+    return sorted(objects, key=lambda o: o != active)
+
+
+def collect(objects):
+    """Reads the polygons of every object; of those that share a mesh, the first speaks for it."""
+    targets, owners = [], {}
+    for obj in objects:
+        mesh = obj.data
+        library = obj.library.filepath if obj.library else None
+        if mesh in owners:
+            continue
+        owners[mesh] = obj
+        if mesh.library is not None:
+            refused = "its mesh is linked from another file; make it local first"
+            targets.append(Target(obj.name, library, None, refused))
+            continue
+        targets.append(Target(obj.name, library, read(obj)))
+    return targets
+
+
+def polygons_to_solve(targets):
+    return [t.polygons for t in targets if not t.refused]
+
+
+def align(targets, results):
+    """The results in the order of all targets; a target that was refused at once has none."""
+    solved = iter(results)
+    return [None if t.refused else next(solved) for t in targets]
+
+
+def read(obj):
+    """The polygons as the artist sees them: with the object's scale, with pending edits, without modifiers."""
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+    linear = np.array(obj.matrix_world, np.float64)[:3, :3]
+    return mesh_io.read_polygons(obj.data, linear)
+
+
+@contextmanager
+def object_mode(context):
+    """Leaves edit mode for the time of writing, for Blender gives no UV layers in it."""
+    if context.mode != "EDIT_MESH":
+        yield
+        return
+    edited = [o for o in context.view_layer.objects if o.mode == "EDIT"]
+    selected = list(compatibility.selected_objects(context))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        for obj in selected:
+            obj.select_set(obj in edited)
+        for obj in edited:
+            obj.select_set(True)
+        bpy.ops.object.mode_set(mode="EDIT")
+        for obj in selected:
+            obj.select_set(True)
+
+
+@dataclass(frozen=True)
+class WriteOptions:
+    """What is written beside the maps."""
+
+    shown: int = 0  # 0 the main map, j the map of form j
+    checker: bool = True
+    checker_scale: float = 24.0  # squares per UV unit
+    seams: bool = False
+
+
+def write(context, targets, results, map_options, write_options):
+    """Writes every solved object and reports every other; an object that is refused is not touched."""
+    outcome = Outcome()
+    error_type = native.load().Error
+    with object_mode(context):
+        for target, result in zip(targets, results):
+            obj = target.find()
+            if target.refused:
+                outcome.refuse(target.name, target.refused)
+            elif isinstance(result, error_type):
+                outcome.refuse(target.name, _sentence(result))
+            elif obj is None or read(obj).fingerprint != target.polygons.fingerprint:
+                outcome.refuse(target.name, "it was changed while it was solved; please run it again")
+            elif result.form_count == 0:
+                _report_all_skipped(outcome, obj, result, map_options)
+            else:
+                _write_object(outcome, obj, target.polygons, result, map_options, write_options)
+        if outcome.done:
+            report.store_text(outcome.entries)
+    return outcome
+
+
+def _sentence(error):
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+def _skip_sentences(obj, solved):
+    count = len(solved.components)
+    for index, component in enumerate(solved.components, 1):
+        if component.structure is None:
+            part = "" if count == 1 else f"part {index} of {count} "
+            yield f"{part}skipped: {component.reason}{_modifier_hint(obj, component)}"
+
+
+def _modifier_hint(obj, component):
+    closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS]
+    if component.surface.boundary_count and closing:
+        return f" (modifiers are not looked at: apply {closing[0]!r} if it closes the surface)"
+    return ""
+
+
+def _report_all_skipped(outcome, obj, solved, options):
+    outcome.problems += [f"{obj.name}: {s}" for s in _skip_sentences(obj, solved)]
+    outcome.entries.append(report.object_report(obj, solved, [], 0, options))
+
+
+def _write_object(outcome, obj, polygons, solved, map_options, options):
+    mesh = obj.data
+    mesh_io.remove_maps(mesh)
+    written = [
+        mesh_io.write_map(mesh, polygons, name, uv) for name, uv in maps.map_values(solved, map_options)
+    ]
+    shown = written[min(options.shown, len(written) - 1)]
+    mesh_io.show_map(mesh, shown.name)
+    new_seams = mesh_io.add_seams(mesh, _seam_pairs(solved)) if options.seams else 0
+    if options.checker:
+        is_attribute = shown.kind == "attribute"
+        material.show_checker(
+            obj, material.checker_material(shown.name, is_attribute, options.checker_scale)
+        )
+    mesh.update()
+    entry = report.object_report(obj, solved, written, new_seams, map_options)
+    report.store_on_object(obj, entry)
+    outcome.entries.append(entry)
+    outcome.done.append(obj.name)
+    outcome.forms = max(outcome.forms, solved.form_count)
+    outcome.problems += [f"{obj.name}: {s}" for s in _skip_sentences(obj, solved)]
+    extra = sum(w.kind == "attribute" for w in written)
+    if extra:
+        outcome.notes.append(f"{obj.name}: {extra} maps are corner attributes, for want of UV map slots")
+
+
+def _seam_pairs(solved):
+    """(#S,2) vertices of the object: where the maps are cut."""
+    pairs = [
+        c.surface.vertex_index[c.structure.edges[c.structure.seams]]
+        for c in solved.components
+        if c.structure is not None
+    ]
+    return np.concatenate(pairs)
