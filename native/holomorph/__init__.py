@@ -1,0 +1,33 @@
+"""Conformal structures of surfaces: harmonic and holomorphic one-forms, period matrices, seamless UV maps.
+
+>>> import holomorph
+>>> surface = holomorph.Surface.read("kitten.obj")
+>>> structure = holomorph.conformal_structure(surface)
+>>> uv = structure.uv(structure.balanced_coefficients())
+
+Conventions. A one-form is one real number per edge, for the direction from the lower to the higher vertex index. Forms
+are rows. A canonical basis has a_i . b_j = delta_ij; the holomorphic basis has period 1 over a_j for theta_j and 0 over
+the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p dy - q dx`, so `dx + i *dx = dz`.
+
+Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
+"""
+
+from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
+from .structure import ConformalStructure, Quality, Residuals, SolverReport, conformal_structure
+from .surface import Repairs, Surface
+
+__all__ = [
+    "Cancelled",
+    "ConformalStructure",
+    "Error",
+    "InvalidMesh",
+    "Quality",
+    "Repairs",
+    "Residuals",
+    "SolverError",
+    "SolverReport",
+    "Surface",
+    "TopologyError",
+    "__version__",
+    "conformal_structure",
+]

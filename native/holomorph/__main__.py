@@ -1,0 +1,61 @@
+"""python -m holomorph MESHFILE --report report.json"""
+
+import argparse
+import json
+import sys
+
+from . import Error, Surface, __version__, conformal_structure
+from .report import component_report, skipped_report
+
+
+def main(arguments=None):
+    """Computes every closed component of genus >= 1; exit 0 if some component was done, else 1 with one sentence."""
+    parser = argparse.ArgumentParser(prog="python -m holomorph", description="Conformal structure of a mesh file.")
+    parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
+    parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")
+    parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
+    parser.add_argument("--version", action="version", version=__version__)
+    options = parser.parse_args(arguments)
+    try:
+        report = mesh_report(options.mesh, options.threads)
+        text = json.dumps(report, indent=1)
+        if options.report:
+            with open(options.report, "w", encoding="utf-8") as file:
+                file.write(text + "\n")
+        else:
+            print(text)
+    except (Error, OSError, ValueError) as error:
+        print(f"holomorph: {error}", file=sys.stderr)
+        return 1
+    if any(part["done"] for part in report["components"]):
+        return 0
+    print(f"holomorph: {report['components'][0]['reason']}", file=sys.stderr)
+    return 1
+
+
+def mesh_report(path, threads=None):
+    """The report of all components of a mesh file, as plain data."""
+    surface = Surface.read(path)
+    parts = []
+    for part in surface.components:
+        try:
+            parts.append(component_report(conformal_structure(part, threads=threads)))
+        except Error as error:
+            parts.append(skipped_report(part, error))
+    repairs = surface.repairs
+    return {
+        "holomorph": __version__,
+        "mesh": str(path),
+        "faces": len(surface.face_offsets) - 1,
+        "repairs": {
+            "reversed_faces": len(repairs.reversed_faces),
+            "zero_area_faces": len(repairs.zero_area_faces),
+            "isolated_vertices": len(repairs.isolated_vertices),
+            "mollification": repairs.mollification,
+        },
+        "components": parts,
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(main())

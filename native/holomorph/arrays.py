@@ -1,0 +1,54 @@
+"""Arrays from the caller, checked before they reach the native core."""
+
+from itertools import chain
+
+import numpy as np
+
+from ._native import InvalidMesh
+
+
+def real(array, columns, name):
+    """`array` as C-contiguous float64 with `columns` columns."""
+    try:
+        result = np.ascontiguousarray(array, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InvalidMesh(f"{name} is not an array of numbers: {error}") from error
+    if result.ndim != 2 or result.shape[1] != columns:
+        raise InvalidMesh(f"{name} has the shape {result.shape}; (rows, {columns}) is needed")
+    return result
+
+
+def integer(array, name, dimensions=1, columns=None):
+    """`array` as C-contiguous int64; anything but integers is refused, never rounded."""
+    try:
+        result = np.asarray(array)
+    except ValueError as error:
+        raise InvalidMesh(f"{name} is not an array of integers: {error}") from error
+    if result.dtype == np.uint64 and result.size and result.max() > np.iinfo(np.int64).max:
+        raise InvalidMesh(f"{name} has an entry beyond 64-bit integers")
+    if not (np.issubdtype(result.dtype, np.integer) or result.size == 0):
+        raise InvalidMesh(f"{name} has the type {result.dtype}; integers are needed")
+    if result.ndim != dimensions or (columns is not None and result.shape[1] not in columns):
+        shape = " or ".join(f"(rows, {c})" for c in columns) if columns else f"of {dimensions} dimension(s)"
+        raise InvalidMesh(f"{name} has the shape {result.shape}; {shape} is needed")
+    return np.ascontiguousarray(result, dtype=np.int64)
+
+
+def polygons(faces):
+    """Corner vertices and face offsets of (#F, 3) or (#F, 4) integers, or of a list of lists of any sizes."""
+    if isinstance(faces, np.ndarray) and faces.dtype != object:
+        array = integer(faces, "faces", dimensions=2, columns=(3, 4))
+        return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=np.int64)
+    faces = list(faces)
+    try:
+        sizes = np.fromiter(map(len, faces), dtype=np.int64, count=len(faces))
+    except TypeError as error:
+        raise InvalidMesh("faces must be an integer array (rows, 3) or (rows, 4), or a list of lists of vertices") from error
+    corners = integer(list(chain.from_iterable(faces)), "faces")
+    return corners, np.concatenate([[0], np.cumsum(sizes)])
+
+
+def frozen(array):
+    """The same array, read-only."""
+    array.setflags(write=False)
+    return array

@@ -1,0 +1,46 @@
+"""Reports as plain data, ready for JSON. Complex numbers are pairs [real, imaginary]."""
+
+import numpy as np
+
+
+def complex_pairs(matrix):
+    """Nested lists in which each complex number is [real, imaginary]."""
+    matrix = np.asarray(matrix)
+    return np.stack([matrix.real, matrix.imag], axis=-1).tolist()
+
+
+def component_report(structure):
+    """What is known about one component, with the quality of its balanced map."""
+    coefficients = structure.balanced_coefficients()
+    quality = structure.quality(structure.uv(coefficients))
+    surface = structure.surface
+    return {
+        "done": True,
+        "faces": len(surface.face_offsets) - 1,
+        "genus": surface.genus,
+        "boundary_count": surface.boundary_count,
+        "conventions": "a_i.b_j = delta_ij; theta_j has period 1 over a_j; Omega_ij is its integral over b_i",
+        "period_matrix": complex_pairs(structure.period_matrix),
+        "period_bounds": [bound.tolist() for bound in structure.period_bounds],
+        "residuals": vars(structure.residuals) | {"solver": structure.solver.residual},
+        "solver": vars(structure.solver),
+        "timings": structure.timings,
+        "intrinsic_flips": structure.flip_count,
+        "balanced": {
+            "coefficients": complex_pairs(coefficients),
+            "mean_angle": quality.mean_angle,
+            "density_ratio": quality.density_ratio,
+            "flipped_triangles": int(quality.flipped.sum()),
+        },
+    }
+
+
+def skipped_report(surface, error):
+    """Why a component was not done."""
+    return {
+        "done": False,
+        "faces": len(surface.face_offsets) - 1,
+        "genus": surface.genus,
+        "boundary_count": surface.boundary_count,
+        "reason": str(error),
+    }

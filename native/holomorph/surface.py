@@ -1,0 +1,208 @@
+"""Surfaces: validated, consistently oriented polygon meshes, or intrinsic triangulations."""
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import _native, arrays
+from ._native import InvalidMesh, TopologyError
+
+
+@dataclass(frozen=True, eq=False)
+class Repairs:
+    """What was wrong with the input and handled inside; the input itself is never changed.
+
+    Attributes
+    ----------
+    reversed_faces : indices of polygons read in reverse, so that each component is oriented consistently
+    zero_area_faces : indices of polygons with a triangle whose corners lie on a line
+    isolated_vertices : indices of vertices of no polygon
+    mollification : added to every edge length where some triangle is degenerate, in the unit of the positions; else 0
+        (Sharp & Crane 2020, doi:10.1111/cgf.14069)
+    """
+
+    reversed_faces: np.ndarray
+    zero_area_faces: np.ndarray
+    isolated_vertices: np.ndarray
+    mollification: float
+
+    def __bool__(self):
+        return bool(len(self.reversed_faces) or len(self.zero_area_faces) or len(self.isolated_vertices) or self.mollification)
+
+
+class Surface:
+    """A surface of polygons, validated and triangulated. All arrays are read-only.
+
+    Parameters
+    ----------
+    vertices : (#V, 3) reals
+    faces : (#F, 3) or (#F, 4) integers, or a list of lists of any sizes
+
+    Raises
+    ------
+    InvalidMesh
+        wrong shape, non-integer, out-of-range or negative index, NaN or infinity, no faces, fewer than 3 corners, a
+        vertex twice in a face, duplicate faces, non-manifold edge or vertex, all area zero; names the first bad element.
+    TopologyError
+        if the surface is non-orientable.
+    """
+
+    def __init__(self, vertices, faces):
+        corner_vertices, face_offsets = arrays.polygons(faces)
+        self._adopt(_native.Surface.from_polygons(arrays.real(vertices, 3, "vertices"), corner_vertices, face_offsets))
+
+    @classmethod
+    def from_polygons(cls, vertices, corner_vertices, face_offsets):
+        """Mixed polygons: polygon f has the vertices ``corner_vertices[face_offsets[f]:face_offsets[f + 1]]``.
+
+        Parameters
+        ----------
+        vertices : (#V, 3) reals
+        corner_vertices : (#C,) integers
+        face_offsets : (#F + 1,) integers from 0 to #C
+        """
+        return cls._of(
+            _native.Surface.from_polygons(
+                arrays.real(vertices, 3, "vertices"),
+                arrays.integer(corner_vertices, "corner_vertices"),
+                arrays.integer(face_offsets, "face_offsets"),
+            )
+        )
+
+    @classmethod
+    def from_edge_lengths(cls, faces, edge_lengths, face_edges=None):
+        """An intrinsic surface: triangles and edge lengths alone, without positions.
+
+        Parameters
+        ----------
+        faces : (#F, 3) integers
+        edge_lengths : (#F, 3) reals, entry i opposite corner i
+        face_edges : (#F, 3) integers, entry i the name of the edge opposite corner i; needed where two edges share
+            their ends, or an edge is a loop. Without it edges are told apart by their ends.
+        """
+        faces = arrays.integer(faces, "faces", dimensions=2, columns=(3,))
+        names = np.empty((0, 3), np.int64) if face_edges is None else arrays.integer(face_edges, "face_edges", 2, (3,))
+        if face_edges is not None and len(names) != len(faces):
+            raise InvalidMesh(f"face_edges has {len(names)} rows for {len(faces)} faces")
+        vertex_count = int(faces.max()) + 1 if faces.size else 0
+        if vertex_count > 2 * faces.size + 2**20:
+            raise InvalidMesh(f"faces name vertex {vertex_count - 1}, far beyond what {len(faces)} triangles can use")
+        lengths = arrays.real(edge_lengths, 3, "edge_lengths")
+        return cls._of(_native.Surface.from_edge_lengths(vertex_count, faces, lengths, names))
+
+    @classmethod
+    def read(cls, path):
+        """OBJ, OFF, PLY or STL; polygons are kept, in double precision. STL corners with equal coordinates are welded,
+        other files are taken as they are.
+
+        Raises
+        ------
+        InvalidMesh
+            if the file is missing or malformed (names the line or byte), or the mesh in it is invalid.
+        """
+        return cls._of(_native.Surface.read(os.fspath(path)))
+
+    @classmethod
+    def _of(cls, native):
+        surface = cls.__new__(cls)
+        surface._adopt(native)
+        return surface
+
+    def _adopt(self, native, vertex_index=None, face_index=None, corner_index=None):
+        self._native = native
+        self._vertex_index, self._face_index, self._corner_index = vertex_index, face_index, corner_index
+
+    def __repr__(self):
+        return f"<Surface: {self._native.vertex_count} vertices, {len(self.face_offsets) - 1} faces, {self._native.component_count} component(s)>"
+
+    @cached_property
+    def vertices(self):
+        """(#V, 3) positions; None for an intrinsic surface."""
+        return None if self._native.intrinsic else self._native.vertices
+
+    @cached_property
+    def corner_vertices(self):
+        """(#C,) vertex of each polygon corner."""
+        return self._native.corner_vertices
+
+    @cached_property
+    def face_offsets(self):
+        """(#F + 1,) first corner of each polygon."""
+        return self._native.face_offsets
+
+    @cached_property
+    def triangles(self):
+        """(#T, 3) vertices, consistently oriented."""
+        return self._native.triangles
+
+    @cached_property
+    def triangle_corners(self):
+        """(#T, 3) polygon corner at each triangle corner."""
+        return self._native.triangle_corners
+
+    @cached_property
+    def triangle_faces(self):
+        """(#T,) polygon of each triangle."""
+        return self._native.triangle_faces
+
+    @cached_property
+    def vertex_index(self):
+        """(#V,) index of each vertex in the surface that this one is a component of."""
+        return self._index(self._vertex_index, self._native.vertex_count)
+
+    @cached_property
+    def face_index(self):
+        """(#F,) index of each face in the surface that this one is a component of."""
+        return self._index(self._face_index, len(self.face_offsets) - 1)
+
+    @cached_property
+    def corner_index(self):
+        """(#C,) index of each corner in the surface that this one is a component of."""
+        return self._index(self._corner_index, len(self.corner_vertices))
+
+    @staticmethod
+    def _index(given, count):
+        return arrays.frozen(np.arange(count, dtype=np.int32)) if given is None else given
+
+    @cached_property
+    def components(self):
+        """Tuple of the connected components, ordered by their first face, without isolated vertices."""
+        if self._native.component_count == 1 and not len(self._native.isolated_vertices):
+            return (self,)
+        parts = []
+        for which in range(self._native.component_count):
+            part = Surface.__new__(Surface)
+            part._adopt(*self._native.component(which))
+            parts.append(part)
+        return tuple(parts)
+
+    @cached_property
+    def _topology(self):
+        if self._native.component_count != 1:
+            raise TopologyError(
+                f"the surface has {self._native.component_count} connected components; take one of surface.components"
+            )
+        return self._native.topology()
+
+    @property
+    def euler_characteristic(self):
+        """#V - #E + #F, isolated vertices not counted."""
+        return self._topology[0]
+
+    @property
+    def boundary_count(self):
+        """Number of boundary loops."""
+        return self._topology[1]
+
+    @property
+    def genus(self):
+        """Number of handles."""
+        return self._topology[2]
+
+    @cached_property
+    def repairs(self):
+        """What was handled inside."""
+        native = self._native
+        return Repairs(native.reversed_faces, native.zero_area_faces, native.isolated_vertices, native.mollification())

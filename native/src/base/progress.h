@@ -1,0 +1,51 @@
+// Progress, cancelling and timing of long work: one object is handed down through all stages of a computation.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/errors.h"
+
+namespace holomorph {
+
+/// Reports how far the work has come, at most every 20 ms and never backwards, and throws Cancelled when the
+/// caller's function answers false. Not thread-safe: only the thread that began the work calls it, never a worker.
+class Progress {
+ public:
+  /// `fraction` in [0, 1] of the whole work, `stage` a short name; the answer false cancels.
+  using Callback = std::function<bool(double fraction, const std::string& stage)>;
+
+  explicit Progress(Callback callback = {}) : callback_(std::move(callback)) {}
+
+  /// Begins the stage that covers the fractions [begin, end] of the whole work, and ends the one before.
+  void stage(const std::string& name, double begin, double end);
+
+  /// Says that `done` in [0, 1] of the current stage is done. Cheap enough to be called every few thousand elements.
+  void report(double done) {
+    if (callback_ && Clock::now() - last_call_ > kInterval) call(begin_ + (end_ - begin_) * done);
+  }
+
+  /// Ends the last stage and reports 1.
+  void finish();
+
+  /// Seconds of wall time per stage, in the order in which they were first begun; a stage begun twice is summed.
+  const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr auto kInterval = std::chrono::milliseconds(20);
+
+  void call(double fraction);
+  void close_stage();
+
+  Callback callback_;
+  std::string name_;
+  double begin_ = 0, end_ = 0, reported_ = 0;
+  Clock::time_point stage_start_{}, last_call_{};
+  std::vector<std::pair<std::string, double>> seconds_;
+};
+
+}  // namespace holomorph

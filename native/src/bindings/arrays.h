@@ -1,0 +1,66 @@
+// NumPy arrays in and out.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "base/errors.h"
+
+namespace holomorph::bindings {
+
+namespace py = pybind11;
+
+template <class T>
+using Contiguous = py::array_t<T, py::array::c_style | py::array::forcecast>;
+
+inline py::array read_only(py::array array) {
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+/// A read-only view of memory that `owner` keeps alive.
+template <class T>
+py::array view(const std::vector<T>& values, py::handle owner) {
+  return read_only(py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data(), owner));
+}
+
+template <class T, std::size_t N>
+py::array view(const std::vector<std::array<T, N>>& rows, py::handle owner) {
+  const auto* data = rows.empty() ? nullptr : rows.front().data();
+  return read_only(py::array_t<T>({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)}, data, owner));
+}
+
+/// A read-only copy of a dense matrix, C-contiguous.
+template <class Derived>
+py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
+  using T = typename Derived::Scalar;
+  py::array_t<T> array({matrix.rows(), matrix.cols()});
+  Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(array.mutable_data(), matrix.rows(), matrix.cols()) = matrix;
+  return read_only(std::move(array));
+}
+
+template <class T>
+py::array copy(const std::vector<T>& values) {
+  return read_only(py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data()));
+}
+
+/// Rows of N values; the facade has checked the shape.
+template <class T, std::size_t N>
+std::vector<std::array<T, N>> rows(const Contiguous<T>& array) {
+  std::vector<std::array<T, N>> result(static_cast<std::size_t>(array.size()) / N);
+  if (!result.empty()) std::memcpy(result.data(), array.data(), result.size() * sizeof(std::array<T, N>));
+  return result;
+}
+
+template <class T>
+std::vector<T> values(const Contiguous<T>& array) {
+  return std::vector<T>(array.data(), array.data() + array.size());
+}
+
+}  // namespace holomorph::bindings

@@ -1,0 +1,124 @@
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "pipeline/conformal_structure.h"
+#include "uv/uv_map.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using mesh::Surface;
+using pipeline::ConformalStructure;
+
+// The C++ structure together with the surface that it belongs to.
+struct Structure {
+  std::shared_ptr<const Surface> surface;
+  ConformalStructure value;
+};
+
+Progress::Callback callback(const py::object& progress) {
+  if (progress.is_none()) return {};
+  return [progress](double fraction, const std::string& stage) {
+    const py::gil_scoped_acquire locked;
+    const py::object answer = progress(fraction, stage);
+    return !(answer.ptr() == Py_False);
+  };
+}
+
+std::shared_ptr<Structure> compute(std::shared_ptr<Surface> surface, const std::string& solver, int threads, const py::object& progress_function) {
+  Progress progress(callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  auto value = pipeline::conformal_structure(*surface, {solver, threads}, progress);
+  return std::make_shared<Structure>(Structure{std::move(surface), std::move(value)});
+}
+
+py::list homology_basis(const Structure& s) {
+  py::list loops;
+  for (const auto& loop : s.value.homology_basis) {
+    std::vector<int> vertices;
+    for (const auto h : loop) vertices.push_back(mesh::from_vertex(s.value.half_edges, h));
+    loops.append(copy(vertices));
+  }
+  return loops;
+}
+
+py::array harmonic_forms(const Structure& s) {
+  const int edges = static_cast<int>(s.surface->edges.size());
+  forms::RowMajorMatrix values;
+  {
+    const py::gil_scoped_release unlocked;
+    values = forms::edge_values(s.value.half_edges, s.value.harmonic, 0, edges).transpose();
+  }
+  return copy(values);
+}
+
+py::array uv(const Structure& s, const Eigen::VectorXcd& periods) {
+  uv::UvArray result;
+  {
+    const py::gil_scoped_release unlocked;
+    result = uv::uv_map(*s.surface, s.value.sheets, s.value.harmonic.functions, periods);
+  }
+  return copy(result);
+}
+
+py::array balanced_coefficients(const Structure& s) {
+  Eigen::VectorXcd c;
+  {
+    const py::gil_scoped_release unlocked;
+    c = uv::balanced_coefficients(*s.surface, s.value.half_edges, s.value.harmonic, s.value.holomorphic.periods,
+                                  s.value.holomorphic.period_matrix.imag());
+  }
+  return read_only(copy(c).attr("reshape")(c.size()));
+}
+
+py::array averaged_star(const Structure& s, const Contiguous<double>& form) {
+  return copy(forms::averaged_star(s.value.half_edges, s.surface->edge_lengths, values(form)));
+}
+
+py::tuple quality(const Surface& surface, const Contiguous<double>& uv_array) {
+  const uv::UvArray uv = Eigen::Map<const uv::UvArray>(uv_array.data(), uv_array.shape(0), 2);
+  uv::Quality q;
+  {
+    const py::gil_scoped_release unlocked;
+    q = uv::quality(surface, uv);
+  }
+  const py::array flipped = read_only(copy(q.flipped).attr("astype")("bool"));
+  return py::make_tuple(copy(q.angle), copy(q.area), flipped, q.mean_angle, q.density_ratio);
+}
+
+}  // namespace
+
+void bind_conformal_structure(py::module_& m) {
+  py::class_<Structure, std::shared_ptr<Structure>>(m, "ConformalStructure")
+      .def("homology_basis", &homology_basis)
+      .def("harmonic_forms", &harmonic_forms)
+      .def("uv", &uv)
+      .def("balanced_coefficients", &balanced_coefficients)
+      .def("averaged_star", &averaged_star)
+      .def("intersection_matrix", [](const Structure& s) { return copy(s.value.canonical.intersection); })
+      .def("canonical_basis", [](const Structure& s) { return copy(s.value.canonical.cycles); })
+      .def("gram_matrix", [](const Structure& s) { return copy(s.value.gram_matrix); })
+      .def("period_matrix", [](const Structure& s) { return copy(s.value.holomorphic.period_matrix); })
+      .def("period_bounds", [](const Structure& s) { return py::make_tuple(copy(s.value.holomorphic.lower), copy(s.value.holomorphic.upper)); })
+      .def("periods", [](const Structure& s) { return copy(s.value.holomorphic.periods); })
+      .def("seams", [](const Structure& s) { return copy(s.value.seams); })
+      .def("residuals", [](const Structure& s) {
+        return py::make_tuple(s.value.residuals.closedness, s.value.residuals.harmonicity, s.value.period_residual);
+      })
+      .def("solver", [](const Structure& s) {
+        const auto& report = s.value.solver;
+        return py::make_tuple(report.name, report.reason, report.iterations, report.residual);
+      })
+      .def("intrinsic", [](const Structure& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })
+      .def("timings", [](const Structure& s) { return s.value.seconds; });
+  m.def("conformal_structure", &compute);
+  m.def("quality", &quality);
+}
+
+}  // namespace holomorph::bindings

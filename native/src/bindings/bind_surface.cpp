@@ -1,0 +1,84 @@
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "mesh/components.h"
+#include "mesh/half_edges.h"
+#include "mesh/intrinsic_triangulation.h"
+#include "mesh/io/read.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using mesh::Surface;
+using SurfacePointer = std::shared_ptr<Surface>;
+
+SurfacePointer from_polygons(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corner_vertices, const Contiguous<std::int64_t>& face_offsets) {
+  mesh::Polygons polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<Surface>(mesh::make_surface(std::move(polygons)));
+}
+
+SurfacePointer from_edge_lengths(int vertex_count, const Contiguous<std::int64_t>& faces, const Contiguous<double>& lengths, const Contiguous<std::int64_t>& face_edges) {
+  const auto f = rows<std::int64_t, 3>(faces), names = rows<std::int64_t, 3>(face_edges);
+  const auto l = rows<double, 3>(lengths);
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<Surface>(mesh::make_intrinsic_surface(vertex_count, f, l, names));
+}
+
+SurfacePointer read(const std::string& path) {
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<Surface>(mesh::make_surface(mesh::read(std::filesystem::path(path))));
+}
+
+py::tuple component(const Surface& surface, int which) {
+  mesh::Component part;
+  {
+    const py::gil_scoped_release unlocked;
+    part = mesh::component(surface, which);
+  }
+  auto vertices = copy(part.vertex_index), faces = copy(part.face_index), corners = copy(part.corner_index);
+  return py::make_tuple(std::make_shared<Surface>(std::move(part.surface)), vertices, faces, corners);
+}
+
+// (Euler characteristic, boundary loops, genus) of a connected surface.
+py::tuple topology(const Surface& surface) {
+  const int chi = mesh::euler_characteristic(surface), boundaries = mesh::boundary_count(mesh::half_edges(surface));
+  return py::make_tuple(chi, boundaries, mesh::genus(chi, boundaries));
+}
+
+}  // namespace
+
+void bind_surface(py::module_& m) {
+  const auto viewed = [](auto member) { return [member](py::object self) { return view(self.cast<const Surface&>().*member, self); }; };
+  const auto polygons = [](auto member) { return [member](py::object self) { return view(self.cast<const Surface&>().polygons.*member, self); }; };
+  const auto repairs = [](auto member) { return [member](py::object self) { return view(self.cast<const Surface&>().repairs.*member, self); }; };
+  py::class_<Surface, SurfacePointer>(m, "Surface")
+      .def_static("from_polygons", &from_polygons)
+      .def_static("from_edge_lengths", &from_edge_lengths)
+      .def_static("read", &read)
+      .def("component", &component)
+      .def("topology", &topology)
+      .def("mollification", [](const Surface& s) { return mesh::smallest_increment(s); })
+      .def_readonly("component_count", &Surface::component_count)
+      .def_readonly("vertex_count", &Surface::vertex_count)
+      .def_readonly("polygon_edge_count", &Surface::polygon_edge_count)
+      .def_property_readonly("intrinsic", &Surface::intrinsic)
+      .def_property_readonly("vertices", polygons(&mesh::Polygons::vertices))
+      .def_property_readonly("corner_vertices", polygons(&mesh::Polygons::corner_vertices))
+      .def_property_readonly("face_offsets", polygons(&mesh::Polygons::face_offsets))
+      .def_property_readonly("triangles", viewed(&Surface::triangles))
+      .def_property_readonly("triangle_corners", viewed(&Surface::triangle_corners))
+      .def_property_readonly("triangle_edges", viewed(&Surface::triangle_edges))
+      .def_property_readonly("triangle_faces", viewed(&Surface::triangle_faces))
+      .def_property_readonly("edges", viewed(&Surface::edges))
+      .def_property_readonly("edge_lengths", viewed(&Surface::edge_lengths))
+      .def_property_readonly("reversed_faces", repairs(&mesh::Repairs::reversed_faces))
+      .def_property_readonly("isolated_vertices", repairs(&mesh::Repairs::isolated_vertices))
+      .def_property_readonly("zero_area_faces", repairs(&mesh::Repairs::zero_area_faces));
+}
+
+}  // namespace holomorph::bindings

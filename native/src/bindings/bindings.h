@@ -1,0 +1,11 @@
+// One function per class that Python sees.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace holomorph::bindings {
+
+void bind_surface(pybind11::module_& m);
+void bind_conformal_structure(pybind11::module_& m);
+
+}  // namespace holomorph::bindings

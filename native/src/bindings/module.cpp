@@ -1,0 +1,34 @@
+// The Python module _native: arrays in and out, the interpreter's lock released, errors mapped. No algorithm.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "bindings/bindings.h"
+#include "base/errors.h"
+#include "solver/sparse_cholesky.h"
+
+namespace py = pybind11;
+using namespace holomorph;
+
+namespace {
+
+template <class Exception>
+py::exception<Exception>& declare(py::module_& m, const char* name, py::handle base, const char* doc) {
+  auto& exception = py::register_exception<Exception>(m, name, base);
+  exception.attr("__module__") = "holomorph";
+  exception.attr("__doc__") = doc;
+  return exception;
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_native, m) {
+  m.attr("__version__") = HOLOMORPH_VERSION;
+  m.attr("direct_solver") = solver::SparseCholesky::name();
+  auto& base = declare<Error>(m, "Error", PyExc_RuntimeError, "Base of all errors of this library.");
+  declare<InvalidMesh>(m, "InvalidMesh", base, "The input is no valid polygon mesh, or a file is malformed.");
+  declare<TopologyError>(m, "TopologyError", base, "The topology of the mesh does not fit what was asked for.");
+  declare<SolverError>(m, "SolverError", base, "A linear system was not solved to the accuracy asked for, or does not fit into memory.");
+  declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
+  bindings::bind_surface(m);
+  bindings::bind_conformal_structure(m);
+}

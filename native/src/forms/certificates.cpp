@@ -1,0 +1,133 @@
+// gram_matrix and residuals: sums and maxima over all edges, faces and vertices of all forms.
+#include <algorithm>
+#include <array>
+
+#include "forms/harmonic_basis.h"
+
+namespace holomorph::forms {
+namespace {
+
+using mesh::edge_of;
+using mesh::HalfedgeHandle;
+using mesh::HalfEdges;
+using mesh::next;
+using mesh::opposite;
+using mesh::sign;
+using mesh::to_vertex;
+
+// Elements per block. A block's sum has a fixed order inside, and blocks are added in their order: the same bits for
+// any number of threads.
+constexpr int kBlock = 4096;
+// Blocks that run side by side before their sums are added and the progress function is asked.
+constexpr int kBatch = 16;
+
+int block_count(std::size_t elements) { return static_cast<int>((elements + kBlock - 1) / kBlock); }
+
+// Runs `work(slot, begin, end)` on all blocks, batch by batch, and `collect(slot)` after each in order.
+template <class Work, class Collect>
+void for_blocks(std::size_t elements, Progress& progress, double from, double to, Work work, Collect collect) {
+  const int blocks = block_count(elements);
+  for (int first = 0; first < blocks; first += kBatch) {
+    const int last = std::min(first + kBatch, blocks);
+#pragma omp parallel for schedule(dynamic, 1)
+    for (int b = first; b < last; ++b) {
+      work(b - first, b * kBlock, static_cast<int>(std::min<std::size_t>(elements, static_cast<std::size_t>(b + 1) * kBlock)));
+    }
+    for (int b = first; b < last; ++b) collect(b - first);
+    progress.report(from + (to - from) * last / blocks);
+  }
+}
+
+// Value of every form along h.
+void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h, double factor, Eigen::RowVectorXd& sum) {
+  const int head = to_vertex(mesh, h), tail = mesh::from_vertex(mesh, h);
+  sum += factor * (forms.functions.row(head) - forms.functions.row(tail));
+  for (const auto& [i, value] : forms.classes.rows[edge_of(h)]) sum[i] += factor * sign(h) * value;
+}
+
+using Maxima = std::array<Eigen::RowVectorXd, 2>;  // of |sum| and of the scale it is measured by, per form
+
+// Faces: |sum around| against the largest value.
+void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end, Maxima& maxima) {
+  const auto n = forms.functions.cols();
+  Eigen::RowVectorXd sum(n), value(n);
+  for (int f = begin; f < end; ++f) {
+    HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(f));
+    sum.setZero();
+    for (int i = 0; i < 3; ++i, h = next(mesh, h)) {
+      value.setZero();
+      add_along(mesh, forms, h, 1.0, value);
+      sum += value;
+      maxima[1] = maxima[1].cwiseMax(value.cwiseAbs());
+    }
+    maxima[0] = maxima[0].cwiseMax(sum.cwiseAbs());
+  }
+}
+
+// Vertices: |d* h| = |sum of k h over the half-edges that leave| against the sum of |k h|.
+void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, int begin, int end, Maxima& maxima) {
+  const auto n = forms.functions.cols();
+  Eigen::RowVectorXd sum(n), size(n), value(n);
+  for (int v = begin; v < end; ++v) {
+    sum.setZero();
+    size.setZero();
+    const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
+    HalfedgeHandle h = start;
+    do {
+      value.setZero();
+      add_along(mesh, forms, h, weights[edge_of(h)], value);
+      sum += value;
+      size += value.cwiseAbs();
+      h = next(mesh, opposite(h));
+    } while (h != start);
+    maxima[0] = maxima[0].cwiseMax(sum.cwiseAbs());
+    maxima[1] = maxima[1].cwiseMax(size);
+  }
+}
+
+template <class Measure>
+double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& progress, double from, double to, Measure measure) {
+  const Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(forms);
+  std::array<Maxima, kBatch> slots;
+  Maxima total{zero, zero};
+  for_blocks(
+      elements, progress, from, to,
+      [&](int slot, int begin, int end) {
+        slots[slot] = {zero, zero};
+        measure(begin, end, slots[slot]);
+      },
+      [&](int slot) {
+        for (int i = 0; i < 2; ++i) total[i] = total[i].cwiseMax(slots[slot][i]);
+      });
+  return (total[0].array() / total[1].array()).maxCoeff();
+}
+
+}  // namespace
+
+Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, Progress& progress) {
+  const auto n = forms.functions.cols();
+  std::array<Eigen::MatrixXd, kBatch> slots;
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
+  for_blocks(
+      weights.size(), progress, 0.0, 1.0,
+      [&](int slot, int begin, int end) {
+        const RowMajorMatrix h = edge_values(mesh, forms, begin, end);
+        const auto k = Eigen::Map<const Eigen::VectorXd>(weights.data() + begin, end - begin);
+        slots[slot].noalias() = h.transpose() * (k.asDiagonal() * h);
+      },
+      [&](int slot) { G += slots[slot]; });
+  return (G + G.transpose()) / 2;
+}
+
+Residuals residuals(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, Progress& progress) {
+  const auto n = forms.functions.cols();
+  Residuals result;
+  result.closedness = relative_maximum(mesh.n_faces(), n, progress, 0.0, 0.5,
+                                       [&](int begin, int end, Maxima& maxima) { measure_faces(mesh, forms, begin, end, maxima); });
+  result.harmonicity = relative_maximum(mesh.n_vertices(), n, progress, 0.5, 1.0, [&](int begin, int end, Maxima& maxima) {
+    measure_vertices(mesh, weights, forms, begin, end, maxima);
+  });
+  return result;
+}
+
+}  // namespace holomorph::forms

@@ -1,0 +1,121 @@
+#include "forms/harmonic_basis.h"
+
+#include <algorithm>
+
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::forms {
+namespace {
+
+using mesh::edge_of;
+using mesh::HalfedgeHandle;
+using mesh::HalfEdges;
+using mesh::next;
+using mesh::opposite;
+using mesh::sign;
+using mesh::to_vertex;
+
+struct Neighbour {
+  int vertex;
+  double weight;
+};
+
+// The neighbours of v, ascending, weights of edges with the same ends added up.
+void neighbours(const HalfEdges& mesh, const std::vector<double>& weights, int v, std::vector<Neighbour>& ring) {
+  ring.clear();
+  const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
+  HalfedgeHandle h = start;
+  do {
+    if (to_vertex(mesh, h) != v) ring.push_back({to_vertex(mesh, h), weights[edge_of(h)]});
+    h = next(mesh, opposite(h));
+  } while (h != start);
+  std::stable_sort(ring.begin(), ring.end(), [](const Neighbour& a, const Neighbour& b) { return a.vertex < b.vertex; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (kept > 0 && ring[kept - 1].vertex == ring[i].vertex) {
+      ring[kept - 1].weight += ring[i].weight;
+    } else {
+      ring[kept++] = ring[i];
+    }
+  }
+  ring.resize(kept);
+}
+
+}  // namespace
+
+solver::Laplacian laplacian(const HalfEdges& mesh, const std::vector<double>& weights) {
+  const int n = static_cast<int>(mesh.n_vertices());
+  solver::Laplacian L(n, n);
+  L.reserve(2 * static_cast<Eigen::Index>(weights.size()) + n);
+  std::vector<Neighbour> ring;
+  for (int v = 0; v < n; ++v) {
+    neighbours(mesh, weights, v, ring);
+    double diagonal = 0;
+    for (const auto& entry : ring) diagonal += entry.weight;
+    L.startVec(v);
+    const auto middle = std::partition_point(ring.begin(), ring.end(), [&](const Neighbour& e) { return e.vertex < v; });
+    for (auto e = ring.begin(); e != middle; ++e) L.insertBack(e->vertex, v) = -e->weight;
+    L.insertBack(v, v) = diagonal;
+    for (auto e = middle; e != ring.end(); ++e) L.insertBack(e->vertex, v) = -e->weight;
+  }
+  L.finalize();
+  return L;
+}
+
+Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights, const topology::IntegerForms& classes) {
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), classes.form_count);
+  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
+    const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
+    for (const auto& [i, value] : classes.rows[e]) {
+      B(head, i) -= weights[e] * value;
+      B(tail, i) += weights[e] * value;
+    }
+  }
+  return B;
+}
+
+ClosedForms harmonic_basis(const HalfEdges& mesh, const std::vector<double>& weights, const topology::IntegerForms& classes,
+                           solver::LaplaceSolver& solver, Progress& progress) {
+  return {classes, solver.solve(codifferentials(mesh, weights, classes), progress)};
+}
+
+RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end) {
+  RowMajorMatrix values(end - begin, forms.functions.cols());
+  for (int e = begin; e < end; ++e) {
+    const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
+    auto row = values.row(e - begin);
+    row = forms.functions.row(head) - forms.functions.row(tail);
+    for (const auto& [i, value] : forms.classes.rows[e]) row[i] += value;
+  }
+  return values;
+}
+
+Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms, const std::vector<std::vector<HalfedgeHandle>>& loops) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loops.size()), forms.functions.cols());
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    for (const HalfedgeHandle h : loops[i]) {
+      const int e = edge_of(h);
+      result.row(static_cast<Eigen::Index>(i)) += sign(h) * edge_values(mesh, forms, e, e + 1).row(0);
+    }
+  }
+  return result;
+}
+
+std::vector<double> averaged_star(const HalfEdges& mesh, const std::vector<double>& lengths, const std::vector<double>& form) {
+  std::vector<double> star(form.size(), 0.0);
+  for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
+    HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(f));
+    for (int i = 0; i < 3; ++i, h = next(mesh, h)) {
+      // Side h opposite corner 0, corners 1 and 2 its ends: (*w)(h) = cot_2 w(0 -> 1) + cot_1 w(0 -> 2), the flux through h.
+      const HalfedgeHandle to_apex = next(mesh, h), from_apex = next(mesh, to_apex);
+      const double a = lengths[edge_of(h)], b = lengths[edge_of(to_apex)], c = lengths[edge_of(from_apex)];
+      const double area = mesh::triangle_area(a, b, c);
+      const double at_start = mesh::cotangent(b, c, a, area), at_end = mesh::cotangent(c, a, b, area);
+      const double to_start = sign(from_apex) * form[edge_of(from_apex)], to_end = -sign(to_apex) * form[edge_of(to_apex)];
+      star[edge_of(h)] += 0.5 * sign(h) * (at_end * to_start + at_start * to_end);
+    }
+  }
+  return star;
+}
+
+}  // namespace holomorph::forms

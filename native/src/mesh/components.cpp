@@ -1,0 +1,70 @@
+#include "mesh/components.h"
+
+namespace holomorph::mesh {
+namespace {
+
+// Rebuilds an intrinsic component from its triangles as given (before any was reversed), edges by name.
+Surface intrinsic_part(const Surface& parent, const std::vector<int>& faces, const std::vector<int>& new_vertex, int vertex_count) {
+  std::vector<char> reversed(parent.triangles.size(), 0);
+  for (const int f : parent.repairs.reversed_faces) reversed[f] = 1;
+  std::vector<std::array<std::int64_t, 3>> triangles, names;
+  std::vector<std::array<double, 3>> lengths;
+  for (const int f : faces) {
+    Triple v = parent.triangles[f], side = parent.triangle_edges[f];
+    if (reversed[f]) std::swap(v[1], v[2]), std::swap(side[0], side[2]);
+    std::array<std::int64_t, 3> vertices, name;
+    std::array<double, 3> length;
+    for (int i = 0; i < 3; ++i) {
+      vertices[i] = new_vertex[v[i]];
+      name[i] = side[(i + 1) % 3];  // corner i lies opposite side i + 1
+      length[i] = parent.edge_lengths[side[(i + 1) % 3]];
+    }
+    triangles.push_back(vertices);
+    names.push_back(name);
+    lengths.push_back(length);
+  }
+  return make_intrinsic_surface(vertex_count, triangles, lengths, names);
+}
+
+}  // namespace
+
+Component component(const Surface& parent, int which) {
+  Component part;
+  const Polygons& mesh = parent.polygons;
+  std::vector<int> new_vertex(parent.vertex_count, -1);
+  for (int f = 0; f < static_cast<int>(parent.face_component.size()); ++f) {
+    if (parent.face_component[f] != which) continue;
+    part.face_index.push_back(f);
+    for (auto c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) {
+      part.corner_index.push_back(static_cast<int>(c));
+      new_vertex[mesh.corner_vertices[c]] = 0;
+    }
+  }
+  for (int v = 0; v < parent.vertex_count; ++v) {
+    if (new_vertex[v] < 0) continue;
+    new_vertex[v] = static_cast<int>(part.vertex_index.size());
+    part.vertex_index.push_back(v);
+  }
+  if (parent.intrinsic()) {
+    part.surface = intrinsic_part(parent, part.face_index, new_vertex, static_cast<int>(part.vertex_index.size()));
+    return part;
+  }
+  Polygons polygons;
+  for (const int v : part.vertex_index) polygons.vertices.push_back(mesh.vertices[v]);
+  polygons.face_offsets.push_back(0);
+  for (const int f : part.face_index) {
+    for (auto c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) polygons.corner_vertices.push_back(new_vertex[mesh.corner_vertices[c]]);
+    polygons.face_offsets.push_back(static_cast<std::int64_t>(polygons.corner_vertices.size()));
+  }
+  part.surface = make_surface(std::move(polygons));
+  return part;
+}
+
+int euler_characteristic(const Surface& surface) {
+  return surface.vertex_count - static_cast<int>(surface.repairs.isolated_vertices.size()) - static_cast<int>(surface.edges.size()) +
+         static_cast<int>(surface.triangles.size());
+}
+
+int genus(int euler_characteristic, int boundary_count) { return (2 - euler_characteristic - boundary_count) / 2; }
+
+}  // namespace holomorph::mesh

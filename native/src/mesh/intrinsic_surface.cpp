@@ -1,0 +1,156 @@
+// make_intrinsic_surface: triangles and edge lengths, edges by name or by their ends.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <unordered_map>
+
+#include "base/errors.h"
+#include "mesh/half_edges.h"
+#include "mesh/orientation.h"
+#include "mesh/surface.h"
+#include "mesh/surface_records.h"
+
+namespace holomorph::mesh {
+namespace {
+
+using std::to_string;
+using Names = std::vector<std::array<std::int64_t, 3>>;
+
+// Two triangles may give the length of their common edge with this relative difference: rounding of the caller's.
+constexpr double kLengthAgreement = 1e-9;
+
+void check_input(int vertex_count, const Names& faces, const std::vector<std::array<double, 3>>& lengths, const Names& face_edges) {
+  if (faces.empty()) throw InvalidMesh("the mesh has no faces");
+  if (lengths.size() != faces.size()) {
+    throw InvalidMesh("edge_lengths has " + to_string(lengths.size()) + " rows for " + to_string(faces.size()) + " faces");
+  }
+  if (!face_edges.empty() && face_edges.size() != faces.size()) {
+    throw InvalidMesh("face_edges has " + to_string(face_edges.size()) + " rows for " + to_string(faces.size()) + " faces");
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (int i = 0; i < 3; ++i) {
+      if (faces[f][i] < 0) throw InvalidMesh("face " + to_string(f) + " has the negative vertex index " + to_string(faces[f][i]));
+      if (faces[f][i] >= vertex_count) {
+        throw InvalidMesh("face " + to_string(f) + " names vertex " + to_string(faces[f][i]) + ", but there are only " + to_string(vertex_count) + " vertices");
+      }
+      if (!std::isfinite(lengths[f][i]) || lengths[f][i] < 0) {
+        throw InvalidMesh("face " + to_string(f) + " has an edge length that is negative or not finite");
+      }
+      if (face_edges.empty() && faces[f][i] == faces[f][(i + 1) % 3]) {
+        throw InvalidMesh("face " + to_string(f) + " has vertex " + to_string(faces[f][i]) + " twice; name its edges with face_edges");
+      }
+    }
+  }
+}
+
+struct Side {
+  std::int64_t key[2];  // name of the edge, or its ends, lower first
+  int triangle, side;
+};
+
+// The sides in the order of their keys, so that the sides of an edge are neighbours.
+std::vector<Side> sorted_sides(const Names& faces, const Names& face_edges) {
+  std::vector<Side> sides;
+  sides.reserve(3 * faces.size());
+  for (int t = 0; t < static_cast<int>(faces.size()); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t a = faces[t][i], b = faces[t][(i + 1) % 3];
+      // side i lies opposite corner i + 2
+      if (face_edges.empty()) {
+        sides.push_back({{std::min(a, b), std::max(a, b)}, t, i});
+      } else {
+        sides.push_back({{face_edges[t][(i + 2) % 3], 0}, t, i});
+      }
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return std::tie(x.key[0], x.key[1], x.triangle, x.side) < std::tie(y.key[0], y.key[1], y.triangle, y.side);
+  });
+  return sides;
+}
+
+bool same_edge(const Side& x, const Side& y) { return x.key[0] == y.key[0] && x.key[1] == y.key[1]; }
+
+class EdgeBuilder {
+ public:
+  EdgeBuilder(Surface& surface, const std::vector<std::array<double, 3>>& lengths) : surface_(surface), lengths_(lengths) {}
+
+  // Adds the edge whose sides are begin .. end-1.
+  void add(const Side* begin, const Side* end) {
+    const int edge = static_cast<int>(surface_.edges.size());
+    const Pair ends = ends_of(*begin);
+    const std::string name = "edge " + to_string(edge) + " (vertices " + to_string(ends[0]) + ", " + to_string(ends[1]) + ")";
+    if (end - begin > 2) throw InvalidMesh(name + " has " + to_string(end - begin) + " faces; a surface has at most 2");
+    for (const Side* s = begin; s != end; ++s) {
+      if (ends_of(*s) != ends) throw InvalidMesh(name + " has other ends in face " + to_string(s->triangle));
+      if (std::abs(length(*s) - length(*begin)) > kLengthAgreement * length(*begin)) {
+        throw InvalidMesh(name + " has two lengths, in faces " + to_string(begin->triangle) + " and " + to_string(s->triangle));
+      }
+      surface_.triangle_edges[s->triangle][s->side] = edge;
+    }
+    surface_.edges.push_back(ends);
+    surface_.edge_lengths.push_back(length(*begin));
+    if (end - begin == 2) meetings.push_back(meeting(edge, begin[0], begin[1]));
+  }
+
+  std::vector<EdgeMeeting> meetings;
+
+ private:
+  Pair ends_of(const Side& s) const {
+    const int a = surface_.triangles[s.triangle][s.side], b = surface_.triangles[s.triangle][(s.side + 1) % 3];
+    return {std::min(a, b), std::max(a, b)};
+  }
+  double length(const Side& s) const { return lengths_[s.triangle][(s.side + 2) % 3]; }
+  // The two sides of a loop say nothing about direction: they are taken to be glued as an oriented surface glues them.
+  EdgeMeeting meeting(int edge, const Side& x, const Side& y) const {
+    const int a = surface_.triangles[x.triangle][x.side], b = surface_.triangles[y.triangle][y.side];
+    const Pair ends = ends_of(x);
+    return {edge, x.triangle, y.triangle, a == b && ends[0] != ends[1]};
+  }
+
+  Surface& surface_;
+  const std::vector<std::array<double, 3>>& lengths_;
+};
+
+// Reading a triangle in reverse keeps its corner 0: corners 1 and 2 change places, and sides 0 and 2.
+void reverse_triangles(Surface& surface) {
+  for (const int t : surface.repairs.reversed_faces) {
+    std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+    std::swap(surface.triangle_corners[t][1], surface.triangle_corners[t][2]);
+    std::swap(surface.triangle_edges[t][0], surface.triangle_edges[t][2]);
+  }
+}
+
+}  // namespace
+
+Surface make_intrinsic_surface(int vertex_count, const Names& faces, const std::vector<std::array<double, 3>>& lengths,
+                               const Names& face_edges) {
+  check_input(vertex_count, faces, lengths, face_edges);
+  Surface surface;
+  surface.vertex_count = vertex_count;
+  surface.polygons.face_offsets.push_back(0);
+  for (int t = 0; t < static_cast<int>(faces.size()); ++t) {
+    Triple v, corners{3 * t, 3 * t + 1, 3 * t + 2};
+    for (int i = 0; i < 3; ++i) v[i] = static_cast<int>(faces[t][i]);
+    surface.triangles.push_back(v);
+    surface.triangle_corners.push_back(corners);
+    surface.triangle_faces.push_back(t);
+    surface.polygons.corner_vertices.insert(surface.polygons.corner_vertices.end(), faces[t].begin(), faces[t].end());
+    surface.polygons.face_offsets.push_back(3 * t + 3);
+  }
+  surface.triangle_edges.resize(faces.size());
+  const std::vector<Side> sides = sorted_sides(faces, face_edges);
+  EdgeBuilder builder(surface, lengths);
+  for (std::size_t i = 0, j; i < sides.size(); i = j) {
+    for (j = i + 1; j < sides.size() && same_edge(sides[i], sides[j]);) ++j;
+    builder.add(&sides[i], &sides[i] + (j - i));
+  }
+  surface.polygon_edge_count = static_cast<int>(surface.edges.size());
+  record_orientation(surface, orient(static_cast<int>(faces.size()), builder.meetings));
+  reverse_triangles(surface);
+  finish_records(surface);
+  return surface;
+}
+
+}  // namespace holomorph::mesh

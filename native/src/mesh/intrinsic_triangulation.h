@@ -1,0 +1,41 @@
+// The triangulation that is solved on: a metric given by edge lengths, made Delaunay by flips that move no vertex.
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "mesh/half_edges.h"
+
+namespace holomorph::mesh {
+
+/// An edge that was turned: a closed form has on it the value  -(value along `a` + value along `b`),
+/// where a and b are half-edges of two sides of the quadrilateral, as they were numbered at that moment.
+struct Flip {
+  int edge;
+  HalfedgeHandle a, b;
+};
+
+struct IntrinsicTriangulation {
+  HalfEdges half_edges;
+  std::vector<double> lengths;  ///< #E
+  std::vector<Flip> flips;      ///< in order, from the artist's triangulation to this one
+  double mollification = 0;     ///< added to every length, in their unit
+};
+
+/// 0 if no triangle is degenerate; else the increment of all lengths that intrinsic_triangulation takes.
+double smallest_increment(const Surface& surface);
+
+/// The artist's triangulation in its own metric. Where a triangle is degenerate, all lengths grow by the smallest
+/// common amount that leaves every triangle a slack of 1e-6 times the mean length (Sharp & Crane 2020,
+/// doi:10.1111/cgf.14069, section 4.5).
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface);
+
+/// Flips edges until every interior edge is Delaunay, cot + cot >= 0 up to rounding (Fisher et al. 2007,
+/// doi:10.1007/s00607-006-0194-3). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
+/// function (Rippa 1990), so no triangulation comes twice; in rounded arithmetic because no edge is turned without limit.
+void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress);
+
+/// #E weights k = (cot a + cot b) / 2 (paper Eq. 3).
+std::vector<double> cotangent_weights(const IntrinsicTriangulation& triangulation);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,24 @@
+// A consistent orientation of the polygons, and their connected components.
+#pragma once
+
+#include <vector>
+
+namespace holomorph::mesh {
+
+struct Orientation {
+  std::vector<char> reversed;       ///< #F 1 where the polygon must be read in reverse
+  std::vector<int> face_component;  ///< #F, numbered by first polygon
+  int component_count = 0;
+  int conflict = -1;                ///< an edge at which no orientation fits; -1 if the mesh is orientable
+};
+
+/// Two faces that meet at an edge; one of them is reversed if both run along it in the same direction.
+struct EdgeMeeting {
+  int edge, face, other_face;
+  bool same_direction;
+};
+
+/// Orients each component as the larger part of its faces is given (as its first face where the parts are equal).
+Orientation orient(int face_count, const std::vector<EdgeMeeting>& meetings);
+
+}  // namespace holomorph::mesh

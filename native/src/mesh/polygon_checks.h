@@ -1,0 +1,13 @@
+// Checks of single polygons, before anything walks the mesh.
+#pragma once
+
+#include "mesh/polygons.h"
+
+namespace holomorph::mesh {
+
+/// Refuses, with the first bad element: no faces, offsets that do not fit, fewer than 3 corners, an index that is
+/// negative or too large, a vertex twice in a face, a position that is NaN or infinite, too many elements for 32 bits.
+/// @throws InvalidMesh
+void check_polygons(const Polygons& polygons);
+
+}  // namespace holomorph::mesh

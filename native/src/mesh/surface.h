@@ -1,0 +1,57 @@
+// A validated, consistently oriented surface made of polygons, and the triangulation that is computed on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/polygons.h"
+
+namespace holomorph::mesh {
+
+using Triple = std::array<int, 3>;
+using Pair = std::array<int, 2>;
+
+/// What was wrong with the input and handled inside; the input itself is never changed.
+struct Repairs {
+  std::vector<int> reversed_faces;     ///< polygons read in reverse, so that each component is oriented consistently
+  std::vector<int> isolated_vertices;  ///< vertices of no polygon
+  std::vector<int> zero_area_faces;    ///< polygons with a triangle whose corners lie on a line
+};
+
+/// Edges are known by their index, never by their pair of ends: two edges may share both ends.
+/// Side i of triangle t runs from its corner i to its corner i+1.
+struct Surface {
+  Polygons polygons;     ///< as given
+  int vertex_count = 0;  ///< isolated vertices included
+  std::vector<Triple> triangles;         ///< #T vertices, counter-clockwise after repairs
+  std::vector<Triple> triangle_corners;  ///< #T indices into polygons.corner_vertices
+  std::vector<Triple> triangle_edges;    ///< #T edge of each side
+  std::vector<int> triangle_faces;       ///< #T polygon of each triangle
+  std::vector<Pair> edges;               ///< #E ends, lower vertex first: the polygons' edges, then the diagonals
+  int polygon_edge_count = 0;            ///< edges before this index are the artist's, the others diagonals
+  std::vector<double> edge_lengths;      ///< #E, in the unit of the positions
+  std::vector<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
+  int component_count = 0;
+  std::vector<int> edge_face_count;      ///< #E number of triangles at each edge, 1 or 2
+  Repairs repairs;
+
+  bool intrinsic() const { return polygons.vertices.empty(); }
+  bool is_diagonal(int edge) const { return edge >= polygon_edge_count; }
+};
+
+/// Checks, orients and triangulates a polygon mesh. Each polygon is cut along the diagonals that minimise the sum of
+/// its triangles' (a^2 + b^2 + c^2) / area, which for planar convex polygons is the Delaunay triangulation (Musin 1997).
+/// @throws InvalidMesh, TopologyError (non-orientable), naming the first bad element.
+/// Cost: linear in the number of corners, cubic in the size of a polygon up to 64 corners.
+Surface make_surface(Polygons polygons);
+
+/// An intrinsic surface: triangles and the lengths of their edges, without positions.
+/// @param faces #F vertices; a vertex may come twice in a triangle
+/// @param lengths #F lengths, entry i opposite corner i; both triangles at an edge must agree to 1e-9
+/// @param face_edges #F edge names, entry i opposite corner i; empty: edges are told apart by their ends
+Surface make_intrinsic_surface(int vertex_count, const std::vector<std::array<std::int64_t, 3>>& faces,
+                               const std::vector<std::array<double, 3>>& lengths,
+                               const std::vector<std::array<std::int64_t, 3>>& face_edges);
+
+}  // namespace holomorph::mesh

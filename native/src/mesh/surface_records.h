@@ -1,0 +1,16 @@
+// What both kinds of surface record about themselves once their triangles and edges are known.
+#pragma once
+
+#include "mesh/orientation.h"
+#include "mesh/surface.h"
+
+namespace holomorph::mesh {
+
+/// Components and reversed faces. @throws TopologyError naming the edge at which no orientation fits
+void record_orientation(Surface& surface, const Orientation& orientation);
+
+/// Faces per edge, isolated vertices, zero areas; refuses non-manifold vertices and a surface without area.
+/// @throws InvalidMesh
+void finish_records(Surface& surface);
+
+}  // namespace holomorph::mesh

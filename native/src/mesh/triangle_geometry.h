@@ -1,0 +1,42 @@
+// Lengths, areas and cotangents of single triangles, from edge lengths alone.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace holomorph::mesh {
+
+/// A triangle is degenerate where its longest side is not shorter than the two others together, up to this fraction
+/// of it: that much is lost when lengths come from rounded positions. (It means angles below 1.4e-6 rad.)
+inline constexpr double kDegenerateMargin = 1e-12;
+
+inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+inline bool is_degenerate(double a, double b, double c) {
+  const double longest = std::max({a, b, c});
+  return !((a + b + c) - 2 * longest > kDegenerateMargin * longest);
+}
+
+/// Heron's formula in Kahan's stable order; 0 where the triangle inequality fails.
+inline double triangle_area(double a, double b, double c) {
+  if (a < b) std::swap(a, b);
+  if (a < c) std::swap(a, c);
+  if (b < c) std::swap(b, c);
+  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return product > 0 ? 0.25 * std::sqrt(product) : 0.0;
+}
+
+/// Below this fraction of the squared sides an area is rounding; it keeps every cotangent finite.
+inline constexpr double kLeastArea = 1e-14;
+
+/// Cotangent of the angle opposite side a, in a triangle of sides a, b, c and the given area.
+inline double cotangent(double a, double b, double c, double area) {
+  // b^2 + c^2 - a^2 as (b - a)(b + a) + c^2 keeps digits where a is nearly b
+  return ((b - a) * (b + a) + c * c) / (4 * std::max(area, kLeastArea * (b * b + c * c)));
+}
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,88 @@
+#include "pipeline/conformal_structure.h"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "base/errors.h"
+#include "mesh/components.h"
+
+namespace holomorph::pipeline {
+namespace {
+
+// The calling thread's number of worker threads, put back at the end.
+class ThreadCount {
+ public:
+#ifdef _OPENMP
+  explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
+    if (threads > 0) omp_set_num_threads(threads);
+  }
+  ~ThreadCount() { omp_set_num_threads(before_); }
+
+ private:
+  int before_;
+#else
+  explicit ThreadCount(int) {}
+#endif
+};
+
+void check_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
+  const int boundaries = mesh::boundary_count(half_edges);
+  const int genus = mesh::genus(mesh::euler_characteristic(surface), boundaries);
+  if (genus > 0 && boundaries == 0) return;
+  throw TopologyError("the surface has genus " + std::to_string(genus) + " and " + std::to_string(boundaries) +
+                      " boundary loops; a closed surface of genus 1 or more is needed");
+}
+
+double largest_period_error(const Eigen::MatrixXd& periods) {
+  return (periods - Eigen::MatrixXd::Identity(periods.rows(), periods.cols())).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress) {
+  const ThreadCount threads(options.threads);
+  ConformalStructure result;
+
+  progress.stage("half-edges", 0.0, 0.05);
+  result.half_edges = mesh::half_edges(surface);
+  check_topology(surface, result.half_edges);
+
+  progress.stage("homology", 0.05, 0.2);
+  const auto domain = topology::fundamental_domain(surface, result.half_edges, progress);
+  result.homology_basis = topology::homology_basis(result.half_edges, domain);
+  result.seams = topology::cut_graph(result.half_edges, domain);
+
+  progress.stage("cohomology", 0.2, 0.25);
+  auto classes = topology::cohomology_basis(result.half_edges, domain);
+  result.canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes));
+  result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes);
+
+  progress.stage("intrinsic Delaunay", 0.25, 0.3);
+  auto intrinsic = mesh::intrinsic_triangulation(surface);
+  mesh::make_delaunay(intrinsic, progress);
+  auto intrinsic_classes = classes;
+  topology::carry_through(intrinsic.flips, intrinsic_classes);
+  const auto weights = mesh::cotangent_weights(intrinsic);
+
+  progress.stage("harmonic forms", 0.3, 0.85);
+  const auto solver = solver::make_direct_solver(forms::laplacian(intrinsic.half_edges, weights), progress);
+  const auto harmonic = forms::harmonic_basis(intrinsic.half_edges, weights, intrinsic_classes, *solver, progress);
+  result.solver = {solver->name(), options.solver == "direct" ? "asked for" : "the only solver so far", solver->iterations(), solver->residual()};
+
+  progress.stage("holomorphic forms", 0.85, 0.92);
+  result.gram_matrix = forms::gram_matrix(intrinsic.half_edges, weights, harmonic, progress);
+  result.holomorphic = conformal::holomorphic_basis(result.gram_matrix, result.canonical);
+
+  progress.stage("certificates", 0.92, 1.0);
+  result.residuals = forms::residuals(intrinsic.half_edges, weights, harmonic, progress);
+  result.harmonic = {std::move(classes), harmonic.functions};
+  result.period_residual = largest_period_error(forms::periods(result.half_edges, result.harmonic, result.homology_basis));
+  result.mollification = intrinsic.mollification;
+  result.flip_count = static_cast<int>(intrinsic.flips.size());
+  progress.finish();
+  result.seconds = progress.seconds();
+  return result;
+}
+
+}  // namespace holomorph::pipeline

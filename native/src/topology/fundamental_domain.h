@@ -1,0 +1,38 @@
+// The paper's fundamental domain D, its graph G and a spanning tree T of G (paper § 4), chosen so that loops are short.
+//
+// D grows face by face; a face joins it through one edge, so the edges that were crossed form a spanning tree C of the
+// dual graph: D is the tree of a tree-cotree decomposition (Eppstein 2003). G is all other edges; what T leaves over of
+// G are the 2g edges e_i. The paper takes faces from a plain queue. Here the next face is the one behind the edge whose
+// loop through T is longest (diagonals of polygons first, edges of T never), so the edges left over close the shortest
+// loops: the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a root.
+#pragma once
+
+#include <vector>
+
+#include "base/progress.h"
+#include "mesh/half_edges.h"
+
+namespace holomorph::topology {
+
+using mesh::HalfedgeHandle;
+using mesh::HalfEdges;
+
+/// @pre connected and closed; every vertex has a face.
+struct FundamentalDomain {
+  std::vector<HalfedgeHandle> to_parent_face;    ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
+  std::vector<int> face_depth;                   ///< #T steps to the first face
+  std::vector<int> face_order;                   ///< #T faces in the order in which they joined D
+  std::vector<char> crossed;                     ///< #E 1 for the edges of C, which are inside D; the others are G
+  std::vector<HalfedgeHandle> to_parent_vertex;  ///< #V the half-edge towards the root of T; invalid at the root
+  std::vector<int> vertex_depth;                 ///< #V steps to the root
+  std::vector<int> left_over;                    ///< the 2g edges of G outside T, ascending
+};
+
+/// @param surface,half_edges the artist's triangulation; C takes all its diagonals, so G and T run on the artist's edges
+/// Cost: O(n log n).
+FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress);
+
+/// The cut graph: G without its dangling ends, ascending. Cutting the surface along it leaves a disk.
+std::vector<int> cut_graph(const HalfEdges& half_edges, const FundamentalDomain& domain);
+
+}  // namespace holomorph::topology

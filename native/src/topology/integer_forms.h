@@ -1,0 +1,24 @@
+// Closed one-forms with integer values, sparse: most edges have the value 0 in every form.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "mesh/intrinsic_triangulation.h"
+
+namespace holomorph::topology {
+
+/// Row e lists (form, value) with value != 0, ascending by form, for the direction of half-edge 2e.
+struct IntegerForms {
+  using Row = std::vector<std::pair<int, int>>;
+  int form_count = 0;
+  std::vector<Row> rows;  ///< #E
+};
+
+/// a + factor * b
+IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, int factor);
+
+/// The same closed forms on a triangulation that was flipped: exact, by closedness.
+void carry_through(const std::vector<mesh::Flip>& flips, IntegerForms& forms);
+
+}  // namespace holomorph::topology

@@ -1,0 +1,54 @@
+// A small unconstrained minimiser: BFGS with backtracking (Nocedal & Wright, Numerical Optimization, algorithm 6.1).
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace holomorph::uv {
+
+/// @param objective double(const VectorXd& x, VectorXd& gradient)
+/// @param x start in, minimum out. @return the least value
+/// It ends when a step lowers the value by less than 1e-9 of it, or after `most_steps`.
+template <class Objective>
+double minimise(const Objective& objective, Eigen::VectorXd& x, int most_steps = 200) {
+  constexpr double kDecrease = 1e-4;   // Armijo
+  constexpr double kSmallest = 1e-12;  // shortest step, relative to the full one
+  constexpr double kProgress = 1e-9;
+  const auto n = x.size();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Identity(n, n);  // inverse Hessian
+  Eigen::VectorXd gradient, new_gradient;
+  double value = objective(x, gradient);
+  H *= x.norm() / std::max(gradient.norm(), 1e-300);
+  for (int step = 0; step < most_steps; ++step) {
+    Eigen::VectorXd direction = -(H * gradient);
+    double slope = gradient.dot(direction);
+    if (!(slope < 0)) {
+      H.setIdentity();
+      direction = -gradient;
+      slope = -gradient.squaredNorm();
+      if (!(slope < 0)) break;
+    }
+    double length = 1, new_value = INFINITY;
+    Eigen::VectorXd candidate;
+    for (; length > kSmallest; length /= 2) {
+      candidate = x + length * direction;
+      new_value = objective(candidate, new_gradient);
+      if (new_value <= value + kDecrease * length * slope) break;
+    }
+    if (!(length > kSmallest)) break;
+    const Eigen::VectorXd s = candidate - x, y = new_gradient - gradient;
+    const double sy = s.dot(y);
+    if (sy > 1e-14 * s.norm() * y.norm()) {
+      const Eigen::VectorXd Hy = H * y;
+      H += ((1 + y.dot(Hy) / sy) / sy) * (s * s.transpose()) - (Hy * s.transpose() + s * Hy.transpose()) / sy;
+    }
+    const double before = value;
+    x = candidate;
+    value = new_value;
+    gradient = new_gradient;
+    if (before - value < kProgress * std::abs(before)) break;
+  }
+  return value;
+}
+
+}  // namespace holomorph::uv
