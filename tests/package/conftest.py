@@ -1,0 +1,53 @@
+"""The packages are made once; each test installs one of them where nothing of the checkout is found."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SECONDS = 300
+
+
+def run(*command, **environment):
+    """Run a program away from the checkout, with a time limit; its output, or a failure that shows it."""
+    clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "HOLOMORPH_BLENDER")}
+    done = subprocess.run(
+        [str(part) for part in command],
+        env={**clean, **{name: str(value) for name, value in environment.items()}},
+        cwd="/",
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=SECONDS,
+        check=False,
+    )
+    assert done.returncode == 0, f"{' '.join(map(str, command))}\nexit code {done.returncode}\n{done.stdout}"
+    return done.stdout
+
+
+@pytest.fixture(scope="session")
+def dist(tmp_path_factory):
+    """The folder with the wheels and the zips."""
+    folder = Path(os.environ.get("HOLOMORPH_TEST_OUTPUT") or tmp_path_factory.mktemp("package")) / "dist"
+    run(ROOT / "scripts" / "package-extension", folder)
+    return folder
+
+
+@pytest.fixture(params=["4.2", "5.2"])
+def bpy_python(request):
+    """The Python of a virtual environment that has Blender as a module."""
+    python = ROOT / "build" / "venv" / f"bpy-{request.param}" / "bin" / "python"
+    if not python.exists():
+        pytest.skip(f"no environment with Blender {request.param}")
+    return python
+
+
+@pytest.fixture
+def blender():
+    """The Blender program."""
+    program = os.environ.get("HOLOMORPH_BLENDER")
+    if not program:
+        pytest.skip("no Blender program")
+    return program

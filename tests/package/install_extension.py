@@ -1,0 +1,27 @@
+"""Run by Blender as a Python module, 4.2 or later: installs the extension's zip, uses it, removes it.
+
+BLENDER_USER_RESOURCES is a fresh folder, so that nobody's own settings are touched.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+import use_addon
+
+MODULE = "bl_ext.user_default.holomorph"
+
+bpy.ops.extensions.package_install_files(
+    filepath=sys.argv[-1], repo="user_default", enable_on_install=True, overwrite=True
+)
+# The operator reports success even where it did nothing.
+assert MODULE in bpy.context.preferences.addons, "the extension was not enabled"
+use_addon.use()
+# Classes that are still registered at the end make some versions crash or hang there.
+bpy.ops.preferences.addon_disable(module=MODULE)
+assert not hasattr(bpy.types, "HOLOMORPH_OT_maps"), "the add-on leaves classes behind"
+sys.stdout.flush()
+os._exit(0)

@@ -1,0 +1,95 @@
+"""The wheels and zips of scripts/package-extension: complete, accepted by Blender, working away from the checkout."""
+
+import subprocess
+import sys
+import venv
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT, run
+
+HERE = Path(__file__).resolve().parent
+# What every Linux with glibc has, the C++ run-time library included: Blender itself needs them.
+SYSTEM = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1", "libgcc_s.so.1", "libstdc++.so.6"}
+SYSTEM |= {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
+PLACE = "holomorph: "
+
+
+def one(folder, pattern):
+    found = sorted(folder.glob(pattern))
+    assert len(found) == 1, found
+    return found[0]
+
+
+def extension(dist):
+    return next(path for path in dist.glob("*.zip") if "blender-3.4" not in path.name)
+
+
+def place_of_package(output):
+    return Path(next(line for line in output.splitlines() if line.startswith(PLACE)).removeprefix(PLACE))
+
+
+def write_torus(path, n=24, m=12):
+    u, v = np.meshgrid(np.arange(n) * 2 * np.pi / n, np.arange(m) * 2 * np.pi / m, indexing="ij")
+    points = np.stack([(2 + np.cos(v)) * np.cos(u), (2 + np.cos(v)) * np.sin(u), np.sin(v)], -1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
+    a, b = i * m + j, (i + 1) % n * m + j
+    quads = np.stack([a, b, (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m], -1).reshape(-1, 4) + 1
+    with path.open("w") as file:
+        np.savetxt(file, points, fmt="v %.17g %.17g %.17g")
+        np.savetxt(file, quads, fmt="f %d %d %d %d")
+
+
+def needed(library):
+    """The libraries that a shared library asks for."""
+    output = subprocess.run(["readelf", "-d", library], capture_output=True, text=True, check=True).stdout
+    return {line.split("[")[1].rstrip("]") for line in output.splitlines() if "(NEEDED)" in line}
+
+
+def test_the_wheels_are_self_contained(dist, tmp_path):
+    for wheel in dist.glob("*.whl"):
+        folder = tmp_path / wheel.name
+        zipfile.ZipFile(wheel).extractall(folder)
+        libraries = sorted(folder.rglob("*.so*"))
+        inside = {library.name for library in libraries}
+        for library in libraries:
+            assert needed(library) <= inside | SYSTEM, library.name
+        # The reference BLAS, and a second copy of OpenBLAS under another name, stay out.
+        assert not [name for name in inside if name.startswith(("libblas", "liblapack"))]
+
+
+def test_the_extension_is_valid(dist, bpy_python):
+    scripts = run(bpy_python, "-c", "import bpy; print(bpy.utils.system_resource('SCRIPTS'))").splitlines()[-1]
+    program = Path(scripts) / "addons_core" / "bl_pkg" / "cli" / "blender_ext.py"
+    output = run(bpy_python, program, "validate", extension(dist))
+    assert "warning" not in output.lower() and "error" not in output.lower(), output
+
+
+def test_the_extension_installs_and_works(dist, bpy_python, tmp_path):
+    output = run(bpy_python, HERE / "install_extension.py", extension(dist), BLENDER_USER_RESOURCES=tmp_path)
+    assert tmp_path in place_of_package(output).parents
+
+
+def test_the_legacy_zip_installs_and_works(dist, blender, tmp_path):
+    script = HERE / "install_legacy.py"
+    command = [blender, "-b", "--factory-startup", "--python-exit-code", "9", "--python", script, "--"]
+    output = run(*command, one(dist, "*blender-3.4.zip"), BLENDER_USER_SCRIPTS=tmp_path)
+    assert tmp_path in place_of_package(output).parents
+
+
+def test_the_same_sources_give_the_same_extension(dist, tmp_path):
+    run(sys.executable, ROOT / "scripts" / "make_zips.py", tmp_path, *sorted(dist.glob("*.whl")))
+    assert extension(tmp_path).read_bytes() == extension(dist).read_bytes()
+
+
+@pytest.mark.parametrize("source", ["wheel", "checkout"])
+def test_pip_installs_the_package_without_blender(dist, tmp_path, source):
+    venv.create(tmp_path / "venv", with_pip=True)
+    python = tmp_path / "venv" / "bin" / "python"
+    what = one(dist, "*-cp311-*.whl") if source == "wheel" else ROOT
+    run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", what, CMAKE_BUILD_PARALLEL_LEVEL=2)
+    write_torus(tmp_path / "torus.obj")
+    run(python, "-m", "holomorph", tmp_path / "torus.obj", "--report", tmp_path / "report.json")
+    assert (tmp_path / "report.json").stat().st_size > 0
