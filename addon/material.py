@@ -10,8 +10,8 @@ import bpy
 
 from . import compatibility
 
-LIGHT = (0.86, 0.82, 0.74)  # linear RGB, warm white
-DARK = (0.035, 0.13, 0.17)  # linear RGB, deep teal
+LIGHT = (0.72, 0.68, 0.60)  # linear RGB, warm white
+DARK = (0.03, 0.11, 0.15)  # linear RGB, deep teal
 SCALE_NODE = "Checker Scale"
 MAP_NODE = "Checker Map"
 IMAGE_SIZE_LIMIT = 256  # pixels

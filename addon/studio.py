@@ -25,9 +25,9 @@ def render(objects, path, resolution, samples):
     scene.camera = _camera(scene, points)
     _floor(scene, centre, float(low[2]) - FLOOR_GAP * size, size)
     for name, direction, width, power in (
-        ("Key", (-0.9, -1.0, 1.5), 1.1, 26.0),
-        ("Fill", (1.4, -0.7, 0.5), 1.6, 7.0),
-        ("Rim", (0.4, 1.4, 1.1), 0.9, 16.0),
+        ("Key", (-0.9, -1.0, 1.5), 1.1, 19.0),
+        ("Fill", (1.4, -0.7, 0.5), 1.6, 5.0),
+        ("Rim", (0.4, 1.4, 1.1), 0.9, 12.0),
     ):
         _light(scene, name, centre, Vector(direction).normalized(), size, width, power)
     scene.world = _world()

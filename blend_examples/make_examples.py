@@ -1,0 +1,347 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the example files of this folder with Blender's own tools. Run it with Blender 3.4:
+
+blender -b --factory-startup --python-exit-code 1 --python blend_examples/make_examples.py [-- folder]
+
+3.4 because its files open in every later version. Each mesh is checked before it is saved: closed, manifold, and
+of the genus stated in EXAMPLES.
+"""
+
+import math
+import sys
+from pathlib import Path
+
+import bmesh
+import bpy
+from mathutils import Euler, Matrix, Vector
+
+
+def torus():
+    """A torus of uneven thickness, stretched by the object's own scale."""
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=72, minor_segments=28, major_radius=1.0, minor_radius=0.34
+    )
+    obj = bpy.context.object
+    shape = obj.modifiers.new("Taper", "SIMPLE_DEFORM")
+    shape.deform_method, shape.deform_axis, shape.factor = "TAPER", "X", 0.55
+    apply_modifiers(obj)
+    obj.scale = (1.3, 1.0, 0.8)
+    return [obj]
+
+
+def mug():
+    """A mug of quads: a turned body, two faces of its wall drawn out and joined to a handle."""
+    bm = bmesh.new()
+    profile = [(0.55, 0.0), (0.88, 0.02), (0.95, 0.25), (0.96, 0.62), (0.96, 0.98), (0.96, 1.34)]
+    profile += [(0.96, 1.7), (0.96, 1.92), (0.91, 1.98), (0.85, 1.92), (0.85, 1.2), (0.84, 0.3), (0.75, 0.14)]
+    profile += [(0.5, 0.12)]
+    sides = 16
+    quarter = sides // 4
+    rings = [turned_ring(bm, radius, height, sides) for radius, height in profile]
+    for lower, upper in zip(rings, rings[1:]):
+        bmesh.ops.bridge_loops(bm, edges=ring_edges(bm, lower) + ring_edges(bm, upper))
+    for ring in (rings[0], rings[-1]):
+        edges = ring_edges(bm, ring)
+        bmesh.ops.grid_fill(bm, edges=edges[:quarter] + edges[2 * quarter : 3 * quarter])
+    bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
+    wall = [face_between(bm, rings[k], rings[k + 1]) for k in (6, 2)]
+    path = [[(0.25, 0.02), (0.5, -0.06), (0.66, -0.22)], [(0.22, 0.0), (0.46, 0.1), (0.64, 0.26)]]
+    tips = []
+    for face, steps in zip(wall, path):
+        origin = face.calc_center_median()
+        outward = Vector((origin.x, origin.y, 0)).normalized()
+        for out, up in steps:
+            face = bmesh.ops.extrude_discrete_faces(bm, faces=[face])["faces"][0]
+            target = origin + out * outward + Vector((0, 0, up))
+            bmesh.ops.translate(bm, verts=face.verts, vec=target - face.calc_center_median())
+            bmesh.ops.scale(bm, verts=face.verts, vec=(0.96, 0.96, 0.92), space=Matrix.Translation(-target))
+        tips.append(face)
+    edges = [edge for face in tips for edge in face.edges]
+    bmesh.ops.delete(bm, geom=tips, context="FACES_ONLY")
+    bmesh.ops.bridge_loops(bm, edges=edges)
+    bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
+    obj = object_of("Mug", bm)
+    subdivide(obj, 2)
+    return [obj]
+
+
+def pretzel():
+    """A pretzel: one strand laid over itself, grown together by a voxel remesh."""
+    strand = [(0.0, 1.02), (0.62, 0.98), (1.16, 0.5), (1.12, -0.2), (0.62, -0.62), (0.1, -0.34), (-0.34, 0.36)]
+    strand += [(-0.5, 0.86)]
+    points = [(-x, y) for x, y in reversed(strand[1:])] + strand
+    curve = bevel_curve("Pretzel", [(x, y, 0.0, 1.0) for x, y in points], radius=0.17, cyclic=False, resolution=12)
+    obj = convert_to_mesh(curve)
+    remesh = obj.modifiers.new("Remesh", "REMESH")
+    remesh.mode, remesh.voxel_size = "VOXEL", 0.035
+    smooth = obj.modifiers.new("Smooth", "SMOOTH")
+    smooth.factor, smooth.iterations = 0.5, 12
+    apply_modifiers(obj)
+    obj.rotation_euler = Euler((math.radians(62), 0, 0))
+    return [obj]
+
+
+def chain():
+    """Seven interlocked links: one link and an array that moves and turns each copy."""
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=24, minor_segments=10, major_radius=0.5, minor_radius=0.13
+    )
+    obj = bpy.context.object
+    obj.name = obj.data.name = "Chain"
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    for sign in (1, -1):
+        half = [v for v in bm.verts if sign * v.co.x > 1e-4]
+        bmesh.ops.translate(bm, verts=half, vec=(0.28 * sign, 0, 0))
+    bm.to_mesh(obj.data)
+    bm.free()
+    step = bpy.data.objects.new("Step", None)
+    bpy.context.scene.collection.objects.link(step)
+    step.location = (1.02, 0, 0.05)
+    step.rotation_euler = Euler((math.radians(82), math.radians(4), math.radians(9)))
+    subdivide(obj, 1)
+    array = obj.modifiers.new("Array", "ARRAY")
+    array.count, array.use_relative_offset, array.use_object_offset = 7, False, True
+    array.offset_object = step
+    bpy.context.view_layer.update()
+    apply_modifiers(obj)
+    bpy.data.objects.remove(step)
+    return [obj]
+
+
+def gear():
+    """A gear with n-gon faces: a toothed disk, with six bores cut out by a boolean."""
+    teeth = 18
+    outline = []
+    for tooth in range(teeth):
+        for offset, radius in ((-0.32, 1.0), (-0.17, 1.2), (0.17, 1.2), (0.32, 1.0)):
+            angle = 2 * math.pi * (tooth + offset) / teeth
+            outline.append((radius * math.cos(angle), radius * math.sin(angle), -0.16))
+    bm = bmesh.new()
+    disk = bm.faces.new([bm.verts.new(p) for p in outline])
+    top = bmesh.ops.extrude_face_region(bm, geom=[disk])["geom"]
+    bmesh.ops.translate(bm, verts=[g for g in top if isinstance(g, bmesh.types.BMVert)], vec=(0, 0, 0.32))
+    bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
+    obj = object_of("Gear", bm)
+    bores = bmesh.new()
+    bmesh.ops.create_cone(
+        bores, cap_ends=True, segments=20, radius1=0.24, radius2=0.24, depth=1.0
+    )
+    for index in range(5):
+        angle = 2 * math.pi * (index + 0.5) / 5
+        place = Matrix.Translation((0.62 * math.cos(angle), 0.62 * math.sin(angle), 0))
+        bmesh.ops.create_cone(
+            bores, cap_ends=True, segments=16, radius1=0.17, radius2=0.17, depth=1.0, matrix=place
+        )
+    cutter = object_of("Bores", bores)
+    cut = obj.modifiers.new("Bores", "BOOLEAN")
+    cut.operation, cut.solver, cut.object = "DIFFERENCE", "EXACT", cutter
+    apply_modifiers(obj)
+    bpy.data.objects.remove(cutter)
+    obj.rotation_euler = Euler((math.radians(35), 0, 0))
+    return [obj]
+
+
+def knot():
+    """A trefoil knot of swelling thickness, about 100 000 quads."""
+    count = 60
+    points = []
+    for index in range(count):
+        t = 2 * math.pi * index / count
+        radius = 1.0 + 0.35 * math.cos(2 * t + 0.4)
+        place = (math.sin(t) + 2 * math.sin(2 * t), math.cos(t) - 2 * math.cos(2 * t), -math.sin(3 * t))
+        points.append((*(0.5 * x for x in place), radius))
+    curve = bevel_curve("Knot", points, radius=0.24, cyclic=True, resolution=52, around=14)
+    obj = convert_to_mesh(curve)
+    obj.rotation_euler = Euler((math.radians(60), 0, math.radians(20)))
+    return [obj]
+
+
+def lantern():
+    """The edges of a cuboctahedron as a frame: more handles than Blender has UV maps."""
+    bm = bmesh.new()
+    bmesh.ops.create_cube(bm, size=2.0)
+    bmesh.ops.bevel(
+        bm, geom=bm.verts, offset=50.0, offset_type="PERCENT", affect="VERTICES", segments=1, profile=0.5
+    )
+    bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-4)
+    obj = object_of("Lantern", bm)
+    frame = obj.modifiers.new("Wireframe", "WIREFRAME")
+    frame.thickness, frame.use_even_offset = 0.28, True
+    subdivide(obj, 2)
+    return [obj]
+
+
+def clay():
+    """Metaballs along a figure of eight, with two holes."""
+    data = bpy.data.metaballs.new("Clay")
+    data.resolution = data.render_resolution = 0.06
+    obj = bpy.data.objects.new("Clay", data)
+    bpy.context.scene.collection.objects.link(obj)
+    steps = 14
+    for side in (-1, 1):
+        for index in range(steps):
+            angle = 2 * math.pi * (index + 0.5) / steps
+            ball = data.elements.new()
+            ball.co = (side * 0.86 + 0.86 * math.cos(angle), 0.8 * math.sin(angle), 0.12 * math.sin(2 * angle))
+            ball.radius = 0.52 + 0.08 * math.cos(3 * angle)
+    obj = convert_to_mesh(obj)
+    obj.rotation_euler = Euler((math.radians(55), 0, 0))
+    return [obj]
+
+
+def mixed():
+    """A ring with a pearl in it (one mesh of two parts), and an open bowl beside them."""
+    bpy.ops.mesh.primitive_torus_add(major_segments=48, minor_segments=16, minor_radius=0.2)
+    ring = bpy.context.object
+    ring.name = ring.data.name = "Ring and Pearl"
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=12, radius=0.45)
+    pearl = bpy.context.object
+    select_only(ring)
+    pearl.select_set(True)
+    bpy.ops.object.join()
+    bm = bmesh.new()
+    bmesh.ops.create_uvsphere(bm, u_segments=24, v_segments=12, radius=0.6)
+    bmesh.ops.delete(bm, geom=[v for v in bm.verts if v.co.z > 0.05], context="VERTS")
+    bowl = object_of("Bowl", bm)
+    bowl.location = (2.2, 0, 0)
+    return [ring, bowl]
+
+
+# name of the file and maker: for each object the genus of its parts (None for an open part), sorted
+EXAMPLES = {
+    torus: [[1]],
+    mug: [[1]],
+    pretzel: [[3]],
+    chain: [[1] * 7],
+    gear: [[6]],
+    knot: [[1]],
+    lantern: [[13]],
+    clay: [[2]],
+    mixed: [[0, 1], [None]],
+}
+
+
+def turned_ring(bm, radius, height, sides):
+    angles = [2 * math.pi * k / sides for k in range(sides)]
+    return [bm.verts.new((radius * math.cos(a), radius * math.sin(a), height)) for a in angles]
+
+
+def ring_edges(bm, ring):
+    pairs = zip(ring, ring[1:] + ring[:1])
+    return [bm.edges.get(pair) or bm.edges.new(pair) for pair in pairs]
+
+
+def face_between(bm, lower, upper):
+    return bm.faces.get((lower[0], lower[1], upper[1], upper[0]))
+
+
+def object_of(name, bm):
+    mesh = bpy.data.meshes.new(name)
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
+
+
+def select_only(obj):
+    bpy.context.view_layer.update()  # or it lists objects that are gone
+    for other in bpy.context.view_layer.objects:
+        other.select_set(other == obj)
+    bpy.context.view_layer.objects.active = obj
+
+
+def bevel_curve(name, points, radius, cyclic, resolution, around=8):
+    """A tube of round section through `points` (x, y, z, thickness), with closed ends."""
+    data = bpy.data.curves.new(name, "CURVE")
+    data.dimensions, data.bevel_depth, data.bevel_resolution = "3D", radius, around
+    data.use_fill_caps, data.resolution_u = not cyclic, resolution
+    spline = data.splines.new("NURBS")
+    spline.points.add(len(points) - 1)
+    for target, (x, y, z, thickness) in zip(spline.points, points):
+        target.co, target.radius = (x, y, z, 1.0), thickness
+    spline.use_cyclic_u, spline.use_endpoint_u, spline.order_u = cyclic, True, 4
+    obj = bpy.data.objects.new(name, data)
+    bpy.context.scene.collection.objects.link(obj)
+    return obj
+
+
+def convert_to_mesh(obj):
+    """The mesh that Blender shows for a curve or metaball object, as an object in its place."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    bm = bmesh.new()
+    bm.from_mesh(bpy.data.meshes.new_from_object(evaluated))
+    bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-5)
+    bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
+    name = obj.name
+    bpy.data.objects.remove(obj)
+    return object_of(name, bm)
+
+
+def subdivide(obj, levels):
+    subdivision = obj.modifiers.new("Subdivision", "SUBSURF")
+    subdivision.levels = levels
+    apply_modifiers(obj)
+
+
+def apply_modifiers(obj):
+    select_only(obj)
+    for modifier in list(obj.modifiers):
+        bpy.ops.object.modifier_apply(modifier=modifier.name)
+
+
+def part_genera(mesh):
+    """The genus of each connected part, None for one with a boundary; raises on a non-manifold edge."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    unseen, genera = set(bm.verts), []
+    while unseen:
+        part, front = set(), [unseen.pop()]
+        while front:
+            vertex = front.pop()
+            part.add(vertex)
+            near = {e.other_vert(vertex) for e in vertex.link_edges} & unseen
+            unseen -= near
+            front.extend(near)
+        edges = {e for v in part for e in v.link_edges}
+        faces = {f for v in part for f in v.link_faces}
+        if any(len(e.link_faces) > 2 for e in edges) or not all(v.is_manifold for v in part):
+            if not any(e.is_boundary for e in edges):
+                raise RuntimeError(f"{mesh.name} is not a manifold")
+        euler = len(part) - len(edges) + len(faces)
+        genera.append(None if any(e.is_boundary for e in edges) else (2 - euler) // 2)
+    bm.free()
+    return sorted(genera, key=str)
+
+
+def save(make, expected, folder):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.context.preferences.filepaths.save_version = 0
+    objects = make()
+    for obj, genera in zip(objects, expected):
+        while obj.data.uv_layers:
+            obj.data.uv_layers.remove(obj.data.uv_layers[0])
+        obj.data.polygons.foreach_set("use_smooth", [True] * len(obj.data.polygons))
+        obj.data.use_auto_smooth, obj.data.auto_smooth_angle = True, math.radians(40)
+        found = part_genera(obj.data)
+        print(f"{make.__name__}: {obj.name}, {len(obj.data.polygons)} faces, genus of parts {found}")
+        if found != genera:
+            raise RuntimeError(f"{obj.name}: genus {found}, expected {genera}")
+    select_only(objects[0])
+    for obj in objects:
+        obj.select_set(True)
+    bpy.ops.outliner.orphans_purge(do_recursive=True)
+    path = folder / f"{make.__name__}.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True)
+
+
+def main():
+    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    folder = Path(arguments[0]) if arguments else Path(__file__).resolve().parent
+    for make, expected in EXAMPLES.items():
+        save(make, expected, folder.resolve())
+
+
+if __name__ == "__main__":
+    main()
