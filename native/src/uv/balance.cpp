@@ -15,9 +15,11 @@ using Complex = std::complex<double>;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kSamples = 4000;         // faces that the density is sampled on, spaced evenly by area
-constexpr int kStarts = 12;            // fixed pseudo-random starts
-constexpr double kFloors[] = {1.0, 0.1, 0.01, 1e-3, 1e-4};  // the floor under the density is lowered step by step
+constexpr int kSamples = 4000;  // faces that the density is sampled on, spaced evenly by area
+// The floor under the density is lowered step by step: from fixed pseudo-random starts on every kThinning-th sample
+// first, then from the best few of their ends on all samples.
+constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 3, kFineSteps = 200;
+constexpr double kRoughFloors[] = {1.0, 0.1}, kFineFloors[] = {0.01, 1e-3, 1e-4};
 
 // Triangles met at kSamples equal steps through the total area; all of them on a small surface.
 std::vector<int> sample_triangles(const mesh::Surface& surface) {
@@ -91,24 +93,36 @@ class LogVariance {
   double floor_;
 };
 
+struct Candidate {
+  double variance;
+  VectorXd x;
+};
+
+template <std::size_t N>
+Candidate descend(const Eigen::MatrixXcd& M, VectorXd x, const double (&floors)[N], int most_steps) {
+  double variance = INFINITY;
+  for (const double floor : floors) {
+    variance = minimise(LogVariance(M, floor), x, most_steps);
+    x.normalize();  // the variance does not depend on the scale
+  }
+  return {variance, std::move(x)};
+}
+
 VectorXd lowest_variance(const Eigen::MatrixXcd& M) {
-  const auto g = M.cols();
+  const auto lower = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
+  const Eigen::MatrixXcd thinned = M(Eigen::seq(0, Eigen::last, kThinning), Eigen::all);
   std::mt19937_64 numbers(1);  // fixed: the same surface gives the same coefficients
-  VectorXd best;
-  double least = INFINITY;
+  std::vector<Candidate> candidates;
   for (int start = 0; start < kStarts; ++start) {
-    VectorXd x(2 * g);
+    VectorXd x(2 * M.cols());
     // One number in [-1, 1) from each draw: the standard's distributions differ between libraries.
     for (auto& value : x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
-    double variance = INFINITY;
-    for (const double floor : kFloors) {
-      const LogVariance objective(M, floor);
-      variance = minimise(objective, x);
-      x.normalize();  // the variance does not depend on the scale
-    }
-    if (variance < least) least = variance, best = x;
+    candidates.push_back(descend(thinned, std::move(x), kRoughFloors, kRoughSteps));
   }
-  return best;
+  std::stable_sort(candidates.begin(), candidates.end(), lower);
+  candidates.resize(kKept);
+  for (auto& candidate : candidates) candidate = descend(M, std::move(candidate.x), kFineFloors, kFineSteps);
+  return std::min_element(candidates.begin(), candidates.end(), lower)->x;
 }
 
 }  // namespace
