@@ -79,9 +79,7 @@ def import_mesh(options, holomorph, mesh_io):
     if not bpy.data.filepath:
         for obj in list(bpy.data.objects):
             bpy.data.objects.remove(obj)
-    mesh = mesh_io.new_mesh(
-        options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets
-    )
+    mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
     mesh_io.shade_smooth(mesh, SHARP_ANGLE)
     obj = bpy.data.objects.new(mesh.name, mesh)
     up = options.up or ("Y" if options.mesh.suffix.lower() == ".obj" else "Z")

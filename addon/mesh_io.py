@@ -79,9 +79,7 @@ def remove_maps(mesh):
     for name in [layer.name for layer in mesh.uv_layers if OUR_MAP.match(layer.name)]:
         mesh.uv_layers.remove(mesh.uv_layers[name])
     ours = [
-        a.name
-        for a in mesh.attributes
-        if a.domain == "CORNER" and a.data_type == "FLOAT2" and OUR_MAP.match(a.name)
+        a.name for a in mesh.attributes if a.domain == "CORNER" and a.data_type == "FLOAT2" and OUR_MAP.match(a.name)
     ]
     for name in ours:
         mesh.attributes.remove(mesh.attributes[name])

@@ -173,9 +173,7 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
     def _write(self, context, targets, results):
         from . import maps, run
 
-        map_options = maps.MapOptions(
-            self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns)
-        )
+        map_options = maps.MapOptions(self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns))
         write_options = run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams)
         outcome = run.write(context, targets, run.align(targets, results), map_options, write_options)
         self.form_count = outcome.forms

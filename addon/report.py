@@ -11,6 +11,7 @@ import numpy as np
 from . import maps, native
 
 PROPERTY = "holomorph_report"
+LISTED = 20  # elements of a repair that the report names
 TEXT = "Holomorphic Report"
 
 
@@ -52,7 +53,7 @@ def object_report(obj, solved, written, new_seams, options):
         "done": solved.form_count > 0,
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "seams_added": new_seams,
-        "repairs": solved.surface.repairs,
+        "repairs": _repairs(solved.surface.repairs),
         "seconds": solved.seconds,
         "components": [component_report(c, options) for c in solved.components],
     }
@@ -103,6 +104,14 @@ def summary(stored):
             text += ", skipped"
         lines.append(text)
     return lines
+
+
+def _repairs(repairs):
+    """Of long lists of elements the length and the beginning."""
+    return {
+        name: value if np.ndim(value) == 0 else {"count": len(value), "first": value[:LISTED]}
+        for name, value in vars(repairs).items()
+    }
 
 
 def _complex(array):

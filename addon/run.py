@@ -165,17 +165,13 @@ def _report_all_skipped(outcome, obj, solved, options):
 def _write_object(outcome, obj, polygons, solved, map_options, options):
     mesh = obj.data
     mesh_io.remove_maps(mesh)
-    written = [
-        mesh_io.write_map(mesh, polygons, name, uv) for name, uv in maps.map_values(solved, map_options)
-    ]
+    written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in maps.map_values(solved, map_options)]
     shown = written[min(options.shown, len(written) - 1)]
     mesh_io.show_map(mesh, shown.name)
     new_seams = mesh_io.add_seams(mesh, _seam_pairs(solved)) if options.seams else 0
     if options.checker:
         is_attribute = shown.kind == "attribute"
-        material.show_checker(
-            obj, material.checker_material(shown.name, is_attribute, options.checker_scale)
-        )
+        material.show_checker(obj, material.checker_material(shown.name, is_attribute, options.checker_scale))
     mesh.update()
     entry = report.object_report(obj, solved, written, new_seams, map_options)
     report.store_on_object(obj, entry)

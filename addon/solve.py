@@ -59,9 +59,7 @@ def solve(polygons, progress=None):
     """
     holomorph = native.load()
     start = time.perf_counter()
-    surface = holomorph.Surface.from_polygons(
-        polygons.vertices, polygons.corner_vertices, polygons.face_offsets
-    )
+    surface = holomorph.Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
     parts = surface.components
     total = max(sum(len(p.face_index) for p in parts), 1)
     solved, done = [], 0

@@ -18,9 +18,7 @@ from mathutils import Euler, Matrix, Vector
 
 def torus():
     """A torus of uneven thickness, stretched by the object's own scale."""
-    bpy.ops.mesh.primitive_torus_add(
-        major_segments=72, minor_segments=28, major_radius=1.0, minor_radius=0.34
-    )
+    bpy.ops.mesh.primitive_torus_add(major_segments=72, minor_segments=28, major_radius=1.0, minor_radius=0.34)
     obj = bpy.context.object
     shape = obj.modifiers.new("Taper", "SIMPLE_DEFORM")
     shape.deform_method, shape.deform_axis, shape.factor = "TAPER", "X", 0.55
@@ -83,9 +81,7 @@ def pretzel():
 
 def chain():
     """Seven interlocked links: one link and an array that moves and turns each copy."""
-    bpy.ops.mesh.primitive_torus_add(
-        major_segments=24, minor_segments=10, major_radius=0.5, minor_radius=0.13
-    )
+    bpy.ops.mesh.primitive_torus_add(major_segments=24, minor_segments=10, major_radius=0.5, minor_radius=0.13)
     obj = bpy.context.object
     obj.name = obj.data.name = "Chain"
     bm = bmesh.new()
@@ -124,15 +120,11 @@ def gear():
     bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
     obj = object_of("Gear", bm)
     bores = bmesh.new()
-    bmesh.ops.create_cone(
-        bores, cap_ends=True, segments=20, radius1=0.24, radius2=0.24, depth=1.0
-    )
+    bmesh.ops.create_cone(bores, cap_ends=True, segments=20, radius1=0.24, radius2=0.24, depth=1.0)
     for index in range(5):
         angle = 2 * math.pi * (index + 0.5) / 5
         place = Matrix.Translation((0.62 * math.cos(angle), 0.62 * math.sin(angle), 0))
-        bmesh.ops.create_cone(
-            bores, cap_ends=True, segments=16, radius1=0.17, radius2=0.17, depth=1.0, matrix=place
-        )
+        bmesh.ops.create_cone(bores, cap_ends=True, segments=16, radius1=0.17, radius2=0.17, depth=1.0, matrix=place)
     cutter = object_of("Bores", bores)
     cut = obj.modifiers.new("Bores", "BOOLEAN")
     cut.operation, cut.solver, cut.object = "DIFFERENCE", "EXACT", cutter
@@ -161,9 +153,7 @@ def lantern():
     """The edges of a cuboctahedron as a frame: more handles than Blender has UV maps."""
     bm = bmesh.new()
     bmesh.ops.create_cube(bm, size=2.0)
-    bmesh.ops.bevel(
-        bm, geom=bm.verts, offset=50.0, offset_type="PERCENT", affect="VERTICES", segments=1, profile=0.5
-    )
+    bmesh.ops.bevel(bm, geom=bm.verts, offset=50.0, offset_type="PERCENT", affect="VERTICES", segments=1, profile=0.5)
     bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-4)
     obj = object_of("Lantern", bm)
     frame = obj.modifiers.new("Wireframe", "WIREFRAME")
@@ -306,11 +296,11 @@ def part_genera(mesh):
             front.extend(near)
         edges = {e for v in part for e in v.link_edges}
         faces = {f for v in part for f in v.link_faces}
-        if any(len(e.link_faces) > 2 for e in edges) or not all(v.is_manifold for v in part):
-            if not any(e.is_boundary for e in edges):
-                raise RuntimeError(f"{mesh.name} is not a manifold")
+        is_open = any(e.is_boundary for e in edges)
+        if any(len(e.link_faces) > 2 for e in edges) or not (is_open or all(v.is_manifold for v in part)):
+            raise RuntimeError(f"{mesh.name} is not a manifold")
         euler = len(part) - len(edges) + len(faces)
-        genera.append(None if any(e.is_boundary for e in edges) else (2 - euler) // 2)
+        genera.append(None if is_open else (2 - euler) // 2)
     bm.free()
     return sorted(genera, key=str)
 

@@ -28,6 +28,11 @@ class Progress {
     if (callback_ && Clock::now() - last_call_ > kInterval) call(begin_ + (end_ - begin_) * done);
   }
 
+  /// In a loop: reports every 4096th of `count` steps, which together are the part [from, to] of the current stage.
+  void step(std::size_t i, std::size_t count, double from = 0.0, double to = 1.0) {
+    if (i % 4096 == 0) report(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
+  }
+
   /// Ends the last stage and reports 1.
   void finish();
 

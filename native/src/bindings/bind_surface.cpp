@@ -46,7 +46,8 @@ py::tuple component(const Surface& surface, int which) {
 
 // (Euler characteristic, boundary loops, genus) of a connected surface.
 py::tuple topology(const Surface& surface) {
-  const int chi = mesh::euler_characteristic(surface), boundaries = mesh::boundary_count(mesh::half_edges(surface));
+  Progress silent;
+  const int chi = mesh::euler_characteristic(surface), boundaries = mesh::boundary_count(mesh::half_edges(surface, silent));
   return py::make_tuple(chi, boundaries, mesh::genus(chi, boundaries));
 }
 

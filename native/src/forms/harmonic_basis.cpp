@@ -43,12 +43,13 @@ void neighbours(const HalfEdges& mesh, const std::vector<double>& weights, int v
 
 }  // namespace
 
-solver::Laplacian laplacian(const HalfEdges& mesh, const std::vector<double>& weights) {
+solver::Laplacian laplacian(const HalfEdges& mesh, const std::vector<double>& weights, Progress& progress) {
   const int n = static_cast<int>(mesh.n_vertices());
   solver::Laplacian L(n, n);
   L.reserve(2 * static_cast<Eigen::Index>(weights.size()) + n);
   std::vector<Neighbour> ring;
   for (int v = 0; v < n; ++v) {
+    progress.step(v, n);
     neighbours(mesh, weights, v, ring);
     double diagonal = 0;
     for (const auto& entry : ring) diagonal += entry.weight;

@@ -17,9 +17,10 @@ HalfedgeHandle half_edge_of_side(const Surface& surface, int triangle, int side,
   return HalfedgeHandle(2 * edge + (along ? 0 : 1));
 }
 
-void link_triangles(HalfEdges& mesh, const Surface& surface) {
+void link_triangles(HalfEdges& mesh, const Surface& surface, Progress& progress) {
   std::vector<char> loop_met(surface.edges.size(), 0);
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    progress.step(t, surface.triangles.size(), 0.3, 0.6);
     const FaceHandle f = mesh.new_face();
     HalfedgeHandle side[3];
     for (int i = 0; i < 3; ++i) side[i] = half_edge_of_side(surface, t, i, loop_met);
@@ -52,10 +53,11 @@ void link_boundary(HalfEdges& mesh) {
 }
 
 // The walk around a vertex must meet all half-edges that leave it.
-void check_vertices(const HalfEdges& mesh) {
+void check_vertices(const HalfEdges& mesh, Progress& progress) {
   std::vector<int> leaving(mesh.n_vertices(), 0);
   for (int i = 0; i < static_cast<int>(mesh.n_halfedges()); ++i) ++leaving[from_vertex(mesh, HalfedgeHandle(i))];
   for (int v = 0; v < static_cast<int>(mesh.n_vertices()); ++v) {
+    progress.step(v, mesh.n_vertices(), 0.7, 1.0);
     const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));
     if (!start.is_valid()) continue;
     int met = 0;
@@ -70,14 +72,17 @@ void check_vertices(const HalfEdges& mesh) {
 
 }  // namespace
 
-HalfEdges half_edges(const Surface& surface) {
+HalfEdges half_edges(const Surface& surface, Progress& progress) {
   HalfEdges mesh;
   mesh.reserve(surface.vertex_count, surface.edges.size(), surface.triangles.size());
   for (int v = 0; v < surface.vertex_count; ++v) mesh.new_vertex();
-  for (const auto& [lower, higher] : surface.edges) mesh.new_edge(VertexHandle(lower), VertexHandle(higher));
-  link_triangles(mesh, surface);
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    progress.step(e, surface.edges.size(), 0.0, 0.3);
+    mesh.new_edge(VertexHandle(surface.edges[e][0]), VertexHandle(surface.edges[e][1]));
+  }
+  link_triangles(mesh, surface, progress);
   link_boundary(mesh);
-  check_vertices(mesh);
+  check_vertices(mesh, progress);
   return mesh;
 }
 

@@ -7,6 +7,7 @@
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <vector>
 
+#include "base/progress.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {
@@ -20,7 +21,7 @@ using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
 /// @throws InvalidMesh for a vertex at which two fans of faces touch
-HalfEdges half_edges(const Surface& surface);
+HalfEdges half_edges(const Surface& surface, Progress& progress);
 
 /// +1 where `h` runs along its edge, -1 where it runs back.
 inline int sign(HalfedgeHandle h) { return h.idx() & 1 ? -1 : 1; }

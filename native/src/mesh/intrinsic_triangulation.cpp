@@ -113,17 +113,18 @@ double smallest_increment(const Surface& surface) {
   return degenerate ? increment : 0.0;
 }
 
-IntrinsicTriangulation intrinsic_triangulation(const Surface& surface) {
-  IntrinsicTriangulation result{half_edges(surface), surface.edge_lengths, {}, smallest_increment(surface)};
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, const HalfEdges& half_edges) {
+  IntrinsicTriangulation result{half_edges, surface.edge_lengths, {}, smallest_increment(surface)};
   for (double& l : result.lengths) l += result.mollification;
   return result;
 }
 
 void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress) { Flipper(triangulation).run(progress); }
 
-std::vector<double> cotangent_weights(const IntrinsicTriangulation& t) {
+std::vector<double> cotangent_weights(const IntrinsicTriangulation& t, Progress& progress) {
   std::vector<double> weights(t.lengths.size(), 0.0);
   for (int f = 0; f < static_cast<int>(t.half_edges.n_faces()); ++f) {
+    progress.step(f, t.half_edges.n_faces());
     const HalfedgeHandle h0 = t.half_edges.halfedge_handle(FaceHandle(f));
     const HalfedgeHandle h1 = next(t.half_edges, h0), h2 = next(t.half_edges, h1);
     const int i = edge_of(h0), j = edge_of(h1), k = edge_of(h2);

@@ -28,7 +28,8 @@ double smallest_increment(const Surface& surface);
 /// The artist's triangulation in its own metric. Where a triangle is degenerate, all lengths grow by the smallest
 /// common amount that leaves every triangle a slack of 1e-6 times the mean length (Sharp & Crane 2020,
 /// doi:10.1111/cgf.14069, section 4.5).
-IntrinsicTriangulation intrinsic_triangulation(const Surface& surface);
+/// @param half_edges of the surface
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, const HalfEdges& half_edges);
 
 /// Flips edges until every interior edge is Delaunay, cot + cot >= 0 up to rounding (Fisher et al. 2007,
 /// doi:10.1007/s00607-006-0194-3). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
@@ -36,6 +37,6 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface);
 void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress);
 
 /// #E weights k = (cot a + cot b) / 2 (paper Eq. 3).
-std::vector<double> cotangent_weights(const IntrinsicTriangulation& triangulation);
+std::vector<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Progress& progress);
 
 }  // namespace holomorph::mesh

@@ -58,7 +58,8 @@ void finish_records(Surface& surface) {
   count_edge_faces(surface);
   record_isolated_vertices(surface);
   record_zero_areas(surface);
-  (void)half_edges(surface);  // refuses non-manifold vertices
+  Progress silent;
+  (void)half_edges(surface, silent);  // refuses non-manifold vertices
 }
 
 }  // namespace holomorph::mesh

@@ -45,7 +45,7 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   ConformalStructure result;
 
   progress.stage("half-edges", 0.0, 0.05);
-  result.half_edges = mesh::half_edges(surface);
+  result.half_edges = mesh::half_edges(surface, progress);
   check_topology(surface, result.half_edges);
 
   progress.stage("homology", 0.05, 0.2);
@@ -55,18 +55,22 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
 
   progress.stage("cohomology", 0.2, 0.25);
   auto classes = topology::cohomology_basis(result.half_edges, domain);
-  result.canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes));
-  result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes);
+  result.canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, progress));
+  result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes, progress);
 
   progress.stage("intrinsic Delaunay", 0.25, 0.3);
-  auto intrinsic = mesh::intrinsic_triangulation(surface);
+  auto intrinsic = mesh::intrinsic_triangulation(surface, result.half_edges);
   mesh::make_delaunay(intrinsic, progress);
   auto intrinsic_classes = classes;
   topology::carry_through(intrinsic.flips, intrinsic_classes);
-  const auto weights = mesh::cotangent_weights(intrinsic);
 
-  progress.stage("harmonic forms", 0.3, 0.85);
-  const auto solver = solver::make_direct_solver(forms::laplacian(intrinsic.half_edges, weights), progress);
+
+  progress.stage("Laplacian", 0.3, 0.35);
+  const auto weights = mesh::cotangent_weights(intrinsic, progress);
+  auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
+
+  progress.stage("harmonic forms", 0.35, 0.85);
+  const auto solver = solver::make_direct_solver(std::move(laplacian), progress);
   const auto harmonic = forms::harmonic_basis(intrinsic.half_edges, weights, intrinsic_classes, *solver, progress);
   result.solver = {solver->name(), options.solver == "direct" ? "asked for" : "the only solver so far", solver->iterations(), solver->residual()};
 

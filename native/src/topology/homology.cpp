@@ -63,10 +63,11 @@ IntegerForms cohomology_basis(const HalfEdges& mesh, const FundamentalDomain& do
   return forms;
 }
 
-IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms) {
+IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Progress& progress) {
   const int n = forms.form_count;
   IntegerMatrix twice = IntegerMatrix::Zero(n, n);
   for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
+    progress.step(f, mesh.n_faces(), 0.0, 0.5);
     const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
     const int factor = sign(h0) * sign(h1);
     for (const auto& [i, x] : forms.rows[edge_of(h0)]) {

@@ -21,7 +21,7 @@ std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& half_ed
 IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain);
 
 /// W_ij = int eta_i ^ eta_j, integer because both are classes of integers; exact on any triangulation they live on.
-IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms);
+IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Progress& progress);
 
 /// Rows S with S W S^T = J = [[0, I], [-I, 0]], |det S| = 1: integer symplectic Gram-Schmidt.
 /// @param W antisymmetric, |det| 1. @throws holomorph::Error if an entry leaves 64 bits

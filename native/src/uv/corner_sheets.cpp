@@ -48,10 +48,12 @@ class SheetTable {
 }  // namespace
 
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const topology::FundamentalDomain& domain,
-                           const IntegerForms& classes) {
+                           const IntegerForms& classes, Progress& progress) {
   SheetTable table(classes);
   std::vector<int> at_start(mesh.n_halfedges(), 0);  // sheet of the corner at which a half-edge starts, in its face
-  for (const int f : domain.face_order) {
+  for (std::size_t i = 0; i < domain.face_order.size(); ++i) {
+    progress.step(i, domain.face_order.size(), 0.5, 1.0);
+    const int f = domain.face_order[i];
     HalfedgeHandle h = domain.to_parent_face[f];
     if (h.is_valid()) {  // both ends are on the sheets that they are on in the parent
       at_start[h.idx()] = at_start[next(mesh, opposite(h)).idx()];

@@ -18,6 +18,6 @@ struct CornerSheets {
 
 /// @pre D takes all diagonals, so that all triangles of a polygon lie on one sheet at each of its corners.
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const topology::FundamentalDomain& domain,
-                           const topology::IntegerForms& classes);
+                           const topology::IntegerForms& classes, Progress& progress);
 
 }  // namespace holomorph::uv
