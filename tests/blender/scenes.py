@@ -1,0 +1,146 @@
+"""Meshes for the tests, and what can be read off them."""
+
+import importlib
+import json
+
+import bmesh
+import bpy
+import numpy as np
+
+mesh_io = importlib.import_module("holomorph_addon.mesh_io")
+
+
+def select(*objects):
+    """Selects just these, the first one active."""
+    bpy.context.view_layer.update()
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(obj in objects)
+    bpy.context.view_layer.objects.active = objects[0]
+
+
+def mesh_object(name, vertices, faces):
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata([tuple(v) for v in vertices], [], [tuple(f) for f in faces])
+    mesh.update()
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    select(obj)
+    return obj
+
+
+def torus_arrays(around=24, across=12, thickness=0.4):
+    """Quads of an uneven torus."""
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    u, v = 2 * np.pi * i / around, 2 * np.pi * j / across
+    r = thickness * (1 + 0.3 * np.sin(2 * u))
+    vertices = np.stack([(1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v)], -1)
+    i2, j2 = (i + 1) % around, (j + 1) % across
+    faces = np.stack([i * across + j, i2 * across + j, i2 * across + j2, i * across + j2], -1)
+    return vertices.reshape(-1, 3), faces.reshape(-1, 4)
+
+
+def torus(name="Torus", **sizes):
+    return mesh_object(name, *torus_arrays(**sizes))
+
+
+def two_parts(name, first, second):
+    """One mesh object of two parts, each (vertices, faces)."""
+    vertices = [*first[0], *(np.asarray(second[0]) + (0, 0, 3))]
+    faces = [tuple(f) for f in first[1]] + [tuple(i + len(first[0]) for i in f) for f in second[1]]
+    return mesh_object(name, vertices, faces)
+
+
+def sphere_arrays():
+    bm = bmesh.new()
+    bmesh.ops.create_icosphere(bm, subdivisions=2, radius=0.5)
+    bm.verts.index_update()
+    vertices = [tuple(v.co) for v in bm.verts]
+    faces = [tuple(v.index for v in f.verts) for f in bm.faces]
+    bm.free()
+    return vertices, faces
+
+
+def frame(name="Frame"):
+    """A cuboctahedron's edges as a frame: genus 13."""
+    bm = bmesh.new()
+    bmesh.ops.create_cube(bm, size=2.0)
+    bmesh.ops.bevel(bm, geom=bm.verts, offset=50.0, offset_type="PERCENT", affect="VERTICES", segments=1, profile=0.5)
+    bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-4)
+    bmesh.ops.wireframe(bm, faces=bm.faces, thickness=0.3, use_replace=True, use_even_offset=True)
+    mesh = bpy.data.meshes.new(name)
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    select(obj)
+    return obj
+
+
+def run(**options):
+    return bpy.ops.uv.holomorphic_maps(**options)
+
+
+def uv(obj, name="Holomorphic"):
+    return mesh_io.read_map(obj.data, name).astype(np.float64)
+
+
+def stored_report(obj):
+    return json.loads(obj["holomorph_report"])
+
+
+def polygon_arrays(mesh):
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    starts = np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    return corners, np.append(starts, len(corners))
+
+
+def next_corner(offsets):
+    following = np.arange(1, offsets[-1] + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    return following
+
+
+def signed_area(mesh, values):
+    """Integral of du dv over the polygons, by the shoelace formula."""
+    _, offsets = polygon_arrays(mesh)
+    following = next_corner(offsets)
+    return 0.5 * np.sum(values[:, 0] * values[following, 1] - values[following, 0] * values[:, 1])
+
+
+def edge_mismatch(mesh, values):
+    """Largest difference of the two UV vectors of an edge, over the median UV edge; and what float32 forgives."""
+    corners, offsets = polygon_arrays(mesh)
+    following = next_corner(offsets)
+    start, end = corners, corners[following]
+    vector = values[following] - values
+    vector[start > end] *= -1
+    key = np.minimum(start, end).astype(np.int64) * len(mesh.vertices) + np.maximum(start, end)
+    order = np.argsort(key, kind="stable")
+    assert np.array_equal(key[order][::2], key[order][1::2]), "a closed surface"
+    difference = np.abs(vector[order][::2] - vector[order][1::2]).max()
+    median = np.median(np.linalg.norm(vector, axis=1))
+    forgiven = max(1e-4 * median, 4e-7 * np.ptp(values, axis=0).max())
+    return difference, forgiven
+
+
+def everything(obj):
+    """All that belongs to an artist's mesh object, for comparison bit for bit."""
+    mesh = obj.data
+    corners, offsets = polygon_arrays(mesh)
+    positions = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", positions)
+    edges = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", edges)
+    return {
+        "positions": positions.tobytes(),
+        "corners": corners.tobytes(),
+        "offsets": offsets.tobytes(),
+        "edges": edges.tobytes(),
+        "seams": mesh_io.read_seams(mesh).tobytes(),
+        "maps": {layer.name: mesh_io.read_map(mesh, layer.name).tobytes() for layer in mesh.uv_layers},
+        "attributes": sorted((a.name, a.domain, a.data_type) for a in mesh.attributes),
+        "materials": [(s.link, s.material) for s in obj.material_slots],
+        "properties": sorted(obj.keys()) + sorted(mesh.keys()),
+    }

@@ -1,0 +1,211 @@
+"""The headless command as its users run it: in a Blender program of its own."""
+
+import gzip
+import json
+import os
+import shutil
+import subprocess
+
+import bpy
+import numpy as np
+import pytest
+from conftest import ROOT
+from scenes import mesh_io, torus_arrays
+
+BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
+MESHES = ROOT.parent / "shared" / "meshes"
+SECONDS = 300
+
+pytestmark = pytest.mark.skipif(not BLENDER, reason="needs a Blender program: HOLOMORPH_BLENDER names it")
+
+
+def headless(*arguments, blend=None, seconds=SECONDS):
+    command = [BLENDER, "-b", *([str(blend)] if blend else []), "--factory-startup", "--python-exit-code", "1"]
+    command += ["--python", str(ROOT / "addon" / "headless.py"), "--", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
+
+
+def our_lines(done):
+    return [line for line in done.stderr.splitlines() if line.startswith("Holomorph")]
+
+
+def write_obj(path, vertices, faces):
+    lines = [f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in vertices]
+    lines += ["f " + " ".join(str(i + 1) for i in face) for face in faces]
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+@pytest.fixture
+def torus_file(tmp_path):
+    return write_obj(tmp_path / "ring.obj", *torus_arrays())
+
+
+def test_mesh_file_in_blend_picture_and_report_out(torus_file, tmp_path):
+    blend, picture, report = tmp_path / "out.blend", tmp_path / "out.png", tmp_path / "report.json"
+    done = headless(
+        torus_file, "--output", blend, "--render", picture, "--report", report, "--resolution", 64, "--samples", 4
+    )
+    assert done.returncode == 0, done.stderr
+    content = json.loads(report.read_text())
+    assert content["objects"][0]["components"][0]["genus"] == 1
+    assert content["objects"][0]["object"] == "ring"
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    assert [o.name for o in bpy.data.objects] == ["ring"]
+    mesh = bpy.data.objects["ring"].data
+    vertices, faces = torus_arrays()
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    assert np.array_equal(corners, faces.ravel())
+    positions = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", positions)
+    assert np.array_equal(positions, vertices.astype(np.float32).ravel())
+    assert [layer.name for layer in mesh.uv_layers] == ["Holomorphic", "Holomorphic 1"]
+    assert np.ptp(mesh_io.read_map(mesh, "Holomorphic")) > 0.1
+
+
+def test_blend_file_in(tmp_path):
+    report, blend = tmp_path / "report.json", tmp_path / "out.blend"
+    done = headless(
+        "--report", report, "--output", blend, "--no-checker", blend=ROOT / "blend_examples" / "mixed.blend"
+    )
+    assert done.returncode == 0, done.stderr
+    objects = {o["object"]: o for o in json.loads(report.read_text())["objects"]}
+    assert [c["done"] for c in objects["Ring and Pearl"]["components"]] == [True, False]
+    assert not objects["Bowl"]["done"]
+    assert any("genus 0" in line for line in our_lines(done))
+    assert any("boundary" in line for line in our_lines(done))
+
+
+def test_options_reach_the_maps(torus_file, tmp_path):
+    blend = tmp_path / "out.blend"
+    done = headless(torus_file, "--output", blend, "--density", 2, "--forms", 0, "--seams", "--checker-scale", 8)
+    assert done.returncode == 0, done.stderr
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    obj = bpy.data.objects["ring"]
+    assert [layer.name for layer in obj.data.uv_layers] == ["Holomorphic"]
+    assert mesh_io.read_seams(obj.data).any()
+    assert obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value == 8
+
+
+def sphere_file(folder):
+    vertices = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    faces = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (1, 0, 5), (2, 1, 5), (3, 2, 5), (0, 3, 5)]
+    return write_obj(folder / "sphere.obj", vertices, faces)
+
+
+def broken_file(folder):
+    path = folder / "broken.ply"
+    path.write_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n")
+    return path
+
+
+def directory(folder):
+    return folder
+
+
+def unknown_format(folder):
+    path = folder / "mesh.xyz"
+    path.write_text("0 0 0\n")
+    return path
+
+
+@pytest.mark.parametrize("make", [sphere_file, broken_file, directory, unknown_format])
+def test_a_file_that_cannot_be_done(make, tmp_path):
+    blend = tmp_path / "out.blend"
+    done = headless(make(tmp_path), "--output", blend)
+    assert done.returncode == 1
+    assert len(our_lines(done)) == 1
+    assert "Traceback" not in done.stderr + done.stdout
+    assert not blend.exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        ([], "mesh file"),
+        (["missing.obj"], "no such file"),
+        (["--bogus"], "bogus"),
+        (["ring.obj", "--density", "-1"], "density"),
+        (["ring.obj", "--forms", "many"], "forms"),
+        (["ring.obj", "--output", "nowhere/out.blend"], "folder"),
+    ],
+)
+def test_usage_errors_are_one_sentence(arguments, word, torus_file, tmp_path):
+    arguments = [str(tmp_path / a) if a.endswith((".obj", ".blend")) else a for a in arguments]
+    done = headless(*arguments)
+    assert done.returncode == 1
+    assert len(our_lines(done)) == 1 and word in our_lines(done)[0]
+    assert "Traceback" not in done.stderr + done.stdout
+
+
+def test_object_option(tmp_path):
+    blend = ROOT / "blend_examples" / "mixed.blend"
+    done = headless("--object", "Bowl", blend=blend)
+    assert done.returncode == 1 and "boundary" in our_lines(done)[0]
+    done = headless("--object", "Ring and Pearl", blend=blend)
+    assert done.returncode == 0
+    done = headless("--object", "Nobody", blend=blend)
+    assert done.returncode == 1 and "Nobody" in our_lines(done)[0]
+
+
+# file: genus; all meshes of the shared folder that are closed and have a handle
+SHARED = {
+    "big_brain_cit168_854k_g15.ply.gz": 15,
+    "bob_small.ply": 1,
+    "boot_g12.obj": 12,
+    "double-torus.obj": 2,
+    "elephant_g3_50k.obj": 3,
+    "fertility_ngon_g4.obj": 4,
+    "kitten_19k.obj": 1,
+    "plate_holes_g5.stl": 5,
+    "rna_3JAJ_7.off": 4,
+    "rna_4P70_YB.off": 3,
+    "rockerArm_ngon.obj": 1,
+    "skull_low_g2.obj": 2,
+    "soccerball_g31.obj": 31,
+    "torus_ddg.obj": 1,
+    "torus_stein.obj": 1,
+    "tray_g23.stl": 23,
+}
+
+
+@pytest.mark.parametrize("name", SHARED)
+def test_shared_mesh(name, tmp_path):
+    path = MESHES / name
+    if not path.exists():
+        pytest.skip("no folder ../shared/meshes")
+    if path.suffix == ".gz":
+        with gzip.open(path) as packed, open(tmp_path / path.stem, "wb") as unpacked:
+            shutil.copyfileobj(packed, unpacked)
+        path = tmp_path / path.stem
+    report, blend = tmp_path / "report.json", tmp_path / "out.blend"
+    done = headless(path, "--report", report, "--output", blend, seconds=580)
+    assert done.returncode == 0, done.stderr
+    parts = json.loads(report.read_text())["objects"][0]["components"]
+    assert max(p["genus"] for p in parts) == SHARED[name]
+    for part in parts:
+        if part["done"]:
+            assert max(part["residuals"].values()) < 1e-8
+    assert blend.exists()
+
+
+REFUSED = [
+    "bunny_nonmanifold.ply",
+    "moebius_quads.obj",
+    "hourglass_ico.obj",
+    "triple_vierbein.obj",
+    "armadillo_29k.obj",
+]
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_shared_mesh_that_is_refused(name):
+    path = MESHES / name
+    if not path.exists():
+        pytest.skip("no folder ../shared/meshes")
+    done = headless(path)
+    assert done.returncode == 1
+    assert len(our_lines(done)) == 1
+    assert "Traceback" not in done.stderr + done.stdout

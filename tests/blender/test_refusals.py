@@ -1,0 +1,206 @@
+"""What cannot be done is said in one sentence, and the object is the same as before, bit for bit."""
+
+import bpy
+import numpy as np
+import pytest
+from scenes import everything, mesh_object, run, select, sphere_arrays, torus, torus_arrays, two_parts
+
+
+def non_manifold():
+    vertices, faces = torus_arrays()
+    faces = [*map(tuple, faces), (faces[0][0], faces[0][1], len(vertices))]
+    return mesh_object("Bad", [*vertices, (0, 0, 2)], faces), "faces"
+
+
+def non_manifold_vertex():
+    """Two tori that share one vertex."""
+    vertices, faces = torus_arrays()
+    second = np.where(faces == 0, 0, faces + len(vertices) - 1)
+    return mesh_object("Bad", [*vertices, *(vertices[1:] + (0, 0, 3))], [*faces, *second]), "vertex"
+
+
+def not_a_number():
+    vertices, faces = torus_arrays()
+    vertices = vertices.copy()
+    vertices[7, 1] = np.nan
+    return mesh_object("Bad", vertices, faces), "7"
+
+
+def infinite():
+    vertices, faces = torus_arrays()
+    vertices = vertices.copy()
+    vertices[3, 0] = np.inf
+    return mesh_object("Bad", vertices, faces), "3"
+
+
+def moebius():
+    count = 12
+    angle = np.pi * np.arange(count) / count
+    edge = np.stack([np.cos(angle), np.sin(angle), 0 * angle], -1)
+    around = np.stack([np.cos(2 * angle), np.sin(2 * angle), 0 * angle], -1)
+    side = around * edge[:, :1] * 0.3 + np.array([0, 0, 0.3]) * edge[:, 1:2]
+    vertices = np.concatenate([around - side, around + side])
+    faces = [(i, i + 1, count + i + 1, count + i) for i in range(count - 1)]
+    faces.append((count - 1, count, 0, 2 * count - 1))
+    return mesh_object("Bad", vertices, faces), "orient"
+
+
+def zero_area():
+    vertices, faces = torus_arrays()
+    return mesh_object("Bad", np.zeros_like(vertices), faces), "area"
+
+
+def flattened_by_its_scale():
+    obj = torus("Bad")
+    obj.scale = (0, 0, 0)
+    return obj, "area"
+
+
+def doubled_face():
+    vertices, faces = torus_arrays()
+    return mesh_object("Bad", vertices, [*faces, faces[5]]), "face"
+
+
+def empty():
+    return mesh_object("Bad", [], []), "face"
+
+
+def no_faces():
+    obj = mesh_object("Bad", [(0, 0, 0), (1, 0, 0)], [])
+    obj.data.edges.add(1)
+    obj.data.edges[0].vertices = (0, 1)
+    return obj, "face"
+
+
+def sphere():
+    return mesh_object("Bad", *sphere_arrays()), "genus 0"
+
+
+def open_surface():
+    vertices, faces = torus_arrays()
+    return mesh_object("Bad", vertices, faces[1:]), "1 boundary loop"
+
+
+BAD = [
+    non_manifold,
+    non_manifold_vertex,
+    not_a_number,
+    infinite,
+    moebius,
+    zero_area,
+    flattened_by_its_scale,
+    doubled_face,
+    empty,
+    no_faces,
+    sphere,
+    open_surface,
+]
+
+
+def bystanders(obj):
+    """Things of the artist that a refusal must leave alone."""
+    obj.data.uv_layers.new(name="Artist")
+    obj.data.materials.append(bpy.data.materials.new("Mine"))
+    if len(obj.data.edges):
+        obj.data.edges[0].use_seam = True
+
+
+@pytest.mark.parametrize("make", BAD)
+def test_refused_with_one_sentence_and_untouched(make):
+    obj, word = make()
+    bystanders(obj)
+    bpy.context.view_layer.update()
+    before = everything(obj)
+    with pytest.raises(RuntimeError, match=word) as caught:
+        run(seams=True)
+    assert everything(obj) == before
+    message = str(caught.value).removeprefix("Error: ").strip()
+    assert message.startswith("Bad: ") and "\n" not in message and "Traceback" not in message
+
+
+@pytest.mark.parametrize("make", BAD)
+def test_the_other_selected_objects_are_still_done(make):
+    bad, _ = make()
+    bystanders(bad)
+    bpy.context.view_layer.update()
+    before = everything(bad)
+    good = torus("Good")
+    select(bad, good)
+    assert run() == {"FINISHED"}
+    assert everything(bad) == before
+    assert [layer.name for layer in good.data.uv_layers] == ["Holomorphic", "Holomorphic 1"]
+
+
+def test_a_part_that_is_not_orientable_refuses_its_whole_object():
+    strip = moebius()[0].data
+    part = ([tuple(v.co) for v in strip.vertices], [tuple(p.vertices) for p in strip.polygons])
+    obj = two_parts("Both", torus_arrays(), part)
+    before = everything(obj)
+    with pytest.raises(RuntimeError):
+        run()
+    assert everything(obj) == before
+
+
+def test_maps_of_an_earlier_run_survive_a_refusal():
+    obj = torus()
+    run()
+    obj.data.vertices[0].co.x = np.nan
+    before = everything(obj)
+    with pytest.raises(RuntimeError):
+        run()
+    assert everything(obj) == before
+
+
+def test_an_open_surface_with_a_mirror_modifier_is_told_about_it():
+    obj, _ = open_surface()
+    obj.modifiers.new("My Mirror", "MIRROR")
+    with pytest.raises(RuntimeError, match="My Mirror"):
+        run()
+
+
+def test_a_linked_mesh_is_refused(tmp_path):
+    torus("Linked")
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (source, target):
+        target.objects = source.objects
+    (obj,) = target.objects
+    bpy.context.scene.collection.objects.link(obj)
+    good = torus("Good")
+    select(obj, good)
+    assert run() == {"FINISHED"}
+    assert not obj.data.uv_layers and good.data.uv_layers
+    select(obj)
+    with pytest.raises(RuntimeError, match="make it local"):
+        run()
+
+
+def test_no_mesh_selected():
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    bpy.context.scene.collection.objects.link(camera)
+    select(camera)
+    assert not bpy.ops.uv.holomorphic_maps.poll()
+
+
+def test_other_modes_are_told_what_to_do():
+    torus()
+    bpy.ops.object.mode_set(mode="SCULPT")
+    assert not bpy.ops.uv.holomorphic_maps.poll()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert bpy.ops.uv.holomorphic_maps.poll()
+
+
+def test_only_the_librarys_errors_are_caught(monkeypatch):
+    from conftest import module
+
+    obj = torus()
+    before = everything(obj)
+
+    def broken(*_):
+        raise ZeroDivisionError("our own mistake")
+
+    monkeypatch.setattr(module("solve"), "solve", broken)
+    with pytest.raises(RuntimeError, match="ZeroDivisionError"):
+        run()
+    assert everything(obj) == before

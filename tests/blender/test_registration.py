@@ -1,0 +1,70 @@
+"""Registration, and what is said where the native part is missing."""
+
+import bpy
+import pytest
+from conftest import module
+from scenes import torus
+
+
+def test_panels_and_menus_are_there():
+    for name in ("HOLOMORPH_PT_view3d", "HOLOMORPH_PT_image"):
+        panel = getattr(bpy.types, name)
+        assert panel.bl_category == "Holomorph" and panel.bl_region_type == "UI"
+    draw = module("panel")._draw_menu_entry
+    for name in ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs"):
+        functions = getattr(bpy.types, name).draw._draw_funcs
+        assert draw in functions
+
+
+def test_unregister_leaves_nothing(addon):
+    addon.unregister()
+    assert not hasattr(bpy.types, "HOLOMORPH_PT_view3d")
+    draw = module("panel")._draw_menu_entry
+    assert draw not in bpy.types.VIEW3D_MT_uv_map.draw._draw_funcs
+    addon.register()
+    assert hasattr(bpy.types, "HOLOMORPH_PT_view3d")
+
+
+@pytest.fixture
+def without_native_part(addon, monkeypatch):
+    native = module("native")
+
+    def missing():
+        raise native.NativeMissing(f"Holomorph's native part for {native._looked_for()} is not installed")
+
+    addon.unregister()
+    monkeypatch.setattr(native, "_find", missing)
+    addon.register()
+    yield native
+    monkeypatch.undo()
+    native.forget()
+
+
+def test_registration_survives_a_missing_native_part(without_native_part):
+    torus()
+    sentence = without_native_part.problem()
+    assert "Python 3." in sentence and "not installed" in sentence
+    assert not bpy.ops.uv.holomorphic_maps.poll()
+    with pytest.raises(RuntimeError, match="not installed"):
+        bpy.ops.uv.holomorphic_maps()
+
+
+def test_a_broken_native_part_is_named(addon, monkeypatch):
+    native = module("native")
+
+    def broken():
+        raise ImportError("libsomething.so: cannot open shared object file")
+
+    monkeypatch.setattr(native, "_find", broken)
+    native.forget()
+    assert "libsomething.so" in native.problem() and "does not load" in native.problem()
+    monkeypatch.undo()
+    native.forget()
+    assert native.problem() == ""
+
+
+def test_the_manifest_and_bl_info_agree(addon):
+    text = (module("native").Path(addon.__file__).parent / "blender_manifest.toml").read_text(encoding="utf-8")
+    version = ".".join(map(str, addon.bl_info["version"]))
+    assert f'version = "{version}"' in text
+    assert f'tagline = "{addon.bl_info["description"]}"' in text
