@@ -92,7 +92,7 @@ class ConformalStructure:
 
     @cached_property
     def harmonic_forms(self):
-        """(2g, #E), dual to zeta: the integral of form i over zeta_j is delta_ij (paper § 6)."""
+        """(2g, #E), dual to zeta: the integral of form i over zeta_j is delta_ij (paper § 6); see `prepare_uv`."""
         return self._native.harmonic_forms()
 
     @cached_property
@@ -129,6 +129,14 @@ class ConformalStructure:
     def _periods(self):
         # (2g, g) complex: integral of theta_j over zeta_k
         return self._native.periods()
+
+    def prepare_uv(self, progress=None):
+        """Solves for the forms on the artist's own triangles, of which `harmonic_forms`, `holomorphic_forms` and UVs are
+        made; done by itself when first needed, and without work where no edge had to be turned.
+
+        Invariants come from the intrinsic Delaunay triangulation, but UVs with the least distortion on the artist's
+        triangles come from those triangles. `progress` as in `conformal_structure`."""
+        self._native.prepare_uv(progress)
 
     def uv(self, coefficients):
         """(#C, 2) UVs of the form sum_j c_j theta_j, from g complex coefficients c. No solve: one small product.

@@ -4,10 +4,12 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <mutex>
+#include <optional>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "pipeline/conformal_structure.h"
+#include "pipeline/artist_forms.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::bindings {
@@ -16,10 +18,24 @@ namespace {
 using mesh::Surface;
 using pipeline::ConformalStructure;
 
-// The C++ structure together with the surface that it belongs to.
+// The C++ structure together with the surface that it belongs to, and the forms for UVs once they were asked for.
 struct Structure {
   std::shared_ptr<const Surface> surface;
   ConformalStructure value;
+  pipeline::Options options;
+  std::mutex mutex;
+  std::optional<forms::ClosedForms> artist_forms;
+
+  // Called without the interpreter's lock.
+  const forms::ClosedForms& forms_for_uv(Progress& progress) {
+    const std::lock_guard<std::mutex> one_at_a_time(mutex);
+    if (!artist_forms) artist_forms = pipeline::artist_forms(*surface, value, options, progress);
+    return *artist_forms;
+  }
+  const forms::ClosedForms& forms_for_uv() {
+    Progress silent;
+    return forms_for_uv(silent);
+  }
 };
 
 Progress::Callback callback(const py::object& progress) {
@@ -34,8 +50,17 @@ Progress::Callback callback(const py::object& progress) {
 std::shared_ptr<Structure> compute(std::shared_ptr<Surface> surface, const std::string& solver, int threads, const py::object& progress_function) {
   Progress progress(callback(progress_function));
   const py::gil_scoped_release unlocked;
-  auto value = pipeline::conformal_structure(*surface, {solver, threads}, progress);
-  return std::make_shared<Structure>(Structure{std::move(surface), std::move(value)});
+  auto structure = std::make_shared<Structure>();
+  structure->options = {solver, threads};
+  structure->value = pipeline::conformal_structure(*surface, structure->options, progress);
+  structure->surface = std::move(surface);
+  return structure;
+}
+
+void prepare_uv(Structure& s, const py::object& progress_function) {
+  Progress progress(callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  s.forms_for_uv(progress);
 }
 
 py::list homology_basis(const Structure& s) {
@@ -48,30 +73,30 @@ py::list homology_basis(const Structure& s) {
   return loops;
 }
 
-py::array harmonic_forms(const Structure& s) {
+py::array harmonic_forms(Structure& s) {
   const int edges = static_cast<int>(s.surface->edges.size());
   forms::RowMajorMatrix values;
   {
     const py::gil_scoped_release unlocked;
-    values = forms::edge_values(s.value.half_edges, s.value.harmonic, 0, edges).transpose();
+    values = forms::edge_values(s.value.half_edges, s.forms_for_uv(), 0, edges).transpose();
   }
   return copy(values);
 }
 
-py::array uv(const Structure& s, const Eigen::VectorXcd& periods) {
+py::array uv(Structure& s, const Eigen::VectorXcd& periods) {
   uv::UvArray result;
   {
     const py::gil_scoped_release unlocked;
-    result = uv::uv_map(*s.surface, s.value.sheets, s.value.harmonic.functions, periods);
+    result = uv::uv_map(*s.surface, s.value.sheets, s.forms_for_uv().functions, periods);
   }
   return copy(result);
 }
 
-py::array balanced_coefficients(const Structure& s) {
+py::array balanced_coefficients(Structure& s) {
   Eigen::VectorXcd c;
   {
     const py::gil_scoped_release unlocked;
-    c = uv::balanced_coefficients(*s.surface, s.value.half_edges, s.value.harmonic, s.value.holomorphic.periods,
+    c = uv::balanced_coefficients(*s.surface, s.value.half_edges, s.forms_for_uv(), s.value.holomorphic.periods,
                                   s.value.holomorphic.period_matrix.imag());
   }
   return read_only(copy(c).attr("reshape")(c.size()));
@@ -96,6 +121,7 @@ py::tuple quality(const Surface& surface, const Contiguous<double>& uv_array) {
 
 void bind_conformal_structure(py::module_& m) {
   py::class_<Structure, std::shared_ptr<Structure>>(m, "ConformalStructure")
+      .def("prepare_uv", &prepare_uv)
       .def("homology_basis", &homology_basis)
       .def("harmonic_forms", &harmonic_forms)
       .def("uv", &uv)

@@ -1,30 +1,11 @@
 #include "pipeline/conformal_structure.h"
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
-
 #include "base/errors.h"
 #include "mesh/components.h"
+#include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 namespace {
-
-// The calling thread's number of worker threads, put back at the end.
-class ThreadCount {
- public:
-#ifdef _OPENMP
-  explicit ThreadCount(int threads) : before_(omp_get_max_threads()) {
-    if (threads > 0) omp_set_num_threads(threads);
-  }
-  ~ThreadCount() { omp_set_num_threads(before_); }
-
- private:
-  int before_;
-#else
-  explicit ThreadCount(int) {}
-#endif
-};
 
 void check_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
   const int boundaries = mesh::boundary_count(half_edges);

@@ -27,7 +27,7 @@ struct ConformalStructure {
   mesh::HalfEdges half_edges;                                     ///< the artist's triangulation
   std::vector<std::vector<mesh::HalfedgeHandle>> homology_basis;  ///< 2g loops zeta_i
   topology::CanonicalBasis canonical;
-  forms::ClosedForms harmonic;                                    ///< dual to zeta, on the artist's triangulation
+  forms::ClosedForms harmonic;                                    ///< dual to zeta: classes on the artist's edges, functions as solved
   Eigen::MatrixXd gram_matrix;
   conformal::HolomorphicBasis holomorphic;
   std::vector<int> seams;                                         ///< edges of the cut graph
