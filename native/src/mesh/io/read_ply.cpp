@@ -36,7 +36,7 @@ class TextBody {
   static std::size_t least_bytes(const Property&) { return 2; }  // a digit and a separator
   std::size_t bytes_left() const { return scan_.bytes_left(); }
 
-  void enter(const Element& element) { what_ = "a value of element '" + element.name + "'"; }
+  void enter(const Element& element) { what_ = "a value of element " + quoted(element.name); }
   void enter_row(std::int64_t row) {
     if (scan_.at_end()) scan_.fail("the file ends where " + what_ + " is expected, in row " + std::to_string(row));
   }
@@ -120,7 +120,7 @@ class BinaryBody {
   void skip(Type type, std::int64_t values) { advance(size_of(type) * static_cast<std::size_t>(values)); }
   void finish() {}
   [[noreturn]] void fail(const std::string& reason) const {
-    throw InvalidMesh(file_.name + ", byte " + std::to_string(position_) + ", element '" + element_->name + "' " +
+    throw InvalidMesh(file_.name + ", byte " + std::to_string(position_) + ", element " + quoted(element_->name) + " " +
                       std::to_string(row_) + ": " + reason);
   }
 
@@ -146,9 +146,9 @@ class BinaryBody {
 template <class Body>
 std::int64_t list_length(Body& body, const Property& list) {
   const auto length = body.integer(list.count_type);
-  if (length < 0) body.fail("the list '" + list.name + "' has the negative length " + std::to_string(length));
+  if (length < 0) body.fail("the list " + quoted(list.name) + " has the negative length " + std::to_string(length));
   if (static_cast<std::uint64_t>(length) > body.bytes_left() / body.least_bytes({{}, list.type, Type::none}) + 1)
-    body.fail("the list '" + list.name + "' has length " + std::to_string(length) +
+    body.fail("the list " + quoted(list.name) + " has length " + std::to_string(length) +
               ", more than the rest of the file can hold");
   return length;
 }
@@ -163,8 +163,8 @@ void check_count(Body& body, const Element& element) {
   std::size_t row_bytes = 0;
   for (const auto& property : element.properties) row_bytes += body.least_bytes(property);
   if (row_bytes > 0 && static_cast<std::uint64_t>(element.count) > body.bytes_left() / row_bytes + 1)
-    body.fail(std::to_string(element.count) + " elements '" + element.name +
-              "' are announced, more than the file can hold");
+    body.fail(std::to_string(element.count) + " elements " + quoted(element.name) +
+              " are announced, more than the file can hold");
 }
 
 std::size_t property_named(const Element& element, std::string_view name, const FileText& file) {
@@ -178,7 +178,7 @@ std::size_t polygon_list(const Element& element, const FileText& file) {
     const auto& property = element.properties[p];
     if (property.is_list() && (property.name == "vertex_indices" || property.name == "vertex_index")) return p;
   }
-  file.fail("the element '" + element.name + "' has no list 'vertex_indices'");
+  file.fail("the element " + quoted(element.name) + " has no list 'vertex_indices'");
 }
 
 template <class Body>

@@ -1,0 +1,137 @@
+"""Every mesh that is refused, with the message that names the first bad element."""
+
+from dataclasses import replace
+
+import families
+import numpy as np
+import pytest
+from holomorph import Error, InvalidMesh, Surface, TopologyError
+
+TORUS = families.torus(6, 5)
+QUADS = TORUS.corners.reshape(-1, 4)
+
+
+def with_faces(*extra, vertices=TORUS.vertices):
+    """The torus and more polygons."""
+    return families.polygons(vertices, [*QUADS.tolist(), *extra])
+
+
+def with_corner(corner, vertex):
+    corners = TORUS.corners.copy()
+    corners[corner] = vertex
+    return replace(TORUS, corners=corners)
+
+
+def with_coordinate(value):
+    points = TORUS.vertices.copy()
+    points[7, 1] = value
+    return replace(TORUS, vertices=points)
+
+
+def pinched():
+    """Two tetrahedra that share one vertex."""
+    one = families.tetrahedron()
+    both = families.united(one, one)
+    corners = np.where(both.corners == 4, 0, both.corners)
+    return replace(both, corners=np.where(corners > 4, corners - 1, corners), vertices=np.delete(both.vertices, 4, axis=0))
+
+
+def three_at_an_edge():
+    """One more triangle on an edge of the torus, held by a vertex of its own."""
+    points = np.concatenate([TORUS.vertices, [[5.0, 5, 5]]])
+    return with_faces([int(QUADS[3, 0]), int(QUADS[3, 1]), 30], vertices=points)
+
+
+INVALID = {
+    "negative index": (with_corner(9, -1), r"face 2 .*-1"),
+    "index out of range": (with_corner(9, 30), r"face 2 .*30"),
+    "enormous index": (with_corner(9, 2**40), rf"face 2 .*{2**40}"),
+    "vertex twice in a face": (with_corner(9, QUADS[2, 0]), rf"face 2 .*vertex {QUADS[2, 0]} twice"),
+    "not a number": (with_coordinate(np.nan), r"vertex 7 "),
+    "infinite": (with_coordinate(-np.inf), r"vertex 7 "),
+    "two corners": (with_faces([0, 1]), r"face 30 .*2 corners"),
+    "no corners": (with_faces([]), r"face 30 .*0 corners"),
+    "duplicate face": (with_faces(QUADS[4].tolist()), r"face(s)? .*\b4\b.*\b30\b|face(s)? .*\b30\b.*\b4\b"),
+    "duplicate face, turned": (with_faces(np.roll(QUADS[4], 1).tolist()), r"\b4\b.*\b30\b|\b30\b.*\b4\b"),
+    "duplicate face, reversed": (with_faces(QUADS[4, ::-1].tolist()), r"\b4\b.*\b30\b|\b30\b.*\b4\b"),
+    "three faces at an edge": (three_at_an_edge(), rf"vertices {min(QUADS[3, :2])}, {max(QUADS[3, :2])}.*3 faces"),
+    "pinched vertex": (pinched(), r"vertex 0 "),
+    "no faces": (replace(TORUS, corners=TORUS.corners[:0], offsets=TORUS.offsets[:1]), r"no faces"),
+    "no area": (replace(TORUS, vertices=0 * TORUS.vertices), r"area"),
+    "all on a line": (replace(TORUS, vertices=TORUS.vertices * [1, 0, 0]), r"area"),
+}
+
+
+@pytest.mark.parametrize("name", INVALID)
+def test_is_refused_and_named(name):
+    mesh, message = INVALID[name]
+    with pytest.raises(InvalidMesh, match=message) as caught:
+        Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["negative index", "not a number", "two corners", "pinched vertex", "duplicate face"])
+def test_lists_give_the_same_message(name):
+    mesh, _ = INVALID[name]
+    with pytest.raises(InvalidMesh) as from_arrays:
+        Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
+    with pytest.raises(InvalidMesh) as from_lists:
+        Surface(mesh.vertices, [face.tolist() for face in mesh.faces])
+    assert str(from_arrays.value) == str(from_lists.value)
+
+
+@pytest.mark.parametrize("mesh", [families.moebius(), families.klein_bottle()], ids=["Moebius strip", "Klein bottle"])
+def test_one_sided_surfaces_are_refused(mesh):
+    with pytest.raises(TopologyError, match="orient"):
+        Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
+
+
+WRONG_ARRAYS = {
+    "vertices of two columns": (TORUS.vertices[:, :2], QUADS, "vertices"),
+    "flat vertices": (TORUS.vertices.ravel(), QUADS, "vertices"),
+    "vertices of words": ([["a", "b", "c"]], [[0, 0, 0]], "vertices"),
+    "no vertices": (np.zeros((0, 3)), QUADS, r"face 0 "),
+    "real indices": (TORUS.vertices, QUADS.astype(float), "integers"),
+    "bool indices": (TORUS.vertices, QUADS.astype(bool), "integers"),
+    "flat faces": (TORUS.vertices, QUADS.ravel(), "faces"),
+    "faces of two columns": (TORUS.vertices, QUADS[:, :2], "faces"),
+    "faces of five columns": (TORUS.vertices, np.zeros((3, 5), int), "faces"),
+    "list of integers": (TORUS.vertices, [0, 1, 2], "faces"),
+    "list of real lists": (TORUS.vertices, [[0, 1, 2.5]], "integers"),
+    "empty list": (TORUS.vertices, [], "no faces"),
+    "empty array": (TORUS.vertices, np.zeros((0, 3), int), "no faces"),
+    "index beyond 64 bits": (TORUS.vertices, np.full((1, 3), 2**64 - 1, dtype=np.uint64), "64"),
+    "index beyond any type": (TORUS.vertices, [[0, 1, 2**70]], "integer"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_ARRAYS)
+def test_wrong_arrays(name):
+    vertices, faces, message = WRONG_ARRAYS[name]
+    with pytest.raises(InvalidMesh, match=message):
+        Surface(vertices, faces)
+
+
+WRONG_OFFSETS = {
+    "decreasing": ([0, 8, 4, *TORUS.offsets[3:]], "face 1"),
+    "not from zero": ([1, *TORUS.offsets[1:]], "from 1"),
+    "not to the end": (TORUS.offsets[:-1], "120"),
+    "beyond the end": ([*TORUS.offsets[:-1], 124], "124"),
+    "empty": (np.zeros(0, int), "no faces"),
+    "one": ([0], "no faces"),
+    "real": (TORUS.offsets.astype(float), "integers"),
+    "two dimensions": (TORUS.offsets[None], "face_offsets"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_OFFSETS)
+def test_wrong_offsets(name):
+    offsets, message = WRONG_OFFSETS[name]
+    with pytest.raises(InvalidMesh, match=message):
+        Surface.from_polygons(TORUS.vertices, TORUS.corners, offsets)
+
+
+def test_errors_have_one_base():
+    assert issubclass(InvalidMesh, Error)
+    assert issubclass(TopologyError, Error)
+    assert issubclass(Error, Exception)
