@@ -15,10 +15,11 @@ using Complex = std::complex<double>;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kSamples = 4000;  // faces that the density is sampled on, spaced evenly by area
+constexpr int kSamples = 3000;  // faces that the density is sampled on, spaced evenly by area
 // The floor under the density is lowered step by step: from fixed pseudo-random starts on every kThinning-th sample
 // first, then from the best few of their ends on all samples.
-constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 3, kFineSteps = 200;
+constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSteps = 100;
+constexpr double kDistortion = 3;  // weight of the distortion against the variance
 constexpr double kRoughFloors[] = {1.0, 0.1}, kFineFloors[] = {0.01, 1e-3, 1e-4};
 
 // Triangles met at kSamples equal steps through the total area; all of them on a small surface.
@@ -40,8 +41,13 @@ std::vector<int> sample_triangles(const mesh::Surface& surface) {
   return samples;
 }
 
-// Row s: the (1,0) parts (h_x - i h_y) / 2 of the basis forms theta_j on sample s, up to a common phase.
-Eigen::MatrixXcd holomorphic_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+// A form is A dz + B conj(dz) on each triangle, with A = M c and B = N c on the samples.
+struct Parts {
+  Eigen::MatrixXcd M, N;  // #samples x g
+};
+
+// For a harmonic form h, A = (h_x - i h_y) / 2 up to a common phase, and B = conj(A).
+Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
                                    const Eigen::MatrixXcd& periods, const std::vector<int>& samples) {
   Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples.size()), forms.functions.cols());
   for (std::size_t s = 0; s < samples.size(); ++s) {
@@ -61,35 +67,40 @@ Eigen::MatrixXcd holomorphic_parts(const mesh::Surface& surface, const mesh::Hal
     parts.row(static_cast<Eigen::Index>(s)) = (0.5 * (h_x.cast<Complex>() - Complex(0, 1) * h_y.cast<Complex>())).transpose();
     if (!(area > 0)) parts.row(static_cast<Eigen::Index>(s)).setZero();
   }
-  return parts * periods;
+  return {parts * periods, parts.conjugate() * periods};
 }
 
-// Variance over the samples of log(q / mean q + floor), q = |M c|^2, and its gradient by (Re c, Im c).
+// Variance over the samples of log(q / mean q + floor), q = |A|^2, plus kDistortion times the mean of
+// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is next to nothing for a good
+// map; without it |A| may be made even where B, the error of the mesh, outweighs it and the map turns over.
 class LogVariance {
  public:
-  LogVariance(const Eigen::MatrixXcd& M, double floor) : M_(M), floor_(floor) {}
+  LogVariance(const Parts& parts, double floor) : parts_(parts), floor_(floor) {}
 
   double operator()(const VectorXd& x, VectorXd& gradient) const {
-    const auto g = M_.cols();
+    const auto g = parts_.M.cols();
     VectorXcd c(g);
     c.real() = x.head(g);
     c.imag() = x.tail(g);
-    const VectorXcd theta = M_ * c;
-    const Eigen::ArrayXd q = theta.cwiseAbs2().array();
-    const double mean = q.mean();
+    const VectorXcd A = parts_.M * c, B = parts_.N * c;
+    const Eigen::ArrayXd q = A.cwiseAbs2().array(), b = B.cwiseAbs2().array();
+    const double mean = q.mean(), count = static_cast<double>(q.size());
     const Eigen::ArrayXd y = (q / mean + floor_).log(), deviation = y - y.mean();
     const Eigen::ArrayXd inverse = 1 / (q + floor_ * mean);
-    // d/dq of each term, and through the mean, which is the same for all samples
-    const double through_mean = -(deviation * q * inverse).mean() / mean;
-    const Eigen::ArrayXd by_q = 2 * (deviation * inverse + through_mean) / static_cast<double>(q.size());
-    const VectorXcd by_c = 2 * (M_.adjoint() * (by_q.cast<Complex>() * theta.array()).matrix());
+    const Eigen::ArrayXd sum = 1 / (q + b + floor_ * mean), r = b * sum;
+    // by q and b of each sample, and through the mean, which is the same for all samples
+    const double through_mean = -2 * (deviation * q * inverse).mean() / mean - kDistortion * floor_ * (r * sum).mean();
+    const Eigen::ArrayXd by_q = (2 * deviation * inverse - kDistortion * r * sum + through_mean) / count;
+    const Eigen::ArrayXd by_b = kDistortion * (1 - r) * sum / count;
+    const VectorXcd weighted_A = (by_q.cast<Complex>() * A.array()).matrix(), weighted_B = (by_b.cast<Complex>() * B.array()).matrix();
+    const VectorXcd by_c = 2 * (parts_.M.adjoint() * weighted_A + parts_.N.adjoint() * weighted_B);
     gradient.resize(2 * g);
     gradient << by_c.real(), by_c.imag();
-    return deviation.square().mean();
+    return deviation.square().mean() + kDistortion * r.mean();
   }
 
  private:
-  const Eigen::MatrixXcd& M_;
+  const Parts& parts_;
   double floor_;
 };
 
@@ -99,29 +110,32 @@ struct Candidate {
 };
 
 template <std::size_t N>
-Candidate descend(const Eigen::MatrixXcd& M, VectorXd x, const double (&floors)[N], int most_steps) {
+Candidate descend(const Parts& parts, VectorXd x, const double (&floors)[N], int most_steps) {
   double variance = INFINITY;
   for (const double floor : floors) {
-    variance = minimise(LogVariance(M, floor), x, most_steps);
+    variance = minimise(LogVariance(parts, floor), x, most_steps);
     x.normalize();  // the variance does not depend on the scale
   }
   return {variance, std::move(x)};
 }
 
-VectorXd lowest_variance(const Eigen::MatrixXcd& M) {
+VectorXd lowest_variance(const Parts& parts) {
   const auto lower = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
-  const Eigen::MatrixXcd thinned = M(Eigen::seq(0, Eigen::last, kThinning), Eigen::all);
+  const auto every = Eigen::seq(0, Eigen::last, kThinning);
+  const Parts thinned{parts.M(every, Eigen::all), parts.N(every, Eigen::all)};
   std::mt19937_64 numbers(1);  // fixed: the same surface gives the same coefficients
-  std::vector<Candidate> candidates;
-  for (int start = 0; start < kStarts; ++start) {
-    VectorXd x(2 * M.cols());
+  std::vector<Candidate> candidates(kStarts, {INFINITY, VectorXd(2 * parts.M.cols())});
+  for (auto& candidate : candidates) {
     // One number in [-1, 1) from each draw: the standard's distributions differ between libraries.
-    for (auto& value : x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
-    candidates.push_back(descend(thinned, std::move(x), kRoughFloors, kRoughSteps));
+    for (auto& value : candidate.x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
   }
+  // Each descent is on its own, so the number of threads changes nothing.
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < kStarts; ++i) candidates[i] = descend(thinned, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
   std::stable_sort(candidates.begin(), candidates.end(), lower);
   candidates.resize(kKept);
-  for (auto& candidate : candidates) candidate = descend(M, std::move(candidate.x), kFineFloors, kFineSteps);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (int i = 0; i < kKept; ++i) candidates[i] = descend(parts, std::move(candidates[i].x), kFineFloors, kFineSteps);
   return std::min_element(candidates.begin(), candidates.end(), lower)->x;
 }
 
@@ -132,8 +146,7 @@ VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEd
   const auto g = periods.cols();
   VectorXcd c = VectorXcd::Ones(g);
   if (g > 1) {
-    const Eigen::MatrixXcd M = holomorphic_parts(surface, half_edges, forms, periods, sample_triangles(surface));
-    const VectorXd x = lowest_variance(M);
+    const VectorXd x = lowest_variance(sampled_parts(surface, half_edges, forms, periods, sample_triangles(surface)));
     c.real() = x.head(g);
     c.imag() = x.tail(g);
     Eigen::Index largest;
