@@ -106,19 +106,24 @@ def chain():
 
 
 def gear():
-    """A gear with n-gon faces: a toothed disk, with six bores cut out by a boolean."""
-    teeth = 18
+    """A toothed disk; six bores cut out by a boolean leave n-gons where they cross its faces."""
+    teeth, rings = 18, 8
     outline = []
     for tooth in range(teeth):
         for offset, radius in ((-0.32, 1.0), (-0.17, 1.2), (0.17, 1.2), (0.32, 1.0)):
             angle = 2 * math.pi * (tooth + offset) / teeth
-            outline.append((radius * math.cos(angle), radius * math.sin(angle), -0.16))
+            outline.append((radius * math.cos(angle), radius * math.sin(angle)))
     bm = bmesh.new()
-    disk = bm.faces.new([bm.verts.new(p) for p in outline])
-    top = bmesh.ops.extrude_face_region(bm, geom=[disk])["geom"]
-    bmesh.ops.translate(bm, verts=[g for g in top if isinstance(g, bmesh.types.BMVert)], vec=(0, 0, 0.32))
-    bmesh.ops.recalc_face_normals(bm, faces=bm.faces)
+    loops = []
+    for ring in range(rings - 1):
+        inner = 1 - ring / rings
+        loops.append([bm.verts.new((inner * x, inner * y, 0)) for x, y in outline])
+    for outer, inner in zip(loops, loops[1:]):
+        bmesh.ops.bridge_loops(bm, edges=ring_edges(bm, outer) + ring_edges(bm, inner))
+    bm.faces.new(loops[-1])
     obj = object_of("Gear", bm)
+    solid = obj.modifiers.new("Solidify", "SOLIDIFY")
+    solid.thickness, solid.offset = 0.32, 0.0
     bores = bmesh.new()
     bmesh.ops.create_cone(bores, cap_ends=True, segments=20, radius1=0.24, radius2=0.24, depth=1.0)
     for index in range(5):
@@ -158,7 +163,7 @@ def lantern():
     obj = object_of("Lantern", bm)
     frame = obj.modifiers.new("Wireframe", "WIREFRAME")
     frame.thickness, frame.use_even_offset = 0.28, True
-    subdivide(obj, 2)
+    subdivide(obj, 3)
     return [obj]
 
 

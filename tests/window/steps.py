@@ -1,0 +1,277 @@
+"""Runs inside Blender with a window and simulated events: uses the add-on as an artist does, writes down what happened.
+
+blender --factory-startup --enable-event-simulate --addons holomorph --python steps.py -- FOLDER
+Leaves FOLDER/steps.json (name of the step: what was seen) and pictures. Each `yield` is a wait in seconds, while
+Blender handles events and draws.
+"""
+
+import importlib
+import json
+import os
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
+PANEL_TABS_STEP = 30  # pixels; a tab is longer
+PATIENCE = 90  # seconds for a solve
+seen = {}
+pointer = [0, 0]
+drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def area(kind):
+    return next(a for a in window().screen.areas if a.type == kind)
+
+
+def region(owner, kind):
+    return next(r for r in owner.regions if r.type == kind)
+
+
+def event(kind, value, **keys):
+    window().event_simulate(type=kind, value=value, x=pointer[0], y=pointer[1], **keys)
+
+
+def move(x, y):
+    pointer[:] = int(x), int(y)
+    event("MOUSEMOVE", "NOTHING")
+
+
+def click(x, y):
+    move(x, y)
+    event("LEFTMOUSE", "PRESS")
+    event("LEFTMOUSE", "RELEASE")
+
+
+def tap(kind, **keys):
+    event(kind, "PRESS", **keys)
+    event(kind, "RELEASE", **keys)
+
+
+def hover(owner):
+    move(owner.x + owner.width * 0.3, owner.y + owner.height * 0.3)
+
+
+def inside(owner):
+    return bpy.context.temp_override(window=window(), area=owner, region=region(owner, "WINDOW"))
+
+
+def picture(name):
+    bpy.ops.screen.screenshot(filepath=str(FOLDER / name))
+
+
+def maps(name):
+    return [layer.name for layer in bpy.data.objects[name].data.uv_layers]
+
+
+def pick(name):
+    bpy.context.view_layer.update()  # or it lists objects that are gone
+    for obj in bpy.context.view_layer.objects:
+        obj.select_set(obj.name == name)
+    bpy.context.view_layer.objects.active = bpy.data.objects[name]
+
+
+def torus(name, around, across, x):
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    u, v = 2 * np.pi * i / around, 2 * np.pi * j / across
+    radius = 1 + 0.4 * np.cos(v)
+    vertices = np.stack([x + radius * np.cos(u), radius * np.sin(u), 0.4 * np.sin(v)], -1).reshape(-1, 3)
+    i2, j2 = (i + 1) % around, (j + 1) % across
+    corners = np.stack([i * across + j, i2 * across + j, i2 * across + j2, i * across + j2], -1).ravel()
+    mesh_io = importlib.import_module("holomorph_addon.mesh_io")
+    mesh = mesh_io.new_mesh(name, vertices, corners, np.arange(0, len(corners) + 1, 4))
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def count_draws(panel, kind):
+    original = panel.draw
+
+    def draw(self, context):
+        drawn[kind] += 1
+        original(self, context)
+
+    panel.draw = draw
+
+
+def open_tab(kind):
+    """Clicks along the tabs from the lowest, ours, upwards until our panel is drawn."""
+    sidebar = region(area(kind), "UI")
+    for height in range(40, sidebar.height, PANEL_TABS_STEP):
+        before = drawn[kind]
+        click(sidebar.x + sidebar.width - 8, sidebar.y + height)
+        sidebar.tag_redraw()
+        yield 0.4
+        if drawn[kind] > before:
+            seen[f"tab in {kind}"] = True
+            return
+
+
+def press_button(kind):
+    """Clicks our first button: it is below the panel's header, at the top of the sidebar."""
+    sidebar = region(area(kind), "UI")
+    click(sidebar.x + sidebar.width * 0.4, sidebar.y + sidebar.height - 44)
+
+
+def wait_for_maps(name):
+    start = time.monotonic()
+    while not maps(name) and time.monotonic() - start < PATIENCE:
+        yield 0.1
+
+
+def prepare():
+    bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.view.smooth_view = 0
+    window().workspace = bpy.data.workspaces["UV Editing"]
+    yield 2
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    torus("Small", 48, 24, 0)
+    torus("Big", 600, 500, 3)
+    pick("Small")
+    with inside(area("VIEW_3D")):
+        area("VIEW_3D").spaces.active.shading.type = "SOLID"
+        area("VIEW_3D").spaces.active.shading.color_type = "TEXTURE"
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Start")
+    for kind in drawn:
+        area(kind).spaces.active.show_region_ui = True
+    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
+    count_draws(bpy.types.HOLOMORPH_PT_image, "IMAGE_EDITOR")
+    yield 2
+
+
+def small_mesh():
+    view = area("VIEW_3D")
+    yield from open_tab("VIEW_3D")
+    picture("panel.png")
+    yield 0.5
+    press_button("VIEW_3D")
+    yield 2
+    seen["button"] = maps("Small")
+    picture("button.png")
+    hover(view)
+    yield 0.3
+    tap("Z", ctrl=True)
+    yield 1
+    seen["undo"] = maps("Small")
+    tap("Z", ctrl=True, shift=True)
+    yield 1
+    seen["redo"] = maps("Small")
+
+
+def redo_panel():
+    """A change in the redo panel undoes, sets the property and executes again: what this operator does."""
+    press_button("VIEW_3D")
+    yield 1
+    operator = bpy.context.window_manager.operators[-1]
+    seen["last operator"] = operator.bl_idname
+    operator.properties.density = 2.0
+    start = time.perf_counter()
+    with inside(area("VIEW_3D")):
+        bpy.ops.ed.undo_redo()
+    seen["redo panel"] = {"maps": maps("Small"), "seconds": time.perf_counter() - start}
+    yield 1
+
+
+def image_editor():
+    pick("Small")
+    while maps("Small"):
+        layers = bpy.data.objects["Small"].data.uv_layers
+        layers.remove(layers[0])
+    yield from open_tab("IMAGE_EDITOR")
+    press_button("IMAGE_EDITOR")
+    yield 2
+    seen["button of the UV editor"] = maps("Small")
+
+
+def edit_mode():
+    view = area("VIEW_3D")
+    with inside(view):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        while bpy.data.objects["Small"].data.uv_layers:
+            bpy.ops.mesh.uv_texture_remove()
+        bpy.ops.ed.undo_push(message="In edit mode")
+    yield 1
+    press_button("VIEW_3D")
+    yield 2
+    seen["button in edit mode"] = maps("Small")
+    picture("edit_mode.png")
+    hover(view)
+    yield 0.3
+    tap("Z", ctrl=True)
+    yield 1
+    seen["undo in edit mode"] = maps("Small")
+    seen["mode after undo"] = bpy.data.objects["Small"].mode
+    with inside(view):
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def big_mesh():
+    view = area("VIEW_3D")
+    pick("Big")
+    with inside(view):
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Big")
+    yield 1
+    press_button("VIEW_3D")
+    yield 0.5
+    seen["no maps while it runs"] = maps("Big")
+    picture("running.png")
+    start = time.perf_counter()
+    tap("ESC")
+    yield 0.2
+    while any(thread.name == "holomorph" for thread in importlib.import_module("threading").enumerate()):
+        yield 0.05
+    seen["seconds to cancel"] = time.perf_counter() - start
+    yield 0.5
+    seen["after ESC"] = maps("Big")
+    press_button("VIEW_3D")
+    yield from wait_for_maps("Big")
+    yield 1
+    seen["modal run"] = maps("Big")
+    picture("modal.png")
+    hover(view)
+    yield 0.3
+    tap("Z", ctrl=True)
+    yield 2
+    seen["undo of the modal run"] = maps("Big")
+    tap("Z", ctrl=True, shift=True)
+    yield 2
+    seen["redo of the modal run"] = maps("Big")
+
+
+def steps():
+    for part in (prepare, small_mesh, redo_panel, image_editor, edit_mode, big_mesh):
+        yield from part()
+
+
+def finish():
+    (FOLDER / "steps.json").write_text(json.dumps(seen, indent=1))
+    sys.stdout.flush()
+    os._exit(0)
+
+
+running = steps()
+
+
+def tick():
+    try:
+        return next(running)
+    except StopIteration:
+        return finish()
+    except BaseException:  # noqa: BLE001  Blender would only drop the timer: the traceback goes to the test
+        seen["traceback"] = traceback.format_exc()
+        return finish()
+
+
+bpy.app.timers.register(tick, first_interval=3)
