@@ -3,7 +3,7 @@
 
 The material slots are linked to the object while the checker is shown, so the mesh keeps its own materials
 and `remove_checker` brings them back. One value node scales both patterns: the procedural checker
-that is rendered, and a packed image (one pixel per square) that solid and Workbench views show.
+that is rendered, and a packed image that solid and Workbench views show.
 """
 
 import bpy
@@ -14,7 +14,9 @@ LIGHT = (0.72, 0.68, 0.60)  # linear RGB, warm white
 DARK = (0.03, 0.11, 0.15)  # linear RGB, deep teal
 SCALE_NODE = "Checker Scale"
 MAP_NODE = "Checker Map"
-IMAGE_SIZE_LIMIT = 256  # pixels
+IMAGE_NODE = "Checker Image"
+SQUARES_NODE = "Squares in Image"
+IMAGE_SIZE = 256  # pixels, about: a whole number of them for each square
 REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
 OURS = "holomorph_checker"  # custom property that tells our materials and images
 
@@ -26,11 +28,12 @@ def checker_material(map_name, is_attribute, scale):
     if material is None or OURS not in material or material.node_tree is None:
         material = bpy.data.materials.new(name)
         material[OURS] = True
-        _build_nodes(material, map_name, is_attribute, _checker_image(scale))
+        _build_nodes(material, map_name, is_attribute)
     nodes = material.node_tree.nodes
-    if SCALE_NODE in nodes:  # an artist may have rebuilt the nodes; then they are left alone
+    if all(n in nodes for n in (SCALE_NODE, IMAGE_NODE, SQUARES_NODE)):  # else an artist has rebuilt them
         nodes[SCALE_NODE].outputs[0].default_value = scale
-        _checker_image(scale)
+        nodes[IMAGE_NODE].image = _checker_image(material.name, scale)
+        nodes[SQUARES_NODE].inputs[1].default_value = nodes[IMAGE_NODE].image[OURS]
     return material
 
 
@@ -82,27 +85,25 @@ def _srgb(linear):
     return tuple(12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055 for c in linear)
 
 
-def _checker_image(scale):
-    """The packed image: an even number of squares across, as near to `scale` as there is."""
-    name = "Holomorphic Checker"
-    size = min(max(2 * round(scale / 2), 2), IMAGE_SIZE_LIMIT)
+def _checker_image(name, scale):
+    """The packed image, with an even number of squares across, as near to `scale` as there is."""
+    squares = min(max(2 * round(scale / 2), 2), IMAGE_SIZE)
     image = bpy.data.images.get((name, None))
     if image is None or OURS not in image:
-        image = bpy.data.images.new(name, size, size)
+        image = bpy.data.images.new(name, IMAGE_SIZE, IMAGE_SIZE)
         image[OURS] = 0
-    if image[OURS] != size:
-        if tuple(image.size) != (size, size):
-            image.scale(size, size)
-        pair = [(*_srgb(LIGHT), 1.0), (*_srgb(DARK), 1.0)]
-        row = [pair[0], pair[1]] * (size // 2)
-        rows = [row, row[::-1]] * (size // 2)
-        image.pixels = [c for line in rows for pixel in line for c in pixel]
+    if image[OURS] != squares:
+        width = IMAGE_SIZE // squares
+        image.scale(squares * width, squares * width)
+        light, dark = ([*_srgb(colour), 1.0] * width for colour in (LIGHT, DARK))
+        row, other = (light + dark) * (squares // 2), (dark + light) * (squares // 2)
+        image.pixels = (row * width + other * width) * (squares // 2)
         image.pack()
-        image[OURS] = size
+        image[OURS] = squares
     return image
 
 
-def _build_nodes(material, map_name, is_attribute, image):
+def _build_nodes(material, map_name, is_attribute):
     tree = compatibility.enable_nodes(material)
     tree.nodes.clear()
 
@@ -129,13 +130,11 @@ def _build_nodes(material, map_name, is_attribute, image):
     shader.inputs["Roughness"].default_value = 0.45
     compatibility.set_specular(shader, 0.35)
     output = node("ShaderNodeOutputMaterial", 240, 200)
-    per_image = node("ShaderNodeMath", -720, -200)
+    per_image = node("ShaderNodeMath", -720, -200, SQUARES_NODE)
     per_image.operation = "DIVIDE"
-    per_image.inputs[1].default_value = image.size[0]
     scaled = node("ShaderNodeVectorMath", -540, -100)
     scaled.operation = "SCALE"
-    picture = node("ShaderNodeTexImage", -360, -60)
-    picture.image = image
+    picture = node("ShaderNodeTexImage", -360, -60, IMAGE_NODE)
     picture.interpolation = "Closest"
     link = tree.links.new
     link(vector, checker.inputs["Vector"])

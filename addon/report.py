@@ -11,6 +11,7 @@ import numpy as np
 from . import maps, native
 
 PROPERTY = "holomorph_report"
+SUMMARISED = 8  # parts that the panel shows
 LISTED = 20  # elements of a repair that the report names
 TEXT = "Holomorphic Report"
 
@@ -92,17 +93,15 @@ def summary(stored):
     """Short lines for the panel out of a stored report."""
     entry = json.loads(stored)
     lines = [f"{len(entry['maps'])} maps"]
-    for index, part in enumerate(entry["components"], 1):
-        text = f"Part {index}: genus {part['genus']}"
+    for index, part in enumerate(entry["components"][:SUMMARISED], 1):
+        lines.append(f"Part {index}: genus {part['genus']}" + ("" if part["done"] else ", skipped"))
         if part["done"]:
-            quality = part["main_map"]
-            if part["genus"] == 1:
-                (re,), (im,) = part["period_matrix"]["real"][0:1][0], part["period_matrix"]["imag"][0:1][0]
-                text += f", tau {re:.4f} + {im:.4f} i"
-            text += f", s1/s2 {quality['mean_angle']:.4f}"
-        else:
-            text += ", skipped"
-        lines.append(text)
+            lines.append(f"    angle distortion {part['main_map']['mean_angle']:.4f}")
+        if part["done"] and part["genus"] == 1:
+            period = part["period_matrix"]
+            lines.append(f"    tau = {period['real'][0][0]:.4f} + {period['imag'][0][0]:.4f} i")
+    if len(entry["components"]) > SUMMARISED:
+        lines.append(f"... {len(entry['components']) - SUMMARISED} more parts in the report")
     return lines
 
 

@@ -261,7 +261,7 @@ def test_checker_nodes():
     tree = material.node_tree
     active = tree.nodes.active
     assert active.type == "TEX_IMAGE" and active.interpolation == "Closest"
-    assert active.image.packed_file is not None and tuple(active.image.size) == (10, 10)
+    assert active.image.packed_file is not None and tuple(active.image.size) == (250, 250)
     checker = next(n for n in tree.nodes if n.type == "TEX_CHECKER")
     assert checker.outputs[0].links[0].to_socket.name == "Base Color"
     scale = checker.inputs["Scale"].links[0].from_node
@@ -270,7 +270,7 @@ def test_checker_nodes():
     assert uv_node.type == "UVMAP" and uv_node.uv_map == "Holomorphic"
     run(checker_scale=30)
     assert obj.material_slots[0].material == material
-    assert scale.outputs[0].default_value == 30 and tuple(active.image.size) == (30, 30)
+    assert scale.outputs[0].default_value == 30 and tuple(active.image.size) == (240, 240)
 
 
 def test_the_artists_materials_come_back():

@@ -224,7 +224,7 @@ def big_mesh():
         bpy.ops.ed.undo_push(message="Big")
     yield 1
     press_button("VIEW_3D")
-    yield 0.5
+    yield 1.2
     seen["no maps while it runs"] = maps("Big")
     picture("running.png")
     start = time.perf_counter()
