@@ -98,17 +98,18 @@ def test_only_bindings_know_python_and_only_mesh_io_knows_files():
     for path in cpp_files():
         relative = path.relative_to(NATIVE)
         headers = {include.strip('<>"') for include in includes(path)}
-        forbidden = {"iostream", "random", "ctime"}  # nothing is printed, and the same input gives the same bits
+        forbidden = {"iostream", "ctime"}
         if relative.parts[:2] != ("mesh", "io"):
-            forbidden |= {"fstream", "cstdio", "filesystem"}
+            forbidden |= {"fstream", "cstdio"}
         if relative.parts[0] != "bindings":
             forbidden |= {name for name in headers if name.startswith("pybind11") or name == "Python.h"}
         wrong += [f"{identify(path)} includes {name}" for name in sorted(headers & forbidden)]
     assert not wrong
 
 
-def test_nothing_prints_ends_the_process_or_is_random():
-    call = re.compile(r"\b(?:printf|puts|perror|rand|srand|abort|exit|terminate)\s*\(")
+def test_nothing_prints_ends_the_process_or_depends_on_chance():
+    """A seeded engine gives the same numbers everywhere; the library's distributions differ between compilers."""
+    call = re.compile(r"\b(?:printf|puts|perror|rand|srand|abort|exit|terminate)\s*\(|random_device|_distribution\b")
     assert not [identify(path) for path in cpp_files() if call.search(path.read_text(encoding="utf-8"))]
 
 
