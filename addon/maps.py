@@ -2,13 +2,14 @@
 """UV maps out of a solve: coefficients, dials, scale and rotation. Arrays only, no bpy."""
 
 import cmath
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from .mesh_io import MAIN_MAP
 
-CENTRE = (0.5, 0.5)  # every component is centred in the unit square; artists pack from there
+CENTRE = 0.5 + 0.5j  # every component is centred in the unit square; artists pack from there
 
 
 @dataclass(frozen=True)
@@ -49,11 +50,10 @@ def coefficients(component, index, options):
     return result
 
 
-def uv_area(uv, triangle_corners):
-    """The signed integral of du dv over the triangles."""
-    p, q, r = (uv[triangle_corners[:, k]] for k in range(3))
-    a, b = q - p, r - p
-    return 0.5 * float(np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]))
+def uv_area(z, triangle_corners):
+    """The signed integral of du dv over the triangles, z = u + i v at the corners."""
+    p, q, r = z[triangle_corners].T
+    return 0.5 * float(np.vdot(q - p, r - p).imag)
 
 
 def component_uv(component, index, options):
@@ -61,21 +61,35 @@ def component_uv(component, index, options):
 
     Centred before rounding to float32: the two copies of a seam edge stay equal to the last bits.
     """
-    uv = component.structure.uv(coefficients(component, index, options))
-    uv = uv - (uv.min(axis=0) + uv.max(axis=0)) / 2
-    area = abs(uv_area(uv, component.surface.triangle_corners))
-    if area == 0.0:  # all dials at zero
-        return np.full_like(uv, CENTRE)
-    scale = options.density / np.sqrt(area) * cmath.exp(1j * options.rotation)
-    turned = np.array([[scale.real, scale.imag], [-scale.imag, scale.real]])
-    return uv @ turned + CENTRE
+    z = _as_complex(component.structure.uv(coefficients(component, index, options)))
+    key = (index, options.amounts, options.turns) if index == 0 else index
+    if key not in component.frames:
+        component.frames[key] = _frame(z, component.surface.triangle_corners)
+    middle, area = component.frames[key]
+    # No area is left where all dials are at zero: a point, in the middle like everything else.
+    scale = options.density / math.sqrt(area) * cmath.exp(1j * options.rotation) if area > 0 else 0
+    z = z - middle
+    z *= scale
+    z += CENTRE
+    return z.view(np.float64).reshape(-1, 2)
+
+
+def _frame(z, triangle_corners):
+    """The middle of the bounding box, and the area."""
+    u, v = z.real, z.imag
+    middle = complex(u.min() + u.max(), v.min() + v.max()) / 2
+    return middle, abs(uv_area(z - middle, triangle_corners))
+
+
+def _as_complex(uv):
+    return np.ascontiguousarray(uv).view(np.complex128)[:, 0]
 
 
 def main_quality(component, options):
     """(mean angle, density ratio, flipped triangles) of the main map; scale and rotation do not matter."""
     dials = (options.amounts, options.turns)
     if dials not in component.qualities:
-        quality = component.structure.quality(component_uv(component, 0, options))
+        quality = component.structure.quality(component.structure.uv(coefficients(component, 0, options)))
         flipped = int(np.count_nonzero(quality.flipped))
         component.qualities[dials] = (float(quality.mean_angle), float(quality.density_ratio), flipped)
     return component.qualities[dials]

@@ -144,7 +144,7 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         if self._job.is_cancelled():
             self.report({"INFO"}, "Cancelled: nothing was changed")
             return {"CANCELLED"}
-        return self._write(context, self._targets, self._job.results)
+        return self._write(context, self._targets, self._job.results, time_has_passed=True)
 
     def cancel(self, context):
         """Called by Blender when a file is loaded or the program ends in the middle of a solve."""
@@ -170,12 +170,12 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         context.window_manager.progress_end()
         context.workspace.status_text_set(None)
 
-    def _write(self, context, targets, results):
+    def _write(self, context, targets, results, time_has_passed=False):
         from . import maps, run
 
         map_options = maps.MapOptions(self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns))
         write_options = run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams)
-        outcome = run.write(context, targets, run.align(targets, results), map_options, write_options)
+        outcome = run.write(context, targets, run.align(targets, results), map_options, write_options, time_has_passed)
         self.form_count = outcome.forms
         if not outcome.done:
             self.report({"ERROR"}, "; ".join(outcome.problems) or "No mesh selected")

@@ -12,6 +12,8 @@ from . import maps, native
 
 PROPERTY = "holomorph_report"
 SUMMARISED = 8  # parts that the panel shows
+PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
+MATRICES = ("period_matrix", "imaginary_part_bounds")
 LISTED = 20  # elements of a repair that the report names
 TEXT = "Holomorphic Report"
 
@@ -71,7 +73,12 @@ def as_json(value, indent=None):
 
 
 def store_on_object(obj, entry):
-    obj[PROPERTY] = as_json(entry)
+    """The custom property; without the matrices where they would make it long, for they are in the text as well."""
+    text = as_json(entry)
+    if len(text) > PROPERTY_LIMIT:
+        parts = [{k: v for k, v in part.items() if k not in MATRICES} for part in entry["components"]]
+        text = as_json({**entry, "components": parts})
+    obj[PROPERTY] = text
 
 
 def store_text(entries):
@@ -90,18 +97,25 @@ def run_report(entries):
 
 @functools.lru_cache(maxsize=16)
 def summary(stored):
-    """Short lines for the panel out of a stored report."""
-    entry = json.loads(stored)
+    """Short lines for the panel out of a stored report; none if someone has edited it."""
+    try:
+        return _summary(json.loads(stored))
+    except (ValueError, KeyError, TypeError, IndexError):
+        return []
+
+
+def _summary(entry):
+    parts = entry["components"]
     lines = [f"{len(entry['maps'])} maps"]
-    for index, part in enumerate(entry["components"][:SUMMARISED], 1):
+    for index, part in enumerate(parts[:SUMMARISED], 1):
         lines.append(f"Part {index}: genus {part['genus']}" + ("" if part["done"] else ", skipped"))
         if part["done"]:
             lines.append(f"    angle distortion {part['main_map']['mean_angle']:.4f}")
         if part["done"] and part["genus"] == 1:
             period = part["period_matrix"]
             lines.append(f"    tau = {period['real'][0][0]:.4f} + {period['imag'][0][0]:.4f} i")
-    if len(entry["components"]) > SUMMARISED:
-        lines.append(f"... {len(entry['components']) - SUMMARISED} more parts in the report")
+    if len(parts) > SUMMARISED:
+        lines.append(f"... {len(parts) - SUMMARISED} more parts in the report")
     return lines
 
 

@@ -116,8 +116,11 @@ class WriteOptions:
     seams: bool = False
 
 
-def write(context, targets, results, map_options, write_options):
-    """Writes every solved object and reports every other; an object that is refused is not touched."""
+def write(context, targets, results, map_options, write_options, time_has_passed=False):
+    """Writes every solved object and reports every other; an object that is refused is not touched.
+
+    `time_has_passed`: Blender was alive during the solve, so each mesh is compared with what was read.
+    """
     outcome = Outcome()
     error_type = native.load().Error
     with object_mode(context):
@@ -127,7 +130,7 @@ def write(context, targets, results, map_options, write_options):
                 outcome.refuse(target.name, target.refused)
             elif isinstance(result, error_type):
                 outcome.refuse(target.name, _sentence(result))
-            elif obj is None or read(obj).fingerprint != target.polygons.fingerprint:
+            elif obj is None or (time_has_passed and read(obj).fingerprint != target.polygons.fingerprint):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")
             elif result.form_count == 0:
                 _report_all_skipped(outcome, obj, result, map_options)
@@ -181,7 +184,8 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     outcome.problems += [f"{obj.name}: {s}" for s in _skip_sentences(obj, solved)]
     extra = sum(w.kind == "attribute" for w in written)
     if extra:
-        outcome.notes.append(f"{obj.name}: {extra} maps are corner attributes, for want of UV map slots")
+        maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
+        outcome.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
 
 
 def _seam_pairs(solved):

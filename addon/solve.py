@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 from . import native
 
+UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
+
 
 @dataclass(frozen=True)
 class SolvedComponent:
@@ -15,6 +17,7 @@ class SolvedComponent:
     structure: object | None
     balanced: object | None  # (g,) complex coefficients, UV area 1
     reason: str
+    frames: dict = field(default_factory=dict, compare=False)  # middle and area of each map
     qualities: dict = field(default_factory=dict, compare=False)  # of main maps, by their dials
 
     @property
@@ -80,5 +83,6 @@ def _solve_component(holomorph, part, progress):
     reason = reason_to_skip(part)
     if reason:
         return SolvedComponent(part, None, None, reason)
-    structure = holomorph.conformal_structure(part, progress=progress)
+    structure = holomorph.conformal_structure(part, progress=_scaled(progress, 0.0, UV_START))
+    structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
     return SolvedComponent(part, structure, structure.balanced_coefficients(), "")
