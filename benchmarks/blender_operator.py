@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The whole operator in Blender, reading and writing included, beside Blender's own unwrap of the same mesh.
+
+    blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_operator.py -- [--faces 1000000]
+        [--method CONFORMAL | ANGLE_BASED | NONE] [--json FILE]
+
+The mesh is a torus of triangles. For Blender's unwrap one meridian and one parallel are marked as seams, which makes it
+a disk; the operator needs no seams. Prints seconds of both, their ratio and the peak memory of the process.
+"""
+
+import argparse
+import json
+import resource
+import sys
+import time
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import addon  # noqa: E402
+import addon.native  # noqa: E402
+
+
+def torus(faces, major=1.0, minor=0.4):
+    """Vertices and triangles of a torus of revolution with nearly square cells."""
+    across = round((faces / 2 * minor / major) ** 0.5)
+    around = round(faces / 2 / across)
+    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
+    u, v = 2 * np.pi * i / around, 2 * np.pi * j / across
+    ring = major + minor * np.cos(v)
+    vertices = np.stack([ring * np.cos(u), ring * np.sin(u), minor * np.sin(v)], -1).reshape(-1, 3)
+    a, b = i * across + j, (i + 1) % around * across + j
+    c, d = (i + 1) % around * across + (j + 1) % across, i * across + (j + 1) % across
+    triangles = np.stack([a, b, c, a, c, d], -1).reshape(-1, 3)
+    return vertices.astype(np.float32), triangles.astype(np.int32), across
+
+
+def make_object(vertices, triangles, across):
+    mesh = bpy.data.meshes.new("torus")
+    mesh.vertices.add(len(vertices))
+    mesh.vertices.foreach_set("co", vertices.ravel())
+    mesh.loops.add(triangles.size)
+    mesh.loops.foreach_set("vertex_index", triangles.ravel())
+    mesh.polygons.add(len(triangles))
+    mesh.polygons.foreach_set("loop_start", np.arange(0, triangles.size, 3, dtype=np.int32))
+    mesh.polygons.foreach_set("loop_total", np.full(len(triangles), 3, np.int32))
+    mesh.update(calc_edges=True)
+    ends = np.empty(2 * len(mesh.edges), np.int32)
+    mesh.edges.foreach_get("vertices", ends)
+    row, column = np.divmod(ends.reshape(-1, 2), across)
+    seam = ((row == 0).all(1)) | ((column == 0).all(1) & (row[:, 0] != row[:, 1]))
+    mesh.edges.foreach_set("use_seam", seam)
+    obj = bpy.data.objects.new("torus", mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    return obj
+
+
+def timed(work):
+    start = time.perf_counter()
+    work()
+    return time.perf_counter() - start
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--faces", type=int, default=1_000_000)
+    parser.add_argument("--method", default="CONFORMAL")
+    parser.add_argument("--json")
+    options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else [])
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    obj = make_object(*torus(options.faces))
+    addon.register()
+    result = {"blender": bpy.app.version_string, "faces": len(obj.data.polygons)}
+    result["operator"] = timed(bpy.ops.uv.holomorphic_maps)
+    result["peak_memory_MB"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1000
+    if options.method != "NONE":
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_all(action="SELECT")
+        result["unwrap"] = timed(lambda: bpy.ops.uv.unwrap(method=options.method, margin=0.0))
+        result["unwrap_method"] = options.method
+        result["ratio"] = result["unwrap"] / result["operator"]
+    addon.unregister()
+    print(json.dumps(result, indent=1))
+    if options.json:
+        Path(options.json).write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+
+
+main()
