@@ -15,8 +15,6 @@ constexpr double kSlack = 1e-6;
 constexpr double kDelaunayTolerance = 1e-9;
 // ... and never more often than this, so that rounding among slivers cannot turn it back and forth for ever.
 constexpr int kMostFlipsOfAnEdge = 64;
-// Fewest edges that flips leave at a vertex.
-constexpr int kLeastDegree = 3;
 
 class Flipper {
  public:
@@ -35,7 +33,7 @@ class Flipper {
       const HalfedgeHandle a(2 * e), b(2 * e + 1);
       const FaceHandle fa = mesh_.face_handle(a), fb = mesh_.face_handle(b);
       if (!fa.is_valid() || !fb.is_valid() || fa == fb) continue;
-      if (is_delaunay(a, b) || needed(a) || needed(b) || ++flip_count_[e] > kMostFlipsOfAnEdge) continue;
+      if (is_delaunay(a, b) || ++flip_count_[e] > kMostFlipsOfAnEdge) continue;
       flip(e, a, b);
     }
   }
@@ -47,17 +45,6 @@ class Flipper {
     const HalfedgeHandle h1 = next(mesh_, h), h2 = next(mesh_, h1);
     const double a = length(h), b = length(h1), c = length(h2);
     return cotangent(a, b, c, triangle_area(a, b, c));
-  }
-
-  // A vertex keeps kLeastDegree edges: with fewer its value would be a mean of the values of only two others, and the
-  // artist's triangle of these three would collapse.
-  bool needed(HalfedgeHandle h) const {
-    HalfedgeHandle turned = h;
-    for (int degree = 1; degree <= kLeastDegree; ++degree) {
-      turned = next(mesh_, opposite(turned));
-      if (turned == h) return true;
-    }
-    return false;
   }
 
   bool is_delaunay(HalfedgeHandle a, HalfedgeHandle b) const {
