@@ -151,8 +151,9 @@ class ConformalStructure:
         """(#C, 2) with u = sum_j n_j h_j and v = sum_j m_j h_j, n and m of length 2g: seams jump by integers
         where n and m are integers."""
         n, m = np.asarray(n, dtype=np.float64), np.asarray(m, dtype=np.float64)
-        if n.shape != (self._periods.shape[0],) or m.shape != n.shape:
-            raise ValueError(f"n and m have the shapes {n.shape} and {m.shape}; ({self._periods.shape[0]},) is needed")
+        if n.shape != (self._periods.shape[0],) or m.shape != n.shape or not np.isfinite([n, m]).all():
+            count = self._periods.shape[0]
+            raise ValueError(f"n and m have the shapes {n.shape} and {m.shape}; ({count},) finite numbers are needed")
         return self._native.uv(n + 1j * m)
 
     def balanced_coefficients(self):
