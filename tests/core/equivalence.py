@@ -81,7 +81,9 @@ def distance(omega, target):
     """Least max-norm of R.omega - target over Sp(2g, Z), infinite where nothing comes within the tolerances."""
     gram, goal = gram_of(omega), gram_of(target)
     for tolerance in TOLERANCES:
-        found = [np.abs(omega_of(R @ gram @ R.T) - target).max() for R in isometries(gram, goal, tolerance * goal.max())]
+        found = [
+            np.abs(omega_of(R @ gram @ R.T) - target).max() for R in isometries(gram, goal, tolerance * goal.max())
+        ]
         if found:
             return min(found)
     return np.inf
@@ -107,6 +109,10 @@ def random_symplectic(g, seed, steps=6):
         shear = np.triu(shear) + np.triu(shear, 1).T
         change = np.triu(random.integers(-1, 2, (g, g)), 1) + one
         inverse = np.rint(np.linalg.inv(change)).astype(int)
-        for factor in (np.block([[one, shear], [none, one]]), np.block([[change, none], [none, inverse.T]]), symplectic_unit(g)):
+        for factor in (
+            np.block([[one, shear], [none, one]]),
+            np.block([[change, none], [none, inverse.T]]),
+            symplectic_unit(g),
+        ):
             result = result @ factor
     return result

@@ -60,7 +60,7 @@ def polygons(vertices, faces, topology=()):
     return Mesh(np.asarray(vertices, dtype=float), corners, np.cumsum([0, *sizes]), topology)
 
 
-# ---- tori -----------------------------------------------------------------------------------------------------------
+# ---- tori ----------------------------------------------------------------------------------------
 
 
 def grid_quads(n, m):
@@ -182,7 +182,7 @@ def square_tiled(right, up, k):
     return FlatSurface(faces, lengths, sides, genus=1 - chi // 2)
 
 
-# ---- any genus ------------------------------------------------------------------------------------------------------
+# ---- any genus -----------------------------------------------------------------------------------
 
 
 def voxel_surface(cells, topology=()):
@@ -259,7 +259,7 @@ def washer(n):
     return polygons(np.concatenate(layers), faces, ((1, 0),))
 
 
-# ---- spheres, boundaries, one-sided surfaces ------------------------------------------------------------------------
+# ---- spheres, boundaries, one-sided surfaces -----------------------------------------------------
 
 
 def cube():
@@ -267,7 +267,9 @@ def cube():
 
 
 def tetrahedron():
-    return uniform([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], ((0, 0),))
+    return uniform(
+        [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]], ((0, 0),)
+    )
 
 
 def cylinder(n, m):
@@ -300,7 +302,7 @@ def moebius(n=16, m=3):
 
 
 def klein_bottle(n=12, m=8):
-    """A grid closed up with a reflection in one direction: closed and one-sided. Its points lie on the figure-8 form."""
+    """A grid closed up with a reflection in one direction: closed and one-sided; the figure-8 form."""
     i, j = np.divmod(np.arange(n * m), m)
     turned = i + 1 == n
     right = np.where(turned, 0, i + 1)
@@ -312,7 +314,7 @@ def klein_bottle(n=12, m=8):
     return uniform(points, np.stack([i * m + j, right * m + low, right * m + high, i * m + (j + 1) % m], axis=1))
 
 
-# ---- the same mesh in another guise ---------------------------------------------------------------------------------
+# ---- the same mesh in another guise --------------------------------------------------------------
 
 
 def united(*meshes):
@@ -322,7 +324,9 @@ def united(*meshes):
     return Mesh(
         np.concatenate([mesh.vertices + 10.0 * k for k, mesh in enumerate(meshes)]),
         np.concatenate([mesh.corners + start for mesh, start in zip(meshes, starts[:-1], strict=True)]),
-        np.concatenate([[0], *(mesh.offsets[1:] + start for mesh, start in zip(meshes, corner_starts[:-1], strict=True))]),
+        np.concatenate(
+            [[0], *(mesh.offsets[1:] + start for mesh, start in zip(meshes, corner_starts[:-1], strict=True))]
+        ),
         sum((mesh.topology for mesh in meshes), ()),
     )
 
@@ -358,6 +362,11 @@ def reversed_faces(mesh, which):
     return replace(mesh, corners=mesh.corners[start + place])
 
 
+def partly_reversed(mesh, fraction=0.2, seed=5):
+    """A random part of the polygons in reverse."""
+    return reversed_faces(mesh, np.random.default_rng(seed).random(mesh.face_count) < fraction)
+
+
 def mirrored(mesh):
     """The other orientation: every face reversed, nothing moved."""
     return reversed_faces(mesh, np.ones(mesh.face_count, dtype=bool))
@@ -384,7 +393,7 @@ def subdivided(mesh):
     return uniform(points, cut.transpose(2, 0, 1).reshape(-1, 3), mesh.topology)
 
 
-# ---- connected components, used by the generators and by the independent counts ---------------------------------------
+# ---- connected components, used by the generators and by the independent counts ------------------
 
 
 def components(n, a, b):

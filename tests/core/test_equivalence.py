@@ -2,7 +2,15 @@
 
 import numpy as np
 import pytest
-from equivalence import automorphism_count, distance, distance_or_mirrored, gram_of, omega_of, random_symplectic, symplectic_unit
+from equivalence import (
+    automorphism_count,
+    distance,
+    distance_or_mirrored,
+    gram_of,
+    omega_of,
+    random_symplectic,
+    symplectic_unit,
+)
 
 ROUNDING = 1e-9  # entries below 10, after integer matrices with entries below 10^3 on both sides
 

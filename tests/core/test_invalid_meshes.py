@@ -33,7 +33,9 @@ def pinched():
     one = families.tetrahedron()
     both = families.united(one, one)
     corners = np.where(both.corners == 4, 0, both.corners)
-    return replace(both, corners=np.where(corners > 4, corners - 1, corners), vertices=np.delete(both.vertices, 4, axis=0))
+    return replace(
+        both, corners=np.where(corners > 4, corners - 1, corners), vertices=np.delete(both.vertices, 4, axis=0)
+    )
 
 
 def three_at_an_edge():

@@ -15,9 +15,7 @@ from holomorph import Error, InvalidMesh, Surface
 QUADS = families.grid_quads(5, 4)
 VERTICES = families.torus(5, 4).vertices.astype(np.float32).astype(float)  # also exact in files of float32
 HEXAGON = [0, 4, 8, 9, 5, 1]
-MIXED = families.polygons(
-    VERTICES, [*QUADS[1:4].tolist(), *QUADS[5:].tolist(), HEXAGON], ((1, 0),)
-)
+MIXED = families.polygons(VERTICES, [*QUADS[1:4].tolist(), *QUADS[5:].tolist(), HEXAGON], ((1, 0),))
 TRIANGLES = families.uniform(VERTICES, families.cut_quads(QUADS), ((1, 0),))
 
 
@@ -63,7 +61,7 @@ def ply_text(mesh):
     return (head + "\n".join([*points, "0 1", *faces]) + "\n").encode()
 
 
-CODES = dict(uchar="B", int8="b", short="h", ushort="H", int="i", uint32="I", float="f", double="d")
+CODES = {"uchar": "B", "int8": "b", "short": "h", "ushort": "H", "int": "i", "uint32": "I", "float": "f", "double": "d"}
 
 
 def ply_binary(mesh, order="<", real="double", count="uchar", index="int"):
@@ -196,7 +194,7 @@ def test_path_may_be_text(tmp_path):
     assert Surface.read(str(written(tmp_path, "ünïcode.off", off(MIXED)))).genus == 1
 
 
-# ---- malformed files --------------------------------------------------------------------------------------------------
+# ---- malformed files -----------------------------------------------------------------------------
 
 
 OBJ, OFF, PLY, BINARY, STL = obj(MIXED), off(MIXED), ply_text(MIXED), ply_binary(MIXED), stl_text(TRIANGLES)
@@ -328,7 +326,7 @@ def test_any_truncation_and_any_wrong_byte_reads_or_is_refused(name, tmp_path):
             assert str(error)
 
 
-# ---- real files ---------------------------------------------------------------------------------------------------------
+# ---- real files ----------------------------------------------------------------------------------
 
 
 def table_of_real_meshes():
@@ -373,10 +371,14 @@ def test_real_mesh_is_read_like_its_row_says(name, tmp_path):
     assert len(surface.vertices) == int(vertices)
     count = {int(size): int(number) for size, number in (entry.split(":") for entry in sizes.split(","))}
     found = np.unique(np.diff(surface.face_offsets), return_counts=True)
-    assert dict(zip(*(part.tolist()[:3] for part in found), strict=True)) == count  # the table has the three smallest sizes
+    assert (
+        dict(zip(*(part.tolist()[:3] for part in found), strict=True)) == count
+    )  # the table has the three smallest sizes
     isolated = re.search(r"isolated (\d+)", flags)
     assert len(surface.repairs.isolated_vertices) == (int(isolated[1]) if isolated else 0)
     parts = sorted((part.genus, part.boundary_count) for part in surface.components)
-    assert parts == sorted(counting.topology(families.Mesh(surface.vertices, surface.corner_vertices, surface.face_offsets)))
+    assert parts == sorted(
+        counting.topology(families.Mesh(surface.vertices, surface.corner_vertices, surface.face_offsets))
+    )
     if by_component(topology):
         assert parts == by_component(topology)

@@ -21,7 +21,7 @@ def vector_area(points):
     return np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
 
 
-# ---- what goes in comes out -------------------------------------------------------------------------------------------
+# ---- what goes in comes out ----------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -81,7 +81,7 @@ def test_arrays_are_read_only(array):
         values[0] = values[1]
 
 
-# ---- topology ---------------------------------------------------------------------------------------------------------
+# ---- topology ------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", CONNECTED)
@@ -128,7 +128,7 @@ def test_several_components_have_no_genus(question):
         getattr(surface, question)
 
 
-# ---- triangulation ----------------------------------------------------------------------------------------------------
+# ---- triangulation -------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -185,7 +185,7 @@ def test_parallelograms_are_cut_along_the_short_diagonal():
     assert np.abs(used - shortest[surface.triangle_faces]).max() < ROUNDING
 
 
-# ---- repairs ----------------------------------------------------------------------------------------------------------
+# ---- repairs -------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", MESHES)
@@ -247,7 +247,7 @@ def test_nothing_to_repair_is_false():
     assert not surface_of(families.torus(6, 5)).repairs
 
 
-# ---- intrinsic surfaces -----------------------------------------------------------------------------------------------
+# ---- intrinsic surfaces --------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("name", FLAT)
@@ -273,21 +273,21 @@ def test_edges_are_told_apart_by_their_ends_where_no_names_are_given():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (dict(edge_lengths=lambda x: -x), "face 0"),
-        (dict(edge_lengths=lambda x: np.where(np.arange(3) == 1, np.nan, x)), "face 0"),
-        (dict(edge_lengths=lambda x: x * np.where(np.arange(len(x)) == 2, 1.5, 1)[:, None]), "edge"),
-        (dict(edge_lengths=lambda x: x[:-1]), "rows|lengths|shape"),
-        (dict(face_edges=lambda x: x[:-1]), "rows"),
-        (dict(face_edges=lambda x: 0 * x), "edge 0"),
-        (dict(faces=lambda x: x - 1), "negative"),
-        (dict(faces=lambda x: x + 10**12), "far beyond"),
-        (dict(faces=lambda x: x[:, :2]), "shape"),
-        (dict(faces=lambda x: x.astype(float)), "integers"),
+        ({"edge_lengths": lambda x: -x}, "face 0"),
+        ({"edge_lengths": lambda x: np.where(np.arange(3) == 1, np.nan, x)}, "face 0"),
+        ({"edge_lengths": lambda x: x * np.where(np.arange(len(x)) == 2, 1.5, 1)[:, None]}, "edge"),
+        ({"edge_lengths": lambda x: x[:-1]}, "rows|lengths|shape"),
+        ({"face_edges": lambda x: x[:-1]}, "rows"),
+        ({"face_edges": lambda x: 0 * x}, "edge 0"),
+        ({"faces": lambda x: x - 1}, "negative"),
+        ({"faces": lambda x: x + 10**12}, "far beyond"),
+        ({"faces": lambda x: x[:, :2]}, "shape"),
+        ({"faces": lambda x: x.astype(float)}, "integers"),
     ],
 )
 def test_invalid_intrinsic_surface(change, message):
     flat = families.flat_torus(1j, 3)
-    given = dict(faces=flat.faces, edge_lengths=flat.edge_lengths, face_edges=flat.face_edges)
+    given = {"faces": flat.faces, "edge_lengths": flat.edge_lengths, "face_edges": flat.face_edges}
     given |= {name: edit(given[name]) for name, edit in change.items()}
     with pytest.raises(InvalidMesh, match=message):
         Surface.from_edge_lengths(**given)

@@ -1,0 +1,136 @@
+"""Discretisation: period matrices against exact values, and the order at which they converge."""
+
+import json
+
+import families
+import numpy as np
+import pytest
+from conftest import shared_folder
+from equivalence import distance_or_mirrored, gram_of, isometries, omega_of
+from holomorph import Surface, conformal_structure
+from solved import surface_of
+
+EXACT = 1e-12  # where the symmetry of the mesh alone fixes Omega, only rounding is left
+LEAST_ORDER = 1.8
+
+
+def reference_values():
+    return json.loads((shared_folder("reference") / "values.json").read_text())
+
+
+def reference_surface(name):
+    path = shared_folder("reference") / "meshes" / name
+    if path.suffix == ".npz":
+        with np.load(path) as arrays:
+            return Surface.from_edge_lengths(arrays["faces"], arrays["edge_lengths"])
+    return Surface.read(path)
+
+
+def error(surface, omega):
+    """Least max-norm of Omega - omega over Sp(2g, Z) and the mirror image."""
+    return distance_or_mirrored(conformal_structure(surface).period_matrix, np.asarray(omega))
+
+
+def orders(errors):
+    """Of successive errors when the grid step halves."""
+    return np.log2(np.array(errors[:-1]) / errors[1:])
+
+
+# ---- tori of revolution: tau = i r / sqrt(R^2 - r^2), generated here -----------------------------
+
+
+def reduced(tau):
+    """Of a purely imaginary modulus."""
+    return max(tau, 1 / tau)
+
+
+RADII = {"R=2,r=1": (2, 1), "R=sqrt2,r=1": (np.sqrt(2), 1), "R=3,r=1": (3, 1), "R=1,r=0.25": (1, 0.25)}
+
+
+@pytest.mark.parametrize("radii", RADII)
+def test_formula_is_the_reference_s(radii):
+    R, r = RADII[radii]
+    _, imaginary = reference_values()["genus1"]["torus_of_revolution"]["reduced"][radii]
+    assert abs(reduced(r / np.sqrt(R * R - r * r)) - imaginary) < EXACT * imaginary
+
+
+@pytest.mark.parametrize("shape", ["quads", "triangles", "alternating"])
+@pytest.mark.parametrize("radii", RADII)
+def test_torus_of_revolution_converges(radii, shape):
+    R, r = RADII[radii]
+    omega = [[1j * reduced(r / np.sqrt(R * R - r * r))]]
+    errors = [error(surface_of(families.torus(4 * n, 2 * n, R, r, shape)), omega) for n in (8, 16, 32)]
+    assert (orders(errors) >= LEAST_ORDER).all(), errors
+
+
+@pytest.mark.parametrize("radii", RADII)
+def test_jittered_torus_of_revolution_converges(radii):
+    """No symmetry to help: the jitter differs from level to level, so the order is measured over two halvings."""
+    R, r = RADII[radii]
+    omega = [[1j * reduced(r / np.sqrt(R * R - r * r))]]
+    errors = [error(surface_of(families.torus(4 * n, 2 * n, R, r, "triangles", jitter=0.2)), omega) for n in (8, 32)]
+    assert np.log2(errors[0] / errors[1]) / 2 >= LEAST_ORDER, errors
+
+
+# ---- the reference meshes ------------------------------------------------------------------------
+
+
+def complex_matrix(entry):
+    if "Re" in entry:
+        return np.array(entry["Re"]) + 1j * np.array(entry["Im"])
+    factor = {"i/3": 1j / 3, "i/sqrt(3)": 1j / np.sqrt(3)}[entry["times"]]
+    return factor * np.array(entry["matrix"])
+
+
+@pytest.mark.parametrize("level", range(4))
+@pytest.mark.parametrize("name", ["omega1_squares3", "omega2_squares4", "omega3_squares6"])
+def test_square_tiled(name, level):
+    omega = complex_matrix(reference_values()["genus2"][name])
+    assert error(reference_surface(f"{name}_level{level}.npz"), omega) < EXACT
+
+
+@pytest.mark.parametrize("level", ["8", "16", "32"])
+def test_decagon(level):
+    values = reference_values()
+    omega = complex_matrix(values["genus2"]["decagon"])
+    attained = values["attained_by_the_projected_matrix"]["decagon_jittered"][level]
+    assert error(reference_surface(f"decagon_jittered_{level}.npz"), omega) <= attained
+
+
+def errors_and_attained(name, omega, levels):
+    attained = reference_values()["attained_by_the_projected_matrix"][name]
+    errors = [error(reference_surface(f"{name}_{level}.obj"), omega) for level in levels]
+    return errors, [attained[level] for level in levels]
+
+
+def test_lawson():
+    omega = complex_matrix(reference_values()["genus2"]["omega3_squares6"])
+    errors, attained = errors_and_attained("lawson_xi21", omega, ["32", "64"])
+    assert (np.array(errors) <= attained).all(), errors
+    assert (orders(errors) >= LEAST_ORDER).all(), errors
+
+
+def test_hopf():
+    real, imaginary = reference_values()["genus1"]["hopf_hexagonal"]["tau"]
+    errors, attained = errors_and_attained("hopf_hexagonal", [[real + 1j * imaginary]], ["120", "240"])
+    assert (np.array(errors) <= attained).all(), errors
+    assert (orders(errors) >= LEAST_ORDER).all(), errors
+
+
+@pytest.mark.parametrize("name", ["omega1_squares3", "omega2_squares4", "omega3_squares6", "decagon"])
+def test_bounds_hold_the_exact_value(name):
+    """The error bars are guaranteed: in the library's own basis, the exact Im Omega lies between them.
+
+    The exact matrix is carried into that basis by the symplectic matrix that brings it nearest to the computed one."""
+    omega = complex_matrix(reference_values()["genus2"][name])
+    file = "decagon_jittered_8.npz" if name == "decagon" else f"{name}_level0.npz"
+    structure = conformal_structure(reference_surface(file))
+    lower, upper = structure.period_bounds
+    candidates = []
+    for exact in (omega, -omega.conj()):
+        target = gram_of(structure.period_matrix)
+        for R in isometries(gram_of(exact), target, 0.02 * target.max()):
+            candidates.append(omega_of(R @ gram_of(exact) @ R.T))
+    nearest = min(candidates, key=lambda value: np.abs(value - structure.period_matrix).max())
+    assert np.linalg.eigvalsh(nearest.imag - lower).min() > -EXACT
+    assert np.linalg.eigvalsh(upper - nearest.imag).min() > -EXACT
