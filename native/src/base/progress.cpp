@@ -14,8 +14,8 @@ void Progress::stage(const std::string& name, double begin, double end) {
 }
 
 void Progress::finish() {
-  close_stage();
   if (callback_) call(1.0);
+  close_stage();
 }
 
 void Progress::call(double fraction) {

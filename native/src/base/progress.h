@@ -33,7 +33,7 @@ class Progress {
     if (i % 4096 == 0) report(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
   }
 
-  /// Ends the last stage and reports 1.
+  /// Reports 1 and ends the last stage.
   void finish();
 
   /// Seconds of wall time per stage, in the order in which they were first begun; a stage begun twice is summed.

@@ -1,0 +1,243 @@
+"""How a computation runs: bits, threads, progress, cancelling, refusals, and the command."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import families
+import holomorph
+import numpy as np
+import pytest
+from holomorph import Cancelled, Error, Surface, TopologyError, conformal_structure
+from solved import CLOSED, solved, surface_of
+from test_read import obj
+
+RESULTS = [
+    "edges",
+    "intersection_matrix",
+    "canonical_basis",
+    "harmonic_forms",
+    "holomorphic_forms",
+    "gram_matrix",
+    "period_matrix",
+    "seams",
+]
+
+
+def all_arrays(structure):
+    c = structure.balanced_coefficients()
+    uv = structure.uv(c)
+    quality = structure.quality(uv)
+    single = [getattr(structure, name) for name in RESULTS]
+    numbers = np.array([quality.mean_angle, quality.density_ratio, *vars(structure.residuals).values()])
+    return [*single, *structure.homology_basis, *structure.period_bounds, c, uv, quality.angle, quality.area, numbers]
+
+
+def assert_same_bits(one, other):
+    for a, b in zip(all_arrays(one), all_arrays(other), strict=True):
+        assert a.dtype == b.dtype
+        assert a.tobytes() == b.tobytes()
+
+
+# ---- same input, same bits ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("threads", [1, 2, 4])
+@pytest.mark.parametrize("name", CLOSED)
+def test_bits_do_not_depend_on_the_threads(name, threads):
+    assert_same_bits(solved(name), conformal_structure(surface_of(CLOSED[name]), threads=threads))
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3])
+def test_bits_of_a_larger_mesh(threads):
+    """Large enough for every parallel loop to be cut into pieces."""
+    mesh = families.torus(400, 200, shape="triangles", jitter=0.3)
+    default, given = conformal_structure(surface_of(mesh)), conformal_structure(surface_of(mesh), threads=threads)
+    assert_same_bits(default, given)
+
+
+def test_bits_of_another_process():
+    """Nothing depends on addresses, hash seeds or the time."""
+    code = (
+        f"import sys, hashlib; sys.path[:0] = {[path for path in sys.path if path]!r}; from solved import solved; from test_running import all_arrays;"
+        "print(hashlib.sha256(b''.join(a.tobytes() for a in all_arrays(solved('genus 3 block')))).hexdigest())"
+    )
+    runs = {
+        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120).stdout
+        for _ in range(2)
+    }
+    assert len(runs) == 1
+    assert len(runs.pop().strip()) == 64
+
+
+# ---- progress and cancelling --------------------------------------------------------------------------------------
+
+
+def large_torus():
+    return surface_of(families.torus(500, 300, shape="triangles", jitter=0.2))
+
+
+def test_progress_rises_from_0_to_1():
+    seen = []
+    conformal_structure(large_torus(), progress=lambda fraction, stage: seen.append((fraction, stage)))
+    fractions = np.array([fraction for fraction, _ in seen])
+    assert len(seen) >= 2
+    assert (np.diff(fractions) >= 0).all()
+    assert fractions.min() >= 0
+    assert fractions.max() <= 1
+    assert all(isinstance(stage, str) and stage for _, stage in seen)
+
+
+@pytest.mark.parametrize("answer", [None, True, 0, 1, ""])
+def test_only_false_cancels(answer):
+    structure = conformal_structure(large_torus(), progress=lambda fraction, stage: answer)
+    assert structure.period_matrix.shape == (1, 1)
+
+
+@pytest.mark.parametrize("call", [1, 2, 5])
+def test_cancelling_at_any_call(call):
+    calls = []
+
+    def stop(fraction, stage):
+        calls.append(stage)
+        return len(calls) < call
+
+    with pytest.raises(Cancelled):
+        conformal_structure(large_torus(), progress=stop)
+    assert len(calls) == call  # after the answer nothing more is asked
+
+
+def test_cancelling_the_forms_for_the_uv_map_leaves_the_structure_usable():
+    structure = conformal_structure(large_torus())
+    with pytest.raises(Cancelled):
+        structure.prepare_uv(progress=lambda fraction, stage: False)
+    uv = structure.uv([1])
+    assert np.isfinite(uv).all()
+
+
+def test_error_in_the_progress_function_reaches_the_caller():
+    def broken(fraction, stage):
+        raise RuntimeError("mine")
+
+    with pytest.raises(RuntimeError, match="mine"):
+        conformal_structure(large_torus(), progress=broken)
+
+
+def test_cancelled_is_an_error_of_the_library():
+    assert issubclass(Cancelled, Error)
+
+
+def test_timings_add_up():
+    timings = solved("genus 2 block").timings
+    assert all(seconds >= 0 for seconds in timings.values())
+    assert timings["total"] >= max(seconds for stage, seconds in timings.items() if stage != "total")
+
+
+def test_solver_is_reported():
+    structure = conformal_structure(surface_of(CLOSED["even torus"]), solver="direct")
+    assert structure.solver.name.startswith("direct")
+    assert structure.solver.reason
+    assert structure.solver.residual < 1e-8
+
+
+# ---- refusals -----------------------------------------------------------------------------------------------------
+
+REFUSED = {
+    "cube": (families.cube(), r"genus 0.*0 boundary|genus 0.*boundary"),
+    "cylinder": (families.cylinder(9, 5), r"genus 0.*2 boundary"),
+    "punctured torus": (families.punctured_torus(), r"genus 1.*1 boundary"),
+    "two tori": (families.united(families.torus(5, 4), families.torus(6, 5)), r"2 connected components"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_other_topologies_are_refused_by_name(name):
+    mesh, message = REFUSED[name]
+    with pytest.raises(TopologyError, match=message) as caught:
+        conformal_structure(surface_of(mesh))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"solver": "fastest"}, {"solver": None}, {"threads": 0}, {"threads": -1}, {"threads": 1.5}, {"threads": "two"}],
+)
+def test_wrong_options(options):
+    with pytest.raises(ValueError, match="solver|threads|invalid literal"):
+        conformal_structure(surface_of(CLOSED["even torus"]), **options)
+
+
+def test_options_have_names():
+    with pytest.raises(TypeError):
+        conformal_structure(surface_of(CLOSED["even torus"]), "direct")
+
+
+# ---- the command --------------------------------------------------------------------------------------------------
+
+
+def run(*arguments):
+    package = str(Path(holomorph.__file__).parents[1])
+    return subprocess.run(
+        [sys.executable, "-m", "holomorph", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=os.environ | {"PYTHONPATH": package},
+    )
+
+
+def write_obj(path, mesh):
+    path.write_bytes(obj(mesh))
+    return path
+
+
+def test_command_reports_every_component(tmp_path):
+    mesh = families.united(families.cube(), families.torus(9, 6), families.punctured_torus())
+    path, report = write_obj(tmp_path / "several.obj", mesh), tmp_path / "report.json"
+    result = run(path, "--report", report)
+    assert (result.returncode, result.stderr) == (0, "")
+    parts = json.loads(report.read_text())["components"]
+    assert [(part["done"], part["genus"], part["boundary_count"]) for part in parts] == [
+        (False, 0, 0),
+        (True, 1, 0),
+        (False, 1, 1),
+    ]
+    assert "genus 0" in parts[0]["reason"]
+    assert "boundary" in parts[2]["reason"]
+    tau = complex(*parts[1]["period_matrix"][0][0])
+    structure = conformal_structure(Surface.read(path).components[1])
+    assert tau == structure.period_matrix[0, 0]
+    assert all(value < 1e-8 for value in parts[1]["residuals"].values())
+
+
+def test_command_prints_the_report_where_no_file_is_named(tmp_path):
+    result = run(write_obj(tmp_path / "torus.obj", families.torus(9, 6)))
+    assert result.returncode == 0
+    assert json.loads(result.stdout)["components"][0]["genus"] == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("cube.obj", obj(families.cube()), "genus 0"),
+        ("broken.obj", b"v 0 0 zero\n", "line 1"),
+        ("moebius.obj", obj(families.moebius()), "orient"),
+        ("absent.obj", None, "no such file"),
+    ],
+)
+def test_command_fails_with_one_sentence(name, content, message, tmp_path):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    result = run(tmp_path / name, "--report", tmp_path / "report.json")
+    assert result.returncode == 1
+    assert message in result.stderr
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_command_cannot_write_its_report(tmp_path):
+    path = write_obj(tmp_path / "torus.obj", families.torus(9, 6))
+    result = run(path, "--report", tmp_path / "absent" / "report.json")
+    assert result.returncode == 1
+    assert len(result.stderr.splitlines()) == 1
