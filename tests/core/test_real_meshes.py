@@ -1,4 +1,4 @@
-"""Every closed mesh of genus >= 1 in ../shared/meshes: certificates, invariants, the figures that the maps must reach."""
+"""Every closed mesh of genus >= 1 in ../shared/meshes: certificates, invariants, and what the maps must reach."""
 
 import re
 

@@ -58,16 +58,20 @@ def test_bits_of_a_larger_mesh(threads):
     assert_same_bits(default, given)
 
 
+ANOTHER_PROCESS = """
+import hashlib, json, sys
+sys.path[:0] = json.loads(sys.argv[1])
+from solved import solved
+from test_running import all_arrays
+arrays = all_arrays(solved("genus 3 block"))
+print(hashlib.sha256(b"".join(array.tobytes() for array in arrays)).hexdigest())
+"""
+
+
 def test_bits_of_another_process():
     """Nothing depends on addresses, hash seeds or the time."""
-    code = (
-        f"import sys, hashlib; sys.path[:0] = {[path for path in sys.path if path]!r}; from solved import solved; from test_running import all_arrays;"
-        "print(hashlib.sha256(b''.join(a.tobytes() for a in all_arrays(solved('genus 3 block')))).hexdigest())"
-    )
-    runs = {
-        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120).stdout
-        for _ in range(2)
-    }
+    command = [sys.executable, "-c", ANOTHER_PROCESS, json.dumps([path for path in sys.path if path])]
+    runs = {subprocess.run(command, capture_output=True, text=True, timeout=120).stdout for _ in range(2)}
     assert len(runs) == 1
     assert len(runs.pop().strip()) == 64
 
