@@ -14,8 +14,9 @@ ADDON = ROOT / "addon"
 ROOM_BELOW = {
     "base": [],
     "mesh": ["base"],
+    "progressive": ["mesh"],
     "solver": ["base"],
-    "topology": ["mesh"],
+    "topology": ["progressive"],
     "forms": ["topology", "solver"],
     "conformal": ["forms"],
     "uv": ["conformal"],

@@ -1,0 +1,87 @@
+// Half-edge collapses on flat arrays: what both orders of collapsing share. Nothing is allocated per collapse.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "progressive/corner_table.h"
+
+namespace holomorph::progressive {
+
+/// One cache line. The quadric Q(x) = d.A d + 2 b.d + c, d = x - position, is the sum of area times squared distance
+/// over the planes of the triangles that v stands for. Taken about v itself, so that single precision keeps it.
+struct alignas(64) Vertex {
+  float position[3];  ///< in [-1, 1]
+  float c;            ///< Q(position)
+  float A[6];         ///< xx, xy, xz, yy, yz, zz
+  float b[3];
+  int side;  ///< leaves v; see CornerTable
+  int next;  ///< in its bucket of the queue; kNowhere if it is in none
+  std::uint32_t flags;
+  static constexpr std::uint32_t kBoundary = 1, kGone = 2, kTouched = 4;
+  static constexpr int kNowhere = -2;
+};
+
+/// What undoing a collapse needs: the paper's record, and the two triangles, -1 where there is none.
+struct Collapse {
+  int v_s, v_t, v_l, v_r;
+  int left, right;  ///< sides v_s -> v_t and v_t -> v_s
+};
+
+enum class Geometry { checked, ignored };
+
+class EdgeCollapse {
+ public:
+  explicit EdgeCollapse(const mesh::Surface& surface);
+
+  /// Adds the quadrics of all triangles, and of planes that stand on the boundary.
+  void compute_quadrics();
+
+  /// Gathers the star of v; the functions below are about this star.
+  void gather(int v);
+  int neighbour_count() const { return neighbour_count_; }
+  int neighbour(int i) const { return neighbours_[i]; }
+  /// Neighbours that v may be collapsed into as far as the boundary goes: all, or the two along the boundary.
+  bool along_boundary(int i) const { return closed_ || i == 0 || i == neighbour_count_ - 1; }
+  float squared_length(int i) const { return x_[i] * x_[i] + y_[i] * y_[i] + z_[i] * z_[i]; }
+  /// Q_v + Q_u at the neighbour's position, plus a small multiple of area times squared length, which decides where all
+  /// is flat: towards short edges.
+  float quadric_error(int i) const;
+  /// The complex stays a surface of the same topology (Dey et al. 1999): v and u have no common neighbours but the
+  /// apexes of the triangles at their edge, the boundary counting as one vertex, and are not two corners of a
+  /// tetrahedron.
+  bool keeps_topology(int i);
+  /// No triangle of the star turns by more than 75 degrees.
+  bool keeps_normals(int i) const;
+
+  /// Collapses v into neighbour i.
+  void collapse(int i);
+  /// Makes the neighbour's quadric the sum of both; to be called before `collapse`.
+  void add_quadrics(int i);
+
+  Vertex& vertex(int v) { return vertices_[static_cast<std::size_t>(v)]; }
+  int vertex_count() const { return static_cast<int>(vertices_.size()); }
+  const std::vector<Collapse>& collapses() const { return collapses_; }
+  void reserve(std::size_t collapses) { collapses_.reserve(collapses); }
+
+  /// Asks for memory that `gather(v)` will read soon: first the vertex, later, when that has come, its first triangle.
+  void prefetch_vertex(int v) const;
+  void prefetch_star(int v) const;
+
+ private:
+  bool boundary(int v) const { return (vertices_[static_cast<std::size_t>(v)].flags & Vertex::kBoundary) != 0; }
+  void keep_side(int v, int side);
+  void grow();
+
+  CornerTable table_;
+  std::vector<Vertex> vertices_;
+  std::vector<Collapse> collapses_;
+  // The star of v: triangle i lies between neighbours i and i + 1, counter-clockwise; open at the boundary.
+  int v_ = -1, triangle_count_ = 0, neighbour_count_ = 0;
+  bool closed_ = true;
+  std::uint64_t signature_ = 0;  // which residues modulo 64 the neighbours have
+  std::vector<int> sides_, neighbours_;
+  std::vector<float> x_, y_, z_;  // neighbours relative to v
+};
+
+}  // namespace holomorph::progressive

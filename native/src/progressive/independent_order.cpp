@@ -1,0 +1,73 @@
+#include <limits>
+#include <vector>
+
+#include "progressive/collapse_order.h"
+
+namespace holomorph::progressive {
+namespace {
+
+// Larger stars wait: their vertex becomes a neighbour of many others, and they are slow to walk around.
+constexpr int kLargestStar = 12;
+// A round that removes less than this part of the vertices is not worth another one with the same rules.
+constexpr double kLeastRemoved = 0.05;
+
+class IndependentOrder {
+ public:
+  explicit IndependentOrder(EdgeCollapse& mesh) : mesh_(mesh) {
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+      if ((mesh.vertex(v).flags & Vertex::kGone) == 0) left_.push_back(v);
+    }
+  }
+
+  /// One round; returns how many vertices were removed. Vertices that are left stay in ascending order.
+  std::size_t round(Geometry geometry) {
+    for (const int v : left_) mesh_.vertex(v).flags &= ~Vertex::kTouched;
+    for (std::size_t k = 0; k < left_.size(); ++k) {
+      const int v = left_[k];
+      if ((mesh_.vertex(v).flags & Vertex::kTouched) == 0) visit(v, geometry);
+    }
+    const std::size_t before = left_.size();
+    std::erase_if(left_, [this](int v) { return (mesh_.vertex(v).flags & Vertex::kGone) != 0; });
+    return before - left_.size();
+  }
+
+  std::size_t left() const { return left_.size(); }
+
+ private:
+  void visit(int v, Geometry geometry) {
+    mesh_.gather(v);
+    const int n = mesh_.neighbour_count();
+    if (geometry == Geometry::checked && n > kLargestStar) return;
+    if (n > static_cast<int>(costs_.size())) costs_.resize(2 * n);
+    constexpr float kRefused = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < n; ++i) costs_[i] = mesh_.along_boundary(i) ? mesh_.squared_length(i) : kRefused;
+    while (true) {
+      int best = 0;
+      for (int i = 1; i < n; ++i) best = costs_[i] < costs_[best] ? i : best;
+      if (costs_[best] == kRefused) return;
+      if (mesh_.keeps_topology(best) && (geometry == Geometry::ignored || mesh_.keeps_normals(best))) {
+        mesh_.collapse(best);
+        for (int i = 0; i < n; ++i) mesh_.vertex(mesh_.neighbour(i)).flags |= Vertex::kTouched;
+        return;
+      }
+      costs_[best] = kRefused;
+    }
+  }
+
+  EdgeCollapse& mesh_;
+  std::vector<int> left_;
+  std::vector<float> costs_ = std::vector<float>(64);
+};
+
+}  // namespace
+
+void collapse_independent_sets(EdgeCollapse& mesh) {
+  mesh.reserve(mesh.vertex_count());
+  IndependentOrder order(mesh);
+  while (static_cast<double>(order.round(Geometry::checked)) > kLeastRemoved * static_cast<double>(order.left())) {
+  }
+  while (order.round(Geometry::ignored) > 0) {
+  }
+}
+
+}  // namespace holomorph::progressive

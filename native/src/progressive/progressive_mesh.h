@@ -1,0 +1,73 @@
+// Progressive meshes (paper § 3; Hoppe 1996, doi:10.1145/237170.237216): a small base mesh and a sequence of vertex
+// splits that rebuilds the original exactly, positions, polygons and corners, with a valid mesh at every step.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/surface.h"
+
+namespace holomorph::progressive {
+
+using mesh::Triple;
+
+/// Which edges are collapsed first.
+enum class Order {
+  quadric,      ///< by quadric error (Garland & Heckbert 1997, doi:10.1145/258734.258849)
+  independent,  ///< by rounds; the vertices removed in one round are pairwise not adjacent
+};
+
+/// The vertex split {v_s, v_t, v_l, v_r, A}: v_t is the next vertex, the triangles {v_s, v_t, v_l} and {v_t, v_s, v_r}
+/// are the next triangles, and the triangles counter-clockwise from v_r to v_l around v_s move to v_t. v_s stays where
+/// it is: an edge collapse takes v_t to v_s.
+struct Split {
+  int v_s, v_l, v_r;            ///< v_l or v_r is -1 where the edge is on the boundary
+  std::uint8_t slot_l, slot_r;  ///< corner of the left triangle that is v_s, of the right one that is v_t
+  friend bool operator==(const Split&, const Split&) = default;
+};
+
+/// Vertices are numbered base first, then in the order of the splits, isolated vertices last; triangles base first,
+/// then in the order of the splits, the left one first. So the vertices and triangles of a level are the first ones of
+/// every finer level. Polygons: this is the progressive mesh of the surface's triangulation, and each corner of a
+/// triangle knows its corner of a polygon.
+struct ProgressiveMesh {
+  mesh::Surface base;
+  std::vector<Split> splits;
+  std::vector<std::array<double, 3>> positions;  ///< #V of the original, in the numbering above
+  std::vector<int> vertex_index;                 ///< #V in the original
+  std::vector<int> triangle_index;               ///< #T in the original surface's triangulation
+  std::vector<Triple> triangle_corners;          ///< #T polygon corners; empty: triangle t has 3t, 3t+1, 3t+2
+  std::vector<int> face_offsets;                 ///< of the original polygons; empty: all are triangles
+  std::string corner_type;                       ///< what one row of corner_data is, in the caller's words
+  std::vector<char> corner_data;                 ///< rows of equal size, one for each polygon corner
+
+  int base_vertex_count() const { return base.vertex_count; }
+  int vertex_count() const { return base.vertex_count + static_cast<int>(splits.size()); }  ///< without isolated ones
+  int triangle_count() const { return static_cast<int>(triangle_index.size()); }
+};
+
+/// Collapses edges until none is left that can be collapsed: genus 0 ends with 4 triangles, genus 1 with at most 20,
+/// for there are no larger irreducible triangulations (Barnette & Edelson 1989). Collapses obey the link condition (Dey
+/// et al. 1999), so that every level has the topology of the original and no two edges with the same ends; boundary
+/// vertices move along the boundary only. As long as possible no triangle turns by more than 75 degrees. Where that
+/// would leave a base without any area, the last collapses are left out.
+/// @throws InvalidMesh for an intrinsic surface. Deterministic, one thread, O(#T) apart from very large stars.
+ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order);
+
+/// Number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
+int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count);
+
+/// A level as polygons, in the numbering of the progressive mesh. @param splits from 0 to all
+mesh::Polygons level(const ProgressiveMesh& mesh, int splits);
+
+/// The original polygons, bit for bit, rebuilt from the base by all the splits.
+mesh::Polygons restored(const ProgressiveMesh& mesh);
+
+/// The vertex of the level that each vertex of the finest one was collapsed into: the simplicial map M -> M_k.
+std::vector<int> vertex_map(const ProgressiveMesh& mesh, int splits);
+
+/// Polygon corner of the original at each triangle corner of the numbering above; #T.
+std::vector<Triple> original_corners(const ProgressiveMesh& mesh);
+
+}  // namespace holomorph::progressive

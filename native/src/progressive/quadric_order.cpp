@@ -1,0 +1,77 @@
+#include <limits>
+
+#include "progressive/bucket_queue.h"
+#include "progressive/collapse_order.h"
+
+namespace holomorph::progressive {
+namespace {
+
+constexpr float kRefused = std::numeric_limits<float>::infinity();
+
+class QuadricOrder {
+ public:
+  explicit QuadricOrder(EdgeCollapse& mesh) : mesh_(mesh), queue_(mesh) {}
+
+  void run(Geometry geometry) {
+    geometry_ = geometry;
+    for (int v = mesh_.vertex_count() - 1; v >= 0; --v) {
+      if ((mesh_.vertex(v).flags & Vertex::kGone) == 0) queue_.push(v, 0);
+    }
+    for (int v = queue_.pop(); v >= 0; v = queue_.pop()) {
+      const int after = queue_.first();
+      if (after >= 0) mesh_.prefetch_vertex(after);
+      visit(v);
+    }
+  }
+
+ private:
+  // Collapses v, pushes it again, or leaves it out of the queue until its star changes.
+  void visit(int v) {
+    mesh_.gather(v);
+    const int n = mesh_.neighbour_count();
+    if (n > static_cast<int>(costs_.size())) costs_.resize(2 * n);
+    for (int i = 0; i < n; ++i) costs_[i] = mesh_.along_boundary(i) ? mesh_.quadric_error(i) : kRefused;
+    while (true) {
+      int best = 0;
+      for (int i = 1; i < n; ++i) best = costs_[i] < costs_[best] ? i : best;
+      if (costs_[best] == kRefused) return;
+      const int bucket = BucketQueue::bucket(costs_[best]);
+      if (bucket > queue_.current()) return queue_.push(v, bucket);
+      if (mesh_.keeps_topology(best) && (geometry_ == Geometry::ignored || mesh_.keeps_normals(best)))
+        return collapse(best);
+      costs_[best] = kRefused;
+    }
+  }
+
+  void collapse(int best) {
+    mesh_.add_quadrics(best);
+    mesh_.collapse(best);
+    for (int i = 0; i < mesh_.neighbour_count(); ++i) {
+      const int u = mesh_.neighbour(i);
+      if (mesh_.vertex(u).next == Vertex::kNowhere) queue_.push(u, 0);
+    }
+  }
+
+  EdgeCollapse& mesh_;
+  BucketQueue queue_;
+  Geometry geometry_ = Geometry::checked;
+  std::vector<float> costs_ = std::vector<float>(64);
+};
+
+}  // namespace
+
+void collapse_by_quadrics(EdgeCollapse& mesh) {
+  mesh.compute_quadrics();
+  mesh.reserve(mesh.vertex_count());
+  QuadricOrder order(mesh);
+  order.run(Geometry::checked);
+  // A refused vertex is tried again when its own star changes, not when a neighbour's does: so once more until nothing
+  // is left. Each round but the last makes a collapse.
+  for (std::size_t before = 0; before != mesh.collapses().size() || before == 0;) {
+    before = mesh.collapses().size();
+    order.run(Geometry::ignored);
+    if (before == 0 && mesh.collapses().empty()) return;
+  }
+}
+
+}  // namespace holomorph::progressive
