@@ -6,7 +6,7 @@ namespace holomorph::pipeline {
 namespace {
 
 // Largest relative gain in energy that is given away; it bounds the squared relative distance between the forms.
-constexpr double kNegligibleGain = 1e-6;
+constexpr double kNegligibleGain = 1e-9;
 
 }  // namespace
 
