@@ -32,7 +32,7 @@ double smallest_increment(const Surface& surface);
 IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, const HalfEdges& half_edges);
 
 /// Flips edges until every interior edge is Delaunay, cot + cot >= 0 up to rounding (Fisher et al. 2007,
-/// doi:10.1007/s00607-006-0194-3). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
+/// doi:10.1007/s00607-007-0249-8). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
 /// function (Rippa 1990), so no triangulation comes twice; in rounded arithmetic because no edge is turned without limit.
 void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress);
 
