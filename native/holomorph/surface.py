@@ -166,11 +166,15 @@ class Surface:
     def _index(given, count):
         return arrays.frozen(np.arange(count, dtype=np.int32)) if given is None else given
 
-    @cached_property
+    @property
     def components(self):
         """Tuple of the connected components, ordered by their first face, without isolated vertices."""
         if self._native.component_count == 1 and not len(self._native.isolated_vertices):
-            return (self,)
+            return (self,)  # not kept: a surface that holds itself lives until the garbage collector comes by
+        return self._parts
+
+    @cached_property
+    def _parts(self):
         parts = []
         for which in range(self._native.component_count):
             part = Surface.__new__(Surface)
