@@ -56,16 +56,16 @@ def parse(arguments):
     parser.add_argument("--rotation", type=float, default=0.0, help="degrees by which all maps are turned")
     parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
-    parser.add_argument("--checker-scale", type=float, default=24.0, help="squares per UV unit")
+    parser.add_argument("--checker-scale", type=float, default=0.0, help="squares per UV unit; 0 chooses")
     parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
-    parser.add_argument("--resolution", type=int, default=960, help="pixels of the picture's sides")
-    parser.add_argument("--samples", type=int, default=32, help="samples per pixel")
+    parser.add_argument("--resolution", type=int, default=800, help="pixels of the picture's sides")
+    parser.add_argument("--samples", type=int, default=24, help="samples per pixel")
     options = parser.parse_args(arguments)
     for path in (options.output, options.render, options.report):
         if path is not None and not path.resolve().parent.is_dir():
             raise UsageError(f"{path}: the folder {path.resolve().parent} does not exist")
-    if options.forms < 0 or options.density <= 0 or options.checker_scale <= 0 or options.shown < 0:
-        raise UsageError("--forms and --shown cannot be negative; --density and --checker-scale must be positive")
+    if options.forms < 0 or options.density <= 0 or options.checker_scale < 0 or options.shown < 0:
+        raise UsageError("--forms, --shown and --checker-scale cannot be negative, and --density must be positive")
     if options.resolution < 1 or options.samples < 1:
         raise UsageError("--resolution and --samples must be at least 1")
     return options

@@ -9,6 +9,9 @@ import numpy as np
 
 from .mesh_io import MAIN_MAP
 
+SAMPLED = 50_000  # triangles, for a median
+SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
+SQUARES_LIMIT = 10_000
 CENTRE = 0.5 + 0.5j  # every component is centred in the unit square; artists pack from there
 
 
@@ -62,10 +65,7 @@ def component_uv(component, index, options):
     Centred before rounding to float32: the two copies of a seam edge stay equal to the last bits.
     """
     z = _as_complex(component.structure.uv(coefficients(component, index, options)))
-    key = (index, options.amounts, options.turns) if index == 0 else index
-    if key not in component.frames:
-        component.frames[key] = _frame(z, component.surface.triangle_corners)
-    middle, area = component.frames[key]
+    middle, area = _frame(component, index, options, z)
     # No area is left where all dials are at zero: a point, in the middle like everything else.
     scale = options.density / math.sqrt(area) * cmath.exp(1j * options.rotation) if area > 0 else 0
     z = z - middle
@@ -74,22 +74,62 @@ def component_uv(component, index, options):
     return z.view(np.float64).reshape(-1, 2)
 
 
-def _frame(z, triangle_corners):
-    """The middle of the bounding box, and the area."""
-    u, v = z.real, z.imag
-    middle = complex(u.min() + u.max(), v.min() + v.max()) / 2
-    return middle, abs(uv_area(z - middle, triangle_corners))
+def _frame(component, index, options, z):
+    """The middle of the bounding box and the area, kept: they cost more than everything else here."""
+    key = (index, options.amounts, options.turns) if index == 0 else index
+    if key not in component.frames:
+        u, v = z.real, z.imag
+        middle = complex(u.min() + u.max(), v.min() + v.max()) / 2
+        component.frames[key] = middle, abs(uv_area(z - middle, component.surface.triangle_corners))
+    return component.frames[key]
 
 
 def _as_complex(uv):
     return np.ascontiguousarray(uv).view(np.complex128)[:, 0]
 
 
+@dataclass(frozen=True)
+class MainQuality:
+    """Distortion of the main map; scale and rotation do not matter."""
+
+    mean_angle: float
+    density_ratio: float
+    flipped: int  # triangles
+    length_ratio: float  # UV length per length on the surface, the median by area, at density 1
+
+
 def main_quality(component, options):
-    """(mean angle, density ratio, flipped triangles) of the main map; scale and rotation do not matter."""
+    """The quality of the main map, kept for each setting of its dials."""
     dials = (options.amounts, options.turns)
     if dials not in component.qualities:
-        quality = component.structure.quality(component.structure.uv(coefficients(component, 0, options)))
-        flipped = int(np.count_nonzero(quality.flipped))
-        component.qualities[dials] = (float(quality.mean_angle), float(quality.density_ratio), flipped)
+        uv = component.structure.uv(coefficients(component, 0, options))
+        quality = component.structure.quality(uv)
+        _, area = _frame(component, 0, options, _as_complex(uv))
+        ratio = _median_by_area(component.surface, quality.area)
+        component.qualities[dials] = MainQuality(
+            float(quality.mean_angle),
+            float(quality.density_ratio),
+            int(np.count_nonzero(quality.flipped)),
+            math.sqrt(ratio / area) if area > 0 else 0.0,
+        )
     return component.qualities[dials]
+
+
+def _median_by_area(surface, values):
+    """The median of a value of each triangle, weighted by surface area, over a regular sample of the triangles."""
+    step = -(-len(values) // SAMPLED)
+    sample = values[::step]
+    p, q, r = surface.vertices[surface.triangles[::step]].transpose(1, 0, 2)
+    weights = np.linalg.norm(np.cross(q - p, r - p), axis=1)
+    order = np.argsort(sample, kind="stable")
+    below = np.cumsum(weights[order])
+    return float(sample[order][np.searchsorted(below, below[-1] / 2)])
+
+
+def squares_that_fit(solved, options):
+    """Checker squares per UV unit so that about `SQUARES_ACROSS` of them span the largest part that has a map."""
+    parts = [c for c in solved.components if c.structure is not None]
+    sizes = [float(np.linalg.norm(np.ptp(c.surface.vertices, axis=0))) for c in parts]
+    size, part = max(zip(sizes, parts), key=lambda pair: pair[0])
+    density = options.density * main_quality(part, options).length_ratio * size
+    return min(max(2 * round(SQUARES_ACROSS / density / 2), 2), SQUARES_LIMIT) if density > 0 else SQUARES_ACROSS

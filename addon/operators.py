@@ -64,7 +64,11 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         default=True,
     )
     checker_scale: FloatProperty(
-        name="Squares", description="Checker squares per UV unit", default=24.0, min=1.0, soft_max=200.0
+        name="Squares",
+        description="Checker squares per UV unit; 0 chooses a number that suits the object's size",
+        default=0.0,
+        min=0.0,
+        soft_max=200.0,
     )
     seams: BoolProperty(
         name="Mark Seams",

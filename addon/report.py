@@ -32,7 +32,7 @@ def component_report(component, options):
         return {**entry, "skipped": component.reason}
     structure = component.structure
     lower, upper = structure.period_bounds
-    angle, density_ratio, flipped = maps.main_quality(component, options)
+    quality = maps.main_quality(component, options)
     return {
         **entry,
         "period_matrix": _complex(structure.period_matrix),
@@ -42,7 +42,11 @@ def component_report(component, options):
         "timings": structure.timings,
         "seam_edges": len(structure.seams),
         "balanced_coefficients": _complex(component.balanced),
-        "main_map": {"mean_angle": angle, "density_ratio": density_ratio, "flipped": flipped},
+        "main_map": {
+            "mean_angle": quality.mean_angle,
+            "density_ratio": quality.density_ratio,
+            "flipped": quality.flipped,
+        },
     }
 
 

@@ -34,6 +34,7 @@ class Outcome:
     notes: list = field(default_factory=list)
     entries: list = field(default_factory=list)
     forms: int = 0
+    squares: float = 0.0
 
     def refuse(self, name, sentence):
         self.problems.append(f"{name}: {sentence}")
@@ -112,7 +113,7 @@ class WriteOptions:
 
     shown: int = 0  # 0 the main map, j the map of form j
     checker: bool = True
-    checker_scale: float = 24.0  # squares per UV unit
+    checker_scale: float = 0.0  # squares per UV unit; 0 lets the first object decide
     seams: bool = False
 
 
@@ -173,8 +174,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     mesh_io.show_map(mesh, shown.name)
     new_seams = mesh_io.add_seams(mesh, _seam_pairs(solved)) if options.seams else 0
     if options.checker:
-        is_attribute = shown.kind == "attribute"
-        material.show_checker(obj, material.checker_material(shown.name, is_attribute, options.checker_scale))
+        _show_checker(outcome, obj, solved, shown, map_options, options)
     mesh.update()
     entry = report.object_report(obj, solved, written, new_seams, map_options)
     report.store_on_object(obj, entry)
@@ -186,6 +186,13 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     if extra:
         maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
         outcome.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
+
+
+def _show_checker(outcome, obj, solved, shown, map_options, options):
+    if not outcome.squares:  # all objects of a run share the material
+        outcome.squares = options.checker_scale or maps.squares_that_fit(solved, map_options)
+    is_attribute = shown.kind == "attribute"
+    material.show_checker(obj, material.checker_material(shown.name, is_attribute, outcome.squares))
 
 
 def _seam_pairs(solved):

@@ -5,23 +5,37 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 
 import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import mesh_io, torus_arrays
+from scenes import mesh_io, torus, torus_arrays
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
+SCRIPT = str(ROOT / "addon" / "headless.py")
 MESHES = ROOT.parent / "shared" / "meshes"
 SECONDS = 300
+# What `blender -b FILE --python SCRIPT` does, where Blender is a Python module.
+AS_MODULE = """
+import runpy, sys, bpy
+blend, script = sys.argv[1:3]
+if blend:
+    bpy.ops.wm.open_mainfile(filepath=blend)
+runpy.run_path(script, run_name="__main__")
+"""
 
-pytestmark = pytest.mark.skipif(not BLENDER, reason="needs a Blender program: HOLOMORPH_BLENDER names it")
+needs_program = pytest.mark.skipif(not BLENDER, reason="needs a Blender program: HOLOMORPH_BLENDER names it")
 
 
-def headless(*arguments, blend=None, seconds=SECONDS):
-    command = [BLENDER, "-b", *([str(blend)] if blend else []), "--factory-startup", "--python-exit-code", "1"]
-    command += ["--python", str(ROOT / "addon" / "headless.py"), "--", *map(str, arguments)]
+def headless(*arguments, blend="", seconds=SECONDS):
+    if BLENDER:
+        command = [BLENDER, "-b", *([str(blend)] if blend else []), "--factory-startup", "--python-exit-code", "1"]
+        command += ["--python", SCRIPT]
+    else:
+        command = [sys.executable, "-c", AS_MODULE, str(blend), SCRIPT]
+    command += ["--", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
 
 
@@ -150,6 +164,25 @@ def test_object_option(tmp_path):
     assert done.returncode == 1 and "Nobody" in our_lines(done)[0]
 
 
+def test_a_file_saved_in_edit_mode_and_without_an_active_object(tmp_path):
+    torus()
+    bpy.ops.object.mode_set(mode="EDIT")
+    path = tmp_path / "editing.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    assert headless(blend=path).returncode == 0
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.view_layer.objects.active = None
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    assert headless(blend=path).returncode == 0
+
+
+def test_a_blend_file_without_a_mesh(tmp_path):
+    path = tmp_path / "nothing.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    done = headless(blend=path)
+    assert done.returncode == 1 and "no mesh object" in our_lines(done)[0]
+
+
 # file: genus; all meshes of the shared folder that are closed and have a handle
 SHARED = {
     "big_brain_cit168_854k_g15.ply.gz": 15,
@@ -171,6 +204,7 @@ SHARED = {
 }
 
 
+@needs_program
 @pytest.mark.parametrize("name", SHARED)
 def test_shared_mesh(name, tmp_path):
     path = MESHES / name
@@ -200,6 +234,7 @@ REFUSED = [
 ]
 
 
+@needs_program
 @pytest.mark.parametrize("name", REFUSED)
 def test_shared_mesh_that_is_refused(name):
     path = MESHES / name

@@ -273,6 +273,23 @@ def test_checker_nodes():
     assert scale.outputs[0].default_value == 30 and tuple(active.image.size) == (240, 240)
 
 
+def shown_scale(obj):
+    return obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value
+
+
+def test_the_checker_suits_the_size_and_the_density():
+    obj = torus()
+    run()
+    squares = shown_scale(obj)
+    assert 10 <= squares <= 60 and squares % 2 == 0
+    run(density=0.5)
+    assert abs(shown_scale(obj) - 2 * squares) <= 4
+    obj.scale = (100, 100, 100)
+    bpy.context.view_layer.update()
+    run()
+    assert shown_scale(obj) == squares
+
+
 def test_the_artists_materials_come_back():
     obj = torus()
     mine, own = bpy.data.materials.new("Mine"), bpy.data.materials.new("Own")

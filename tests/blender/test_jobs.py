@@ -1,0 +1,124 @@
+"""The worker thread, its cancelling, and what is kept."""
+
+import threading
+
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import mesh_io, mesh_object, run, select, sphere_arrays, torus, torus_arrays, uv
+
+native = module("native")
+
+
+def polygons_of(obj):
+    return mesh_io.read_polygons(obj.data, np.eye(3))
+
+
+def test_a_worker_gives_what_the_main_thread_gives():
+    polygons = [polygons_of(torus("First")), polygons_of(mesh_object("Second", *sphere_arrays()))]
+    job = module("jobs").Job(polygons)
+    job.start()
+    job.wait()
+    assert not job.is_running() and not job.is_cancelled()
+    assert [r.form_count for r in job.results] == [1, 0]
+
+
+def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
+    vertices, faces = torus_arrays()
+    bad = mesh_object("Bad", vertices * np.nan, faces)
+    job = module("jobs").Job([polygons_of(bad), polygons_of(torus())])
+    job.start()
+    job.wait()
+    assert isinstance(job.results[0], native.load().InvalidMesh)
+    assert job.results[1].form_count == 1
+
+
+def test_cancel_leaves_the_rest_undone():
+    polygons = polygons_of(torus(around=200, across=100))
+    job = None
+
+    def cancel_at_once(_fraction, _stage):
+        job.cancel()
+
+    job = module("jobs").Job([polygons, polygons], cancel_at_once)
+    job.start()
+    job.wait()
+    assert job.is_cancelled()
+    assert isinstance(job.results[0], native.load().Cancelled) and job.results[1] is None
+    assert module("cache").find(polygons.fingerprint) is None
+
+
+def test_progress_grows_from_0_to_1():
+    seen = []
+    polygons = [polygons_of(torus("First", around=100)), polygons_of(torus("Second", around=120))]
+    job = module("jobs").Job(polygons, lambda fraction, stage: seen.append((fraction, stage)))
+    job.run()
+    fractions = [f for f, _ in seen]
+    assert fractions and fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
+    assert all(isinstance(stage, str) for _, stage in seen)
+
+
+def test_our_own_mistakes_come_out_of_the_thread(monkeypatch):
+    def broken(*_):
+        raise ZeroDivisionError("our own mistake")
+
+    monkeypatch.setattr(module("solve"), "solve", broken)
+    job = module("jobs").Job([polygons_of(torus())])
+    job.start()
+    with pytest.raises(ZeroDivisionError):
+        job.wait()
+
+
+def test_no_thread_is_left():
+    torus()
+    run()
+    assert not [t for t in threading.enumerate() if t.name == "holomorph"]
+
+
+def test_the_oldest_solves_go_when_memory_is_full(monkeypatch):
+    cache = module("cache")
+    objects = [torus(str(size), around=size) for size in (20, 24, 28)]
+    fingerprints = []
+    for obj in objects:
+        job = module("jobs").Job([polygons_of(obj)])
+        job.run()
+        fingerprints.append(polygons_of(obj).fingerprint)
+    assert all(cache.find(f) for f in fingerprints)
+    monkeypatch.setattr(cache, "SIZE_LIMIT", 1)
+    module("jobs").Job([polygons_of(torus("Last", around=32))]).run()
+    assert not any(cache.find(f) for f in fingerprints)
+    assert cache.find(polygons_of(bpy.data.objects["Last"]).fingerprint)
+
+
+def test_opening_a_file_forgets_the_solves():
+    obj = torus()
+    run()
+    fingerprint = mesh_io.read_polygons(obj.data, np.eye(3)).fingerprint
+    assert module("cache").find(fingerprint)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    assert module("cache").find(fingerprint) is None
+
+
+@pytest.mark.skipif(bpy.app.version >= (4, 0, 0), reason="since 4.0 corners are always in the polygons' order")
+def test_corners_in_another_order_than_the_polygons():
+    vertices, faces = torus_arrays()
+    plain = torus("Plain")
+    order = np.random.default_rng(3).permutation(len(faces))
+    mesh = bpy.data.meshes.new("Shuffled")
+    mesh.vertices.add(len(vertices))
+    mesh.vertices.foreach_set("co", vertices.astype(np.float32).ravel())
+    mesh.loops.add(faces.size)
+    corners = np.empty_like(faces)
+    corners[order] = faces  # polygon i has its corners at 4 order[i]
+    mesh.loops.foreach_set("vertex_index", corners.astype(np.int32).ravel())
+    mesh.polygons.add(len(faces))
+    mesh.polygons.foreach_set("loop_start", (4 * order).astype(np.int32))
+    mesh.polygons.foreach_set("loop_total", np.full(len(faces), 4, np.int32))
+    mesh.update(calc_edges=True)
+    obj = bpy.data.objects.new("Shuffled", mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    select(plain, obj)
+    run()
+    expected = uv(plain).reshape(-1, 4, 2)
+    assert np.array_equal(uv(obj).reshape(-1, 4, 2)[order], expected)
