@@ -19,8 +19,8 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-import addon  # noqa: E402
-import addon.native  # noqa: E402
+import addon
+import addon.native
 
 
 def torus(faces, major=1.0, minor=0.4):
