@@ -117,7 +117,7 @@ def _summary(entry):
             lines.append(f"    angle distortion {part['main_map']['mean_angle']:.4f}")
         if part["done"] and part["genus"] == 1:
             period = part["period_matrix"]
-            lines.append(f"    tau = {period['real'][0][0]:.4f} + {period['imag'][0][0]:.4f} i")
+            lines.append(f"    tau = {round(period['real'][0][0], 4) + 0.0:.4f} + {period['imag'][0][0]:.4f} i")
     if len(parts) > SUMMARISED:
         lines.append(f"... {len(parts) - SUMMARISED} more parts in the report")
     return lines
