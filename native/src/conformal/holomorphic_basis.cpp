@@ -17,13 +17,15 @@ MatrixXd symmetric(const MatrixXd& A) { return (A + A.transpose()) / 2; }
 
 MatrixXd geometric_mean(const MatrixXd& A, const MatrixXd& B) {
   const Eigen::LLT<MatrixXd> root(A);
-  if (root.info() != Eigen::Success) throw SolverError("the Gram matrix of " + std::to_string(A.rows()) + " forms is not positive definite");
+  if (root.info() != Eigen::Success)
+    throw SolverError("the Gram matrix of " + std::to_string(A.rows()) + " forms is not positive definite");
   const MatrixXd L = root.matrixL();
   const MatrixXd half = L.triangularView<Eigen::Lower>().solve(B);
   const MatrixXd inner = L.triangularView<Eigen::Lower>().solve(half.transpose());  // L^-1 B L^-T
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric(inner));
   if (eigen.info() != Eigen::Success || !(eigen.eigenvalues().minCoeff() > 0)) {
-    throw SolverError("the Gram matrix of " + std::to_string(A.rows()) + " forms is too badly conditioned to be projected");
+    throw SolverError("the Gram matrix of " + std::to_string(A.rows()) +
+                      " forms is too badly conditioned to be projected");
   }
   return symmetric(L * eigen.operatorSqrt() * L.transpose());
 }
@@ -41,7 +43,8 @@ HolomorphicBasis holomorphic_basis(const MatrixXd& G_zeta, const topology::Canon
   HolomorphicBasis result;
   const MatrixXd imaginary = symmetric(inverse(projected.bottomRightCorner(g, g)));
   const MatrixXd real = symmetric(-projected.topRightCorner(g, g) * imaginary);
-  result.period_matrix = real.cast<std::complex<double>>() + std::complex<double>(0, 1) * imaginary.cast<std::complex<double>>();
+  result.period_matrix =
+      real.cast<std::complex<double>>() + std::complex<double>(0, 1) * imaginary.cast<std::complex<double>>();
   Eigen::MatrixXcd canonical(2 * g, g);  // int_{a_i} theta_j = delta_ij, int_{b_i} theta_j = Omega_ij
   canonical << Eigen::MatrixXcd::Identity(g, g), result.period_matrix;
   result.periods = S.transpose() * canonical;  // zeta = R^-1 (a, b), and R^-1 = S^T

@@ -4,7 +4,8 @@ namespace holomorph::mesh {
 namespace {
 
 // Rebuilds an intrinsic component from its triangles as given (before any was reversed), edges by name.
-Surface intrinsic_part(const Surface& parent, const std::vector<int>& faces, const std::vector<int>& new_vertex, int vertex_count) {
+Surface intrinsic_part(const Surface& parent, const std::vector<int>& faces, const std::vector<int>& new_vertex,
+                       int vertex_count) {
   std::vector<char> reversed(parent.triangles.size(), 0);
   for (const int f : parent.repairs.reversed_faces) reversed[f] = 1;
   std::vector<std::array<std::int64_t, 3>> triangles, names;
@@ -53,7 +54,8 @@ Component component(const Surface& parent, int which) {
   for (const int v : part.vertex_index) polygons.vertices.push_back(mesh.vertices[v]);
   polygons.face_offsets.push_back(0);
   for (const int f : part.face_index) {
-    for (auto c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) polygons.corner_vertices.push_back(new_vertex[mesh.corner_vertices[c]]);
+    for (auto c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c)
+      polygons.corner_vertices.push_back(new_vertex[mesh.corner_vertices[c]]);
     polygons.face_offsets.push_back(static_cast<std::int64_t>(polygons.corner_vertices.size()));
   }
   part.surface = make_surface(std::move(polygons));
@@ -61,8 +63,8 @@ Component component(const Surface& parent, int which) {
 }
 
 int euler_characteristic(const Surface& surface) {
-  return surface.vertex_count - static_cast<int>(surface.repairs.isolated_vertices.size()) - static_cast<int>(surface.edges.size()) +
-         static_cast<int>(surface.triangles.size());
+  return surface.vertex_count - static_cast<int>(surface.repairs.isolated_vertices.size()) -
+         static_cast<int>(surface.edges.size()) + static_cast<int>(surface.triangles.size());
 }
 
 int genus(int euler_characteristic, int boundary_count) { return (2 - euler_characteristic - boundary_count) / 2; }

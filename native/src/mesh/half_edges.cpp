@@ -66,7 +66,8 @@ void check_vertices(const HalfEdges& mesh, Progress& progress) {
       ++met;
       h = next(mesh, opposite(h));
     } while (h != start && met <= leaving[v]);
-    if (met != leaving[v]) throw InvalidMesh("vertex " + to_string(v) + " is non-manifold: two fans of faces touch there");
+    if (met != leaving[v])
+      throw InvalidMesh("vertex " + to_string(v) + " is non-manifold: two fans of faces touch there");
   }
 }
 

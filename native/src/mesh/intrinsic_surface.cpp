@@ -20,25 +20,31 @@ using Names = std::vector<std::array<std::int64_t, 3>>;
 // Two triangles may give the length of their common edge with this relative difference: rounding of the caller's.
 constexpr double kLengthAgreement = 1e-9;
 
-void check_input(int vertex_count, const Names& faces, const std::vector<std::array<double, 3>>& lengths, const Names& face_edges) {
+void check_input(int vertex_count, const Names& faces, const std::vector<std::array<double, 3>>& lengths,
+                 const Names& face_edges) {
   if (faces.empty()) throw InvalidMesh("the mesh has no faces");
   if (lengths.size() != faces.size()) {
-    throw InvalidMesh("edge_lengths has " + to_string(lengths.size()) + " rows for " + to_string(faces.size()) + " faces");
+    throw InvalidMesh("edge_lengths has " + to_string(lengths.size()) + " rows for " + to_string(faces.size()) +
+                      " faces");
   }
   if (!face_edges.empty() && face_edges.size() != faces.size()) {
-    throw InvalidMesh("face_edges has " + to_string(face_edges.size()) + " rows for " + to_string(faces.size()) + " faces");
+    throw InvalidMesh("face_edges has " + to_string(face_edges.size()) + " rows for " + to_string(faces.size()) +
+                      " faces");
   }
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (int i = 0; i < 3; ++i) {
-      if (faces[f][i] < 0) throw InvalidMesh("face " + to_string(f) + " has the negative vertex index " + to_string(faces[f][i]));
+      if (faces[f][i] < 0)
+        throw InvalidMesh("face " + to_string(f) + " has the negative vertex index " + to_string(faces[f][i]));
       if (faces[f][i] >= vertex_count) {
-        throw InvalidMesh("face " + to_string(f) + " names vertex " + to_string(faces[f][i]) + ", but there are only " + to_string(vertex_count) + " vertices");
+        throw InvalidMesh("face " + to_string(f) + " names vertex " + to_string(faces[f][i]) + ", but there are only " +
+                          to_string(vertex_count) + " vertices");
       }
       if (!std::isfinite(lengths[f][i]) || lengths[f][i] < 0) {
         throw InvalidMesh("face " + to_string(f) + " has an edge length that is negative or not finite");
       }
       if (face_edges.empty() && faces[f][i] == faces[f][(i + 1) % 3]) {
-        throw InvalidMesh("face " + to_string(f) + " has vertex " + to_string(faces[f][i]) + " twice; name its edges with face_edges");
+        throw InvalidMesh("face " + to_string(f) + " has vertex " + to_string(faces[f][i]) +
+                          " twice; name its edges with face_edges");
       }
     }
   }
@@ -74,18 +80,21 @@ bool same_edge(const Side& x, const Side& y) { return x.key[0] == y.key[0] && x.
 
 class EdgeBuilder {
  public:
-  EdgeBuilder(Surface& surface, const std::vector<std::array<double, 3>>& lengths) : surface_(surface), lengths_(lengths) {}
+  EdgeBuilder(Surface& surface, const std::vector<std::array<double, 3>>& lengths)
+      : surface_(surface), lengths_(lengths) {}
 
   // Adds the edge whose sides are begin .. end-1.
   void add(const Side* begin, const Side* end) {
     const int edge = static_cast<int>(surface_.edges.size());
     const Pair ends = ends_of(*begin);
-    const std::string name = "edge " + to_string(edge) + " (vertices " + to_string(ends[0]) + ", " + to_string(ends[1]) + ")";
+    const std::string name =
+        "edge " + to_string(edge) + " (vertices " + to_string(ends[0]) + ", " + to_string(ends[1]) + ")";
     if (end - begin > 2) throw InvalidMesh(name + " has " + to_string(end - begin) + " faces; a surface has at most 2");
     for (const Side* s = begin; s != end; ++s) {
       if (ends_of(*s) != ends) throw InvalidMesh(name + " has other ends in face " + to_string(s->triangle));
       if (std::abs(length(*s) - length(*begin)) > kLengthAgreement * length(*begin)) {
-        throw InvalidMesh(name + " has two lengths, in faces " + to_string(begin->triangle) + " and " + to_string(s->triangle));
+        throw InvalidMesh(name + " has two lengths, in faces " + to_string(begin->triangle) + " and " +
+                          to_string(s->triangle));
       }
       surface_.triangle_edges[s->triangle][s->side] = edge;
     }

@@ -18,7 +18,8 @@ constexpr int kMostFlipsOfAnEdge = 64;
 
 class Flipper {
  public:
-  explicit Flipper(IntrinsicTriangulation& t) : t_(t), mesh_(t.half_edges), queued_(t.lengths.size(), 1), flip_count_(t.lengths.size(), 0) {
+  explicit Flipper(IntrinsicTriangulation& t)
+      : t_(t), mesh_(t.half_edges), queued_(t.lengths.size(), 1), flip_count_(t.lengths.size(), 0) {
     stack_.reserve(t.lengths.size());
     for (int e = static_cast<int>(t.lengths.size()) - 1; e >= 0; --e) stack_.push_back(e);  // lowest index first
   }

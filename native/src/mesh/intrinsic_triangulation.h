@@ -33,7 +33,8 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, const Hal
 
 /// Flips edges until every interior edge is Delaunay, cot + cot >= 0 up to rounding (Fisher et al. 2007,
 /// doi:10.1007/s00607-007-0249-8). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
-/// function (Rippa 1990), so no triangulation comes twice; in rounded arithmetic because no edge is turned without limit.
+/// function (Rippa 1990), so no triangulation comes twice; in rounded arithmetic because no edge is turned without
+/// limit.
 void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress);
 
 /// #E weights k = (cot a + cot b) / 2 (paper Eq. 3).

@@ -7,7 +7,8 @@ namespace {
 struct FaceMeetings {
   std::vector<int> first, meeting;
 
-  FaceMeetings(int face_count, const std::vector<EdgeMeeting>& meetings) : first(face_count + 1, 0), meeting(2 * meetings.size()) {
+  FaceMeetings(int face_count, const std::vector<EdgeMeeting>& meetings)
+      : first(face_count + 1, 0), meeting(2 * meetings.size()) {
     for (const auto& m : meetings) ++first[m.face + 1], ++first[m.other_face + 1];
     for (int f = 0; f < face_count; ++f) first[f + 1] += first[f];
     std::vector<int> next(first.begin(), first.end() - 1);

@@ -9,7 +9,7 @@ struct Orientation {
   std::vector<char> reversed;       ///< #F 1 where the polygon must be read in reverse
   std::vector<int> face_component;  ///< #F, numbered by first polygon
   int component_count = 0;
-  int conflict = -1;                ///< an edge at which no orientation fits; -1 if the mesh is orientable
+  int conflict = -1;  ///< an edge at which no orientation fits; -1 if the mesh is orientable
 };
 
 /// Two faces that meet at an edge; one of them is reversed if both run along it in the same direction.

@@ -16,7 +16,8 @@ struct Side {
 };
 
 // All sides, grouped by their lower vertex (counting sort) and sorted by (higher vertex, corner) in each group.
-void sort_sides(const Polygons& mesh, const std::vector<int>& face_of, std::vector<Side>& sides, std::vector<int>& first) {
+void sort_sides(const Polygons& mesh, const std::vector<int>& face_of, std::vector<Side>& sides,
+                std::vector<int>& first) {
   const int corner_count = static_cast<int>(mesh.corner_vertices.size());
   const auto ends = [&](int corner) {
     const auto a = static_cast<int>(mesh.corner_vertices[corner]);
@@ -61,7 +62,8 @@ void check_duplicates(const Polygons& mesh, const std::vector<int>& face_of, con
         if (sum(f) != sum(g)) continue;
       }
       if (sorted_vertices(mesh, f) == sorted_vertices(mesh, g)) {
-        throw InvalidMesh("faces " + to_string(std::min(f, g)) + " and " + to_string(std::max(f, g)) + " have the same vertices");
+        throw InvalidMesh("faces " + to_string(std::min(f, g)) + " and " + to_string(std::max(f, g)) +
+                          " have the same vertices");
       }
     }
   }
@@ -91,8 +93,8 @@ PolygonEdges polygon_edges(const Polygons& mesh) {
       const int edge = static_cast<int>(result.edges.size());
       if (j - i > 1) check_duplicates(mesh, face_of, &sides[i], &sides[i] + (j - i));
       if (j - i > 2) {
-        throw InvalidMesh("edge " + to_string(edge) + " (vertices " + to_string(v) + ", " + to_string(sides[i].higher) + ") has " +
-                          to_string(j - i) + " faces; a surface has at most 2");
+        throw InvalidMesh("edge " + to_string(edge) + " (vertices " + to_string(v) + ", " + to_string(sides[i].higher) +
+                          ") has " + to_string(j - i) + " faces; a surface has at most 2");
       }
       for (int k = i; k < j; ++k) result.side_edge[sides[k].corner] = edge;
       result.edges.push_back({static_cast<int>(v), sides[i].higher});

@@ -9,9 +9,9 @@ namespace holomorph::mesh {
 
 /// Side c runs from polygon corner c to the next corner of the same polygon.
 struct PolygonEdges {
-  std::vector<int> side_edge;          ///< #C edge of each side
-  std::vector<Pair> edges;             ///< #E ends, lower vertex first, in lexicographic order
-  std::vector<Pair> edge_sides;        ///< #E the sides at each edge, lower first; -1 where there is only one
+  std::vector<int> side_edge;    ///< #C edge of each side
+  std::vector<Pair> edges;       ///< #E ends, lower vertex first, in lexicographic order
+  std::vector<Pair> edge_sides;  ///< #E the sides at each edge, lower first; -1 where there is only one
 };
 
 /// @pre check_polygons has passed.

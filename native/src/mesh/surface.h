@@ -22,8 +22,8 @@ struct Repairs {
 /// Edges are known by their index, never by their pair of ends: two edges may share both ends.
 /// Side i of triangle t runs from its corner i to its corner i+1.
 struct Surface {
-  Polygons polygons;     ///< as given
-  int vertex_count = 0;  ///< isolated vertices included
+  Polygons polygons;                     ///< as given
+  int vertex_count = 0;                  ///< isolated vertices included
   std::vector<Triple> triangles;         ///< #T vertices, counter-clockwise after repairs
   std::vector<Triple> triangle_corners;  ///< #T indices into polygons.corner_vertices
   std::vector<Triple> triangle_edges;    ///< #T edge of each side
@@ -33,7 +33,7 @@ struct Surface {
   std::vector<double> edge_lengths;      ///< #E, in the unit of the positions
   std::vector<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
   int component_count = 0;
-  std::vector<int> edge_face_count;      ///< #E number of triangles at each edge, 1 or 2
+  std::vector<int> edge_face_count;  ///< #E number of triangles at each edge, 1 or 2
   Repairs repairs;
 
   bool intrinsic() const { return polygons.vertices.empty(); }
@@ -41,7 +41,8 @@ struct Surface {
 };
 
 /// Checks, orients and triangulates a polygon mesh. Each polygon is cut along the diagonals that minimise the sum of
-/// its triangles' (a^2 + b^2 + c^2) / area, which for planar convex polygons is the Delaunay triangulation (Musin 1997).
+/// its triangles' (a^2 + b^2 + c^2) / area, which for planar convex polygons is the Delaunay triangulation (Musin
+/// 1997).
 /// @throws InvalidMesh, TopologyError (non-orientable), naming the first bad element.
 /// Cost: linear in the number of corners, cubic in the size of a polygon up to 64 corners.
 Surface make_surface(Polygons polygons);

@@ -20,7 +20,8 @@ class Polygon {
  public:
   explicit Polygon(const std::vector<std::array<double, 3>>& corners) {
     // Relative to the first corner, so that a polygon far from the origin loses no digits.
-    for (const auto& p : corners) points_.push_back(Vector3d(p[0] - corners[0][0], p[1] - corners[0][1], p[2] - corners[0][2]));
+    for (const auto& p : corners)
+      points_.push_back(Vector3d(p[0] - corners[0][0], p[1] - corners[0][1], p[2] - corners[0][2]));
     Vector3d area = Vector3d::Zero();
     for (int i = 1; i + 1 < size(); ++i) area += points_[i].cross(points_[i + 1]);
     normal_ = area.normalized();
@@ -79,7 +80,9 @@ Triangles best_ears(const Polygon& polygon) {
   std::vector<int> before(n), after(n);
   for (int i = 0; i < n; ++i) before[i] = (i + n - 1) % n, after[i] = (i + 1) % n;
   std::priority_queue<Ear, std::vector<Ear>, std::greater<>> queue;
-  const auto push = [&](int tip) { queue.push({polygon.cost(before[tip], tip, after[tip]), before[tip], tip, after[tip]}); };
+  const auto push = [&](int tip) {
+    queue.push({polygon.cost(before[tip], tip, after[tip]), before[tip], tip, after[tip]});
+  };
   for (int i = 0; i < n; ++i) push(i);
   Triangles triangles;
   while (static_cast<int>(triangles.size()) < n - 2) {

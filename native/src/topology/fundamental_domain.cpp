@@ -29,7 +29,8 @@ struct Farther {
 };
 
 // Dijkstra along the artist's edges: fills T and returns the distances from the root.
-std::vector<double> shortest_path_tree(const mesh::Surface& surface, const HalfEdges& mesh, int root, FundamentalDomain& domain, Progress& progress) {
+std::vector<double> shortest_path_tree(const mesh::Surface& surface, const HalfEdges& mesh, int root,
+                                       FundamentalDomain& domain, Progress& progress) {
   const std::size_t vertex_count = mesh.n_vertices();
   std::vector<double> distance(vertex_count, std::numeric_limits<double>::infinity());
   std::vector<char> settled(vertex_count, 0);
@@ -43,7 +44,8 @@ std::vector<double> shortest_path_tree(const mesh::Surface& surface, const HalfE
     queue.pop();
     if (settled[v]) continue;
     settled[v] = 1;
-    if (++done % kReportEvery == 0) progress.report(0.5 * static_cast<double>(done) / static_cast<double>(vertex_count));
+    if (++done % kReportEvery == 0)
+      progress.report(0.5 * static_cast<double>(done) / static_cast<double>(vertex_count));
     const HalfedgeHandle parent = domain.to_parent_vertex[v];
     if (parent.is_valid()) domain.vertex_depth[v] = domain.vertex_depth[to_vertex(mesh, parent)] + 1;
     const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));
@@ -98,11 +100,13 @@ void grow_domain(const HalfEdges& mesh, const std::vector<double>& key, Fundamen
 }
 
 // Length of the loop that an edge closes in T; infinite for diagonals, negative for the edges of T.
-std::vector<double> loop_lengths(const mesh::Surface& surface, const FundamentalDomain& domain, const std::vector<double>& distance) {
+std::vector<double> loop_lengths(const mesh::Surface& surface, const FundamentalDomain& domain,
+                                 const std::vector<double>& distance) {
   std::vector<double> key(surface.edges.size());
   for (int e = 0; e < static_cast<int>(key.size()); ++e) {
     const auto [a, b] = surface.edges[e];
-    key[e] = surface.is_diagonal(e) ? std::numeric_limits<double>::infinity() : distance[a] + distance[b] + surface.edge_lengths[e];
+    key[e] = surface.is_diagonal(e) ? std::numeric_limits<double>::infinity()
+                                    : distance[a] + distance[b] + surface.edge_lengths[e];
   }
   for (const HalfedgeHandle h : domain.to_parent_vertex) {
     if (h.is_valid()) key[edge_of(h)] = -1;

@@ -19,7 +19,8 @@ using mesh::HalfEdges;
 
 /// @pre connected and closed; every vertex has a face.
 struct FundamentalDomain {
-  std::vector<HalfedgeHandle> to_parent_face;    ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
+  std::vector<HalfedgeHandle>
+      to_parent_face;  ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
   std::vector<int> face_depth;                   ///< #T steps to the first face
   std::vector<int> face_order;                   ///< #T faces in the order in which they joined D
   std::vector<char> crossed;                     ///< #E 1 for the edges of C, which are inside D; the others are G
@@ -28,8 +29,8 @@ struct FundamentalDomain {
   std::vector<int> left_over;                    ///< the 2g edges of G outside T, ascending
 };
 
-/// @param surface,half_edges the artist's triangulation; C takes all its diagonals, so G and T run on the artist's edges
-/// Cost: O(n log n).
+/// @param surface,half_edges the artist's triangulation; C takes all its diagonals, so G and T run on the artist's
+/// edges Cost: O(n log n).
 FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress);
 
 /// The cut graph: G without its dangling ends, ascending. Cutting the surface along it leaves a disk.

@@ -28,9 +28,9 @@ IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& form
 IntegerMatrix symplectic_basis(const IntegerMatrix& W);
 
 struct CanonicalBasis {
-  IntegerMatrix intersection;   ///< zeta_i . zeta_j = -W^-1
-  IntegerMatrix cycles;         ///< R: rows a_1..a_g, b_1..b_g written in the zeta; R intersection R^T = J
-  IntegerMatrix classes;        ///< S = R^-T: rows alpha_1..alpha_g, beta_1..beta_g written in the eta
+  IntegerMatrix intersection;  ///< zeta_i . zeta_j = -W^-1
+  IntegerMatrix cycles;        ///< R: rows a_1..a_g, b_1..b_g written in the zeta; R intersection R^T = J
+  IntegerMatrix classes;       ///< S = R^-T: rows alpha_1..alpha_g, beta_1..beta_g written in the eta
 };
 
 CanonicalBasis canonical_basis(const IntegerMatrix& wedge);

@@ -25,7 +25,7 @@ class GramSchmidt {
       make_pair(k);
       for (Eigen::Index i = k + 2; i < n_; ++i) {
         const std::int64_t with_e = W_(i, k), with_f = W_(i, k + 1);
-        subtract(i, with_f, k);       // S_i - (S_i, f) e + (S_i, e) f is orthogonal to e and f, since (e, f) = 1
+        subtract(i, with_f, k);  // S_i - (S_i, f) e + (S_i, e) f is orthogonal to e and f, since (e, f) = 1
         subtract(i, -with_e, k + 1);
       }
     }
@@ -44,8 +44,10 @@ class GramSchmidt {
       Eigen::Index least = -1, other = -1;
       for (Eigen::Index i = k + 1; i < n_; ++i) {
         if (W_(k, i) == 0) continue;
-        if (least < 0 || std::abs(W_(k, i)) < std::abs(W_(k, least))) other = std::exchange(least, i);
-        else if (other < 0) other = i;
+        if (least < 0 || std::abs(W_(k, i)) < std::abs(W_(k, least)))
+          other = std::exchange(least, i);
+        else if (other < 0)
+          other = i;
       }
       if (least < 0) throw Error("the wedge matrix of the classes is not unimodular");
       if (std::abs(W_(k, least)) == 1) {

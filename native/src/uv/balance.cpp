@@ -35,8 +35,8 @@ std::vector<int> sample_triangles(const mesh::Surface& surface) {
   std::vector<int> samples;
   for (int i = 0; i < kSamples; ++i) {
     const double at = total * (i + 0.5) / kSamples;
-    samples.push_back(static_cast<int>(std::min<std::ptrdiff_t>(std::lower_bound(until.begin(), until.end(), at) - until.begin(),
-                                                                static_cast<std::ptrdiff_t>(count) - 1)));
+    samples.push_back(static_cast<int>(std::min<std::ptrdiff_t>(
+        std::lower_bound(until.begin(), until.end(), at) - until.begin(), static_cast<std::ptrdiff_t>(count) - 1)));
   }
   return samples;
 }
@@ -48,7 +48,7 @@ struct Parts {
 
 // For a harmonic form h, A = (h_x - i h_y) / 2 up to a common phase, and B = conj(A).
 Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
-                                   const Eigen::MatrixXcd& periods, const std::vector<int>& samples) {
+                    const Eigen::MatrixXcd& periods, const std::vector<int>& samples) {
   Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples.size()), forms.functions.cols());
   for (std::size_t s = 0; s < samples.size(); ++s) {
     mesh::HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(samples[s]));
@@ -56,7 +56,8 @@ Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_ed
     double length[3];
     for (int i = 0; i < 3; ++i, h = mesh::next(half_edges, h)) {
       length[i] = surface.edge_lengths[mesh::edge_of(h)];
-      if (i < 2) value.row(i) = mesh::sign(h) * forms::edge_values(half_edges, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
+      if (i < 2)
+        value.row(i) = mesh::sign(h) * forms::edge_values(half_edges, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
     }
     const auto [a, b, c] = length;
     const double area = mesh::triangle_area(a, b, c);
@@ -64,15 +65,16 @@ Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_ed
     // corner 0 at 0, corner 1 at a, corner 2 at x + i y: h(e0) = a h_x and h(e0) + h(e1) = x h_x + y h_y
     const VectorXd h_x = value.row(0).transpose() / a;
     const VectorXd h_y = ((value.row(0) + value.row(1)).transpose() - x * h_x) / y;
-    parts.row(static_cast<Eigen::Index>(s)) = (0.5 * (h_x.cast<Complex>() - Complex(0, 1) * h_y.cast<Complex>())).transpose();
+    parts.row(static_cast<Eigen::Index>(s)) =
+        (0.5 * (h_x.cast<Complex>() - Complex(0, 1) * h_y.cast<Complex>())).transpose();
     if (!(area > 0)) parts.row(static_cast<Eigen::Index>(s)).setZero();
   }
   return {parts * periods, parts.conjugate() * periods};
 }
 
 // Variance over the samples of log(q / mean q + floor), q = |A|^2, plus kDistortion times the mean of
-// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is next to nothing for a good
-// map; without it |A| may be made even where B, the error of the mesh, outweighs it and the map turns over.
+// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is next to nothing for
+// a good map; without it |A| may be made even where B, the error of the mesh, outweighs it and the map turns over.
 class LogVariance {
  public:
   LogVariance(const Parts& parts, double floor) : parts_(parts), floor_(floor) {}
@@ -92,7 +94,8 @@ class LogVariance {
     const double through_mean = -2 * (deviation * q * inverse).mean() / mean - kDistortion * floor_ * (r * sum).mean();
     const Eigen::ArrayXd by_q = (2 * deviation * inverse - kDistortion * r * sum + through_mean) / count;
     const Eigen::ArrayXd by_b = kDistortion * (1 - r) * sum / count;
-    const VectorXcd weighted_A = (by_q.cast<Complex>() * A.array()).matrix(), weighted_B = (by_b.cast<Complex>() * B.array()).matrix();
+    const VectorXcd weighted_A = (by_q.cast<Complex>() * A.array()).matrix(),
+                    weighted_B = (by_b.cast<Complex>() * B.array()).matrix();
     const VectorXcd by_c = 2 * (parts_.M.adjoint() * weighted_A + parts_.N.adjoint() * weighted_B);
     gradient.resize(2 * g);
     gradient << by_c.real(), by_c.imag();
@@ -131,7 +134,8 @@ VectorXd lowest_variance(const Parts& parts) {
   }
   // Each descent is on its own, so the number of threads changes nothing.
 #pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < kStarts; ++i) candidates[i] = descend(thinned, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
+  for (int i = 0; i < kStarts; ++i)
+    candidates[i] = descend(thinned, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
   std::stable_sort(candidates.begin(), candidates.end(), lower);
   candidates.resize(kKept);
 #pragma omp parallel for schedule(dynamic, 1)
@@ -141,8 +145,9 @@ VectorXd lowest_variance(const Parts& parts) {
 
 }  // namespace
 
-VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
-                                const Eigen::MatrixXcd& periods, const Eigen::MatrixXd& period_imaginary) {
+VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                                const forms::ClosedForms& forms, const Eigen::MatrixXcd& periods,
+                                const Eigen::MatrixXd& period_imaginary) {
   const auto g = periods.cols();
   VectorXcd c = VectorXcd::Ones(g);
   if (g > 1) {
@@ -153,7 +158,8 @@ VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEd
     c.cwiseAbs().maxCoeff(&largest);
     c *= std::conj(c[largest]) / std::abs(c[largest]);  // the phase is free: the largest coefficient is made positive
   }
-  const double area = (c.adjoint() * period_imaginary.cast<Complex>() * c)(0, 0).real();  // (i/2) int theta ^ conj(theta)
+  const double area =
+      (c.adjoint() * period_imaginary.cast<Complex>() * c)(0, 0).real();  // (i/2) int theta ^ conj(theta)
   return c / std::sqrt(area);
 }
 

@@ -47,8 +47,8 @@ class SheetTable {
 
 }  // namespace
 
-CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const topology::FundamentalDomain& domain,
-                           const IntegerForms& classes, Progress& progress) {
+CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh,
+                           const topology::FundamentalDomain& domain, const IntegerForms& classes, Progress& progress) {
   SheetTable table(classes);
   std::vector<int> at_start(mesh.n_halfedges(), 0);  // sheet of the corner at which a half-edge starts, in its face
   for (std::size_t i = 0; i < domain.face_order.size(); ++i) {
@@ -69,7 +69,8 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
   result.corner_sheet.assign(surface.polygons.corner_vertices.size(), 0);
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
     HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(t));
-    for (int i = 0; i < 3; ++i, h = next(mesh, h)) result.corner_sheet[surface.triangle_corners[t][i]] = at_start[h.idx()];
+    for (int i = 0; i < 3; ++i, h = next(mesh, h))
+      result.corner_sheet[surface.triangle_corners[t][i]] = at_start[h.idx()];
   }
   result.sheets = std::move(table.sheets);
   return result;

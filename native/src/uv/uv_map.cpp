@@ -28,17 +28,20 @@ double weighted_quantile(const std::vector<double>& values, const std::vector<do
 
 }  // namespace
 
-UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions, const Eigen::VectorXcd& p) {
+UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
+               const Eigen::VectorXcd& p) {
   Eigen::Matrix<double, Eigen::Dynamic, 2> coefficients(p.size(), 2);
   coefficients << p.real(), p.imag();
   const UvArray at_vertex = functions * coefficients;
   UvArray translation = UvArray::Zero(static_cast<Eigen::Index>(sheets.sheets.size()), 2);
   for (std::size_t s = 0; s < sheets.sheets.size(); ++s) {
-    for (const auto& [k, value] : sheets.sheets[s]) translation.row(static_cast<Eigen::Index>(s)) += value * coefficients.row(k);
+    for (const auto& [k, value] : sheets.sheets[s])
+      translation.row(static_cast<Eigen::Index>(s)) += value * coefficients.row(k);
   }
   const auto& corner_vertices = surface.polygons.corner_vertices;
   UvArray uv(static_cast<Eigen::Index>(corner_vertices.size()), 2);
-  for (Eigen::Index c = 0; c < uv.rows(); ++c) uv.row(c) = at_vertex.row(corner_vertices[c]) + translation.row(sheets.corner_sheet[c]);
+  for (Eigen::Index c = 0; c < uv.rows(); ++c)
+    uv.row(c) = at_vertex.row(corner_vertices[c]) + translation.row(sheets.corner_sheet[c]);
   return uv;
 }
 
@@ -49,12 +52,15 @@ Quality quality(const mesh::Surface& surface, const UvArray& uv) {
   double total = 0, sum = 0;
   for (std::size_t t = 0; t < count; ++t) {
     const auto& sides = surface.triangle_edges[t];
-    const double a = surface.edge_lengths[sides[0]], b = surface.edge_lengths[sides[1]], c = surface.edge_lengths[sides[2]];
+    const double a = surface.edge_lengths[sides[0]], b = surface.edge_lengths[sides[1]],
+                 c = surface.edge_lengths[sides[2]];
     if (mesh::is_degenerate(a, b, c)) continue;
     areas[t] = mesh::triangle_area(a, b, c);
     // The triangle laid out with side 0 on the real axis and corner 2 at `apex`; the map is A z + B conj(z).
     const Complex apex((a * a + (c - b) * (c + b)) / (2 * a), 2 * areas[t] / a);
-    const auto at = [&](int i) { return Complex(uv(surface.triangle_corners[t][i], 0), uv(surface.triangle_corners[t][i], 1)); };
+    const auto at = [&](int i) {
+      return Complex(uv(surface.triangle_corners[t][i], 0), uv(surface.triangle_corners[t][i], 1));
+    };
     const Complex along = (at(1) - at(0)) / a;  // A + B
     const Complex B = (along * apex - (at(2) - at(0))) / Complex(0, 2 * apex.imag()), A = along - B;
     const double larger = std::abs(A) + std::abs(B), smaller = std::abs(std::abs(A) - std::abs(B));

@@ -14,23 +14,25 @@ using UvArray = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 /// UV(corner) = sum_k p_k (f_k(vertex) + P_k(corner)) for complex coefficients p of the harmonic basis. Across each
 /// cut the UV jump is a constant translation, an integer combination of the p_k.
 /// @param functions #V x 2g, the f_k. @return #C x 2
-UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions, const Eigen::VectorXcd& p);
+UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
+               const Eigen::VectorXcd& p);
 
 struct Quality {
-  std::vector<double> angle;   ///< #T s1 / s2 >= 1, the singular values of the map; 1 where the triangle has no area
-  std::vector<double> area;    ///< #T s1 s2, UV area per surface area; 0 where the triangle has no area
-  std::vector<char> flipped;   ///< #T 1 where the map turns the triangle over
-  double mean_angle = 0;       ///< s1 / s2, mean over the surface's area
-  double density_ratio = 0;    ///< 95 % over 5 % quantile of s1 s2, by the surface's area
+  std::vector<double> angle;  ///< #T s1 / s2 >= 1, the singular values of the map; 1 where the triangle has no area
+  std::vector<double> area;   ///< #T s1 s2, UV area per surface area; 0 where the triangle has no area
+  std::vector<char> flipped;  ///< #T 1 where the map turns the triangle over
+  double mean_angle = 0;      ///< s1 / s2, mean over the surface's area
+  double density_ratio = 0;   ///< 95 % over 5 % quantile of s1 s2, by the surface's area
 };
 
 Quality quality(const mesh::Surface& surface, const UvArray& uv);
 
-/// Coefficients c, g complex numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most even:
-/// a minimum over the surface's area of the variance of log(|theta|^2 / mean + 1e-4), scaled so that the UV area is 1.
-/// The minimum is local, the best from several fixed starts; the same input gives the same bits.
+/// Coefficients c, g complex numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most
+/// even: a minimum over the surface's area of the variance of log(|theta|^2 / mean + 1e-4), scaled so that the UV area
+/// is 1. The minimum is local, the best from several fixed starts; the same input gives the same bits.
 /// @param periods 2g x g, of the holomorphic basis; @param period_imaginary Im Omega
-Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
-                                       const Eigen::MatrixXcd& periods, const Eigen::MatrixXd& period_imaginary);
+Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                                       const forms::ClosedForms& forms, const Eigen::MatrixXcd& periods,
+                                       const Eigen::MatrixXd& period_imaginary);
 
 }  // namespace holomorph::uv
