@@ -72,7 +72,7 @@ def parse(arguments):
 
 
 def import_mesh(options, holomorph, mesh_io):
-    """The mesh file as an object, in an otherwise empty scene unless a .blend was opened."""
+    """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
     if not options.mesh.is_file():
         raise UsageError(f"{options.mesh}: no such file")
     surface = holomorph.Surface.read(str(options.mesh))
@@ -88,12 +88,10 @@ def import_mesh(options, holomorph, mesh_io):
     bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
-    return obj
+    return obj, surface.vertices
 
 
-def objects_of(options, holomorph, mesh_io):
-    if options.mesh is not None:
-        return [import_mesh(options, holomorph, mesh_io)]
+def objects_in_file(options):
     if not bpy.data.filepath:
         raise UsageError("name a mesh file after --, or a .blend file before --python")
     meshes = [o for o in bpy.context.view_layer.objects if o.type == "MESH"]
@@ -118,12 +116,17 @@ def process(options):
     )
     holomorph = native.load()
     start = time.perf_counter()
-    try:
-        objects = objects_of(options, holomorph, mesh_io)
-    except holomorph.Error as error:
-        raise UsageError(str(error)) from error
-    bpy.context.view_layer.update()
-    targets = run.collect(objects)
+    if options.mesh is None:
+        objects = objects_in_file(options)
+        bpy.context.view_layer.update()  # the objects' matrices
+        targets = run.collect(objects)
+    else:
+        try:
+            obj, positions = import_mesh(options, holomorph, mesh_io)
+        except holomorph.Error as error:
+            raise UsageError(str(error)) from error
+        objects = [obj]
+        targets = [run.with_positions(target, positions) for target in run.collect(objects)]
     job = jobs.Job(run.polygons_to_solve(targets))
     job.run()
     outcome = run.write(

@@ -2,7 +2,7 @@
 """The main job in Blender's main thread: collect objects, (a `Job` solves), write what was solved."""
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import bpy
 import numpy as np
@@ -66,6 +66,11 @@ def collect(objects):
             continue
         targets.append(Target(obj.name, library, read(obj)))
     return targets
+
+
+def with_positions(target, vertices):
+    """The same target solved with these (#V,3) float64 positions, where a file knows them better than Blender."""
+    return replace(target, polygons=replace(target.polygons, vertices=vertices))
 
 
 def polygons_to_solve(targets):
