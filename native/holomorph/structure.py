@@ -10,13 +10,13 @@ from . import _native, arrays
 from ._native import TopologyError
 from .surface import Surface
 
-SOLVERS = ("auto", "direct")
+SOLVERS = ("auto", "direct", "multigrid")
 
 
 @dataclass(frozen=True)
 class SolverReport:
-    """Which solver was used and why; iterations (steps of iterative refinement of the direct solver); the largest
-    relative residual of the linear systems."""
+    """Which solver was used and why; iterations (of multigrid, or steps of iterative refinement of the direct solver);
+    the largest relative residual of the linear systems."""
 
     name: str
     reason: str
@@ -138,6 +138,11 @@ class ConformalStructure:
         triangles come from those triangles. `progress` as in `conformal_structure`."""
         self._native.prepare_uv(progress)
 
+    @cached_property
+    def uv_solver(self):
+        """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
+        return SolverReport(*self._native.uv_solver())
+
     def uv(self, coefficients):
         """(#C, 2) UVs of the form sum_j c_j theta_j, from g complex coefficients c. No solve: one small product.
 
@@ -187,7 +192,8 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
     Parameters
     ----------
     surface : Surface, connected; isolated vertices are ignored
-    solver : "auto" chooses, "direct" is a sparse Cholesky factorisation
+    solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
+        by size and number of right-hand sides; the result's `solver` says what was taken and why
     threads : number of threads, None for one per core; the result has the same bits for any number
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
@@ -204,7 +210,7 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
     Cancelled
         if `progress` returned False
 
-    Cost: one factorisation and 2g solves of the Laplacian; 2 g #V numbers of memory beside the factor.
+    Cost: 2g solves of the Laplacian, after one factorisation or the set-up of multigrid; 2 g #V numbers of memory beside.
     Source: Gu, Wang, Yau (2003), § 4 to § 7 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
     if solver not in SOLVERS:

@@ -24,13 +24,13 @@ struct Structure {
   ConformalStructure value;
   pipeline::Options options;
   std::mutex mutex;
-  std::optional<forms::ClosedForms> artist_forms;
+  std::optional<pipeline::HarmonicForms> artist_forms;
 
   // Called without the interpreter's lock.
   const forms::ClosedForms& forms_for_uv(Progress& progress) {
     const std::lock_guard<std::mutex> one_at_a_time(mutex);
     if (!artist_forms) artist_forms = pipeline::artist_forms(*surface, value, options, progress);
-    return *artist_forms;
+    return artist_forms->forms;
   }
   const forms::ClosedForms& forms_for_uv() {
     Progress silent;
@@ -47,7 +47,8 @@ Progress::Callback callback(const py::object& progress) {
   };
 }
 
-std::shared_ptr<Structure> compute(std::shared_ptr<Surface> surface, const std::string& solver, int threads, const py::object& progress_function) {
+std::shared_ptr<Structure> compute(std::shared_ptr<Surface> surface, const std::string& solver, int threads,
+                                   const py::object& progress_function) {
   Progress progress(callback(progress_function));
   const py::gil_scoped_release unlocked;
   auto structure = std::make_shared<Structure>();
@@ -55,6 +56,18 @@ std::shared_ptr<Structure> compute(std::shared_ptr<Surface> surface, const std::
   structure->value = pipeline::conformal_structure(*surface, structure->options, progress);
   structure->surface = std::move(surface);
   return structure;
+}
+
+py::tuple report(const pipeline::SolverReport& solver) {
+  return py::make_tuple(solver.name, solver.reason, solver.iterations, solver.residual);
+}
+
+py::tuple uv_solver(Structure& s) {
+  {
+    const py::gil_scoped_release unlocked;
+    s.forms_for_uv();
+  }
+  return report(s.artist_forms->solver);
 }
 
 void prepare_uv(Structure& s, const py::object& progress_function) {
@@ -131,16 +144,19 @@ void bind_conformal_structure(py::module_& m) {
       .def("canonical_basis", [](const Structure& s) { return copy(s.value.canonical.cycles); })
       .def("gram_matrix", [](const Structure& s) { return copy(s.value.gram_matrix); })
       .def("period_matrix", [](const Structure& s) { return copy(s.value.holomorphic.period_matrix); })
-      .def("period_bounds", [](const Structure& s) { return py::make_tuple(copy(s.value.holomorphic.lower), copy(s.value.holomorphic.upper)); })
+      .def("period_bounds",
+           [](const Structure& s) {
+             return py::make_tuple(copy(s.value.holomorphic.lower), copy(s.value.holomorphic.upper));
+           })
       .def("periods", [](const Structure& s) { return copy(s.value.holomorphic.periods); })
       .def("seams", [](const Structure& s) { return copy(s.value.seams); })
-      .def("residuals", [](const Structure& s) {
-        return py::make_tuple(s.value.residuals.closedness, s.value.residuals.harmonicity, s.value.period_residual);
-      })
-      .def("solver", [](const Structure& s) {
-        const auto& report = s.value.solver;
-        return py::make_tuple(report.name, report.reason, report.iterations, report.residual);
-      })
+      .def("residuals",
+           [](const Structure& s) {
+             return py::make_tuple(s.value.residuals.closedness, s.value.residuals.harmonicity,
+                                   s.value.period_residual);
+           })
+      .def("solver", [](const Structure& s) { return report(s.value.solver); })
+      .def("uv_solver", &uv_solver)
       .def("intrinsic", [](const Structure& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })
       .def("timings", [](const Structure& s) { return s.value.seconds; });
   m.def("conformal_structure", &compute);

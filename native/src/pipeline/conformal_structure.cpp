@@ -45,15 +45,15 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   auto intrinsic_classes = classes;
   topology::carry_through(intrinsic.flips, intrinsic_classes);
 
-
   progress.stage("Laplacian", 0.3, 0.35);
   const auto weights = mesh::cotangent_weights(intrinsic, progress);
   auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
 
   progress.stage("harmonic forms", 0.35, 0.85);
-  const auto solver = solver::make_direct_solver(std::move(laplacian), progress);
-  const auto harmonic = forms::harmonic_basis(intrinsic.half_edges, weights, intrinsic_classes, *solver, progress);
-  result.solver = {solver->name(), options.solver == "direct" ? "asked for" : "the only solver so far", solver->iterations(), solver->residual()};
+  const auto solved =
+      harmonic_forms(intrinsic.half_edges, weights, std::move(laplacian), intrinsic_classes, options, progress);
+  const forms::ClosedForms& harmonic = solved.forms;
+  result.solver = solved.solver;
 
   progress.stage("holomorphic forms", 0.85, 0.92);
   result.gram_matrix = forms::gram_matrix(intrinsic.half_edges, weights, harmonic, progress);
@@ -62,7 +62,8 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   progress.stage("certificates", 0.92, 1.0);
   result.residuals = forms::residuals(intrinsic.half_edges, weights, harmonic, progress);
   result.harmonic = {std::move(classes), harmonic.functions};
-  result.period_residual = largest_period_error(forms::periods(result.half_edges, result.harmonic, result.homology_basis));
+  result.period_residual =
+      largest_period_error(forms::periods(result.half_edges, result.harmonic, result.homology_basis));
   result.mollification = intrinsic.mollification;
   result.flip_count = static_cast<int>(intrinsic.flips.size());
   progress.finish();

@@ -4,40 +4,28 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
 #include "conformal/holomorphic_basis.h"
-#include "forms/harmonic_basis.h"
+#include "pipeline/harmonic_forms.h"
 #include "uv/corner_sheets.h"
 
 namespace holomorph::pipeline {
-
-struct SolverReport {
-  std::string name, reason;
-  int iterations = 0;   ///< steps of iterative refinement of the direct solver
-  double residual = 0;  ///< largest relative residual of the linear systems
-};
-
-struct Options {
-  std::string solver = "auto";  ///< "auto" or "direct"
-  int threads = 0;              ///< 0: as many as the machine has cores; the result does not depend on it
-};
 
 /// Everything known about the conformal structure of one closed connected surface of genus g >= 1.
 struct ConformalStructure {
   mesh::HalfEdges half_edges;                                     ///< the artist's triangulation
   std::vector<std::vector<mesh::HalfedgeHandle>> homology_basis;  ///< 2g loops zeta_i
   topology::CanonicalBasis canonical;
-  forms::ClosedForms harmonic;                                    ///< dual to zeta: classes on the artist's edges, functions as solved
+  forms::ClosedForms harmonic;  ///< dual to zeta: classes on the artist's edges, functions as solved
   Eigen::MatrixXd gram_matrix;
   conformal::HolomorphicBasis holomorphic;
-  std::vector<int> seams;                                         ///< edges of the cut graph
+  std::vector<int> seams;  ///< edges of the cut graph
   uv::CornerSheets sheets;
-  forms::Residuals residuals;                                     ///< on the intrinsic triangulation
-  double period_residual = 0;                                     ///< largest |int_{zeta_i} h_j - delta_ij|
-  double mollification = 0;                                       ///< added to every edge length
-  int flip_count = 0;                                             ///< of the intrinsic Delaunay triangulation
+  forms::Residuals residuals;  ///< on the intrinsic triangulation
+  double period_residual = 0;  ///< largest |int_{zeta_i} h_j - delta_ij|
+  double mollification = 0;    ///< added to every edge length
+  int flip_count = 0;          ///< of the intrinsic Delaunay triangulation
   SolverReport solver;
-  std::vector<std::pair<std::string, double>> seconds;            ///< per stage
+  std::vector<std::pair<std::string, double>> seconds;  ///< per stage
 };
 
 /// @pre connected, no isolated vertices (mesh::component makes it so)

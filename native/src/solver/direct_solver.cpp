@@ -7,7 +7,8 @@
 namespace holomorph::solver {
 namespace {
 
-// Numbers in the right-hand sides of one back-substitution, about 0.05 s of work: the progress function is asked between.
+// Numbers in the right-hand sides of one back-substitution, about 0.05 s of work: the progress function is asked
+// between.
 constexpr Eigen::Index kBlockEntries = 500'000;
 // Refinement goes on to this residual while it helps; the promise is kResidual.
 constexpr double kGoal = 1e-13;
@@ -66,8 +67,8 @@ class DirectSolver final : public LaplaceSolver {
       iterations_ = std::max(iterations_, step + 1);
     }
     if (!(residual <= kResidual)) {
-      throw SolverError("the direct solver reached a relative residual of " + std::to_string(residual) + " instead of 1e-10, on a system of " +
-                        std::to_string(B.rows()) + " unknowns");
+      throw SolverError("the direct solver reached a relative residual of " + std::to_string(residual) +
+                        " instead of 1e-10, on a system of " + std::to_string(B.rows()) + " unknowns");
     }
     residual_ = std::max(residual_, residual);
     return X;

@@ -73,6 +73,14 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& B) const {
   return factor_->method.solve(B);
 }
 
+bool SparseCholesky::supernodal() {
+#ifdef HOLOMORPH_WITH_CHOLMOD
+  return true;
+#else
+  return false;
+#endif
+}
+
 std::string SparseCholesky::name() {
 #ifdef HOLOMORPH_WITH_CHOLMOD
 #ifdef HOLOMORPH_WITH_OPENBLAS

@@ -21,6 +21,8 @@ class SparseCholesky {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
   static std::string name();
+  /// Whether it is CHOLMOD's supernodal method, several times faster than the other on large systems.
+  static bool supernodal();
 
  private:
   struct Factor;

@@ -1,0 +1,143 @@
+#include "solver/block_solve.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace holomorph::solver {
+namespace {
+
+// What single precision is asked for at a time: less takes more corrections, more gains nothing.
+constexpr double kInnerResidual = 1e-4;
+// The last time it goes a little below the promise, as the residual that it carries along drifts from the true one.
+constexpr double kSafety = 0.7;
+constexpr int kMostInner = 100, kMostIterations = 300;
+// Corrections in a row that leave more than half of the residual.
+constexpr int kMostStalls = 2;
+
+// a / b where b > 0, else 0: a right-hand side that is solved exactly stays as it is.
+template <int K>
+Sums<K> quotient(const Sums<K>& a, const Sums<K>& b) {
+  Sums<K> result;
+  for (int d = 0; d < K; ++d) result[d] = b[d] > 0 ? a[d] / b[d] : 0.0;
+  return result;
+}
+
+// Entry i of every right-hand side; those that are missing are 0.
+template <int K>
+Sums<K> row(const std::array<const double*, K>& columns, int i) {
+  Sums<K> result;
+  for (int d = 0; d < K; ++d) result[d] = columns[d] ? columns[d][i] : 0.0;
+  return result;
+}
+
+}  // namespace
+
+template <int K>
+BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy)
+    : L_(L), level_(hierarchy.levels[0]), n_(level_.A.size()), cycle_(hierarchy), X_(n_), x_(n_), p_(n_), q_(n_) {}
+
+template <int K>
+void BlockSolve<K>::solve(const Eigen::MatrixXd& B, Eigen::Index first, int width, Eigen::MatrixXd& X,
+                          const Report& report) {
+  Columns b{};
+  for (int d = 0; d < width; ++d) b[d] = B.col(first + d).data();
+  read(b);
+  iterations_ = 0;
+  update_residual(b);
+  double before = reached_;
+  for (int stalls = 0; !(reached_ <= kResidual); before = reached_) {
+    report(reached_);
+    conjugate_gradients(report);
+    update_residual(b);
+    stalls = reached_ < 0.5 * before ? 0 : stalls + 1;
+    if (reached_ > kResidual && (stalls == kMostStalls || iterations_ >= kMostIterations || !std::isfinite(reached_))) {
+      std::ostringstream message;
+      message << "multigrid reached a relative residual of " << reached_ << " instead of 1e-10 after " << iterations_
+              << " iterations, on a system of " << n_ << " unknowns";
+      throw SolverError(message.str());
+    }
+  }
+  report(reached_);
+  for_rows(n_, [&](int i) {
+    for (int d = 0; d < width; ++d) X(i, first + d) = X_[i][d];
+  });
+}
+
+// The right-hand sides without their mean, the part of their rounding that no x can answer for; and X = 0.
+template <int K>
+void BlockSolve<K>::read(const Columns& b) {
+  const Sums<K> zero = Sums<K>::Zero();
+  mean_ = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+    sum += row<K>(b, i);
+    X_[i] = zero;
+  });
+  mean_ /= static_cast<double>(n_);
+  norm_b_ = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) { sum += (row<K>(b, i) - mean_).square(); }).sqrt();
+  scale_ = norm_b_;
+}
+
+// The residual of X, and r = residual / scale, u = omega r, x = p = q = 0 for conjugate gradients.
+template <int K>
+void BlockSolve<K>::update_residual(const Columns& b) {
+  const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
+  Blocks<K>&r = cycle_.residual(), &u = cycle_.start();
+  norm_r_ = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+              const Sums<K> here = X_[i];
+              Sums<K> rest = row<K>(b, i) - mean_;
+              for (auto e = L_.outerIndexPtr()[i]; e < L_.outerIndexPtr()[i + 1]; ++e) {
+                rest += L_.valuePtr()[e] * (here - X_[L_.innerIndexPtr()[e]]);
+              }
+              sum += rest.square();
+              r[i] = (rest * inverse).template cast<float>();
+              u[i] = level_.omega[i] * r[i];
+              x_[i] = p_[i] = q_[i] = Block<K>::Zero();
+            }).sqrt();
+  reached_ = relative(norm_r_);
+}
+
+template <int K>
+void BlockSolve<K>::conjugate_gradients(const Report& report) {
+  const SparseRows& A = level_.A;
+  Blocks<K>&r = cycle_.residual(), &u = cycle_.start();
+  const Sums<K> zero = Sums<K>::Zero();
+  const Sums<K> goal = quotient<K>((kInnerResidual * norm_r_).max(kSafety * kResidual * norm_b_), scale_);
+  Sums<K> rz = zero, norm = quotient<K>(norm_r_, scale_);
+  for (int step = 0; step < kMostInner && iterations_ < kMostIterations && !(norm <= goal).all();
+       ++step, ++iterations_) {
+    const Sums<K> rz_before = rz;
+    rz = cycle_.run();
+    const Block<K> beta = quotient<K>(rz, rz_before).template cast<float>();
+    // u is z from here to the next pass
+    const Sums<K> pq = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+      p_[i] = u[i] + beta * p_[i];
+      q_[i] = difference(A, i, u) + beta * q_[i];
+      sum += (p_[i] * q_[i]).template cast<double>();
+    });
+    const Block<K> alpha = quotient<K>(rz, pq).template cast<float>();
+    norm = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+             x_[i] += alpha * p_[i];
+             r[i] -= alpha * q_[i];
+             u[i] = level_.omega[i] * r[i];
+             sum += r[i].square().template cast<double>();
+           }).sqrt();
+    report(relative(norm * scale_));
+  }
+  for_rows(n_, [&](int i) { X_[i] += scale_ * x_[i].template cast<double>(); });
+  // About what the residual will be; it serves the range of single precision only.
+  scale_ *= norm;
+}
+
+template <int K>
+double BlockSolve<K>::relative(const Sums<K>& norms) const {
+  double worst = 0;
+  for (int d = 0; d < K; ++d) {
+    const double ratio = norm_b_[d] > 0 ? norms[d] / norm_b_[d] : norms[d];
+    if (!(ratio <= worst)) worst = ratio;  // std::max would drop a NaN
+  }
+  return worst;
+}
+
+template class BlockSolve<4>;
+template class BlockSolve<8>;
+
+}  // namespace holomorph::solver

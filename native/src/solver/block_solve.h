@@ -1,0 +1,55 @@
+// K right-hand sides at once: conjugate gradients in single precision inside a correction in double precision.
+#pragma once
+
+#include <functional>
+
+#include "solver/multigrid_cycle.h"
+
+namespace holomorph::solver {
+
+/// Corrects X by what preconditioned conjugate gradients find for the residual B - L X, which is computed in double
+/// precision from differences of X, until |B - L X| <= 1e-10 |B| for every right-hand side. Single precision is asked
+/// for a factor of 1e-4 at a time, so that its rounding does not matter; usually three corrections do.
+///
+/// Every pass over the vertices does all that it can: A p is not computed but follows from A z, like p from z.
+template <int K>
+class BlockSolve {
+ public:
+  /// Called at every iteration with the largest relative residual; may throw.
+  using Report = std::function<void(double residual)>;
+
+  BlockSolve(const Laplacian& L, const Hierarchy& hierarchy);
+
+  /// Solves for the columns first .. first + width - 1 of B, width <= K, and writes the same columns of X.
+  /// @throws SolverError after 300 iterations or two corrections without progress; what `report` throws
+  void solve(const Eigen::MatrixXd& B, Eigen::Index first, int width, Eigen::MatrixXd& X, const Report& report);
+
+  int iterations() const { return iterations_; }
+  /// Largest |B - L X| / |B| of the last solve, as computed in double precision.
+  double residual() const { return reached_; }
+
+ private:
+  using Columns = std::array<const double*, K>;
+
+  void read(const Columns& b);
+  void update_residual(const Columns& b);
+  void conjugate_gradients(const Report& report);
+  double relative(const Sums<K>& norms) const;
+
+  const Laplacian& L_;
+  const Level& level_;
+  const int n_;
+  Cycle<K> cycle_;
+  Array<Sums<K>> X_;
+  Blocks<K> x_, p_, q_;
+  Sums<K> mean_, norm_b_;  // of the right-hand sides
+  Sums<K> norm_r_;         // |B - L X|
+  Sums<K> scale_;          // by which the residual is divided for single precision
+  int iterations_ = 0;
+  double reached_ = 0;
+};
+
+extern template class BlockSolve<4>;
+extern template class BlockSolve<8>;
+
+}  // namespace holomorph::solver

@@ -1,0 +1,84 @@
+#include "solver/multigrid_cycle.h"
+
+namespace holomorph::solver {
+namespace {
+
+// (M x)_i, for the rows of P and R.
+template <int K>
+Block<K> product(const SparseRows& M, int i, const Blocks<K>& x) {
+  Block<K> sum = Block<K>::Zero();
+  for (int e = M.start[i]; e < M.start[i + 1]; ++e) sum += M.weight[e] * x[M.column[e]];
+  return sum;
+}
+
+}  // namespace
+
+template <int K>
+Cycle<K>::Cycle(const Hierarchy& hierarchy) : hierarchy_(hierarchy), work_(hierarchy.levels.size()) {
+  for (std::size_t k = 0; k < work_.size(); ++k) {
+    const std::size_t n = hierarchy.levels[k].A.size();
+    work_[k].r.resize(n);
+    work_[k].u.resize(n);
+    if (k + 1 < work_.size()) work_[k].t.resize(n);
+  }
+}
+
+template <int K>
+Sums<K> Cycle<K>::run() {
+  const std::size_t coarsest = work_.size() - 1;
+  for (std::size_t k = 0; k < coarsest; ++k) descend(k);
+  solve_coarsest();
+  for (std::size_t k = coarsest; k-- > 1;) {
+    carry_up(k);
+    const Level& level = hierarchy_.levels[k];
+    auto& [r, u, t] = work_[k];
+    for_rows(level.A.size(),
+             [&, &r = r, &u = u, &t = t](int i) { u[i] = t[i] + level.omega[i] * (r[i] - difference(level.A, i, t)); });
+  }
+  // On the finest level the sum comes with the last step.
+  const Level& level = hierarchy_.levels[0];
+  auto& [r, u, t] = work_[0];
+  if (coarsest > 0) carry_up(0);
+  return sum_over_rows(level.A.size(), Sums<K>(Sums<K>::Zero()), [&, &r = r, &u = u, &t = t](int i, Sums<K>& sum) {
+    if (coarsest > 0) u[i] = t[i] + level.omega[i] * (r[i] - difference(level.A, i, t));
+    sum += (r[i] * u[i]).template cast<double>();
+  });
+}
+
+// The residual after the first step, restricted, and the first step of the next level.
+template <int K>
+void Cycle<K>::descend(std::size_t k) {
+  const Level &level = hierarchy_.levels[k], &next = hierarchy_.levels[k + 1];
+  Work &fine = work_[k], &coarse = work_[k + 1];
+  for_rows(level.A.size(), [&](int i) { fine.t[i] = fine.r[i] - difference(level.A, i, fine.u); });
+  for_rows(next.A.size(), [&](int i) {
+    const Block<K> r = product(level.R, i, fine.t);
+    coarse.r[i] = r;
+    coarse.u[i] = next.omega[i] * r;
+  });
+}
+
+template <int K>
+void Cycle<K>::solve_coarsest() {
+  const Eigen::MatrixXf& inverse = hierarchy_.coarsest_inverse;
+  Work& work = work_.back();
+  for (Eigen::Index i = 0; i < inverse.cols(); ++i) {
+    Block<K> sum = Block<K>::Zero();
+    for (Eigen::Index j = 0; j < inverse.rows(); ++j) sum += inverse(j, i) * work.r[j];  // symmetric
+    work.u[i] = sum;
+  }
+}
+
+// t = u + P u_coarse
+template <int K>
+void Cycle<K>::carry_up(std::size_t k) {
+  const Level& level = hierarchy_.levels[k];
+  Work& fine = work_[k];
+  const Blocks<K>& coarse = work_[k + 1].u;
+  for_rows(level.A.size(), [&](int i) { fine.t[i] = fine.u[i] + product(level.P, i, coarse); });
+}
+
+template class Cycle<4>;
+template class Cycle<8>;
+
+}  // namespace holomorph::solver

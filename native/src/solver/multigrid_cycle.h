@@ -1,0 +1,57 @@
+// One V-cycle for K right-hand sides at once, in single precision: the preconditioner.
+#pragma once
+
+#include "solver/multigrid_hierarchy.h"
+
+namespace holomorph::solver {
+
+/// The K values at one vertex, side by side: one or two registers.
+template <int K>
+using Block = Eigen::Array<float, K, 1>;
+template <int K>
+using Blocks = Array<Block<K>>;
+/// Sums over vertices, one per right-hand side.
+template <int K>
+using Sums = Eigen::Array<double, K, 1>;
+
+/// (A x)_i = sum_j w_ij (x_i - x_j).
+template <int K>
+Block<K> difference(const SparseRows& A, int i, const Blocks<K>& x) {
+  const Block<K> here = x[i];
+  Block<K> sum = Block<K>::Zero();
+  for (int e = A.start[i]; e < A.start[i + 1]; ++e) sum += A.weight[e] * (here - x[A.column[e]]);
+  return sum;
+}
+
+/// z = M r for the symmetric positive semi-definite M of one V-cycle: a Jacobi step on each level down (on the way down
+/// from zero, so that it is one product), the exact solution on the coarsest, a Jacobi step on each level up.
+template <int K>
+class Cycle {
+ public:
+  explicit Cycle(const Hierarchy& hierarchy);
+
+  /// The residual r that run() is applied to, and omega r; both for the caller to fill.
+  Blocks<K>& residual() { return work_[0].r; }
+  Blocks<K>& start() { return work_[0].u; }
+  /// z, in the place of start().
+  const Blocks<K>& result() const { return work_[0].u; }
+
+  /// @return sum over the vertices of r z
+  Sums<K> run();
+
+ private:
+  struct Work {
+    Blocks<K> r, u, t;
+  };
+  void descend(std::size_t level);
+  void solve_coarsest();
+  void carry_up(std::size_t level);
+
+  const Hierarchy& hierarchy_;
+  std::vector<Work> work_;
+};
+
+extern template class Cycle<4>;
+extern template class Cycle<8>;
+
+}  // namespace holomorph::solver

@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <cmath>
+
+#include "solver/block_solve.h"
+
+namespace holomorph::solver {
+namespace {
+
+class MultigridSolver final : public LaplaceSolver {
+ public:
+  MultigridSolver(Laplacian L, Progress& progress) : L_(std::move(L)) {
+    L_.makeCompressed();
+    try {
+      hierarchy_ = make_hierarchy(L_, progress);
+    } catch (const SolverError& error) {
+      fall_back(error, progress);
+    }
+    progress.report(kSetUp);
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Progress& progress) override {
+    if (!direct_) {
+      try {
+        return solve_by_multigrid(B, progress);
+      } catch (const SolverError& error) {
+        fall_back(error, progress);
+      }
+    }
+    Eigen::MatrixXd X = direct_->solve(B, progress);
+    residual_ = std::max(residual_, direct_->residual());
+    iterations_ = direct_->iterations();
+    return X;
+  }
+
+  std::string name() const override {
+    if (direct_) return direct_->name();
+    return "multigrid: conjugate gradients, " + std::to_string(hierarchy_.levels.size()) + " levels";
+  }
+
+  std::string remark() const override { return remark_; }
+
+ private:
+  static constexpr double kSetUp = 0.3;  // of the whole work, for the progress function
+
+  void fall_back(const SolverError& error, Progress& progress) {
+    remark_ = std::string("the direct solver took over: ") + error.what();
+    hierarchy_ = {};
+    direct_ = make_direct_solver(std::move(L_), progress);
+  }
+
+  // Blocks of 8, and one of 4 at the end where that is enough.
+  Eigen::MatrixXd solve_by_multigrid(const Eigen::MatrixXd& B, Progress& progress) {
+    Eigen::MatrixXd X(B.rows(), B.cols());
+    const Eigen::Index rest = B.cols() % 8, in_eights = B.cols() - (rest <= 4 ? rest : 0);
+    Reached reached;
+    solve_blocks<8>(B, 0, in_eights, X, reached, progress);
+    solve_blocks<4>(B, in_eights, B.cols(), X, reached, progress);
+    iterations_ = std::max(iterations_, reached.iterations);
+    residual_ = std::max(residual_, reached.residual);
+    return X;
+  }
+
+  struct Reached {
+    int iterations = 0;
+    double residual = 0;
+  };
+
+  template <int K>
+  void solve_blocks(const Eigen::MatrixXd& B, Eigen::Index begin, Eigen::Index end, Eigen::MatrixXd& X,
+                    Reached& reached, Progress& progress) {
+    if (begin == end) return;
+    BlockSolve<K> block(L_, hierarchy_);
+    for (Eigen::Index first = begin; first < end; first += K) {
+      const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
+      block.solve(B, first, width, X, [&](double residual) {
+        const double digits = std::clamp(std::log10(residual) / std::log10(kResidual), 0.0, 1.0);
+        const double columns = static_cast<double>(first) + digits * width;
+        progress.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));
+      });
+      reached.iterations = std::max(reached.iterations, block.iterations());
+      reached.residual = std::max(reached.residual, block.residual());
+    }
+  }
+
+  Laplacian L_;  // moved on to the direct solver, where that takes over
+  Hierarchy hierarchy_;
+  std::unique_ptr<LaplaceSolver> direct_;
+  std::string remark_;
+};
+
+}  // namespace
+
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian L, Progress& progress) {
+  return std::make_unique<MultigridSolver>(std::move(L), progress);
+}
+
+}  // namespace holomorph::solver
