@@ -41,7 +41,8 @@ template <class Derived>
 py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   using T = typename Derived::Scalar;
   py::array_t<T> array({matrix.rows(), matrix.cols()});
-  Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(array.mutable_data(), matrix.rows(), matrix.cols()) = matrix;
+  Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(array.mutable_data(), matrix.rows(),
+                                                                                matrix.cols()) = matrix;
   return read_only(std::move(array));
 }
 

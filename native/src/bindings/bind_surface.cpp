@@ -16,13 +16,15 @@ namespace {
 using mesh::Surface;
 using SurfacePointer = std::shared_ptr<Surface>;
 
-SurfacePointer from_polygons(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corner_vertices, const Contiguous<std::int64_t>& face_offsets) {
+SurfacePointer from_polygons(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corner_vertices,
+                             const Contiguous<std::int64_t>& face_offsets) {
   mesh::Polygons polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
   const py::gil_scoped_release unlocked;
   return std::make_shared<Surface>(mesh::make_surface(std::move(polygons)));
 }
 
-SurfacePointer from_edge_lengths(int vertex_count, const Contiguous<std::int64_t>& faces, const Contiguous<double>& lengths, const Contiguous<std::int64_t>& face_edges) {
+SurfacePointer from_edge_lengths(int vertex_count, const Contiguous<std::int64_t>& faces,
+                                 const Contiguous<double>& lengths, const Contiguous<std::int64_t>& face_edges) {
   const auto f = rows<std::int64_t, 3>(faces), names = rows<std::int64_t, 3>(face_edges);
   const auto l = rows<double, 3>(lengths);
   const py::gil_scoped_release unlocked;
@@ -47,16 +49,23 @@ py::tuple component(const Surface& surface, int which) {
 // (Euler characteristic, boundary loops, genus) of a connected surface.
 py::tuple topology(const Surface& surface) {
   Progress silent;
-  const int chi = mesh::euler_characteristic(surface), boundaries = mesh::boundary_count(mesh::half_edges(surface, silent));
+  const int chi = mesh::euler_characteristic(surface),
+            boundaries = mesh::boundary_count(mesh::half_edges(surface, silent));
   return py::make_tuple(chi, boundaries, mesh::genus(chi, boundaries));
 }
 
 }  // namespace
 
 void bind_surface(py::module_& m) {
-  const auto viewed = [](auto member) { return [member](py::object self) { return view(self.cast<const Surface&>().*member, self); }; };
-  const auto polygons = [](auto member) { return [member](py::object self) { return view(self.cast<const Surface&>().polygons.*member, self); }; };
-  const auto repairs = [](auto member) { return [member](py::object self) { return view(self.cast<const Surface&>().repairs.*member, self); }; };
+  const auto viewed = [](auto member) {
+    return [member](py::object self) { return view(self.cast<const Surface&>().*member, self); };
+  };
+  const auto polygons = [](auto member) {
+    return [member](py::object self) { return view(self.cast<const Surface&>().polygons.*member, self); };
+  };
+  const auto repairs = [](auto member) {
+    return [member](py::object self) { return view(self.cast<const Surface&>().repairs.*member, self); };
+  };
   py::class_<Surface, SurfacePointer>(m, "Surface")
       .def_static("from_polygons", &from_polygons)
       .def_static("from_edge_lengths", &from_edge_lengths)

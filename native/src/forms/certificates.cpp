@@ -31,7 +31,8 @@ void for_blocks(std::size_t elements, Progress& progress, double from, double to
     const int last = std::min(first + kBatch, blocks);
 #pragma omp parallel for schedule(dynamic, 1)
     for (int b = first; b < last; ++b) {
-      work(b - first, b * kBlock, static_cast<int>(std::min<std::size_t>(elements, static_cast<std::size_t>(b + 1) * kBlock)));
+      work(b - first, b * kBlock,
+           static_cast<int>(std::min<std::size_t>(elements, static_cast<std::size_t>(b + 1) * kBlock)));
     }
     for (int b = first; b < last; ++b) collect(b - first);
     progress.report(from + (to - from) * last / blocks);
@@ -39,7 +40,8 @@ void for_blocks(std::size_t elements, Progress& progress, double from, double to
 }
 
 // Value of every form along h.
-void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h, double factor, Eigen::RowVectorXd& sum) {
+void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h, double factor,
+               Eigen::RowVectorXd& sum) {
   const int head = to_vertex(mesh, h), tail = mesh::from_vertex(mesh, h);
   sum += factor * (forms.functions.row(head) - forms.functions.row(tail));
   for (const auto& [i, value] : forms.classes.rows[edge_of(h)]) sum[i] += factor * sign(h) * value;
@@ -65,7 +67,8 @@ void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, i
 }
 
 // Vertices: |d* h| = |sum of k h over the half-edges that leave| against the sum of |k h|.
-void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, int begin, int end, Maxima& maxima) {
+void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, int begin,
+                      int end, Maxima& maxima) {
   const auto n = forms.functions.cols();
   Eigen::RowVectorXd sum(n), size(n), value(n);
   for (int v = begin; v < end; ++v) {
@@ -86,7 +89,8 @@ void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights,
 }
 
 template <class Measure>
-double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& progress, double from, double to, Measure measure) {
+double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& progress, double from, double to,
+                        Measure measure) {
   const Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(forms);
   std::array<Maxima, kBatch> slots;
   Maxima total{zero, zero};
@@ -104,7 +108,8 @@ double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& prog
 
 }  // namespace
 
-Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, Progress& progress) {
+Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+                            Progress& progress) {
   const auto n = forms.functions.cols();
   std::array<Eigen::MatrixXd, kBatch> slots;
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
@@ -119,14 +124,16 @@ Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& we
   return (G + G.transpose()) / 2;
 }
 
-Residuals residuals(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, Progress& progress) {
+Residuals residuals(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+                    Progress& progress) {
   const auto n = forms.functions.cols();
   Residuals result;
-  result.closedness = relative_maximum(mesh.n_faces(), n, progress, 0.0, 0.5,
-                                       [&](int begin, int end, Maxima& maxima) { measure_faces(mesh, forms, begin, end, maxima); });
-  result.harmonicity = relative_maximum(mesh.n_vertices(), n, progress, 0.5, 1.0, [&](int begin, int end, Maxima& maxima) {
-    measure_vertices(mesh, weights, forms, begin, end, maxima);
+  result.closedness = relative_maximum(mesh.n_faces(), n, progress, 0.0, 0.5, [&](int begin, int end, Maxima& maxima) {
+    measure_faces(mesh, forms, begin, end, maxima);
   });
+  result.harmonicity = relative_maximum(
+      mesh.n_vertices(), n, progress, 0.5, 1.0,
+      [&](int begin, int end, Maxima& maxima) { measure_vertices(mesh, weights, forms, begin, end, maxima); });
   return result;
 }
 

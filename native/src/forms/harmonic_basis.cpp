@@ -29,7 +29,8 @@ void neighbours(const HalfEdges& mesh, const std::vector<double>& weights, int v
     if (to_vertex(mesh, h) != v) ring.push_back({to_vertex(mesh, h), weights[edge_of(h)]});
     h = next(mesh, opposite(h));
   } while (h != start);
-  std::stable_sort(ring.begin(), ring.end(), [](const Neighbour& a, const Neighbour& b) { return a.vertex < b.vertex; });
+  std::stable_sort(ring.begin(), ring.end(),
+                   [](const Neighbour& a, const Neighbour& b) { return a.vertex < b.vertex; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (kept > 0 && ring[kept - 1].vertex == ring[i].vertex) {
@@ -54,7 +55,8 @@ solver::Laplacian laplacian(const HalfEdges& mesh, const std::vector<double>& we
     double diagonal = 0;
     for (const auto& entry : ring) diagonal += entry.weight;
     L.startVec(v);
-    const auto middle = std::partition_point(ring.begin(), ring.end(), [&](const Neighbour& e) { return e.vertex < v; });
+    const auto middle =
+        std::partition_point(ring.begin(), ring.end(), [&](const Neighbour& e) { return e.vertex < v; });
     for (auto e = ring.begin(); e != middle; ++e) L.insertBack(e->vertex, v) = -e->weight;
     L.insertBack(v, v) = diagonal;
     for (auto e = middle; e != ring.end(); ++e) L.insertBack(e->vertex, v) = -e->weight;
@@ -63,7 +65,8 @@ solver::Laplacian laplacian(const HalfEdges& mesh, const std::vector<double>& we
   return L;
 }
 
-Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights, const topology::IntegerForms& classes) {
+Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
+                                const topology::IntegerForms& classes) {
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), classes.form_count);
   for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
     const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
@@ -75,8 +78,8 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>
   return B;
 }
 
-ClosedForms harmonic_basis(const HalfEdges& mesh, const std::vector<double>& weights, const topology::IntegerForms& classes,
-                           solver::LaplaceSolver& solver, Progress& progress) {
+ClosedForms harmonic_basis(const HalfEdges& mesh, const std::vector<double>& weights,
+                           const topology::IntegerForms& classes, solver::LaplaceSolver& solver, Progress& progress) {
   return {classes, solver.solve(codifferentials(mesh, weights, classes), progress)};
 }
 
@@ -91,7 +94,8 @@ RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int 
   return values;
 }
 
-Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms, const std::vector<std::vector<HalfedgeHandle>>& loops) {
+Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms,
+                        const std::vector<std::vector<HalfedgeHandle>>& loops) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loops.size()), forms.functions.cols());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (const HalfedgeHandle h : loops[i]) {
@@ -102,17 +106,20 @@ Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms, const s
   return result;
 }
 
-std::vector<double> averaged_star(const HalfEdges& mesh, const std::vector<double>& lengths, const std::vector<double>& form) {
+std::vector<double> averaged_star(const HalfEdges& mesh, const std::vector<double>& lengths,
+                                  const std::vector<double>& form) {
   std::vector<double> star(form.size(), 0.0);
   for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
     HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(f));
     for (int i = 0; i < 3; ++i, h = next(mesh, h)) {
-      // Side h opposite corner 0, corners 1 and 2 its ends: (*w)(h) = cot_2 w(0 -> 1) + cot_1 w(0 -> 2), the flux through h.
+      // Side h opposite corner 0, corners 1 and 2 its ends: (*w)(h) = cot_2 w(0 -> 1) + cot_1 w(0 -> 2), the flux
+      // through h.
       const HalfedgeHandle to_apex = next(mesh, h), from_apex = next(mesh, to_apex);
       const double a = lengths[edge_of(h)], b = lengths[edge_of(to_apex)], c = lengths[edge_of(from_apex)];
       const double area = mesh::triangle_area(a, b, c);
       const double at_start = mesh::cotangent(b, c, a, area), at_end = mesh::cotangent(c, a, b, area);
-      const double to_start = sign(from_apex) * form[edge_of(from_apex)], to_end = -sign(to_apex) * form[edge_of(to_apex)];
+      const double to_start = sign(from_apex) * form[edge_of(from_apex)],
+                   to_end = -sign(to_apex) * form[edge_of(to_apex)];
       star[edge_of(h)] += 0.5 * sign(h) * (at_end * to_start + at_start * to_end);
     }
   }

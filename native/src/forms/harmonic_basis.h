@@ -12,7 +12,8 @@ namespace holomorph::forms {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A family of closed forms eta_i + d f_i, kept as classes and functions: #forms numbers per vertex instead of per edge.
+/// A family of closed forms eta_i + d f_i, kept as classes and functions: #forms numbers per vertex instead of per
+/// edge.
 struct ClosedForms {
   topology::IntegerForms classes;
   RowMajorMatrix functions;  ///< #V x #forms
@@ -22,31 +23,36 @@ struct ClosedForms {
 solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, Progress& progress);
 
 /// -d* eta_i = -d^T (k eta_i), #V x #forms: the right-hand sides of Eq. 8.
-Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const topology::IntegerForms& classes);
+Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                                const topology::IntegerForms& classes);
 
 /// The harmonic form of each class: L f_i = -d* eta_i, all right-hand sides in one block.
-ClosedForms harmonic_basis(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const topology::IntegerForms& classes,
-                           solver::LaplaceSolver& solver, Progress& progress);
+ClosedForms harmonic_basis(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                           const topology::IntegerForms& classes, solver::LaplaceSolver& solver, Progress& progress);
 
 /// Values of all forms on the edges begin .. end-1, (end - begin) x #forms, along half-edge 2e.
 RowMajorMatrix edge_values(const mesh::HalfEdges& half_edges, const ClosedForms& forms, int begin, int end);
 
 /// G_ij = sum_e k_e h_i(e) h_j(e): exactly the L2 products of the piecewise constant forms.
 /// Summed in a fixed order of blocks of edges, so the bits do not depend on the number of threads.
-Eigen::MatrixXd gram_matrix(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const ClosedForms& forms, Progress& progress);
+Eigen::MatrixXd gram_matrix(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                            const ClosedForms& forms, Progress& progress);
 
 /// Relative maxima over all forms: |sum of a form around a face| over its largest value; |d* h| at a vertex over the
 /// largest sum of |k h| at a vertex.
 struct Residuals {
   double closedness = 0, harmonicity = 0;
 };
-Residuals residuals(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const ClosedForms& forms, Progress& progress);
+Residuals residuals(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const ClosedForms& forms,
+                    Progress& progress);
 
 /// Integrals of the forms over closed loops of half-edges, #loops x #forms.
-Eigen::MatrixXd periods(const mesh::HalfEdges& half_edges, const ClosedForms& forms, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);
+Eigen::MatrixXd periods(const mesh::HalfEdges& half_edges, const ClosedForms& forms,
+                        const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);
 
 /// The paper's averaged star (§ 7): on each edge the mean over its two faces of the face-wise star. Not closed, so it
 /// has no well-defined integral; for comparison only. @param form,result #E values along half-edge 2e
-std::vector<double> averaged_star(const mesh::HalfEdges& half_edges, const std::vector<double>& lengths, const std::vector<double>& form);
+std::vector<double> averaged_star(const mesh::HalfEdges& half_edges, const std::vector<double>& lengths,
+                                  const std::vector<double>& form);
 
 }  // namespace holomorph::forms
