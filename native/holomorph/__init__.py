@@ -13,6 +13,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 """
 
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
+from .progressive import ProgressiveMesh
 from .structure import ConformalStructure, Quality, Residuals, SolverReport, conformal_structure
 from .surface import Repairs, Surface
 
@@ -21,6 +22,7 @@ __all__ = [
     "ConformalStructure",
     "Error",
     "InvalidMesh",
+    "ProgressiveMesh",
     "Quality",
     "Repairs",
     "Residuals",

@@ -7,5 +7,6 @@ namespace holomorph::bindings {
 
 void bind_surface(pybind11::module_& m);
 void bind_conformal_structure(pybind11::module_& m);
+void bind_progressive_mesh(pybind11::module_& m);
 
 }  // namespace holomorph::bindings

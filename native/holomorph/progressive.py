@@ -1,0 +1,263 @@
+"""Progressive meshes: a small base mesh and a sequence of vertex splits that rebuilds the original exactly."""
+
+import json
+import os
+import zlib
+from functools import cached_property
+
+import numpy as np
+
+from . import _native, arrays
+from ._native import InvalidMesh
+from .surface import Surface
+
+ORDERS = ("quadric", "independent")
+SPLIT = np.dtype(
+    [
+        ("v_s", np.int32),
+        ("v_t", np.int32),
+        ("v_l", np.int32),
+        ("v_r", np.int32),
+        ("position", np.float64, 3),
+        ("vertex", np.int32),
+        ("triangles", np.int32, 2),
+        ("slots", np.uint8, 2),
+        ("corners", np.int32, (2, 3)),
+    ]
+)
+
+
+class ProgressiveMesh:
+    """The surface's triangulation as a base mesh and vertex splits (Gu, Wang, Yau 2003, section 3; Hoppe 1996,
+    doi:10.1145/237170.237216), down to a mesh in which no edge can be collapsed: 4 triangles for a sphere, at most 20
+    for a torus. Every level is a manifold of the same topology; vertices never move, and those of the boundary are
+    collapsed along it only.
+
+    Vertices of the levels are numbered base first, then in the order of the splits; triangles likewise, the left one
+    first. So those of a level are the first ones of every finer level. Polygons with more than three corners are cut
+    into triangles in the levels, and restored as they were.
+
+    Parameters
+    ----------
+    surface : Surface, with positions; of one or several components
+    corner_data : (#C, ...) numbers or booleans, one row per polygon corner; kept bit for bit
+    order : which edges are collapsed first: "quadric", by quadric error (Garland & Heckbert 1997,
+        doi:10.1145/258734.258849), for levels of detail; "independent", several times faster, by rounds in which
+        vertices that are pairwise not adjacent are collapsed along their shortest edges
+
+    Raises
+    ------
+    InvalidMesh
+        if the surface is intrinsic, if triangulated polygons have two edges with the same ends, or if `corner_data` does
+        not fit the corners.
+    """
+
+    def __init__(self, surface, *, corner_data=None, order="quadric"):
+        if order not in ORDERS:
+            raise ValueError(f"order is {order!r}; one of {', '.join(map(repr, ORDERS))} is needed")
+        kind, data = "", b""
+        if corner_data is not None:
+            kind, data = _packed(corner_data, len(surface.corner_vertices))
+        self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data)
+
+    @classmethod
+    def load(cls, path):
+        """Reads what `save` wrote.
+
+        Raises
+        ------
+        InvalidMesh
+            if the file is missing, damaged or of another version; every count, index and split is checked.
+        """
+        try:
+            with open(path, "rb") as file:
+                content = file.read()
+        except OSError as error:
+            raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
+        return cls._from_bytes(content, os.fspath(path))
+
+    @classmethod
+    def _from_bytes(cls, content, name):
+        body, checksum = content[:-4], content[-4:]
+        mesh = cls.__new__(cls)
+        try:
+            if len(content) >= 12 and zlib.crc32(body).to_bytes(4, "little") != checksum and body[:6] == b"HoloPM":
+                raise InvalidMesh("the progressive mesh is damaged: its checksum does not fit")
+            mesh._native = _native.ProgressiveMesh.from_bytes(body)
+            mesh.corner_data  # noqa: B018 - its type is checked where it is made
+        except InvalidMesh as error:
+            raise InvalidMesh(f"{name}: {error}") from error
+        return mesh
+
+    def save(self, path):
+        """Writes one binary file: the base, the splits and their attributes, with a checksum at the end."""
+        content = self._native.to_bytes()
+        with open(path, "wb") as file:
+            file.write(content)
+            file.write(zlib.crc32(content).to_bytes(4, "little"))
+
+    def __repr__(self):
+        native = self._native
+        return f"<ProgressiveMesh: {native.base_triangle_count} to {len(native.triangle_index)} triangles, {len(self.splits)} splits>"
+
+    @cached_property
+    def base(self):
+        """The coarsest level, a `Surface` of triangles."""
+        return self._level(0)
+
+    @cached_property
+    def splits(self):
+        """Structured array of the vertex splits, coarsest first.
+
+        v_s, v_t, v_l, v_r : vertices, v_t the new one; v_l or v_r is -1 where v_s v_t is on the boundary. The triangles
+            {v_s, v_t, v_l} and {v_t, v_s, v_r} are added, and those counter-clockwise from v_r to v_l around v_s move
+            to v_t
+        position : of v_t; that of v_s stays
+        vertex : index of v_t in the original
+        triangles : indices of the left and the right triangle in the original triangulation, -1 where there is none
+        slots : the corner of the left triangle that is v_s, that of the right one that is v_t
+        corners : polygon corners of the original at the corners of both triangles, whose `corner_data` they have
+        """
+        native = self._native
+        v_s, v_l, v_r, slot_l, slot_r = native.splits()
+        splits = np.empty(len(v_s), SPLIT)
+        first, count = native.base_vertex_count, len(v_s)
+        splits["v_s"], splits["v_l"], splits["v_r"] = v_s, v_l, v_r
+        splits["v_t"] = np.arange(first, first + count)
+        splits["slots"] = np.stack([slot_l, slot_r], axis=1)
+        splits["position"] = native.positions[first : first + count]
+        splits["vertex"] = native.vertex_index[first : first + count]
+        present = np.stack([v_l, v_r], axis=1) >= 0
+        triangle = native.base_triangle_count + np.cumsum(present.ravel()).reshape(present.shape) - 1
+        triangle = np.where(present, triangle, 0)
+        splits["triangles"] = np.where(present, native.triangle_index[triangle], -1)
+        splits["corners"] = np.where(present[:, :, None], self._corners[triangle], -1)
+        return arrays.frozen(splits)
+
+    @cached_property
+    def _corners(self):
+        return self._native.original_corners()
+
+    @cached_property
+    def _faces(self):
+        """The original polygon of each triangle."""
+        offsets = self._native.face_offsets
+        if not len(offsets):
+            return self._native.triangle_index
+        return np.repeat(np.arange(len(offsets) - 1, dtype=np.int32), np.diff(offsets) - 2)[self._native.triangle_index]
+
+    @cached_property
+    def corner_data(self):
+        """The rows given for the original's polygon corners; None if there were none. The corners of a level have
+        those at ``level.corner_index``."""
+        kind = self._native.corner_type
+        if not kind:
+            return None
+        try:
+            name, shape = json.loads(kind)
+            dtype, shape = np.dtype(name), tuple(shape)
+            if dtype.kind not in "biufc" or not all(isinstance(n, int) and n >= 0 for n in shape):
+                raise ValueError(kind)
+            rows = np.frombuffer(self._native.corner_data, dtype)
+            count = int(self._native.face_offsets[-1]) if len(self._native.face_offsets) else self._corners.size
+            return arrays.frozen(rows.reshape((count, *shape)))
+        except (ValueError, TypeError, RecursionError) as error:
+            raise InvalidMesh("the progressive mesh is damaged: its corner data are of no known type") from error
+
+    def _split_count(self, n_faces):
+        return self._native.split_count(max(0, min(int(n_faces), 2**62)))
+
+    def _level(self, splits):
+        surface = Surface._of(self._native.level(splits))
+        vertices, faces = self._native.base_vertex_count + splits, len(surface.triangles)
+        surface._vertex_index = self._native.vertex_index[:vertices]
+        surface._face_index = arrays.frozen(self._faces[:faces])
+        surface._corner_index = arrays.frozen(self._corners[:faces].ravel())
+        return surface
+
+    def level(self, n_faces):
+        """The finest level with at most `n_faces` triangles, or the base if that has more.
+
+        Returns
+        -------
+        Surface
+            Of triangles; its `vertex_index`, `face_index` and `corner_index` say which vertex, polygon and polygon
+            corner of the original each element comes from.
+        """
+        return self._level(self._split_count(n_faces))
+
+    def restore(self):
+        """The original surface, rebuilt from the base by all the splits: positions, polygons and the order of their
+        corners, bit for bit."""
+        return Surface._of(self._native.restored())
+
+    def vertex_map(self, n_faces):
+        """(#V,) vertex of ``level(n_faces)`` that each vertex of the original was collapsed into; -1 for isolated ones.
+        It takes edges of the original to edges or single vertices of the level."""
+        return arrays.frozen(self._map_of_original(self._split_count(n_faces)))
+
+    def _map_of_original(self, splits):
+        mapped = self._native.vertex_map(splits)
+        result = np.full(len(self._native.vertex_index), -1, np.int32)
+        result[self._native.vertex_index[: len(mapped)]] = mapped
+        return result
+
+    def carry_loops(self, loops, n_faces=None):
+        """Closed loops of vertices of the base as loops of ``level(n_faces)``, or of the original by default: where a
+        split separates the two neighbours of a vertex on a loop, the new edge is inserted (paper section 9).
+
+        Parameters
+        ----------
+        loops : sequence of integer arrays, the first vertex not repeated, as in ``homology_basis``
+
+        Returns
+        -------
+        list of integer arrays
+        """
+        count = len(self._native.splits()[0])
+        splits = count if n_faces is None else self._split_count(n_faces)
+        given = [arrays.integer(loop, "loop") for loop in loops]
+        for loop in given:
+            if len(loop) == 0 or loop.min() < 0 or loop.max() >= self._native.base_vertex_count:
+                raise InvalidMesh("a loop is empty or names a vertex that the base mesh has not")
+        carried = self._native.carry_loops(splits, [loop.tolist() for loop in given])
+        if n_faces is None:
+            carried = [arrays.frozen(self._native.vertex_index[loop]) for loop in carried]
+        return carried
+
+    def carry_forms(self, forms, n_faces=None):
+        """Closed forms on the edges of the base as forms of the same classes on those of ``level(n_faces)``, or of the
+        original's triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s
+        that it comes from (paper section 9, step 5b). The period over a carried loop is that over the loop.
+
+        Parameters
+        ----------
+        forms : (n, #E of the base) integers or reals, for the direction from lower to higher vertex
+
+        Returns
+        -------
+        (n, #E) numbers of the same type: int64 or float64
+        """
+        forms = np.asarray(forms)
+        if n_faces is None:
+            surface, splits = self.restore(), 0
+            vertex_map = self._map_of_original(splits)
+        else:
+            surface = self.level(n_faces)
+            vertex_map = self._native.vertex_map(0)[: len(surface.vertices)]
+        if forms.ndim != 2 or forms.shape[1] != len(self.base._native.edges):
+            raise InvalidMesh(f"forms has the shape {forms.shape}; (rows, {len(self.base._native.edges)}) is needed")
+        half_edge = self._native.base_half_edges(surface._native, vertex_map.tolist())
+        kind = np.int64 if np.issubdtype(forms.dtype, np.integer) else np.float64
+        sign = np.where(half_edge < 0, 0, 1 - 2 * (half_edge & 1)).astype(kind)
+        return arrays.frozen(forms[:, half_edge >> 1].astype(kind) * sign)
+
+
+def _packed(corner_data, corner_count):
+    """The type of one row in words, and all rows as bytes."""
+    rows = np.ascontiguousarray(corner_data)
+    if rows.dtype.kind not in "biufc":
+        raise InvalidMesh(f"corner_data has the type {rows.dtype}; numbers or booleans are needed")
+    if rows.ndim == 0 or len(rows) != corner_count:
+        raise InvalidMesh(f"corner_data has {len(rows) if rows.ndim else 0} rows for {corner_count} polygon corners")
+    return json.dumps([rows.dtype.str, rows.shape[1:]]), rows.tobytes()

@@ -1,0 +1,147 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "progressive/file_format.h"
+#include "progressive/progressive_mesh.h"
+#include "topology/carried_classes.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using progressive::ProgressiveMesh;
+using Pointer = std::shared_ptr<ProgressiveMesh>;
+using SurfacePointer = std::shared_ptr<mesh::Surface>;
+
+Pointer make(const mesh::Surface& surface, const std::string& order, const std::string& corner_type,
+             const py::bytes& corner_data) {
+  const std::string_view data = corner_data;
+  const py::gil_scoped_release unlocked;
+  auto mesh = std::make_shared<ProgressiveMesh>(
+      progressive_mesh(surface, order == "quadric" ? progressive::Order::quadric : progressive::Order::independent));
+  mesh->corner_type = corner_type;
+  mesh->corner_data.assign(data.begin(), data.end());
+  return mesh;
+}
+
+Pointer from_bytes(const py::bytes& bytes) {
+  const std::string_view data = bytes;
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<ProgressiveMesh>(progressive::from_bytes(data));
+}
+
+py::bytes to_bytes(const ProgressiveMesh& mesh) {
+  std::vector<char> bytes;
+  {
+    const py::gil_scoped_release unlocked;
+    bytes = progressive::to_bytes(mesh);
+  }
+  return {bytes.data(), bytes.size()};
+}
+
+SurfacePointer level(const ProgressiveMesh& mesh, int splits) {
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(mesh, splits)));
+}
+
+SurfacePointer restored(const ProgressiveMesh& mesh) {
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::restored(mesh)));
+}
+
+// Columns v_s, v_l, v_r, slot_l, slot_r.
+py::tuple splits(const ProgressiveMesh& mesh) {
+  const auto column = [&mesh](auto member) {
+    std::vector<int> values;
+    values.reserve(mesh.splits.size());
+    for (const auto& split : mesh.splits) values.push_back(split.*member);
+    return copy(values);
+  };
+  using progressive::Split;
+  return py::make_tuple(column(&Split::v_s), column(&Split::v_l), column(&Split::v_r), column(&Split::slot_l),
+                        column(&Split::slot_r));
+}
+
+py::list carry_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
+  std::vector<std::vector<int>> carried;
+  {
+    const py::gil_scoped_release unlocked;
+    carried = topology::carry_loops(mesh, splits, loops);
+  }
+  py::list result;
+  for (const auto& loop : carried) result.append(copy(loop));
+  return result;
+}
+
+// Rows of integers, one for each form, from the edges of the base to those of `surface`.
+py::array carry_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32_t>& forms,
+                        const mesh::Surface& surface, const std::vector<int>& map) {
+  const auto given = forms.unchecked<2>();
+  topology::IntegerForms base;
+  base.form_count = static_cast<int>(given.shape(0));
+  base.rows.resize(static_cast<std::size_t>(given.shape(1)));
+  for (int i = 0; i < base.form_count; ++i) {
+    for (py::ssize_t e = 0; e < given.shape(1); ++e) {
+      if (given(i, e) != 0) base.rows[static_cast<std::size_t>(e)].emplace_back(i, given(i, e));
+    }
+  }
+  const topology::IntegerForms carried = topology::carry_classes(mesh.base, base, surface, map);
+  Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic> values(base.form_count,
+                                                                     static_cast<Eigen::Index>(carried.rows.size()));
+  values.setZero();
+  for (std::size_t e = 0; e < carried.rows.size(); ++e) {
+    for (const auto& [form, value] : carried.rows[e]) values(form, static_cast<Eigen::Index>(e)) = value;
+  }
+  return copy(values);
+}
+
+}  // namespace
+
+void bind_progressive_mesh(py::module_& m) {
+  py::class_<ProgressiveMesh, Pointer>(m, "ProgressiveMesh")
+      .def_static("make", &make)
+      .def_static("from_bytes", &from_bytes)
+      .def("to_bytes", &to_bytes)
+      .def("level", &level)
+      .def("restored", &restored)
+      .def("splits", &splits)
+      .def("split_count",
+           [](const ProgressiveMesh& mesh, std::int64_t faces) { return progressive::split_count(mesh, faces); })
+      .def("vertex_map",
+           [](const ProgressiveMesh& mesh, int splits) { return copy(progressive::vertex_map(mesh, splits)); })
+      .def("carry_loops", &carry_loops)
+      .def("carry_classes", &carry_classes)
+      .def("base_half_edges",
+           [](const ProgressiveMesh& mesh, const mesh::Surface& surface, const std::vector<int>& map) {
+             return copy(topology::base_half_edges(mesh.base, surface, map));
+           })
+      .def("original_corners",
+           [](const ProgressiveMesh& mesh) {
+             const auto corners = progressive::original_corners(mesh);
+             py::array_t<int> array({static_cast<py::ssize_t>(corners.size()), py::ssize_t{3}});
+             if (!corners.empty())
+               std::memcpy(array.mutable_data(), corners.data(), sizeof(corners[0]) * corners.size());
+             return read_only(std::move(array));
+           })
+      .def_property_readonly("base_vertex_count", &ProgressiveMesh::base_vertex_count)
+      .def_property_readonly("vertex_count", &ProgressiveMesh::vertex_count)
+      .def_property_readonly("base_triangle_count",
+                             [](const ProgressiveMesh& mesh) { return mesh.base.triangles.size(); })
+      .def_property_readonly("positions",
+                             [](py::object self) { return view(self.cast<const ProgressiveMesh&>().positions, self); })
+      .def_property_readonly(
+          "vertex_index", [](py::object self) { return view(self.cast<const ProgressiveMesh&>().vertex_index, self); })
+      .def_property_readonly(
+          "triangle_index",
+          [](py::object self) { return view(self.cast<const ProgressiveMesh&>().triangle_index, self); })
+      .def_property_readonly(
+          "face_offsets", [](py::object self) { return view(self.cast<const ProgressiveMesh&>().face_offsets, self); })
+      .def_readonly("corner_type", &ProgressiveMesh::corner_type)
+      .def_property_readonly("corner_data", [](const ProgressiveMesh& mesh) {
+        return py::bytes(mesh.corner_data.data(), mesh.corner_data.size());
+      });
+}
+
+}  // namespace holomorph::bindings

@@ -1,0 +1,133 @@
+#include "topology/carried_classes.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/errors.h"
+#include "progressive/refinement.h"
+
+namespace holomorph::topology {
+namespace {
+
+// Vertices of all loops as rings of entries; the entries of one vertex are a list, so that a split finds them.
+class Loops {
+ public:
+  Loops(const std::vector<std::vector<int>>& loops, int vertex_count)
+      : first_(static_cast<std::size_t>(vertex_count), -1) {
+    for (const auto& loop : loops) {
+      starts_.push_back(static_cast<int>(entries_.size()));
+      const int n = static_cast<int>(loop.size()), start = starts_.back();
+      for (int i = 0; i < n; ++i) {
+        entries_.push_back({loop[i], start + (i + n - 1) % n, start + (i + 1) % n, -1});
+        add_to_list(start + i);
+      }
+    }
+  }
+
+  void split(int s, int t, const std::vector<int>& moved) {
+    first_.push_back(-1);
+    const auto is_moved = [&](int entry) {
+      return std::find(moved.begin(), moved.end(), entries_[entry].vertex) != moved.end();
+    };
+    for (int e = std::exchange(first_[s], -1), following; e >= 0; e = following) {
+      following = entries_[e].same_vertex;
+      const bool before = is_moved(entries_[e].previous), after = is_moved(entries_[e].next);
+      if (before && after) entries_[e].vertex = t;
+      add_to_list(e);
+      if (before != after) add_to_list(insert(t, before ? entries_[e].previous : e));
+    }
+  }
+
+  std::vector<std::vector<int>> vertices() const {
+    std::vector<std::vector<int>> loops;
+    for (const int start : starts_) {
+      loops.emplace_back();
+      int e = start;
+      do {
+        loops.back().push_back(entries_[e].vertex);
+        e = entries_[e].next;
+      } while (e != start);
+    }
+    return loops;
+  }
+
+ private:
+  struct Entry {
+    int vertex, previous, next, same_vertex;
+  };
+
+  void add_to_list(int entry) {
+    int& first = first_[entries_[entry].vertex];
+    entries_[entry].same_vertex = first;
+    first = entry;
+  }
+  int insert(int vertex, int after) {
+    const int entry = static_cast<int>(entries_.size()), next = entries_[after].next;
+    entries_.push_back({vertex, after, next, -1});
+    entries_[after].next = entry;
+    entries_[next].previous = entry;
+    return entry;
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<int> first_;   // #V first entry of each vertex
+  std::vector<int> starts_;  // one entry of each loop
+};
+
+int edge_between(const std::vector<mesh::Pair>& edges, int a, int b) {
+  const mesh::Pair ends{std::min(a, b), std::max(a, b)};
+  const auto found = std::lower_bound(edges.begin(), edges.end(), ends);
+  return found != edges.end() && *found == ends ? static_cast<int>(found - edges.begin()) : -1;
+}
+
+}  // namespace
+
+std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map) {
+  // The base has triangles only and no two edges with the same ends, and its edges are in lexicographic order.
+  std::vector<int> half_edges;
+  half_edges.reserve(surface.edges.size());
+  for (const auto& [a, b] : surface.edges) {
+    const int u = map[a], v = map[b], edge = u == v ? -1 : edge_between(base.edges, u, v);
+    half_edges.push_back(edge < 0 ? -1 : 2 * edge + (u > v));
+  }
+  return half_edges;
+}
+
+IntegerForms carry_classes(const mesh::Surface& base, const IntegerForms& forms, const mesh::Surface& surface,
+                           const std::vector<int>& map) {
+  IntegerForms carried;
+  carried.form_count = forms.form_count;
+  carried.rows.reserve(surface.edges.size());
+  for (const int h : base_half_edges(base, surface, map)) {
+    carried.rows.emplace_back();
+    if (h < 0) continue;
+    carried.rows.back() = forms.rows[h / 2];
+    if (h & 1) {
+      for (auto& [form, value] : carried.rows.back()) value = -value;
+    }
+  }
+  return carried;
+}
+
+std::vector<std::vector<int>> carry_loops(const progressive::ProgressiveMesh& mesh, int splits,
+                                          const std::vector<std::vector<int>>& loops) {
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const auto& loop = loops[i];
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const int a = loop[k], b = loop[(k + 1) % loop.size()];
+      if (edge_between(mesh.base.edges, a, b) < 0) {
+        throw InvalidMesh("loop " + std::to_string(i) + " goes from vertex " + std::to_string(a) + " to " +
+                          std::to_string(b) + ", and the base mesh has no such edge");
+      }
+    }
+  }
+  Loops carried(loops, mesh.base_vertex_count());
+  progressive::Refinement refinement(mesh, splits);
+  for (int k = 0; k < splits; ++k) {
+    refinement.split();
+    carried.split(mesh.splits[k].v_s, mesh.base_vertex_count() + k, refinement.moved());
+  }
+  return carried.vertices();
+}
+
+}  // namespace holomorph::topology

@@ -1,0 +1,446 @@
+"""Progressive meshes: exact restoring, valid levels, minimal bases, files, and classes carried through the splits."""
+
+import zlib
+from functools import lru_cache
+
+import counting
+import families
+import numpy as np
+import pytest
+from conftest import SHARED
+from forms import EdgeForms
+from holomorph import Error, InvalidMesh, ProgressiveMesh, Surface, conformal_structure
+from solved import surface_of
+
+ORDERS = ("quadric", "independent")
+MESHES = {
+    "cube": families.cube(),
+    "tetrahedron": families.tetrahedron(),
+    "torus of triangles": families.torus(24, 18, shape="triangles", jitter=0.3),
+    "torus of quads": families.torus(16, 12, jitter=0.2),
+    "thin torus": families.torus(40, 8, R=1.0, r=0.02, shape="triangles"),
+    "torus knot": families.torus_knot(200, 10),
+    "genus 2 block": families.block_with_holes(2, refine=3, jitter=0.25),
+    "genus 8 block": families.block_with_holes(8),
+    "cage": families.cage(),
+    "ring of straight n-gons": families.square_ring(5),
+    "washer of C-shaped n-gons": families.washer(20),
+    "partly reversed": families.partly_reversed(families.block_with_holes(2, refine=2)),
+    "slivers": families.torus(60, 5, R=1.0, r=0.9, shape="alternating", jitter=0.4),
+    "cylinder": families.cylinder(24, 12),
+    "punctured torus": families.punctured_torus(),
+    "two components": families.united(families.torus(10, 8, shape="triangles"), families.cube()),
+    "relabelled": families.relabelled(families.torus(20, 15, shape="triangles", jitter=0.3))[0],
+}
+REAL = (
+    "spot_quads.obj",
+    "hand_lowres_b1.obj",
+    "kitten_19k.obj",
+    "double-torus.obj",
+    "rockerArm_ngon.obj",
+    "plane_b27.obj",
+    "tray_g23.stl",
+    "torus_stein.obj",
+    "featuretype_unwelded.ply",
+)
+TORI = ("torus of triangles", "torus of quads", "thin torus", "torus knot", "slivers", "relabelled")
+
+
+@lru_cache(maxsize=None)
+def surface(name):
+    return surface_of(MESHES[name]) if name in MESHES else Surface.read(SHARED / "meshes" / name)
+
+
+def corner_data(surface):
+    return np.random.default_rng(7).normal(size=(len(surface.corner_vertices), 2)).astype(np.float32)
+
+
+@lru_cache(maxsize=None)
+def progressive(name, order):
+    return ProgressiveMesh(surface(name), corner_data=corner_data(surface(name)), order=order)
+
+
+def levels(mesh, count=7):
+    """Numbers of triangles from the base to the original."""
+    low, high = len(mesh.base.triangles), len(mesh.level(2**31).triangles)
+    return sorted(set(np.geomspace(low, high, count).astype(int).tolist()))
+
+
+def as_mesh(surface):
+    return families.Mesh(surface.vertices, surface.corner_vertices, surface.face_offsets)
+
+
+def assert_same_bits(surface, other):
+    assert surface.vertices.tobytes() == other.vertices.tobytes()
+    assert surface.corner_vertices.tolist() == other.corner_vertices.tolist()
+    assert surface.face_offsets.tolist() == other.face_offsets.tolist()
+
+
+def available(name):
+    if name not in MESHES and not (SHARED / "meshes" / name).is_file():
+        pytest.skip(f"no ../shared/meshes/{name}")
+    return name
+
+
+everything = pytest.mark.parametrize("name", [*MESHES, *REAL])
+in_both_orders = pytest.mark.parametrize("order", ORDERS)
+
+
+# ---- exact: what the splits rebuild -----------------------------------------------------------------------------------
+
+
+@everything
+@in_both_orders
+def test_restores_the_original_bit_for_bit(name, order):
+    mesh = progressive(available(name), order)
+    assert_same_bits(mesh.restore(), surface(name))
+    assert mesh.corner_data.tobytes() == corner_data(surface(name)).tobytes()
+
+
+@everything
+@in_both_orders
+def test_levels_are_manifolds_of_the_same_topology(name, order):
+    """Surface refuses what is no manifold; genus and boundaries are counted again, independently."""
+    mesh = progressive(available(name), order)
+    expected = sorted(counting.topology(as_mesh(surface(name))))
+    for n_faces in levels(mesh):
+        level = mesh.level(n_faces)
+        assert sorted(counting.topology(as_mesh(level))) == expected
+        assert not len(level.repairs.reversed_faces)
+        assert not len(level.repairs.isolated_vertices)
+
+
+@everything
+@in_both_orders
+def test_elements_of_levels_come_from_the_original(name, order):
+    mesh, original = progressive(available(name), order), surface(name)
+    for n_faces in levels(mesh, 3):
+        level = mesh.level(n_faces)
+        assert level.vertices.tobytes() == original.vertices[level.vertex_index].tobytes()
+        face_of_corner = np.repeat(np.arange(len(original.face_offsets) - 1), np.diff(original.face_offsets))
+        assert (face_of_corner[level.corner_index].reshape(-1, 3) == level.face_index[:, None]).all()
+    finest = mesh.level(2**31)
+    assert (finest.vertex_index[finest.corner_vertices] == original.corner_vertices[finest.corner_index]).all()
+
+
+@everything
+@in_both_orders
+def test_a_level_has_at_most_the_triangles_asked_for(name, order):
+    mesh = progressive(available(name), order)
+    for n_faces in levels(mesh):
+        count = len(mesh.level(n_faces).triangles)
+        assert n_faces - 1 <= count <= n_faces
+    assert len(mesh.level(0).triangles) == len(mesh.base.triangles)
+
+
+def test_splits_say_how_a_level_is_made_of_the_one_before():
+    for name in ("torus of triangles", "cylinder", "torus of quads"):
+        mesh = progressive(name, "quadric")
+        splits, first = mesh.splits, len(mesh.base.vertices)
+        assert (splits["v_t"] == first + np.arange(len(splits))).all()
+        for k in (0, len(splits) // 2, len(splits) - 1):
+            before, after = mesh._level(k), mesh._level(k + 1)
+            split = splits[k]
+            left, right = int(split["v_l"] >= 0), int(split["v_r"] >= 0)
+            new = after.triangles[len(before.triangles) :]
+            assert len(new) == left + right
+            if left:
+                slot = split["slots"][0]
+                assert np.roll(new[0], -int(slot)).tolist() == [split["v_s"], split["v_t"], split["v_l"]]
+                assert (surface(name).corner_vertices[split["corners"][0]] >= 0).all()
+            if right:
+                slot = split["slots"][1]
+                assert np.roll(new[-1], -int(slot)).tolist() == [split["v_t"], split["v_s"], split["v_r"]]
+            old = after.triangles[: len(before.triangles)]
+            assert np.where(old == split["v_t"], split["v_s"], old).tolist() == before.triangles.tolist()
+            assert after.vertices[-1].tolist() == split["position"].tolist()
+            assert after.vertex_index[-1] == split["vertex"]
+        assert (splits["v_l"] < 0).any() == (name == "cylinder")
+
+
+# ---- minimal bases ----------------------------------------------------------------------------------------------------
+
+
+@in_both_orders
+@pytest.mark.parametrize("name", ["cube", "tetrahedron", "spot_quads.obj"])
+def test_a_sphere_ends_as_a_tetrahedron(name, order):
+    assert len(progressive(available(name), order).base.triangles) == 4
+
+
+@in_both_orders
+@pytest.mark.parametrize("name", [*TORI, "kitten_19k.obj", "rockerArm_ngon.obj"])
+def test_a_torus_ends_with_at_most_twenty_triangles(name, order):
+    assert 14 <= len(progressive(available(name), order).base.triangles) <= 20
+
+
+@in_both_orders
+def test_a_disk_ends_as_one_triangle(order):
+    assert len(progressive(available("hand_lowres_b1.obj"), order).base.triangles) == 1
+
+
+@everything
+@in_both_orders
+def test_no_edge_of_the_base_can_be_collapsed(name, order):
+    """The link condition, counted on lists: an edge can be collapsed if its ends have no common neighbours but those
+    opposite to it, it does not cross the surface from boundary to boundary, and it is not in a tetrahedron or triangle
+    of its own. Boundary vertices go along the boundary only."""
+    base = progressive(available(name), order).base
+    triangles = [tuple(t) for t in base.triangles.tolist()]
+    sides = {(t[i], t[(i + 1) % 3]): t[(i + 2) % 3] for t in triangles for i in range(3)}
+    open_sides = {side for side in sides if side[::-1] not in sides}
+    boundary = {v for side in open_sides for v in side}
+    neighbours = {}
+    for a, b in sides:
+        neighbours.setdefault(a, set()).add(b)
+        neighbours.setdefault(b, set()).add(a)
+    for v in boundary:
+        neighbours[v].add(-1)
+    for a, b in sides:
+        opposite = {sides[side] for side in ((a, b), (b, a)) if side in sides} | (
+            {-1} if (a, b) in open_sides else set()
+        )
+        if neighbours[a] & neighbours[b] != opposite or len(neighbours[a]) == len(neighbours[b]) == 3:
+            continue
+        assert a in boundary and b in boundary and (a, b) not in open_sides
+
+
+def test_boundary_vertices_stay_on_the_boundary():
+    mesh = progressive("cylinder", "quadric")
+
+    def boundary(level):
+        edges, edge_of_corner = counting.undirected_edges(as_mesh(level))
+        return set(level.vertex_index[edges[np.bincount(edge_of_corner) == 1].ravel()].tolist())
+
+    on_boundary = boundary(mesh.level(2**31))
+    for n_faces in levels(mesh):
+        level = mesh.level(n_faces)
+        assert boundary(level) == on_boundary & set(level.vertex_index.tolist())
+
+
+# ---- the same input, the same bits --------------------------------------------------------------------------------------
+
+
+@in_both_orders
+@pytest.mark.parametrize("name", ["torus of triangles", "cylinder", "cage"])
+def test_deterministic(name, order):
+    again = ProgressiveMesh(surface(name), corner_data=corner_data(surface(name)), order=order)
+    assert again._native.to_bytes() == progressive(name, order)._native.to_bytes()
+
+
+def test_flat_parts_go_first():
+    """Quadric order keeps the corners of a cube to the end."""
+    mesh = ProgressiveMesh(surface_of(families.voxel_surface(np.ones((4, 4, 4)))))
+    level = mesh.level(12)
+    assert sorted(level.vertices.tolist()) == [
+        [4.0 * x, 4.0 * y, 4.0 * z] for x in (0, 1) for y in (0, 1) for z in (0, 1)
+    ]
+
+
+# ---- files --------------------------------------------------------------------------------------------------------------
+
+
+@everything
+@in_both_orders
+def test_saved_and_loaded(name, order, tmp_path):
+    mesh = progressive(available(name), order)
+    mesh.save(tmp_path / "mesh")
+    loaded = ProgressiveMesh.load(tmp_path / "mesh")
+    assert_same_bits(loaded.restore(), surface(name))
+    assert_same_bits(loaded.base, mesh.base)
+    assert (loaded.splits == mesh.splits).all()
+    assert loaded.corner_data.dtype == np.float32 and (loaded.corner_data == mesh.corner_data).all()
+    loaded.save(tmp_path / "again")
+    assert (tmp_path / "again").read_bytes() == (tmp_path / "mesh").read_bytes()
+
+
+@pytest.mark.parametrize("dtype", ["<f8", ">f4", "<i2", "|b1", "<c16", "|u1"])
+def test_corner_data_keep_type_and_shape(dtype, tmp_path):
+    original = surface("cube")
+    for shape in ((), (1,), (2, 3)):
+        data = (np.arange(24 * int(np.prod(shape))) % 2).reshape(24, *shape).astype(dtype)
+        mesh = ProgressiveMesh(original, corner_data=data)
+        mesh.save(tmp_path / "mesh")
+        loaded = ProgressiveMesh.load(tmp_path / "mesh").corner_data
+        assert (loaded.dtype, loaded.shape, loaded.tobytes()) == (data.dtype, data.shape, data.tobytes())
+    assert ProgressiveMesh(original).corner_data is None
+
+
+def with_checksum(body, path):
+    path.write_bytes(body + zlib.crc32(body).to_bytes(4, "little"))
+    return path
+
+
+@pytest.fixture
+def body():
+    return progressive("cylinder", "quadric")._native.to_bytes()
+
+
+def refused(body, path, words):
+    with pytest.raises(InvalidMesh, match=words):
+        ProgressiveMesh.load(with_checksum(bytes(body), path))
+
+
+def test_malformed_files_are_refused(body, tmp_path):
+    path = tmp_path / "mesh"
+    with pytest.raises(InvalidMesh, match="No such file"):
+        ProgressiveMesh.load(tmp_path / "none")
+    path.write_bytes(b"")
+    with pytest.raises(InvalidMesh):
+        ProgressiveMesh.load(path)
+    refused(b"solid teapot" + bytes(100), path, "is no progressive mesh")
+    refused(body[:8] + b"\x02" + body[9:], path, "version 2; version 1 can be read")
+    refused(body[:12] + b"\x08" + body[13:], path, "parts that are not known")
+    refused(body[:-1], path, "ends too early")
+    refused(body + b"\0", path, "behind its end")
+    refused(body[:19] + b"\xff" + body[20:], path, "ends too early|too many elements")
+    path.write_bytes(body + b"abcd")
+    with pytest.raises(InvalidMesh, match="checksum"):
+        ProgressiveMesh.load(path)
+
+
+def test_damaged_splits_are_refused(body, tmp_path):
+    """Each number in the columns v_s, v_l, v_r of some splits is replaced by wrong ones."""
+    path = tmp_path / "mesh"
+    header = np.frombuffer(body, "<u8", 8, 16)
+    base_triangles, splits = int(header[0]), int(header[2])
+    start = 80 + 12 * base_triangles
+    for column in range(3):
+        for k in (0, 5, splits - 1):
+            place = start + 4 * (column * splits + k)
+            old = int.from_bytes(body[place : place + 4], "little", signed=True)
+            for wrong in (-2, 2**31 - 1, -(2**31), int(header[3])):
+                if wrong != old:
+                    damaged = body[:place] + wrong.to_bytes(4, "little", signed=True) + body[place + 4 :]
+                    refused(damaged, path, f"vertex split {k} names a vertex that is not|as many triangles as there")
+
+
+@pytest.mark.parametrize("name", ["cylinder", "torus of quads", "partly reversed"])
+def test_damaged_files_are_refused_or_valid(name, tmp_path):
+    """Any byte replaced by any other, the checksum made to fit: a valid mesh or an error of the library, no crash."""
+    body = progressive(name, "quadric")._native.to_bytes()
+    random = np.random.default_rng(11)
+    for _ in range(400):
+        damaged = bytearray(body)
+        for _ in range(random.integers(1, 4)):
+            damaged[random.integers(len(body) if random.random() < 0.5 else 80)] = random.integers(256)
+        if random.random() < 0.1:
+            damaged = damaged[: random.integers(len(damaged))]
+        try:
+            mesh = ProgressiveMesh.load(with_checksum(bytes(damaged), tmp_path / "mesh"))
+            mesh.restore()
+            mesh.level(100)
+            assert len(mesh.splits) >= 0
+        except Error as error:
+            assert str(error)
+
+
+# ---- classes and loops ----------------------------------------------------------------------------------------------------
+
+
+CLOSED = (
+    "torus of triangles",
+    "torus of quads",
+    "torus knot",
+    "genus 2 block",
+    "cage",
+    "washer of C-shaped n-gons",
+    "partly reversed",
+)
+
+
+def integer_classes(structure):
+    """2g closed integer forms dual to the loops: rounded periods of the harmonic forms, made exact by a walk."""
+    base = structure.surface
+    edges = EdgeForms(structure.edges, len(base.vertices))
+    forms = np.zeros((len(structure.harmonic_forms), len(structure.edges)))
+    potential = np.full((len(forms), len(base.vertices)), np.nan)
+    potential[:, 0] = 0
+    tree = [0]
+    for v in tree:
+        ends = np.concatenate(
+            [structure.edges[structure.edges[:, 0] == v, 1], structure.edges[structure.edges[:, 1] == v, 0]]
+        )
+        for u in ends[np.isnan(potential[0, ends])].tolist():
+            potential[:, u] = (
+                potential[:, v] + edges.along(structure.harmonic_forms, np.array([v]), np.array([u]))[:, 0]
+            )
+            tree.append(u)
+    forms = structure.harmonic_forms - (potential[:, structure.edges[:, 1]] - potential[:, structure.edges[:, 0]])
+    rounded = np.rint(forms).astype(np.int64)
+    assert np.abs(forms - rounded).max() < 1e-6
+    return rounded
+
+
+def closedness(surface, edges, forms):
+    """Sums around the triangles."""
+    t = surface.triangles
+    return sum(edges.along(forms, t[:, i], t[:, (i + 1) % 3]) for i in range(3))
+
+
+@in_both_orders
+@pytest.mark.parametrize("name", CLOSED)
+def test_integer_classes_and_loops_keep_their_periods(name, order):
+    mesh = progressive(name, order)
+    base = conformal_structure(mesh.base)
+    classes, loops = integer_classes(base), base.homology_basis
+    for n_faces in (*levels(mesh, 5), None):
+        level = mesh.restore() if n_faces is None else mesh.level(n_faces)
+        edges = EdgeForms(level._native.edges, len(level.vertices))
+        forms = mesh.carry_forms(classes, n_faces)
+        carried = mesh.carry_loops(loops, n_faces)
+        assert forms.dtype == np.int64
+        assert not closedness(level, edges, forms).any()
+        assert (edges.integrals(forms, carried) == np.eye(len(loops), dtype=int)).all()
+
+
+def test_carried_classes_are_those_of_the_native_rows():
+    """Sparse rows of integers, which the solver uses, and dense ones."""
+    mesh = progressive("cage", "quadric")
+    classes = integer_classes(conformal_structure(mesh.base))
+    level = mesh.level(200)
+    native = mesh._native.carry_classes(
+        classes.astype(np.int32), level._native, mesh._native.vertex_map(0)[: len(level.vertices)].tolist()
+    )
+    assert (native == mesh.carry_forms(classes, 200)).all()
+
+
+def test_rule_5b_split_by_split():
+    """Carrying through one split: 0 on v_s v_t, and on v_t v_l and v_t v_r the values of v_s v_l and v_s v_r."""
+    mesh = progressive("torus of triangles", "quadric")
+    classes = integer_classes(conformal_structure(mesh.base))
+    counts = np.cumsum((mesh.splits["v_l"] >= 0).astype(int) + (mesh.splits["v_r"] >= 0)) + len(mesh.base.triangles)
+    for k in range(0, len(mesh.splits), 37):
+        split, level = mesh.splits[k], mesh.level(counts[k])
+        forms = mesh.carry_forms(classes, counts[k])
+        edges = EdgeForms(level._native.edges, len(level.vertices))
+        s, t, left, right = (np.array([split[name]]) for name in ("v_s", "v_t", "v_l", "v_r"))
+        assert not edges.along(forms, s, t).any()
+        assert (edges.along(forms, t, left) == edges.along(forms, s, left)).all()
+        assert (edges.along(forms, t, right) == edges.along(forms, s, right)).all()
+
+
+def test_loops_must_run_along_edges():
+    mesh = progressive("torus of triangles", "quadric")
+    with pytest.raises(InvalidMesh, match="has no such edge"):
+        mesh.carry_loops([[0, 0, 1]])
+    with pytest.raises(InvalidMesh, match="empty or names a vertex"):
+        mesh.carry_loops([[0, 10**6]])
+    with pytest.raises(InvalidMesh, match="is needed"):
+        mesh.carry_forms(np.zeros((2, 3)))
+
+
+# ---- what is refused --------------------------------------------------------------------------------------------------------
+
+
+def test_intrinsic_surfaces_are_refused():
+    with pytest.raises(InvalidMesh, match="needs positions"):
+        ProgressiveMesh(surface_of(families.flat_torus(1j, 4)))
+
+
+def test_corner_data_must_fit():
+    with pytest.raises(InvalidMesh, match="5 rows for 24 polygon corners"):
+        ProgressiveMesh(surface("cube"), corner_data=np.zeros((5, 2)))
+    with pytest.raises(InvalidMesh, match="numbers or booleans"):
+        ProgressiveMesh(surface("cube"), corner_data=np.array(["a"] * 24))
+    with pytest.raises(ValueError, match="order is 'random'"):
+        ProgressiveMesh(surface("cube"), order="random")
