@@ -20,8 +20,7 @@ ROOM_BELOW = {
     "forms": ["topology", "solver"],
     "conformal": ["forms"],
     "uv": ["conformal"],
-    "progressive": ["mesh", "solver"],
-    "pipeline": ["uv", "progressive"],
+    "pipeline": ["uv"],
     "bindings": ["pipeline"],
 }
 # The add-on's bottom and top; every other module is between them.
