@@ -56,7 +56,9 @@ def seam_mismatch(triangles, uv, pairs, vertex_count):
     chosen = np.isin(key, pairs.astype(np.int64) @ [vertex_count, 1])
     order = np.argsort(key[chosen], kind="stable")
     one, other = step[chosen][order].reshape(-1, 2).T
-    return float(np.exp(np.abs(np.log(np.abs(one / other))).mean())), float(np.degrees(np.abs(np.angle(one / other))).mean())
+    return float(np.exp(np.abs(np.log(np.abs(one / other))).mean())), float(
+        np.degrees(np.abs(np.angle(one / other))).mean()
+    )
 
 
 def compare(holomorph, path):
@@ -73,7 +75,12 @@ def compare(holomorph, path):
         "best_form_flipped": int(best.flipped.sum()),
         "balanced": balanced.mean_angle,
         "density_ratio": balanced.density_ratio,
-        "seam_mismatch": seam_mismatch(surface.triangles, structure.uv(np.eye(surface.genus)[0])[surface.triangle_corners.ravel()], pairs, len(surface.vertices)),
+        "seam_mismatch": seam_mismatch(
+            surface.triangles,
+            structure.uv(np.eye(surface.genus)[0])[surface.triangle_corners.ravel()],
+            pairs,
+            len(surface.vertices),
+        ),
     }
     obj = triangle_mesh(surface)
     mark_seams(obj.data, pairs)

@@ -43,7 +43,9 @@ def polygons(faces):
     try:
         sizes = np.fromiter(map(len, faces), dtype=np.int64, count=len(faces))
     except TypeError as error:
-        raise InvalidMesh("faces must be an integer array (rows, 3) or (rows, 4), or a list of lists of vertices") from error
+        raise InvalidMesh(
+            "faces must be an integer array (rows, 3) or (rows, 4), or a list of lists of vertices"
+        ) from error
     corners = integer(list(chain.from_iterable(faces)), "faces")
     return corners, np.concatenate([[0], np.cumsum(sizes)])
 

@@ -29,7 +29,9 @@ class Repairs:
     mollification: float
 
     def __bool__(self):
-        return bool(len(self.reversed_faces) or len(self.zero_area_faces) or len(self.isolated_vertices) or self.mollification)
+        return bool(
+            len(self.reversed_faces) or len(self.zero_area_faces) or len(self.isolated_vertices) or self.mollification
+        )
 
 
 class Surface:
