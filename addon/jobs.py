@@ -10,7 +10,7 @@ class Job:
     """Solves a list of `Polygons` one after the other.
 
     `results[i]` is a `SolvedObject`, or the `holomorph.Error` that refused the mesh. After `cancel()` the
-    thread ends at the library's next question, and the remaining results stay None.
+    thread ends at the library's next question, and nothing more is solved or kept.
     """
 
     def __init__(self, polygons, progress=None):
@@ -45,9 +45,6 @@ class Job:
 
     def cancel(self):
         self._cancelled.set()
-
-    def is_cancelled(self):
-        return self._cancelled.is_set()
 
     def is_running(self):
         return self._thread.is_alive()

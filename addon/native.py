@@ -51,6 +51,8 @@ def _import_from(folder):
 
 
 def _find():
+    if __package__ == NAME:
+        raise NativeMissing(f"The add-on's own folder must not be called {NAME!r}, the name of its native package")
     try:
         return importlib.import_module(NAME)
     except ModuleNotFoundError as error:

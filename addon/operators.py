@@ -137,7 +137,9 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
     def modal(self, context, event):
         """Every event but ESC is held back until the worker is done, so the meshes stay as they were read."""
         if event.type == "ESC":
-            self._job.cancel()
+            self.cancel(context)
+            self.report({"INFO"}, "Cancelled: nothing was changed")
+            return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         if self._job.is_running():
@@ -145,16 +147,16 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
             return {"RUNNING_MODAL"}
         self._end_modal(context)
         self._job.wait()
-        if self._job.is_cancelled():
-            self.report({"INFO"}, "Cancelled: nothing was changed")
-            return {"CANCELLED"}
         return self._write(context, self._targets, self._job.results, time_has_passed=True)
 
     def cancel(self, context):
-        """Called by Blender when a file is loaded or the program ends in the middle of a solve."""
+        """ESC, or another file is loaded, or the program ends in the middle of a solve.
+
+        The worker is not waited for: it may be inside a factorisation, which is not interrupted. It has nothing
+        of Blender's in its hands, and ends by itself at the library's next question.
+        """
         self._job.cancel()
         self._end_modal(context)
-        self._job.wait()
 
     def _collect(self, context):
         from . import run
@@ -163,10 +165,7 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
 
     def _show_progress(self, context):
         percent = round(100 * self._job.fraction)
-        text = f"Holomorph: {percent} % {self._job.stage}   (ESC cancels)"
-        if self._job.is_cancelled():
-            text = "Holomorph: cancelling"
-        context.workspace.status_text_set(text)
+        context.workspace.status_text_set(f"Holomorph: {percent} % {self._job.stage}   (ESC cancels)")
         context.window_manager.progress_update(self._job.fraction)
 
     def _end_modal(self, context):

@@ -101,6 +101,21 @@ def count_draws(panel, kind):
     panel.draw = draw
 
 
+def note_the_end():
+    """A list that gets the time at which the operator's modal part ends."""
+    ended = []
+    operator = importlib.import_module("holomorph_addon.operators").HOLOMORPH_OT_maps
+    original = operator._end_modal
+
+    def end_modal(self, context):
+        ended.append(time.perf_counter())
+        operator._end_modal = original
+        original(self, context)
+
+    operator._end_modal = end_modal
+    return ended
+
+
 def open_tab(kind):
     """Clicks along the tabs from the lowest, ours, upwards until our panel is drawn."""
     sidebar = region(area(kind), "UI")
@@ -172,6 +187,11 @@ def redo_panel():
     """A change in the redo panel undoes, sets the property and executes again: what this operator does."""
     press_button("VIEW_3D")
     yield 1
+    hud = region(area("VIEW_3D"), "HUD")
+    seen["hud"] = [hud.x, hud.y, hud.width, hud.height]
+    click(hud.x + 30, hud.y + hud.height / 2)
+    yield 1
+    picture("redo_panel.png")
     operator = bpy.context.window_manager.operators[-1]
     seen["last operator"] = operator.bl_idname
     operator.properties.density = 2.0
@@ -227,12 +247,12 @@ def big_mesh():
     yield 1.2
     seen["no maps while it runs"] = maps("Big")
     picture("running.png")
+    ended = note_the_end()
     start = time.perf_counter()
     tap("ESC")
-    yield 0.2
-    while any(thread.name == "holomorph" for thread in importlib.import_module("threading").enumerate()):
-        yield 0.05
-    seen["seconds to cancel"] = time.perf_counter() - start
+    while not ended and time.perf_counter() - start < PATIENCE:
+        yield 0.02
+    seen["seconds to cancel"] = ended[0] - start
     yield 0.5
     seen["after ESC"] = maps("Big")
     press_button("VIEW_3D")

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or shutil.which("blender")
 SECONDS = 280
 BOTH_MAPS = ["Holomorphic", "Holomorphic 1"]
-PICTURES = ["panel.png", "button.png", "edit_mode.png", "running.png", "modal.png"]
+PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "running.png", "modal.png"]
 
 pytestmark = [
     pytest.mark.skipif(not BLENDER, reason="there is no Blender program"),
@@ -86,7 +86,7 @@ def test_the_redo_panel_solves_nothing_again(seen):
 
 
 def test_escape_answers_soon(seen):
-    assert seen["seconds to cancel"] < 5
+    assert seen["seconds to cancel"] < 5  # a busy machine draws the window in software; the solve takes longer
 
 
 def test_edit_mode_is_kept(seen):
