@@ -14,7 +14,7 @@ from pathlib import Path
 
 import bpy
 
-PACKAGE = "holomorph_addon"  # the add-on's package name when this file is run as a script
+PACKAGE = "holomorph_headless"  # the name under which this script loads the add-on that it lies in
 SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
 Z_UP_FROM_Y_UP = 1.5707963267948966  # radians about the x axis, as Blender's own importers turn OBJ files
 
@@ -150,6 +150,8 @@ def process(options):
         studio = load(f"{PACKAGE}.studio")
         shown = [o for o in objects if o.name in outcome.done]
         studio.render(shown, str(options.render.resolve()), options.resolution, options.samples)
+        if not options.render.is_file():
+            raise UsageError(f"{options.render}: the picture could not be written")
     return outcome.problems + outcome.notes
 
 

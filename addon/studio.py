@@ -109,6 +109,7 @@ def _settings(scene, path, resolution, samples):
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
     scene.render.filepath = path
+    scene.render.use_file_extension = False  # the name as it was given
     scene.display_settings.display_device = "sRGB"
     scene.view_settings.view_transform = "Standard"
     scene.view_settings.look = "None"

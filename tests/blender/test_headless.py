@@ -164,6 +164,16 @@ def test_object_option(tmp_path):
     assert done.returncode == 1 and "Nobody" in our_lines(done)[0]
 
 
+def test_the_picture_is_written_under_the_given_name_or_its_absence_is_said(torus_file, tmp_path):
+    small = ("--resolution", 32, "--samples", 1)
+    picture = tmp_path / "picture.of a ring"
+    assert headless(torus_file, "--render", picture, *small).returncode == 0
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+    (tmp_path / "folder.png").mkdir()
+    done = headless(torus_file, "--render", tmp_path / "folder.png", *small)
+    assert done.returncode == 1 and "Traceback" not in done.stderr + done.stdout
+
+
 def test_a_file_saved_in_edit_mode_and_without_an_active_object(tmp_path):
     torus()
     bpy.ops.object.mode_set(mode="EDIT")
