@@ -206,7 +206,7 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
     TopologyError
         several components, genus 0, or a boundary (names genus and boundary count)
     SolverError
-        if a residual of 1e-10 is not reached, or memory runs out
+        if neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out
     Cancelled
         if `progress` returned False
 

@@ -1,5 +1,7 @@
 """Solver accuracy: identities that hold up to the residual asked for, on every mesh at every resolution."""
 
+from dataclasses import replace
+
 import families
 import numpy as np
 import pytest
@@ -257,6 +259,41 @@ def test_a_component_has_the_structure_of_the_mesh_alone():
     alone = solved("genus 2 block")
     assert (part.edges == alone.edges).all()
     assert size(part.gram_matrix - alone.gram_matrix) < SOLVER * size(alone.gram_matrix)
+
+
+# ---- degenerate geometry --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("count", [2, 10, 100])
+def test_vertices_that_coincide(count):
+    """Faces of no area between them are handled: the forms are as good as any."""
+    mesh = CLOSED["torus of triangles"]
+    points = mesh.vertices.copy()
+    points[50 : 50 + count] = points[50]
+    surface = surface_of(replace(mesh, vertices=points))
+    assert len(surface.repairs.zero_area_faces)
+    assert surface.repairs.mollification > 0
+    structure = conformal_structure(surface)
+    assert max(vars(structure.residuals).values()) < SOLVER
+    assert np.linalg.eigvalsh(structure.period_matrix.imag).min() > 0
+    assert np.isfinite(structure.uv([1])).all()
+
+
+@pytest.mark.parametrize("name", ["torus of triangles", "genus 2 block"])
+def test_squashed_flat(name):
+    """Both sides of the mesh in one plane: a doubled plane is as good a surface as any."""
+    mesh = CLOSED[name]
+    structure = conformal_structure(surface_of(replace(mesh, vertices=mesh.vertices * [1, 1, 1e-12])))
+    assert max(vars(structure.residuals).values()) < SOLVER
+
+
+def test_far_from_the_origin():
+    """Positions lose digits, lengths of 1e-1 at 1e6 keep 9 of them."""
+    mesh = CLOSED["genus 2 block"]
+    moved = conformal_structure(surface_of(replace(mesh, vertices=mesh.vertices + 1e6)))
+    M = np.rint(symplectic_change(solved("genus 2 block"), moved)).astype(int)
+    expected = np.linalg.inv(M).T @ solved("genus 2 block").gram_matrix @ np.linalg.inv(M)
+    assert size(expected - moved.gram_matrix) < 1e-7 * size(expected)
 
 
 # ---- the paper's own star ------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <sstream>
 
 #include "solver/laplace_solver.h"
 #include "solver/sparse_cholesky.h"
@@ -13,6 +14,9 @@ constexpr Eigen::Index kBlockEntries = 500'000;
 // Refinement goes on to this residual while it helps; the promise is kResidual.
 constexpr double kGoal = 1e-13;
 constexpr int kMostRefinements = 4;
+// Among slivers, weights are so large that b - L x cannot be computed to kResidual |b|: a solution is also taken where
+// the residual is no more than this part of the terms that it is the difference of, a few dozen rounding errors.
+constexpr double kRounding = 1e-14;
 
 // L without the row and column of the last vertex, lower triangle: positive definite for a connected surface.
 Laplacian pinned(const Laplacian& L, Progress& progress) {
@@ -66,9 +70,11 @@ class DirectSolver final : public LaplaceSolver {
       residual = reached;
       iterations_ = std::max(iterations_, step + 1);
     }
-    if (!(residual <= kResidual)) {
-      throw SolverError("the direct solver reached a relative residual of " + std::to_string(residual) +
-                        " instead of 1e-10, on a system of " + std::to_string(B.rows()) + " unknowns");
+    if (!(residual <= kResidual) && !is_rounding(R, X, B)) {
+      std::ostringstream message;
+      message << "the direct solver reached a relative residual of " << residual << " instead of " << kResidual
+              << ", on a system of " << B.rows() << " unknowns";
+      throw SolverError(message.str());
     }
     residual_ = std::max(residual_, residual);
     return X;
@@ -81,6 +87,11 @@ class DirectSolver final : public LaplaceSolver {
     X.topRows(n) = factor_.solve(B.topRows(n));
     X.row(n).setZero();
     return X;
+  }
+
+  bool is_rounding(const Eigen::MatrixXd& R, const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) const {
+    const Eigen::MatrixXd terms = L_.cwiseAbs() * X.cwiseAbs() + B.cwiseAbs();
+    return (R.colwise().norm().array() <= kRounding * terms.colwise().norm().array()).all();
   }
 
   static double relative(const Eigen::MatrixXd& R, const Eigen::MatrixXd& B) {

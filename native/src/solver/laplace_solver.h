@@ -13,6 +13,7 @@ namespace holomorph::solver {
 using Laplacian = Eigen::SparseMatrix<double>;
 
 /// A solver promises |L x - b| <= kResidual |b| for every right-hand side, in the Euclidean norm, or throws.
+/// The direct one also takes what rounding allows where weights are large, |L x - b| <= 1e-14 ||L| |x| + |b||.
 inline constexpr double kResidual = 1e-10;
 
 class LaplaceSolver {
