@@ -9,6 +9,7 @@ import numpy as np
 
 from . import compatibility, maps, material, mesh_io, native, report
 
+SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
 
@@ -20,6 +21,7 @@ class Target:
     library: str | None
     polygons: mesh_io.Polygons | None
     refused: str = ""
+    note: str = ""
 
     def find(self):
         return bpy.data.objects.get((self.name, self.library))
@@ -53,19 +55,34 @@ def mesh_objects(context):
 
 def collect(objects):
     """Reads the polygons of every object; of those that share a mesh, the first speaks for it."""
-    targets, owners = [], {}
+    targets, first = [], {}
     for obj in objects:
         mesh = obj.data
         library = obj.library.filepath if obj.library else None
-        if mesh in owners:
+        if mesh in first:
+            index, other = first[mesh]
+            if not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
+                note = f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts"
+                targets[index] = replace(targets[index], note=note)
             continue
-        owners[mesh] = obj
+        first[mesh] = len(targets), obj
         if mesh.library is not None:
             refused = "its mesh is linked from another file; make it local first"
             targets.append(Target(obj.name, library, None, refused))
             continue
         targets.append(Target(obj.name, library, read(obj)))
     return targets
+
+
+def _linear(obj):
+    return np.array(obj.matrix_world, np.float64)[:3, :3]
+
+
+def _metric(obj):
+    """How the object's matrix changes shapes: equal for matrices that differ by a rotation, a reflection or a factor."""
+    metric = _linear(obj).T @ _linear(obj)
+    size = np.trace(metric)
+    return metric / size if size > 0 else metric
 
 
 def with_positions(target, vertices):
@@ -87,8 +104,7 @@ def read(obj):
     """The polygons as the artist sees them: with the object's scale, with pending edits, without modifiers."""
     if obj.mode == "EDIT":
         obj.update_from_editmode()
-    linear = np.array(obj.matrix_world, np.float64)[:3, :3]
-    return mesh_io.read_polygons(obj.data, linear)
+    return mesh_io.read_polygons(obj.data, _linear(obj))
 
 
 @contextmanager
@@ -142,6 +158,7 @@ def write(context, targets, results, map_options, write_options, time_has_passed
                 _report_all_skipped(outcome, obj, result, map_options)
             else:
                 _write_object(outcome, obj, target.polygons, result, map_options, write_options)
+                outcome.notes += [target.note] if target.note else []
         if outcome.done:
             report.store_text(outcome.entries)
     return outcome
