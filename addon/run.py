@@ -79,7 +79,7 @@ def _linear(obj):
 
 
 def _metric(obj):
-    """How the object's matrix changes shapes: equal for matrices that differ by a rotation, a reflection or a factor."""
+    """How the object's matrix changes shapes: equal for matrices that differ by rotation, reflection or factor."""
     metric = _linear(obj).T @ _linear(obj)
     size = np.trace(metric)
     return metric / size if size > 0 else metric
