@@ -6,8 +6,6 @@ from dataclasses import dataclass, field
 
 from . import native
 
-STRUCTURE_SHARE = 0.6  # of the time: the conformal structure; the rest are the forms that UVs are made of
-
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
 
 
