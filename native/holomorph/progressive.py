@@ -48,8 +48,8 @@ class ProgressiveMesh:
     Raises
     ------
     InvalidMesh
-        if the surface is intrinsic, if triangulated polygons have two edges with the same ends, or if `corner_data` does
-        not fit the corners.
+        if the surface is intrinsic, if triangulated polygons have two edges with the same ends, or if `corner_data`
+        does not fit the corners.
     """
 
     def __init__(self, surface, *, corner_data=None, order="quadric"):
@@ -97,8 +97,8 @@ class ProgressiveMesh:
             file.write(zlib.crc32(content).to_bytes(4, "little"))
 
     def __repr__(self):
-        native = self._native
-        return f"<ProgressiveMesh: {native.base_triangle_count} to {len(native.triangle_index)} triangles, {len(self.splits)} splits>"
+        coarse, fine = self._native.base_triangle_count, len(self._native.triangle_index)
+        return f"<ProgressiveMesh: {coarse} to {fine} triangles>"
 
     @cached_property
     def base(self):

@@ -1,7 +1,7 @@
 """Progressive meshes: exact restoring, valid levels, minimal bases, files, and classes carried through the splits."""
 
 import zlib
-from functools import lru_cache
+from functools import cache
 
 import counting
 import families
@@ -46,7 +46,7 @@ REAL = (
 TORI = ("torus of triangles", "torus of quads", "thin torus", "torus knot", "slivers", "relabelled")
 
 
-@lru_cache(maxsize=None)
+@cache
 def surface(name):
     return surface_of(MESHES[name]) if name in MESHES else Surface.read(SHARED / "meshes" / name)
 
@@ -55,7 +55,7 @@ def corner_data(surface):
     return np.random.default_rng(7).normal(size=(len(surface.corner_vertices), 2)).astype(np.float32)
 
 
-@lru_cache(maxsize=None)
+@cache
 def progressive(name, order):
     return ProgressiveMesh(surface(name), corner_data=corner_data(surface(name)), order=order)
 
@@ -86,7 +86,7 @@ everything = pytest.mark.parametrize("name", [*MESHES, *REAL])
 in_both_orders = pytest.mark.parametrize("order", ORDERS)
 
 
-# ---- exact: what the splits rebuild -----------------------------------------------------------------------------------
+# ---- exact: what the splits rebuild ----------------------------------------------------------------------------------
 
 
 @everything
@@ -158,7 +158,7 @@ def test_splits_say_how_a_level_is_made_of_the_one_before():
         assert (splits["v_l"] < 0).any() == (name == "cylinder")
 
 
-# ---- minimal bases ----------------------------------------------------------------------------------------------------
+# ---- minimal bases ---------------------------------------------------------------------------------------------------
 
 
 @in_both_orders
@@ -217,7 +217,7 @@ def test_boundary_vertices_stay_on_the_boundary():
         assert boundary(level) == on_boundary & set(level.vertex_index.tolist())
 
 
-# ---- the same input, the same bits --------------------------------------------------------------------------------------
+# ---- the same input, the same bits -----------------------------------------------------------------------------------
 
 
 @in_both_orders
@@ -236,7 +236,7 @@ def test_flat_parts_go_first():
     ]
 
 
-# ---- files --------------------------------------------------------------------------------------------------------------
+# ---- files -----------------------------------------------------------------------------------------------------------
 
 
 @everything
@@ -334,7 +334,7 @@ def test_damaged_files_are_refused_or_valid(name, tmp_path):
             assert str(error)
 
 
-# ---- classes and loops ----------------------------------------------------------------------------------------------------
+# ---- classes and loops -----------------------------------------------------------------------------------------------
 
 
 CLOSED = (
@@ -429,7 +429,7 @@ def test_loops_must_run_along_edges():
         mesh.carry_forms(np.zeros((2, 3)))
 
 
-# ---- what is refused --------------------------------------------------------------------------------------------------------
+# ---- what is refused -------------------------------------------------------------------------------------------------
 
 
 def test_intrinsic_surfaces_are_refused():

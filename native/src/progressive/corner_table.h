@@ -1,8 +1,9 @@
-// Flat half-edges of a triangle mesh: one cache line half per triangle, changed in place, never allocated while in use.
+// Flat half-edges of a triangle mesh: half a cache line per triangle, changed in place, never allocated while in use.
 #pragma once
 
 #include <vector>
 
+#include "base/page_allocator.h"
 #include "mesh/surface.h"
 
 namespace holomorph::progressive {
@@ -53,7 +54,7 @@ class CornerTable {
   const Side* data() const { return sides_.data(); }
 
  private:
-  std::vector<Side> sides_;
+  Array<Side> sides_;
 };
 
 /// One side that leaves each of `vertex_count` vertices, as described above; -1 for a vertex of no triangle.

@@ -37,7 +37,7 @@ void add_plane(Vertex& v, const Vector& n, double weight) {
 }
 
 // Positions moved and scaled into the cube [-1, 1]^3.
-void set_positions(const std::vector<std::array<double, 3>>& positions, std::vector<Vertex>& vertices) {
+void set_positions(const std::vector<std::array<double, 3>>& positions, Array<Vertex>& vertices) {
   Vector low = positions.front(), high = low;
   for (const auto& p : positions) {
     for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/page_allocator.h"
 #include "progressive/corner_table.h"
 
 namespace holomorph::progressive {
@@ -74,7 +75,7 @@ class EdgeCollapse {
   void grow();
 
   CornerTable table_;
-  std::vector<Vertex> vertices_;
+  Array<Vertex> vertices_;
   std::vector<Collapse> collapses_;
   // The star of v: triangle i lies between neighbours i and i + 1, counter-clockwise; open at the boundary.
   int v_ = -1, triangle_count_ = 0, neighbour_count_ = 0;

@@ -3,13 +3,14 @@
 
 #include <cstddef>
 #include <new>
+#include <utility>
 #include <vector>
 
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
 
-namespace holomorph::solver {
+namespace holomorph {
 
 /// Allocates large arrays on pages of 2 MB where the system has them (a third fewer misses of the address cache), and
 /// leaves new elements as they are: filling with zeros would be a pass over memory of its own.
@@ -51,4 +52,4 @@ struct PageAllocator {
 template <class T>
 using Array = std::vector<T, PageAllocator<T>>;
 
-}  // namespace holomorph::solver
+}  // namespace holomorph
