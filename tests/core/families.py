@@ -222,6 +222,13 @@ def cage():
     return voxel_surface(cells, ((5, 0),))
 
 
+def scaffold(n):
+    """The edges of n^3 cubes as square beams: a graph of (n + 1)^3 nodes, so genus #beams - #nodes + 1."""
+    cells = np.zeros((2 * n + 1,) * 3, dtype=bool)
+    cells[(np.indices(cells.shape) % 2 != 0).sum(axis=0) <= 1] = True
+    return voxel_surface(cells, ((3 * n * (n + 1) ** 2 - (n + 1) ** 3 + 1, 0),))
+
+
 def square_ring(k):
     """A square frame of square beams, genus 1, of 16 polygons: four-sided, with each side cut into k edges, so that
     every polygon has 4 k corners, most of them on straight lines."""

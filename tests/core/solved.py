@@ -16,6 +16,7 @@ CLOSED = {
     "genus 3 block": families.block_with_holes(3, refine=2, jitter=0.2),
     "genus 8 block": families.block_with_holes(8),
     "cage": families.cage(),
+    "genus 28 scaffold": families.scaffold(2),
     "ring of straight n-gons": families.square_ring(5),
     "washer of C-shaped n-gons": families.washer(20),
     "partly reversed": families.partly_reversed(families.block_with_holes(2, refine=2)),

@@ -13,6 +13,7 @@ MESHES = {
     "genus 1 block": families.block_with_holes(1),
     "genus 3 block": families.block_with_holes(3, refine=2, jitter=0.2),
     "cage": families.cage(),
+    "genus 28 scaffold": families.scaffold(2),
     "ring of straight n-gons": families.square_ring(5),
     "washer of C-shaped n-gons": families.washer(20),
     "cube": families.cube(),
