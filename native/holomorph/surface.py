@@ -1,6 +1,5 @@
 """Surfaces: validated, consistently oriented polygon meshes, or intrinsic triangulations."""
 
-import os
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -104,7 +103,7 @@ class Surface:
         InvalidMesh
             if the file is missing or malformed (names the line or byte), or the mesh in it is invalid.
         """
-        return cls._of(_native.Surface.read(os.fspath(path)))
+        return cls._of(_native.Surface.read(path))
 
     @classmethod
     def _of(cls, native):

@@ -1,6 +1,7 @@
 """Surface.read: every format, every way in which a file can be malformed, and the real files."""
 
 import gzip
+import os
 import re
 import struct
 
@@ -192,6 +193,26 @@ def test_triangle_strips(tmp_path):
 
 def test_path_may_be_text(tmp_path):
     assert Surface.read(str(written(tmp_path, "ünïcode.off", off(MIXED)))).genus == 1
+
+
+def test_path_may_be_any_bytes_that_a_file_system_takes(tmp_path):
+    """Such names are str with surrogates in Python; the message has question marks instead."""
+    name = os.fsencode(tmp_path / "caf") + b"\xe9.off"
+    try:
+        with open(name, "wb") as file:
+            file.write(off(MIXED))
+    except OSError:
+        pytest.skip("this file system takes only UTF-8")
+    assert Surface.read(os.fsdecode(name)).genus == 1
+    assert Surface.read(name).genus == 1
+    with pytest.raises(InvalidMesh, match=r"caf\?2\.off: there is no such file"):
+        Surface.read(os.fsdecode(name.replace(b"\xe9", b"\xe92")))
+
+
+@pytest.mark.parametrize("path", [None, 3, ["a.obj"]])
+def test_path_that_is_none(path):
+    with pytest.raises(TypeError):
+        Surface.read(path)
 
 
 # ---- malformed files -----------------------------------------------------------------------------

@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <filesystem>
 #include <memory>
@@ -31,9 +32,9 @@ SurfacePointer from_edge_lengths(int vertex_count, const Contiguous<std::int64_t
   return std::make_shared<Surface>(mesh::make_intrinsic_surface(vertex_count, f, l, names));
 }
 
-SurfacePointer read(const std::string& path) {
+SurfacePointer read(const std::filesystem::path& path) {
   const py::gil_scoped_release unlocked;
-  return std::make_shared<Surface>(mesh::make_surface(mesh::read(std::filesystem::path(path))));
+  return std::make_shared<Surface>(mesh::make_surface(mesh::read(path)));
 }
 
 py::tuple component(const Surface& surface, int which) {

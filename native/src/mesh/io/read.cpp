@@ -5,6 +5,7 @@
 #include <cctype>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "base/errors.h"
@@ -27,17 +28,38 @@ std::string utf8(const std::filesystem::path& path) {
   return {text.begin(), text.end()};
 }
 
+/// Whether bytes >= 0x80 come as a lead byte and as many continuation bytes as it announces.
+bool is_utf8(std::string_view text) {
+  std::size_t expected = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool continuation = byte >= 0x80 && byte < 0xC0;
+    if (continuation != (expected > 0) || byte == 0xC0 || byte == 0xC1 || byte > 0xF4) return false;
+    expected = continuation ? expected - 1 : byte < 0xC0 ? 0 : byte < 0xE0 ? 1 : byte < 0xF0 ? 2 : 3;
+  }
+  return expected == 0;
+}
+
+/// The path as a message can say it. File systems take any bytes as a name, messages are UTF-8.
+std::string printable(const std::filesystem::path& path) {
+  auto name = utf8(path);
+  if (!is_utf8(name))
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return name;
+}
+
 const Format& format_of(const std::filesystem::path& path) {
   auto extension = utf8(path.extension());
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const auto& format : formats)
     if (format.extension == extension) return format;
-  throw InvalidMesh(utf8(path) + ": the file name must end in .obj, .off, .ply or .stl");
+  throw InvalidMesh(printable(path) + ": the file name must end in .obj, .off, .ply or .stl");
 }
 
 FileText load(const std::filesystem::path& path) {
-  FileText file{utf8(path), {}};
+  FileText file{printable(path), {}};
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) file.fail("there is no such file");
