@@ -8,8 +8,8 @@ namespace {
 
 // What single precision is asked for at a time: less takes more corrections, more gains nothing.
 constexpr double kInnerResidual = 1e-4;
-// It goes on to this residual while that helps; the promise is kResidual. At a single vertex of a fine mesh the form may be
-// a thousand times less harmonic than the residual of the whole right-hand side says.
+// It goes on to this residual while that helps; the promise is kResidual. At a single vertex of a fine mesh the form
+// may be a thousand times less harmonic than the residual of the whole right-hand side says.
 constexpr double kGoal = 1e-12;
 // The last time it goes a little below the goal, as the residual that it carries along drifts from the true one.
 constexpr double kSafety = 0.7;
@@ -36,8 +36,16 @@ Sums<K> row(const std::array<const double*, K>& columns, int i) {
 }  // namespace
 
 template <int K>
-BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy)
-    : L_(L), level_(hierarchy.levels[0]), n_(level_.A.size()), cycle_(hierarchy), X_(n_), x_(n_), p_(n_), q_(n_) {}
+BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, Workers& workers)
+    : L_(L),
+      level_(hierarchy.levels[0]),
+      n_(level_.A.size()),
+      workers_(workers),
+      cycle_(hierarchy, workers),
+      X_(n_),
+      x_(n_),
+      p_(n_),
+      q_(n_) {}
 
 template <int K>
 void BlockSolve<K>::solve(const Eigen::MatrixXd& B, Eigen::Index first, int width, Eigen::MatrixXd& X,
@@ -53,9 +61,9 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, Eigen::Index first, int widt
     conjugate_gradients(report);
     update_residual(b);
     stalls = reached_ < 0.5 * before ? 0 : stalls + 1;
-    const bool at_the_end = stalls == kMostStalls || iterations_ >= kMostIterations || !std::isfinite(reached_);
-    if (at_the_end && reached_ <= kResidual) break;
-    if (at_the_end) {
+    const bool tired = iterations_ >= kMostIterations;
+    if (reached_ <= kResidual && (stalls > 0 || tired)) break;  // the rest is rounding
+    if (stalls == kMostStalls || tired || !std::isfinite(reached_)) {
       std::ostringstream message;
       message << "multigrid reached a relative residual of " << reached_ << " instead of 1e-10 after " << iterations_
               << " iterations, on a system of " << n_ << " unknowns";
@@ -63,7 +71,7 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, Eigen::Index first, int widt
     }
   }
   report(reached_);
-  for_rows(n_, [&](int i) {
+  for_rows(workers_, n_, [&](int i) {
     for (int d = 0; d < width; ++d) X(i, first + d) = X_[i][d];
   });
 }
@@ -72,12 +80,13 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, Eigen::Index first, int widt
 template <int K>
 void BlockSolve<K>::read(const Columns& b) {
   const Sums<K> zero = Sums<K>::Zero();
-  mean_ = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+  mean_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
     sum += row<K>(b, i);
     X_[i] = zero;
   });
   mean_ /= static_cast<double>(n_);
-  norm_b_ = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) { sum += (row<K>(b, i) - mean_).square(); }).sqrt();
+  norm_b_ =
+      sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) { sum += (row<K>(b, i) - mean_).square(); }).sqrt();
   scale_ = norm_b_;
 }
 
@@ -86,7 +95,7 @@ template <int K>
 void BlockSolve<K>::update_residual(const Columns& b) {
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
   Blocks<K>&r = cycle_.residual(), &u = cycle_.start();
-  norm_r_ = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+  norm_r_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
               const Sums<K> here = X_[i];
               Sums<K> rest = row<K>(b, i) - mean_;
               for (auto e = L_.outerIndexPtr()[i]; e < L_.outerIndexPtr()[i + 1]; ++e) {
@@ -113,13 +122,13 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
     rz = cycle_.run();
     const Block<K> beta = quotient<K>(rz, rz_before).template cast<float>();
     // u is z from here to the next pass
-    const Sums<K> pq = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+    const Sums<K> pq = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
       p_[i] = u[i] + beta * p_[i];
       q_[i] = difference(A, i, u) + beta * q_[i];
       sum += (p_[i] * q_[i]).template cast<double>();
     });
     const Block<K> alpha = quotient<K>(rz, pq).template cast<float>();
-    norm = sum_over_rows(n_, zero, [&](int i, Sums<K>& sum) {
+    norm = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
              x_[i] += alpha * p_[i];
              r[i] -= alpha * q_[i];
              u[i] = level_.omega[i] * r[i];
@@ -127,7 +136,7 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
            }).sqrt();
     report(relative(norm * scale_));
   }
-  for_rows(n_, [&](int i) { X_[i] += scale_ * x_[i].template cast<double>(); });
+  for_rows(workers_, n_, [&](int i) { X_[i] += scale_ * x_[i].template cast<double>(); });
   // About what the residual will be; it serves the range of single precision only.
   scale_ *= norm;
 }

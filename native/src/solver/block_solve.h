@@ -18,7 +18,7 @@ class BlockSolve {
   /// Called at every iteration with the largest relative residual; may throw.
   using Report = std::function<void(double residual)>;
 
-  BlockSolve(const Laplacian& L, const Hierarchy& hierarchy);
+  BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, Workers& workers);
 
   /// Solves for the columns first .. first + width - 1 of B, width <= K, and writes the same columns of X.
   /// @throws SolverError after 300 iterations or two corrections without progress; what `report` throws
@@ -39,6 +39,7 @@ class BlockSolve {
   const Laplacian& L_;
   const Level& level_;
   const int n_;
+  Workers& workers_;
   Cycle<K> cycle_;
   Array<Sums<K>> X_;
   Blocks<K> x_, p_, q_;

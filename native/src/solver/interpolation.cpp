@@ -13,9 +13,9 @@ constexpr float kWeak = 0.05F;
 // Weights of P but the largest are multiples of this; half of single precision is left for sums of them.
 constexpr double kWeightStep = 1.0 / (1 << 20);
 
-Array<float> largest_weights(const SparseRows& A) {
+Array<float> largest_weights(const SparseRows& A, Workers& workers) {
   Array<float> largest(A.size());
-  for_rows(A.size(), [&](int i) {
+  for_rows(workers, A.size(), [&](int i) {
     float most = 0;
     for (int e = A.start[i]; e < A.start[i + 1]; ++e) most = std::max(most, A.weight[e]);
     largest[i] = most;
@@ -65,9 +65,9 @@ struct Mean {
 
 // One step of the mean: the staying neighbours of a vertex that goes, with weights of sum 1; a staying vertex itself.
 // No row is empty: a vertex goes because of a staying neighbour.
-SparseRows staying_neighbours(const SparseRows& A, const Array<int>& coarse, Progress& progress) {
+SparseRows staying_neighbours(const SparseRows& A, const Array<int>& coarse, Workers& workers, Progress& progress) {
   const auto no_scratch = [] { return 0; };
-  return build_rows(A.size(), 3 * coarse.size(), progress, 0, 0, no_scratch, [&](int, int i, auto& part) {
+  return build_rows(A.size(), 3 * coarse.size(), workers, progress, no_scratch, [&](int, int i, auto& part) {
     if (coarse[i] >= 0) {
       part.column.push_back(coarse[i]);
       part.weight.push_back(1);
@@ -88,9 +88,9 @@ SparseRows staying_neighbours(const SparseRows& A, const Array<int>& coarse, Pro
 
 }  // namespace
 
-Array<int> coarse_vertices(const SparseRows& A, Progress& progress) {
+Array<int> coarse_vertices(const SparseRows& A, Workers& workers, Progress& progress) {
   constexpr int kUndecided = -2, kGoes = -1;
-  const Array<float> largest = largest_weights(A);
+  const Array<float> largest = largest_weights(A, workers);
   Array<int> coarse(A.size());
   std::fill(coarse.begin(), coarse.end(), kUndecided);
   int count = 0;
@@ -106,12 +106,12 @@ Array<int> coarse_vertices(const SparseRows& A, Progress& progress) {
   return coarse;
 }
 
-SparseRows interpolation(const SparseRows& A, const Array<int>& coarse, int coarse_count, int most,
+SparseRows interpolation(const SparseRows& A, const Array<int>& coarse, int coarse_count, int most, Workers& workers,
                          Progress& progress) {
-  const SparseRows one_step = staying_neighbours(A, coarse, progress);
+  const SparseRows one_step = staying_neighbours(A, coarse, workers, progress);
   const auto scratch = [&] { return Mean{std::vector<double>(coarse_count), {}}; };
   const auto expected = most * (coarse.size() - coarse_count) + coarse_count;
-  return build_rows(A.size(), expected, progress, 0, 0, scratch, [&](Mean& mean, int i, auto& part) {
+  return build_rows(A.size(), expected, workers, progress, scratch, [&](Mean& mean, int i, auto& part) {
     if (coarse[i] >= 0) {
       part.column.push_back(coarse[i]);
       part.weight.push_back(1);

@@ -9,7 +9,7 @@ namespace holomorph::solver {
 /// order of the vertices each undecided one stays, and its undecided neighbours j with w_ij >= 0.2 max_k w_jk go.
 /// @param A off-diagonal weights w_ij = -a_ij, #V rows
 /// @return #V: the number of the vertex on the coarse level, in the same order, or -1 for a vertex that goes
-Array<int> coarse_vertices(const SparseRows& A, Progress& progress);
+Array<int> coarse_vertices(const SparseRows& A, Workers& workers, Progress& progress);
 
 /// P, #V x #coarse: the value at a vertex that goes is a mean over its neighbours, in each of which that goes as well a
 /// mean over that one's staying neighbours; positive weights alone, and of those means the `most` largest entries.
@@ -17,7 +17,8 @@ Array<int> coarse_vertices(const SparseRows& A, Progress& progress);
 /// Every row sums to 1 exactly: all weights but the largest are multiples of 2^-20. Then constants are carried exactly,
 /// and the rounding of a large weight of a sliver does not become a coupling on the coarse level.
 /// @param coarse of coarse_vertices
-SparseRows interpolation(const SparseRows& A, const Array<int>& coarse, int coarse_count, int most, Progress& progress);
+SparseRows interpolation(const SparseRows& A, const Array<int>& coarse, int coarse_count, int most, Workers& workers,
+                         Progress& progress);
 
 /// The transpose, entries of a row in ascending order.
 SparseRows transposed(const SparseRows& P, int columns, Progress& progress);

@@ -14,7 +14,8 @@ Block<K> product(const SparseRows& M, int i, const Blocks<K>& x) {
 }  // namespace
 
 template <int K>
-Cycle<K>::Cycle(const Hierarchy& hierarchy) : hierarchy_(hierarchy), work_(hierarchy.levels.size()) {
+Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
+    : hierarchy_(hierarchy), workers_(workers), work_(hierarchy.levels.size()) {
   for (std::size_t k = 0; k < work_.size(); ++k) {
     const std::size_t n = hierarchy.levels[k].A.size();
     work_[k].r.resize(n);
@@ -32,17 +33,18 @@ Sums<K> Cycle<K>::run() {
     carry_up(k);
     const Level& level = hierarchy_.levels[k];
     auto& [r, u, t] = work_[k];
-    for_rows(level.A.size(),
+    for_rows(workers_, level.A.size(),
              [&, &r = r, &u = u, &t = t](int i) { u[i] = t[i] + level.omega[i] * (r[i] - difference(level.A, i, t)); });
   }
   // On the finest level the sum comes with the last step.
   const Level& level = hierarchy_.levels[0];
   auto& [r, u, t] = work_[0];
   if (coarsest > 0) carry_up(0);
-  return sum_over_rows(level.A.size(), Sums<K>(Sums<K>::Zero()), [&, &r = r, &u = u, &t = t](int i, Sums<K>& sum) {
-    if (coarsest > 0) u[i] = t[i] + level.omega[i] * (r[i] - difference(level.A, i, t));
-    sum += (r[i] * u[i]).template cast<double>();
-  });
+  return sum_over_rows(workers_, level.A.size(), Sums<K>(Sums<K>::Zero()),
+                       [&, &r = r, &u = u, &t = t](int i, Sums<K>& sum) {
+                         if (coarsest > 0) u[i] = t[i] + level.omega[i] * (r[i] - difference(level.A, i, t));
+                         sum += (r[i] * u[i]).template cast<double>();
+                       });
 }
 
 // The residual after the first step, restricted, and the first step of the next level.
@@ -50,8 +52,8 @@ template <int K>
 void Cycle<K>::descend(std::size_t k) {
   const Level &level = hierarchy_.levels[k], &next = hierarchy_.levels[k + 1];
   Work &fine = work_[k], &coarse = work_[k + 1];
-  for_rows(level.A.size(), [&](int i) { fine.t[i] = fine.r[i] - difference(level.A, i, fine.u); });
-  for_rows(next.A.size(), [&](int i) {
+  for_rows(workers_, level.A.size(), [&](int i) { fine.t[i] = fine.r[i] - difference(level.A, i, fine.u); });
+  for_rows(workers_, next.A.size(), [&](int i) {
     const Block<K> r = product(level.R, i, fine.t);
     coarse.r[i] = r;
     coarse.u[i] = next.omega[i] * r;
@@ -75,7 +77,7 @@ void Cycle<K>::carry_up(std::size_t k) {
   const Level& level = hierarchy_.levels[k];
   Work& fine = work_[k];
   const Blocks<K>& coarse = work_[k + 1].u;
-  for_rows(level.A.size(), [&](int i) { fine.t[i] = fine.u[i] + product(level.P, i, coarse); });
+  for_rows(workers_, level.A.size(), [&](int i) { fine.t[i] = fine.u[i] + product(level.P, i, coarse); });
 }
 
 template class Cycle<4>;

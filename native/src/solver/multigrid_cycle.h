@@ -28,7 +28,7 @@ Block<K> difference(const SparseRows& A, int i, const Blocks<K>& x) {
 template <int K>
 class Cycle {
  public:
-  explicit Cycle(const Hierarchy& hierarchy);
+  Cycle(const Hierarchy& hierarchy, Workers& workers);
 
   /// The residual r that run() is applied to, and omega r; both for the caller to fill.
   Blocks<K>& residual() { return work_[0].r; }
@@ -48,6 +48,7 @@ class Cycle {
   void carry_up(std::size_t level);
 
   const Hierarchy& hierarchy_;
+  Workers& workers_;
   std::vector<Work> work_;
 };
 

@@ -19,20 +19,20 @@ constexpr int kFinestMeans = 2, kCoarseMeans = 3;
 // Jacobi's step is kStep / sum_j |a_ij| with the diagonal: below 2 the smoother is convergent for weights of any signs.
 constexpr double kStep = 1.4;
 
-SparseRows finest_weights(const Laplacian& L) {
+SparseRows finest_weights(const Laplacian& L, Workers& workers) {
   const int n = static_cast<int>(L.rows());
   const auto kept = [&](Laplacian::StorageIndex e, int i) {
     return L.innerIndexPtr()[e] != i && static_cast<float>(L.valuePtr()[e]) != 0;
   };
   SparseRows A;
   A.start.assign(n + std::size_t{1}, 0);
-  for_rows(n, [&](int i) {
+  for_rows(workers, n, [&](int i) {
     for (auto e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) A.start[i + 1] += kept(e, i);
   });
   for (int i = 0; i < n; ++i) A.start[i + 1] += A.start[i];
   A.column.resize(A.start[n]);
   A.weight.resize(A.start[n]);
-  for_rows(n, [&](int i) {
+  for_rows(workers, n, [&](int i) {
     int place = A.start[i];
     for (auto e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) {
       if (!kept(e, i)) continue;
@@ -43,9 +43,9 @@ SparseRows finest_weights(const Laplacian& L) {
   return A;
 }
 
-Array<float> jacobi_steps(const SparseRows& A) {
+Array<float> jacobi_steps(const SparseRows& A, Workers& workers) {
   Array<float> omega(A.size());
-  for_rows(A.size(), [&](int i) {
+  for_rows(workers, A.size(), [&](int i) {
     double diagonal = 0, sum = 0;
     for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
       diagonal += A.weight[e];
@@ -78,12 +78,12 @@ struct RowSums {
 };
 
 // Off-diagonal weights of P^T A P, summed in double precision; the diagonal follows from them, as rows sum to 0.
-SparseRows coarse_operator(const Level& fine, Progress& progress) {
+SparseRows coarse_operator(const Level& fine, Workers& workers, Progress& progress) {
   const SparseRows &A = fine.A, &P = fine.P, &R = fine.R;
   const int n = R.size();
   const auto scratch = [&] { return RowSums{std::vector<RowSums::Entry>(n), {}}; };
   const auto expected = 2 * A.column.size() / 3;
-  return build_rows(n, expected, progress, 0, 0, scratch, [&](RowSums& sums, int I, auto& part) {
+  return build_rows(n, expected, workers, progress, scratch, [&](RowSums& sums, int I, auto& part) {
     sums.columns.clear();
     for (int r = R.start[I]; r < R.start[I + 1]; ++r) {
       const int i = R.column[r];
@@ -142,22 +142,23 @@ double Hierarchy::operator_complexity() const {
   return entries / static_cast<double>(levels[0].A.column.size() + levels[0].A.size());
 }
 
-Hierarchy make_hierarchy(const Laplacian& L, Progress& progress) {
+Hierarchy make_hierarchy(const Laplacian& L, Workers& workers, Progress& progress) {
   Hierarchy result;
   result.levels.emplace_back();
-  result.levels[0].A = finest_weights(L);
+  result.levels[0].A = finest_weights(L, workers);
   for (;;) {
     Level& level = result.levels.back();
-    level.omega = jacobi_steps(level.A);
+    level.omega = jacobi_steps(level.A, workers);
     const int n = level.A.size();
     if (n <= kCoarsest) break;
-    const Array<int> coarse = coarse_vertices(level.A, progress);
+    const Array<int> coarse = coarse_vertices(level.A, workers, progress);
     const int count = 1 + *std::max_element(coarse.begin(), coarse.end());
     if (count > kSlowest * n) break;
-    level.P = interpolation(level.A, coarse, count, result.levels.size() == 1 ? kFinestMeans : kCoarseMeans, progress);
+    level.P = interpolation(level.A, coarse, count, result.levels.size() == 1 ? kFinestMeans : kCoarseMeans, workers,
+                            progress);
     level.R = transposed(level.P, count, progress);
     Level next;
-    next.A = coarse_operator(level, progress);
+    next.A = coarse_operator(level, workers, progress);
     result.levels.push_back(std::move(next));
   }
   const int coarsest = result.levels.back().A.size();

@@ -33,6 +33,6 @@ struct Hierarchy {
 /// single precision the rows of a stored diagonal form do not sum to 0, and smooth functions drown in that.
 /// @throws SolverError if the graph cannot be coarsened further or the matrix is not semi-definite; Cancelled
 /// Cost: linear; about 0.2 KB and 0.5 us per vertex.
-Hierarchy make_hierarchy(const Laplacian& L, Progress& progress);
+Hierarchy make_hierarchy(const Laplacian& L, Workers& workers, Progress& progress);
 
 }  // namespace holomorph::solver

@@ -11,7 +11,7 @@ class MultigridSolver final : public LaplaceSolver {
   MultigridSolver(Laplacian L, Progress& progress) : L_(std::move(L)) {
     L_.makeCompressed();
     try {
-      hierarchy_ = make_hierarchy(L_, progress);
+      hierarchy_ = make_hierarchy(L_, workers_, progress);
     } catch (const SolverError& error) {
       fall_back(error, progress);
     }
@@ -69,7 +69,7 @@ class MultigridSolver final : public LaplaceSolver {
   void solve_blocks(const Eigen::MatrixXd& B, Eigen::Index begin, Eigen::Index end, Eigen::MatrixXd& X,
                     Reached& reached, Progress& progress) {
     if (begin == end) return;
-    BlockSolve<K> block(L_, hierarchy_);
+    BlockSolve<K> block(L_, hierarchy_, workers_);
     for (Eigen::Index first = begin; first < end; first += K) {
       const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
       block.solve(B, first, width, X, [&](double residual) {
@@ -83,6 +83,7 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   Laplacian L_;  // moved on to the direct solver, where that takes over
+  Workers workers_;
   Hierarchy hierarchy_;
   std::unique_ptr<LaplaceSolver> direct_;
   std::string remark_;

@@ -21,9 +21,8 @@ struct SparseRows {
 
 /// Builds a matrix with `rows` rows in parallel. make_row(scratch, i, part) appends the entries of row i to part.column
 /// and part.weight; every thread has a `scratch` of its own, made by make_scratch(), which must not influence the row.
-/// @param from,to the part of the current stage that this is
 template <class MakeScratch, class MakeRow>
-SparseRows build_rows(int rows, std::size_t expected_entries, Progress& progress, double from, double to,
+SparseRows build_rows(int rows, std::size_t expected_entries, Workers& workers, Progress& progress,
                       const MakeScratch& make_scratch, const MakeRow& make_row) {
   // Chunks of one batch: some milliseconds, so that cancelling is answered soon.
   constexpr int kBatch = 16;
@@ -32,7 +31,7 @@ SparseRows build_rows(int rows, std::size_t expected_entries, Progress& progress
   result.column.reserve(expected_entries);
   result.weight.reserve(expected_entries);
   std::vector<decltype(make_scratch())> scratch;
-  for (int t = 0; t < most_threads(); ++t) scratch.push_back(make_scratch());
+  for (int t = 0; t < workers.count(); ++t) scratch.push_back(make_scratch());
   struct Part {
     std::vector<int> ends, column;
     std::vector<float> weight;
@@ -41,15 +40,16 @@ SparseRows build_rows(int rows, std::size_t expected_entries, Progress& progress
   std::vector<Part> parts(kBatch);
   for (int first = 0; first < chunk_count(rows); first += kBatch) {
     const int end = std::min(first + kBatch, chunk_count(rows));
-    progress.report(from + (to - from) * first / chunk_count(rows));
-    for_chunks(first, end, rows, [&](int c, int begin_row, int end_row) {
-      Part& part = parts[c - first];
+    progress.report(0);
+    workers.run(end - first, [&](int thread, int c) {
+      Part& part = parts[c];
+      const int begin_row = (first + c) * kChunk, end_row = std::min(begin_row + kChunk, rows);
       part.ends.clear();
       part.column.clear();
       part.weight.clear();
       try {
         for (int i = begin_row; i < end_row; ++i) {
-          make_row(scratch[this_thread()], i, part);
+          make_row(scratch[thread], i, part);
           part.ends.push_back(static_cast<int>(part.column.size()));
         }
       } catch (...) {
