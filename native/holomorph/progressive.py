@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from . import _native, arrays
-from ._native import InvalidMesh
+from ._native import InvalidMesh, TopologyError
+from .structure import SOLVERS, ConformalStructure, Residuals, SolverReport
 from .surface import Surface
 
 ORDERS = ("quadric", "independent")
@@ -190,6 +191,39 @@ class ProgressiveMesh:
         """The original surface, rebuilt from the base by all the splits: positions, polygons and the order of their
         corners, bit for bit."""
         return Surface._of(self._native.restored())
+
+    def conformal_structure(self, n_faces, *, solver="auto", threads=None, progress=None):
+        """The conformal structure of ``level(n_faces)``, with the same homology classes at every level (paper section
+        9): the loops are those of the base, carried through the splits, and so are the classes dual to them. The
+        intersection matrix and the canonical basis are equal at all levels, so period matrices and forms can be
+        compared, and textures stay in place from level to level.
+
+        Parameters and errors are those of `holomorph.conformal_structure`.
+
+        Returns
+        -------
+        ConformalStructure
+            Its `surface` is ``level(n_faces)``.
+        """
+        if solver not in SOLVERS:
+            raise ValueError(f"solver is {solver!r}; one of {', '.join(SOLVERS)} is needed")
+        if threads is not None and (threads != int(threads) or threads < 1):
+            raise ValueError(f"threads is {threads!r}; a positive integer or None is needed")
+        genus, boundaries = self.base.genus, self.base.boundary_count
+        if genus == 0 or boundaries:
+            raise TopologyError(
+                f"the surface has genus {genus} and {boundaries} boundary loops; "
+                "a closed surface of genus 1 or more is needed"
+            )
+        splits = self._split_count(n_faces)
+        surface = self._level(splits)
+        native = _native.conformal_structure_of_level(
+            self._native, splits, surface._native, solver, int(threads or os.cpu_count() or 1), progress
+        )
+        seconds = dict(native.timings())
+        seconds["total"] = sum(seconds.values())
+        report, residuals = SolverReport(*native.solver()), Residuals(*native.residuals())
+        return ConformalStructure(surface, report, residuals, seconds, native, surface)
 
     def vertex_map(self, n_faces):
         """(#V,) vertex of ``level(n_faces)`` that each vertex of the original was collapsed into; -1 for isolated ones.

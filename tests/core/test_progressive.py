@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import SHARED
 from forms import EdgeForms
-from holomorph import Error, InvalidMesh, ProgressiveMesh, Surface, conformal_structure
+from holomorph import Error, InvalidMesh, ProgressiveMesh, Surface, TopologyError, conformal_structure
 from solved import surface_of
 
 ORDERS = ("quadric", "independent")
@@ -427,6 +427,65 @@ def test_loops_must_run_along_edges():
         mesh.carry_loops([[0, 10**6]])
     with pytest.raises(InvalidMesh, match="is needed"):
         mesh.carry_forms(np.zeros((2, 3)))
+
+
+# ---- conformal structures of levels ----------------------------------------------------------------------------------
+
+
+def structures(name):
+    """From coarse to fine, each with four times as many faces as the one before."""
+    mesh = progressive(available(name), "quadric")
+    count = len(mesh.level(2**31).triangles)
+    return [mesh.conformal_structure(count // 4**k) for k in (3, 2, 1, 0)]
+
+
+@pytest.mark.parametrize("name", ["torus knot", "genus 2 block", "kitten_19k.obj", "double-torus.obj"])
+def test_levels_have_the_same_classes(name):
+    found = structures(name)
+    for structure in found:
+        assert (structure.intersection_matrix == found[-1].intersection_matrix).all()
+        assert (structure.canonical_basis == found[-1].canonical_basis).all()
+        edges = EdgeForms(structure.edges, len(structure.surface.vertices))
+        periods = edges.integrals(structure.harmonic_forms, structure.homology_basis)
+        assert np.abs(periods - np.eye(len(periods))).max() < 1e-12
+        assert max(structure.residuals.closedness, structure.residuals.harmonicity) < 1e-8
+
+
+@pytest.mark.parametrize("name", ["torus knot", "kitten_19k.obj", "double-torus.obj"])
+def test_period_matrices_of_levels_approach_that_of_the_original(name):
+    """Entry by entry, which makes sense only because the classes are the same."""
+    *coarse, fine = (structure.period_matrix for structure in structures(name))
+    errors = [np.abs(matrix - fine).max() for matrix in coarse]
+    assert errors[0] > errors[1] > errors[2]
+    assert errors[2] < 0.02 * np.abs(fine).max()
+
+
+@pytest.mark.parametrize("name", ["torus of triangles", "kitten_19k.obj"])
+def test_the_finest_level_has_the_structure_of_the_original(name):
+    """The modulus of a torus, reduced to the fundamental domain, knows nothing of the basis."""
+
+    def reduced(tau):
+        while True:
+            tau = tau - np.rint(tau.real)
+            if abs(tau) > 1 - 1e-9:
+                return tau
+            tau = -1 / tau
+
+    mesh, original = progressive(available(name), "quadric"), conformal_structure(surface(name))
+    (tau,) = mesh.conformal_structure(2**31).period_matrix.ravel()
+    (expected,) = original.period_matrix.ravel()
+    assert abs(reduced(tau) - reduced(expected)) < 1e-8
+
+
+def test_levels_without_holomorphic_forms_are_refused():
+    with pytest.raises(TopologyError, match="genus 0 and 0 boundary loops"):
+        progressive("cube", "quadric").conformal_structure(100)
+    with pytest.raises(TopologyError, match="2 connected components"):
+        progressive("two components", "quadric").conformal_structure(100)
+    with pytest.raises(ValueError, match="solver is 'none'"):
+        progressive("torus knot", "quadric").conformal_structure(100, solver="none")
+    with pytest.raises(ValueError, match="threads is 0"):
+        progressive("torus knot", "quadric").conformal_structure(100, threads=0)
 
 
 # ---- what is refused -------------------------------------------------------------------------------------------------

@@ -70,6 +70,20 @@ py::tuple uv_solver(Structure& s) {
   return report(s.artist_forms->solver);
 }
 
+// Of a level of a progressive mesh, in the classes of its base; `surface` is the surface of that level.
+std::shared_ptr<Structure> compute_level(const progressive::ProgressiveMesh& mesh, int splits,
+                                         std::shared_ptr<Surface> surface, const std::string& solver, int threads,
+                                         const py::object& progress_function) {
+  Progress progress(callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  auto structure = std::make_shared<Structure>();
+  structure->options = {solver, threads};
+  structure->value = pipeline::conformal_structure(*surface, structure->options, progress,
+                                                   topology::carried_bases(mesh, splits, *surface));
+  structure->surface = std::move(surface);
+  return structure;
+}
+
 void prepare_uv(Structure& s, const py::object& progress_function) {
   Progress progress(callback(progress_function));
   const py::gil_scoped_release unlocked;
@@ -160,6 +174,7 @@ void bind_conformal_structure(py::module_& m) {
       .def("intrinsic", [](const Structure& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })
       .def("timings", [](const Structure& s) { return s.value.seconds; });
   m.def("conformal_structure", &compute);
+  m.def("conformal_structure_of_level", &compute_level);
   m.def("quality", &quality);
 }
 

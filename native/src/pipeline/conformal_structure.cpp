@@ -21,7 +21,8 @@ double largest_period_error(const Eigen::MatrixXd& periods) {
 
 }  // namespace
 
-ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress) {
+ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress,
+                                       std::optional<topology::DualBases> given) {
   const ThreadCount threads(options.threads);
   ConformalStructure result;
 
@@ -31,11 +32,11 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
 
   progress.stage("homology", 0.05, 0.2);
   const auto domain = topology::fundamental_domain(surface, result.half_edges, progress);
-  result.homology_basis = topology::homology_basis(result.half_edges, domain);
+  result.homology_basis = given ? std::move(given->loops) : topology::homology_basis(result.half_edges, domain);
   result.seams = topology::cut_graph(result.half_edges, domain);
 
   progress.stage("cohomology", 0.2, 0.25);
-  auto classes = topology::cohomology_basis(result.half_edges, domain);
+  auto classes = given ? std::move(given->classes) : topology::cohomology_basis(result.half_edges, domain);
   result.canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, progress));
   result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes, progress);
 

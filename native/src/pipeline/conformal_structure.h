@@ -1,11 +1,13 @@
 // The whole method in its order (paper § 4 to § 9): read conformal_structure.cpp first.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "conformal/holomorphic_basis.h"
 #include "pipeline/harmonic_forms.h"
+#include "topology/carried_classes.h"
 #include "uv/corner_sheets.h"
 
 namespace holomorph::pipeline {
@@ -28,8 +30,11 @@ struct ConformalStructure {
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage
 };
 
+/// @param given the loops zeta and their dual classes, as carried from another level of a progressive mesh; by default
+/// they are found on the surface
 /// @pre connected, no isolated vertices (mesh::component makes it so)
 /// @throws TopologyError for genus 0 or a boundary, naming both; SolverError; Cancelled
-ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress);
+ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress,
+                                       std::optional<topology::DualBases> given = {});
 
 }  // namespace holomorph::pipeline

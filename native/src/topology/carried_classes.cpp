@@ -130,4 +130,27 @@ std::vector<std::vector<int>> carry_loops(const progressive::ProgressiveMesh& me
   return carried.vertices();
 }
 
+DualBases carried_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level) {
+  Progress silent;
+  const HalfEdges half_edges = mesh::half_edges(mesh.base, silent);
+  const FundamentalDomain domain = fundamental_domain(mesh.base, half_edges, silent);
+  std::vector<std::vector<int>> loops;
+  for (const auto& loop : homology_basis(half_edges, domain)) {
+    loops.emplace_back();
+    for (const auto h : loop) loops.back().push_back(mesh::from_vertex(half_edges, h));
+  }
+  std::vector<int> map = progressive::vertex_map(mesh, 0);
+  map.resize(static_cast<std::size_t>(level.vertex_count));
+  DualBases bases;
+  bases.classes = carry_classes(mesh.base, cohomology_basis(half_edges, domain), level, map);
+  for (const auto& loop : carry_loops(mesh, splits, loops)) {
+    bases.loops.emplace_back();
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const int a = loop[i], b = loop[(i + 1) % loop.size()];
+      bases.loops.back().push_back(HalfedgeHandle(2 * edge_between(level.edges, a, b) + (a > b)));
+    }
+  }
+  return bases;
+}
+
 }  // namespace holomorph::topology

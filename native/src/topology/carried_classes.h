@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "progressive/progressive_mesh.h"
-#include "topology/integer_forms.h"
+#include "topology/homology.h"
 
 namespace holomorph::topology {
 
@@ -27,5 +27,16 @@ std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface&
 /// @throws InvalidMesh if a loop has two consecutive vertices without an edge between them
 std::vector<std::vector<int>> carry_loops(const progressive::ProgressiveMesh& mesh, int splits,
                                           const std::vector<std::vector<int>>& loops);
+
+/// A homology basis and the integer classes dual to it: eta_i(zeta_j) = delta_ij exactly.
+struct DualBases {
+  std::vector<std::vector<HalfedgeHandle>> loops;
+  IntegerForms classes;
+};
+
+/// The bases of the base mesh, carried to the level with this many splits, on its half-edges. So all levels have the
+/// same classes, the same intersection matrix and the same canonical basis.
+/// @param level the surface of that level; @pre connected, closed, genus at least 1
+DualBases carried_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
 
 }  // namespace holomorph::topology
