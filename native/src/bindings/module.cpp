@@ -2,8 +2,8 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
-#include "bindings/bindings.h"
 #include "base/errors.h"
+#include "bindings/bindings.h"
 #include "solver/sparse_cholesky.h"
 
 namespace py = pybind11;
@@ -27,7 +27,8 @@ PYBIND11_MODULE(_native, m) {
   auto& base = declare<Error>(m, "Error", PyExc_RuntimeError, "Base of all errors of this library.");
   declare<InvalidMesh>(m, "InvalidMesh", base, "The input is no valid polygon mesh, or a file is malformed.");
   declare<TopologyError>(m, "TopologyError", base, "The topology of the mesh does not fit what was asked for.");
-  declare<SolverError>(m, "SolverError", base, "A linear system was not solved to the accuracy asked for, or does not fit into memory.");
+  declare<SolverError>(m, "SolverError", base,
+                       "A linear system was not solved to the accuracy asked for, or does not fit into memory.");
   declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
   bindings::bind_surface(m);
   bindings::bind_conformal_structure(m);
