@@ -5,9 +5,12 @@ namespace {
 
 // (M x)_i, for the rows of P and R.
 template <int K>
-Block<K> product(const SparseRows& M, int i, const Blocks<K>& x) {
+EIGEN_STRONG_INLINE Block<K> product(const SparseRows& M, int i, const Blocks<K>& x) {
+  const int* const column = M.column.data();
+  const float* const weight = M.weight.data();
+  const Block<K>* const values = x.data();
   Block<K> sum = Block<K>::Zero();
-  for (int e = M.start[i]; e < M.start[i + 1]; ++e) sum += M.weight[e] * x[M.column[e]];
+  for (int e = M.start[i], end = M.start[i + 1]; e < end; ++e) sum += weight[e] * values[column[e]];
   return sum;
 }
 

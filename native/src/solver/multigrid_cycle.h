@@ -14,12 +14,16 @@ using Blocks = Array<Block<K>>;
 template <int K>
 using Sums = Eigen::Array<double, K, 1>;
 
-/// (A x)_i = sum_j w_ij (x_i - x_j).
+/// (A x)_i = sum_j w_ij (x_i - x_j). Inlined, with pointers of its own: to the compiler a block that is written may be
+/// one of the vectors' pointers, and would be read again for every entry.
 template <int K>
-Block<K> difference(const SparseRows& A, int i, const Blocks<K>& x) {
-  const Block<K> here = x[i];
+EIGEN_STRONG_INLINE Block<K> difference(const SparseRows& A, int i, const Blocks<K>& x) {
+  const int* const column = A.column.data();
+  const float* const weight = A.weight.data();
+  const Block<K>* const values = x.data();
+  const Block<K> here = values[i];
   Block<K> sum = Block<K>::Zero();
-  for (int e = A.start[i]; e < A.start[i + 1]; ++e) sum += A.weight[e] * (here - x[A.column[e]]);
+  for (int e = A.start[i], end = A.start[i + 1]; e < end; ++e) sum += weight[e] * (here - values[column[e]]);
   return sum;
 }
 
