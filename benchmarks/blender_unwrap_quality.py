@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Angle distortion beside Blender's own unwrap of the same triangles, cut along the same seams, in the same run.
 
-    blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_unwrap_quality.py -- MESH... [--json FILE]
+    blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_unwrap_quality.py -- \\
+        MESH... [--json FILE]
 
-For each closed mesh of genus >= 1: mean s1/s2 of the best form of the basis and of the balanced map; the same of Blender's
-Angle Based and Conformal unwrap, and how much the two copies of a seam edge differ there in length (factor) and angle.
+For each closed mesh of genus >= 1: mean s1/s2 of the best form of the basis and of the balanced map; the same of
+Blender's Angle Based and Conformal unwrap, and how much the two copies of a seam edge differ there in length (factor) and angle.
 """
 
 import argparse

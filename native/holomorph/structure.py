@@ -117,7 +117,7 @@ class ConformalStructure:
 
     @cached_property
     def seams(self):
-        """(#S,) indices into `edges` of the cut graph, on the artist's edges only; cut open there, the surface is a disk."""
+        """(#S,) indices into `edges` of the cut graph, on the artist's edges only: cut open there, a disk is left."""
         return self._native.seams()
 
     @cached_property
@@ -131,8 +131,8 @@ class ConformalStructure:
         return self._native.periods()
 
     def prepare_uv(self, progress=None):
-        """Solves for the forms on the artist's own triangles, of which `harmonic_forms`, `holomorphic_forms` and UVs are
-        made; done by itself when first needed, and without work where no edge had to be turned.
+        """Solves for the forms on the artist's own triangles, of which `harmonic_forms`, `holomorphic_forms` and UVs
+        are made; done by itself when first needed, and without work where no edge had to be turned.
 
         Invariants come from the intrinsic Delaunay triangulation, but UVs with the least distortion on the artist's
         triangles come from those triangles. `progress` as in `conformal_structure`."""
@@ -149,7 +149,8 @@ class ConformalStructure:
         Across every seam the UVs jump by a constant translation, without rotation or change of scale."""
         c = np.asarray(coefficients, dtype=np.complex128)
         if c.shape != (self._periods.shape[1],) or not np.isfinite(c).all():
-            raise ValueError(f"coefficients has the shape {c.shape}; ({self._periods.shape[1]},) finite numbers are needed")
+            wanted = f"({self._periods.shape[1]},) finite numbers are needed"
+            raise ValueError(f"coefficients has the shape {c.shape}; {wanted}")
         return self._native.uv(self._periods @ c)
 
     def uv_of(self, n, m):
@@ -178,8 +179,8 @@ class ConformalStructure:
         return Quality(*_native.quality(self._component._native, uv))
 
     def averaged_star(self, form):
-        """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an edge.
-        It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
+        """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
+        edge. It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
         form = np.ascontiguousarray(form, dtype=np.float64)
         if form.shape != (len(self.edges),):
             raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
@@ -210,7 +211,7 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
     Cancelled
         if `progress` returned False
 
-    Cost: 2g solves of the Laplacian, after one factorisation or the set-up of multigrid; 2 g #V numbers of memory beside.
+    Cost: 2g solves of the Laplacian, after one factorisation or the set-up of multigrid; 2 g #V numbers of memory.
     Source: Gu, Wang, Yau (2003), § 4 to § 7 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
     if solver not in SOLVERS:

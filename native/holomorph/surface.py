@@ -45,7 +45,8 @@ class Surface:
     ------
     InvalidMesh
         wrong shape, non-integer, out-of-range or negative index, NaN or infinity, no faces, fewer than 3 corners, a
-        vertex twice in a face, duplicate faces, non-manifold edge or vertex, all area zero; names the first bad element.
+        vertex twice in a face, duplicate faces, non-manifold edge or vertex, all area zero; names the first bad
+        element.
     TopologyError
         if the surface is non-orientable.
     """
@@ -116,7 +117,8 @@ class Surface:
         self._vertex_index, self._face_index, self._corner_index = vertex_index, face_index, corner_index
 
     def __repr__(self):
-        return f"<Surface: {self._native.vertex_count} vertices, {len(self.face_offsets) - 1} faces, {self._native.component_count} component(s)>"
+        vertices, faces, parts = self._native.vertex_count, len(self.face_offsets) - 1, self._native.component_count
+        return f"<Surface: {vertices} vertices, {faces} faces, {parts} component(s)>"
 
     @cached_property
     def vertices(self):
