@@ -5,7 +5,8 @@
         MESH... [--json FILE]
 
 For each closed mesh of genus >= 1: mean s1/s2 of the best form of the basis and of the balanced map; the same of
-Blender's Angle Based and Conformal unwrap, and how much the two copies of a seam edge differ there in length (factor) and angle.
+Blender's Angle Based and Conformal unwrap, and how much the two copies of a seam edge differ there in length (factor)
+and angle.
 """
 
 import argparse
