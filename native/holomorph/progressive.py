@@ -49,8 +49,8 @@ class ProgressiveMesh:
     Raises
     ------
     InvalidMesh
-        if the surface is intrinsic, if triangulated polygons have two edges with the same ends, or if `corner_data`
-        does not fit the corners.
+        if the surface is intrinsic, if its triangulated polygons have two edges with the same ends even after turning
+        diagonals, or if `corner_data` does not fit the corners.
     """
 
     def __init__(self, surface, *, corner_data=None, order="quadric"):

@@ -42,6 +42,7 @@ REAL = (
     "tray_g23.stl",
     "torus_stein.obj",
     "featuretype_unwelded.ply",
+    "suzanne_blender.obj",
 )
 TORI = ("torus of triangles", "torus of quads", "thin torus", "torus knot", "slivers", "relabelled")
 
@@ -494,6 +495,17 @@ def test_levels_without_holomorphic_forms_are_refused():
 def test_intrinsic_surfaces_are_refused():
     with pytest.raises(InvalidMesh, match="needs positions"):
         ProgressiveMesh(surface_of(families.flat_torus(1j, 4)))
+
+
+def test_diagonals_beside_an_edge_are_turned():
+    """A quad whose shorter diagonal is an edge of triangles on the other side of the surface."""
+    points = [[0, 0, 0], [1.5, -0.5, 0.1], [1, 1, 0], [-0.5, 1.5, 0.1], [0.5, 0.5, -1]]
+    mesh = families.polygons(points, [[0, 1, 2, 3], [1, 0, 4], [2, 1, 4], [0, 2, 4], [3, 2, 0]], ((0, 0),))
+    original = surface_of(mesh)
+    assert len(np.unique(original._native.edges, axis=0)) < len(original._native.edges)
+    progressive_mesh = ProgressiveMesh(original)
+    assert_same_bits(progressive_mesh.restore(), original)
+    assert len(progressive_mesh.base.triangles) == 4
 
 
 def test_corner_data_must_fit():

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/errors.h"
 #include "mesh/triangle_geometry.h"
 #include "progressive/collapse_order.h"
 #include "progressive/refinement.h"
+#include "progressive/single_edges.h"
 
 namespace holomorph::progressive {
 namespace {
@@ -118,21 +118,11 @@ class Recorder {
   std::size_t base_triangles_ = 0;
 };
 
-// The links below are between vertices that share one edge: a triangulated polygon may have a diagonal beside an edge.
-void check_edges(const mesh::Surface& surface) {
-  if (surface.intrinsic()) throw InvalidMesh("a progressive mesh needs positions; this surface has edge lengths only");
-  std::vector<mesh::Pair> ends = surface.edges;
-  std::sort(ends.begin(), ends.end());
-  const auto twice = std::adjacent_find(ends.begin(), ends.end());
-  if (twice == ends.end()) return;
-  throw InvalidMesh("the triangulated polygons have two edges between vertices " + std::to_string((*twice)[0]) +
-                    " and " + std::to_string((*twice)[1]) + "; triangulate or subdivide them for a progressive mesh");
-}
-
 }  // namespace
 
-ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order) {
-  check_edges(surface);
+ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order) {
+  const auto turned = with_single_edges(given);
+  const mesh::Surface& surface = turned ? *turned : given;
   EdgeCollapse collapse(surface);
   order == Order::quadric ? collapse_by_quadrics(collapse) : collapse_independent_sets(collapse);
   const std::size_t count = collapse.collapses().size();

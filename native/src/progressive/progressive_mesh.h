@@ -52,7 +52,9 @@ struct ProgressiveMesh {
 /// et al. 1999), so that every level has the topology of the original and no two edges with the same ends; boundary
 /// vertices move along the boundary only. As long as possible no triangle turns by more than 75 degrees. Where that
 /// would leave a base without any area, the last collapses are left out.
-/// @throws InvalidMesh for an intrinsic surface. Deterministic, one thread, O(#T) apart from very large stars.
+/// Where a diagonal of the triangulation joins vertices that another edge joins too, it is turned.
+/// @throws InvalidMesh for an intrinsic surface, or if turning helps nothing. Deterministic, one thread, O(#T) apart
+/// from very large stars.
 ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order);
 
 /// Number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
