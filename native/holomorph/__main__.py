@@ -18,7 +18,7 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     try:
         report = mesh_report(options.mesh, options.threads)
-        text = json.dumps(report, indent=1)
+        text = json.dumps(report, indent=1, allow_nan=False)
         if options.report:
             with open(options.report, "w", encoding="utf-8") as file:
                 file.write(text + "\n")

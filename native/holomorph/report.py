@@ -1,5 +1,7 @@
 """Reports as plain data, ready for JSON. Complex numbers are pairs [real, imaginary]."""
 
+import math
+
 import numpy as np
 
 
@@ -7,6 +9,11 @@ def complex_pairs(matrix):
     """Nested lists in which each complex number is [real, imaginary]."""
     matrix = np.asarray(matrix)
     return np.stack([matrix.real, matrix.imag], axis=-1).tolist()
+
+
+def finite_or_none(number):
+    """None where a quality is infinite, because some UV triangle has collapsed: JSON knows no infinity."""
+    return number if math.isfinite(number) else None
 
 
 def component_report(structure):
@@ -28,8 +35,8 @@ def component_report(structure):
         "intrinsic_flips": structure.flip_count,
         "balanced": {
             "coefficients": complex_pairs(coefficients),
-            "mean_angle": quality.mean_angle,
-            "density_ratio": quality.density_ratio,
+            "mean_angle": finite_or_none(quality.mean_angle),
+            "density_ratio": finite_or_none(quality.density_ratio),
             "flipped_triangles": int(quality.flipped.sum()),
         },
     }
