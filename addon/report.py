@@ -114,7 +114,8 @@ def _summary(entry):
     for index, part in enumerate(parts[:SUMMARISED], 1):
         lines.append(f"Part {index}: genus {part['genus']}" + ("" if part["done"] else ", skipped"))
         if part["done"]:
-            lines.append(f"    angle distortion {part['main_map']['mean_angle']:.4f}")
+            angle = part["main_map"]["mean_angle"]  # none where it is infinite
+            lines.append("    a UV triangle has collapsed" if angle is None else f"    angle distortion {angle:.4f}")
         if part["done"] and part["genus"] == 1:
             period = part["period_matrix"]
             lines.append(f"    tau = {round(period['real'][0][0], 4) + 0.0:.4f} + {period['imag'][0][0]:.4f} i")
