@@ -151,6 +151,7 @@ double BlockSolve<K>::relative(const Sums<K>& norms) const {
   return worst;
 }
 
+template class BlockSolve<2>;
 template class BlockSolve<4>;
 template class BlockSolve<8>;
 

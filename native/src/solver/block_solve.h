@@ -50,6 +50,7 @@ class BlockSolve {
   double reached_ = 0;
 };
 
+extern template class BlockSolve<2>;
 extern template class BlockSolve<4>;
 extern template class BlockSolve<8>;
 

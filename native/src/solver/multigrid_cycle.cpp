@@ -83,6 +83,7 @@ void Cycle<K>::carry_up(std::size_t k) {
   for_rows(workers_, level.A.size(), [&](int i) { fine.t[i] = fine.u[i] + product(level.P, i, coarse); });
 }
 
+template class Cycle<2>;
 template class Cycle<4>;
 template class Cycle<8>;
 

@@ -56,6 +56,7 @@ class Cycle {
   std::vector<Work> work_;
 };
 
+extern template class Cycle<2>;
 extern template class Cycle<4>;
 extern template class Cycle<8>;
 

@@ -48,13 +48,17 @@ class MultigridSolver final : public LaplaceSolver {
     direct_ = make_direct_solver(std::move(L_), progress);
   }
 
-  // Blocks of 8, and one of 4 at the end where that is enough.
+  // Blocks of 8, and at the end one of 4 or 2 where that is enough.
   Eigen::MatrixXd solve_by_multigrid(const Eigen::MatrixXd& B, Progress& progress) {
     Eigen::MatrixXd X(B.rows(), B.cols());
     const Eigen::Index rest = B.cols() % 8, in_eights = B.cols() - (rest <= 4 ? rest : 0);
     Reached reached;
     solve_blocks<8>(B, 0, in_eights, X, reached, progress);
-    solve_blocks<4>(B, in_eights, B.cols(), X, reached, progress);
+    if (rest <= 2) {
+      solve_blocks<2>(B, in_eights, B.cols(), X, reached, progress);
+    } else {
+      solve_blocks<4>(B, in_eights, B.cols(), X, reached, progress);
+    }
     iterations_ = std::max(iterations_, reached.iterations);
     residual_ = std::max(residual_, reached.residual);
     return X;
