@@ -2,8 +2,10 @@
 // vertices themselves. What is in it is popped by ascending bucket, the last pushed first.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "progressive/edge_collapse.h"
@@ -12,6 +14,8 @@ namespace holomorph::progressive {
 
 class BucketQueue {
  public:
+  static constexpr int kBatch = 8;
+
   explicit BucketQueue(EdgeCollapse& mesh) : mesh_(mesh), first_(kBuckets, kEnd) {}
 
   /// Eight buckets to an octave: the leading bits of the number, whose order is that of the numbers. @pre cost >= 0
@@ -24,21 +28,22 @@ class BucketQueue {
     first_[bucket] = v;
   }
 
-  /// The next vertex, or -1 at the end, after which popping begins again at bucket 0.
-  int pop() {
+  /// Takes out up to kBatch vertices of the lowest bucket, so that their memory can be asked for together. They wait:
+  /// they are not pushed until `visiting` says so. 0 at the end, after which popping begins again at bucket 0.
+  int pop(std::array<int, kBatch>& batch) {
     while (first_[current_] == kEnd) {
-      if (++current_ == kBuckets) return current_ = 0, -1;
+      if (++current_ == kBuckets) return current_ = 0;
     }
-    const int v = first_[current_];
-    int& next = mesh_.vertex(v).next;
-    first_[current_] = next;
-    next = Vertex::kNowhere;
-    return v;
+    int count = 0;
+    for (int v = first_[current_]; v != kEnd && count < kBatch; v = first_[current_]) {
+      first_[current_] = std::exchange(mesh_.vertex(v).next, Vertex::kWaiting);
+      batch[count++] = v;
+    }
+    return count;
   }
+  void visiting(int v) { mesh_.vertex(v).next = Vertex::kNowhere; }
 
   int current() const { return current_; }
-  /// The vertex that comes after v in the bucket being popped, or -1.
-  int first() const { return first_[current_]; }
 
  private:
   static constexpr int kShift = 20, kBuckets = 1 << (31 - kShift), kEnd = -1;

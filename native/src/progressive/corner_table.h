@@ -51,7 +51,6 @@ class CornerTable {
   /// Appends a triangle without opposites; returns its first side.
   int add(int a, int b, int c);
   int triangle_count() const { return static_cast<int>(sides_.size() / 4); }
-  const Side* data() const { return sides_.data(); }
 
  private:
   Array<Side> sides_;

@@ -225,14 +225,27 @@ void EdgeCollapse::collapse(int i) {
   collapses_.push_back(record);
 }
 
+void EdgeCollapse::prefetch_stars(const int* v, int count) const {
 #if defined(__GNUC__)
-void EdgeCollapse::prefetch_vertex(int v) const { __builtin_prefetch(&vertices_[static_cast<std::size_t>(v)]); }
-void EdgeCollapse::prefetch_star(int v) const {
-  __builtin_prefetch(table_.data() + vertices_[static_cast<std::size_t>(v)].side);
-}
+  constexpr int kSteps = 7;  // around most vertices
+  int sides[64];
+  count = std::min(count, 64);
+  for (int i = 0; i < count; ++i) __builtin_prefetch(&vertices_[static_cast<std::size_t>(v[i])]);
+  for (int i = 0; i < count; ++i) {
+    sides[i] = vertices_[static_cast<std::size_t>(v[i])].side;
+    __builtin_prefetch(&table_[sides[i]]);
+  }
+  for (int step = 0; step < kSteps; ++step) {
+    for (int i = 0; i < count; ++i) {
+      if (sides[i] < 0) continue;
+      __builtin_prefetch(&vertices_[static_cast<std::size_t>(table_.to(sides[i]))]);
+      sides[i] = table_.turn_left(sides[i]);
+      if (sides[i] >= 0) __builtin_prefetch(&table_[sides[i]]);
+    }
+  }
 #else
-void EdgeCollapse::prefetch_vertex(int) const {}
-void EdgeCollapse::prefetch_star(int) const {}
+  (void)v, (void)count;
 #endif
+}
 
 }  // namespace holomorph::progressive

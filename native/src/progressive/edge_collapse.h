@@ -17,10 +17,10 @@ struct alignas(64) Vertex {
   float A[6];         ///< xx, xy, xz, yy, yz, zz
   float b[3];
   int side;  ///< leaves v; see CornerTable
-  int next;  ///< in its bucket of the queue; kNowhere if it is in none
+  int next;  ///< in its bucket of the queue; kNowhere if it is in none, kWaiting between queue and visit
   std::uint32_t flags;
   static constexpr std::uint32_t kBoundary = 1, kGone = 2, kTouched = 4;
-  static constexpr int kNowhere = -2;
+  static constexpr int kNowhere = -2, kWaiting = -3;
 };
 
 /// What undoing a collapse needs: the paper's record, and the two triangles, -1 where there is none.
@@ -65,9 +65,9 @@ class EdgeCollapse {
   const std::vector<Collapse>& collapses() const { return collapses_; }
   void reserve(std::size_t collapses) { collapses_.reserve(collapses); }
 
-  /// Asks for memory that `gather(v)` will read soon: first the vertex, later, when that has come, its first triangle.
-  void prefetch_vertex(int v) const;
-  void prefetch_star(int v) const;
+  /// Asks for the memory that `gather` will read for each of these vertices. A walk around one vertex waits for memory
+  /// at each step; walks side by side wait together.
+  void prefetch_stars(const int* v, int count) const;
 
  private:
   bool boundary(int v) const { return (vertices_[static_cast<std::size_t>(v)].flags & Vertex::kBoundary) != 0; }

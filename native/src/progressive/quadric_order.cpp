@@ -17,10 +17,13 @@ class QuadricOrder {
     for (int v = mesh_.vertex_count() - 1; v >= 0; --v) {
       if ((mesh_.vertex(v).flags & Vertex::kGone) == 0) queue_.push(v, 0);
     }
-    for (int v = queue_.pop(); v >= 0; v = queue_.pop()) {
-      const int after = queue_.first();
-      if (after >= 0) mesh_.prefetch_vertex(after);
-      visit(v);
+    std::array<int, BucketQueue::kBatch> batch;
+    for (int count = queue_.pop(batch); count > 0; count = queue_.pop(batch)) {
+      mesh_.prefetch_stars(batch.data(), count);
+      for (int i = 0; i < count; ++i) {
+        queue_.visiting(batch[i]);
+        visit(batch[i]);
+      }
     }
   }
 
