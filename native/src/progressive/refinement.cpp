@@ -34,76 +34,96 @@ void Refinement::find_star(int v) {
   } while (side >= 0 && side != start);
 }
 
-void Refinement::split() {
-  const auto& [s, l, r, slot_l, slot_r] = mesh_.splits[made_];
-  const int t = mesh_.base.vertex_count + made_;
+Refinement::Sector Refinement::sector_of(const Split& split, int t) const {
   const auto check = [this](bool valid, const char* what) {
     if (!valid) throw InvalidMesh("vertex split " + std::to_string(made_) + " " + what);
   };
-  check(s >= 0 && s < t && l >= -1 && l < t && r >= -1 && r < t, "names a vertex that is not there yet");
-  check(slot_l < 3 && slot_r < 3, "names a corner beyond the third");
-  check(l != r, "has the same vertex on both sides");
-  find_star(s);
-  const int n = static_cast<int>(star_sides_.size());
-  const bool closed = static_cast<int>(star_vertices_.size()) == n;
+  const int n = static_cast<int>(star_sides_.size()), count = static_cast<int>(star_vertices_.size());
+  const bool closed = count == n;
   const auto place = [&](int v) {
     return static_cast<int>(std::find(star_vertices_.begin(), star_vertices_.end(), v) - star_vertices_.begin());
   };
-  const int from = r < 0 ? 0 : place(r), to = l < 0 ? n : place(l), count = closed ? n : n + 1;
-  check(from < count && to < count + (l < 0), "names a vertex that is no neighbour of v_s");
-  check(closed ? l >= 0 && r >= 0 : from < to || ((l < 0 || r < 0) && from == to), "crosses the boundary");
+  const int from = split.v_r < 0 ? 0 : place(split.v_r), to = split.v_l < 0 ? n : place(split.v_l);
+  check(split.slot_l < 3 && split.slot_r < 3, "names a corner beyond the third");
+  check(split.v_l < t && split.v_r < t && split.v_l != split.v_r,
+        "has the same vertex on both sides, or one too early");
+  check(from < count && (to < count || split.v_l < 0), "names a vertex that is no neighbour of v_s");
+  const bool open_end = split.v_l < 0 || split.v_r < 0;
+  check(closed ? !open_end : from < to || (open_end && from == to), "crosses the boundary");
+  return {from, closed && to < from ? to + n : to, closed};
+}
 
-  // Sides at the edges v_s v_l and v_s v_r: those that stay with v_s, and those that move to v_t.
-  const auto leaving = [&](int i) { return closed || i < n ? star_sides_[i] : -1; };
-  const auto arriving = [&](int i) {
-    if (i == 0 && !closed) return -1;
-    return CornerTable::previous(star_sides_[(i + n - 1) % n]);
-  };
-  const int s_to_l = l < 0 ? -1 : leaving(to), l_to_t = l < 0 ? -1 : arriving(to);
-  const int t_to_r = r < 0 ? -1 : leaving(from), r_to_s = r < 0 ? -1 : arriving(from);
-  const int start_of_rest = star_sides_[0];
+// The side from v_s to neighbour i of the star, and that from it to v_s; -1 beyond the boundary.
+int Refinement::leaving(int i, bool closed) const {
+  const int n = static_cast<int>(star_sides_.size());
+  return closed || i < n ? star_sides_[i % n] : -1;
+}
+int Refinement::arriving(int i, bool closed) const {
+  const int n = static_cast<int>(star_sides_.size());
+  return closed || i > 0 ? CornerTable::previous(star_sides_[(i + n - 1) % n]) : -1;
+}
 
+void Refinement::move(const Sector& sector, const Split& split, int t) {
+  const int n = static_cast<int>(star_sides_.size());
   moved_.clear();
-  const int end = to > from || !closed ? to : to + n;
-  for (int i = from; i < end; ++i) {
+  for (int i = sector.from; i < sector.to; ++i) {
     table_[star_sides_[i % n]].vertex = t;
-    if (i > from || r < 0) moved_.push_back(star_vertices_[i % n]);
+    if (i > sector.from || split.v_r < 0) moved_.push_back(star_vertices_[i % n]);
   }
-  if (l < 0 && end > from) moved_.push_back(star_vertices_[n]);
+  if (split.v_l < 0 && sector.to > sector.from) moved_.push_back(star_vertices_[n]);
+}
 
-  int left = -1, right = -1;  // v_s -> v_t and v_t -> v_s
-  const auto add = [this](int a, int b, int c, int slot) {
-    const int v[3] = {a, b, c};
-    return table_.add(v[(3 - slot) % 3], v[(4 - slot) % 3], v[(5 - slot) % 3]) + slot;
-  };
-  if (l >= 0) left = add(s, t, l, slot_l);
-  if (r >= 0) right = add(t, s, r, slot_r);
+// Adds the triangle a b c, corner `slot` of which is a, between the sides c -> b and a -> c; returns its side a -> b.
+int Refinement::add(int a, int b, int c, int slot, int c_to_b, int a_to_c) {
+  const int v[3] = {a, b, c};
+  const int side = table_.add(v[(3 - slot) % 3], v[(4 - slot) % 3], v[(5 - slot) % 3]) + slot;
+  table_.link(CornerTable::next(side), c_to_b);
+  table_.link(CornerTable::previous(side), a_to_c);
+  return side;
+}
+
+// A boundary vertex begins with the side that has no opposite, any other with any side.
+void Refinement::set_first_sides(const Sector& sector, const Split& split, int left, int right) {
+  int& at_s = leaving_[split.v_s];
+  int at_t = right;
   if (left >= 0) {
-    table_.link(CornerTable::next(left), l_to_t);
-    table_.link(CornerTable::previous(left), s_to_l);
-    if (s_to_l < 0) leaving_[l] = CornerTable::previous(left);
+    const int l_to_s = CornerTable::previous(left);
+    at_t = CornerTable::next(left);
+    if (table_.opposite(l_to_s) < 0) leaving_[split.v_l] = l_to_s;
   }
   if (right >= 0) {
-    table_.link(CornerTable::next(right), r_to_s);
-    table_.link(CornerTable::previous(right), t_to_r);
-    if (t_to_r < 0) leaving_[r] = CornerTable::previous(right);
+    const int r_to_t = CornerTable::previous(right);
+    if (table_.opposite(r_to_t) < 0) leaving_[split.v_r] = r_to_t;
   }
+  if (right < 0) {
+    if (sector.to > sector.from) at_t = at_s;
+    at_s = left;
+  } else if (sector.closed) {
+    at_s = left;
+  } else if (sector.from == 0) {
+    at_s = CornerTable::next(right);
+  }
+  leaving_.push_back(at_t);
+}
+
+void Refinement::split() {
+  const Split& split = mesh_.splits[made_];
+  const auto& [s, l, r, slot_l, slot_r] = split;
+  const int t = mesh_.base.vertex_count + made_;
+  if (s < 0 || s >= t || l < -1 || r < -1) {
+    throw InvalidMesh("vertex split " + std::to_string(made_) + " names a vertex that is not there yet");
+  }
+  find_star(s);
+  const Sector sector = sector_of(split, t);
+  const auto& [from, to, closed] = sector;
+  // The sides that stay with v_s, and those that move to v_t.
+  const int s_to_l = l < 0 ? -1 : leaving(to, closed), l_to_t = l < 0 ? -1 : arriving(to, closed);
+  const int t_to_r = r < 0 ? -1 : leaving(from, closed), r_to_s = r < 0 ? -1 : arriving(from, closed);
+  move(sector, split, t);
+  const int left = l < 0 ? -1 : add(s, t, l, slot_l, l_to_t, s_to_l);
+  const int right = r < 0 ? -1 : add(t, s, r, slot_r, r_to_s, t_to_r);
   table_.link(left, right);
-  // A boundary vertex begins with the side that has no opposite.
-  if (r < 0) {
-    leaving_.push_back(end > from ? start_of_rest : CornerTable::next(left));
-    leaving_[s] = left;
-  } else if (l < 0) {
-    leaving_.push_back(right);
-    if (from == 0) leaving_[s] = CornerTable::next(right);
-  } else {
-    leaving_.push_back(CornerTable::next(left));
-    if (closed) {
-      leaving_[s] = left;
-    } else if (from == 0) {
-      leaving_[s] = CornerTable::next(right);
-    }
-  }
+  set_first_sides(sector, split, left, right);
   ++made_;
 }
 

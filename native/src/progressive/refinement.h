@@ -23,7 +23,18 @@ class Refinement {
   std::vector<Triple> triangles() const;
 
  private:
+  // What moves to v_t: the triangles from `from` to before `to` of the star of v_s.
+  struct Sector {
+    int from, to;
+    bool closed;  // no boundary at v_s
+  };
   void find_star(int v);
+  Sector sector_of(const Split& split, int t) const;
+  int leaving(int i, bool closed) const;
+  int arriving(int i, bool closed) const;
+  void move(const Sector& sector, const Split& split, int t);
+  int add(int a, int b, int c, int slot, int c_to_b, int a_to_c);
+  void set_first_sides(const Sector& sector, const Split& split, int left, int right);
 
   const ProgressiveMesh& mesh_;
   CornerTable table_;
