@@ -1,6 +1,7 @@
 #include "mesh/surface.h"
 
 #include <algorithm>
+#include <map>
 
 #include "mesh/orientation.h"
 #include "mesh/polygon_checks.h"
@@ -33,15 +34,12 @@ class PolygonCutter {
   int edge(int first, int i, int j, int n) {
     if (j == i + 1) return edges_.side_edge[first + i];
     if (i == 0 && j == n - 1) return edges_.side_edge[first + j];
-    for (const auto& [ends, e] : diagonals_) {
-      if (ends == Pair{i, j}) return e;
-    }
-    const int e = static_cast<int>(surface_.edges.size());
+    const auto [known, is_new] = diagonals_.try_emplace(Pair{i, j}, static_cast<int>(surface_.edges.size()));
+    if (!is_new) return known->second;
     const auto a = static_cast<int>(surface_.polygons.corner_vertices[first + i]);
     const auto b = static_cast<int>(surface_.polygons.corner_vertices[first + j]);
     surface_.edges.push_back({std::min(a, b), std::max(a, b)});
-    diagonals_.push_back({{i, j}, e});
-    return e;
+    return known->second;
   }
 
   void add(int face, bool reversed, int first, const Triple& local, int n) {
@@ -63,7 +61,7 @@ class PolygonCutter {
   Surface& surface_;
   const PolygonEdges& edges_;
   std::vector<std::array<double, 3>> points_;
-  std::vector<std::pair<Pair, int>> diagonals_;  // of the polygon being cut
+  std::map<Pair, int> diagonals_;  // of the polygon being cut, by its local corners
 };
 
 std::vector<EdgeMeeting> meetings_of(const Polygons& mesh, const PolygonEdges& edges) {
