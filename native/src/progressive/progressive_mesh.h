@@ -48,7 +48,7 @@ struct ProgressiveMesh {
 };
 
 /// Collapses edges until none is left that can be collapsed: genus 0 ends with 4 triangles, genus 1 with at most 20,
-/// for there are no larger irreducible triangulations (Barnette & Edelson 1989). Collapses obey the link condition (Dey
+/// for there are no larger irreducible triangulations (Lawrencenko 1987). Collapses obey the link condition (Dey
 /// et al. 1999), so that every level has the topology of the original and no two edges with the same ends; boundary
 /// vertices move along the boundary only. As long as possible no triangle turns by more than 75 degrees. Where that
 /// would leave a base without any area, the last collapses are left out.
