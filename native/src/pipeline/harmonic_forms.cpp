@@ -3,8 +3,8 @@
 namespace holomorph::pipeline {
 
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
-                             solver::Laplacian laplacian, const topology::IntegerForms& classes, const Options& options,
-                             Progress& progress) {
+                             solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
+                             const Options& options, Progress& progress) {
   const auto choice = solver::choose_method(options.solver, laplacian.rows(), classes.form_count);
   const auto solver = solver::make_solver(choice.method, std::move(laplacian), progress);
   HarmonicForms result;

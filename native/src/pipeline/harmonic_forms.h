@@ -27,7 +27,7 @@ struct HarmonicForms {
 /// The harmonic form of each class, with the solver that `options` asks for; its memory is free again at the end.
 /// @throws SolverError, Cancelled
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
-                             solver::Laplacian laplacian, const topology::IntegerForms& classes, const Options& options,
-                             Progress& progress);
+                             solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
+                             const Options& options, Progress& progress);
 
 }  // namespace holomorph::pipeline

@@ -36,7 +36,8 @@ Laplacian pinned(const Laplacian& L, Progress& progress) {
 
 class DirectSolver final : public LaplaceSolver {
  public:
-  DirectSolver(Laplacian L, Progress& progress) : L_(std::move(L)) {
+  DirectSolver(Laplacian&& L, Progress& progress) {
+    L_.swap(L);
     factor_.compute(pinned(L_, progress));
     progress.report(0.8);
   }
@@ -112,7 +113,7 @@ class DirectSolver final : public LaplaceSolver {
 
 }  // namespace
 
-std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian L, Progress& progress) {
+std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, Progress& progress) {
   return std::make_unique<DirectSolver>(std::move(L), progress);
 }
 

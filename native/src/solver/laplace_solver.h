@@ -10,6 +10,7 @@
 namespace holomorph::solver {
 
 /// Symmetric, both triangles stored, positive semi-definite; its kernel is the constants.
+/// Handed over by swapping: Eigen 3.4 copies a sparse matrix that is moved.
 using Laplacian = Eigen::SparseMatrix<double>;
 
 /// A solver promises |L x - b| <= kResidual |b| for every right-hand side, in the Euclidean norm, or throws.
@@ -44,7 +45,7 @@ class LaplaceSolver {
 
 /// Sparse Cholesky with one vertex pinned: CHOLMOD where the library was built with it, Eigen's otherwise.
 /// @throws SolverError if the factorisation fails; Cancelled before or after it
-std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian L, Progress& progress);
+std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, Progress& progress);
 
 /// Conjugate gradients for up to 8 right-hand sides at once, preconditioned by algebraic multigrid in single precision
 /// inside a correction in double precision: linear time and memory. Takes weights of any signs, fewer iterations
@@ -53,7 +54,7 @@ std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian L, Progress& progres
 /// @throws SolverError if the direct solver fails as well; Cancelled
 /// Cost: about 1 us per vertex and 2 us per vertex and 4 right-hand sides on one thread; 0.35 KB per vertex
 /// for 4 right-hand sides.
-std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian L, Progress& progress);
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, Progress& progress);
 
 enum class Method { direct, multigrid };
 
@@ -66,6 +67,6 @@ struct Choice {
 /// depend on the machine
 Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Index right_hand_sides);
 
-std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian L, Progress& progress);
+std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, Progress& progress);
 
 }  // namespace holomorph::solver

@@ -146,9 +146,11 @@ Hierarchy make_hierarchy(const Laplacian& L, Workers& workers, Progress& progres
   Hierarchy result;
   result.levels.emplace_back();
   result.levels[0].A = finest_weights(L, workers);
+  progress.report(0);
   for (;;) {
     Level& level = result.levels.back();
     level.omega = jacobi_steps(level.A, workers);
+    progress.report(0);
     const int n = level.A.size();
     if (n <= kCoarsest) break;
     const Array<int> coarse = coarse_vertices(level.A, workers, progress);

@@ -8,7 +8,8 @@ namespace {
 
 class MultigridSolver final : public LaplaceSolver {
  public:
-  MultigridSolver(Laplacian L, Progress& progress) : L_(std::move(L)) {
+  MultigridSolver(Laplacian&& L, Progress& progress) {
+    L_.swap(L);
     L_.makeCompressed();
     try {
       hierarchy_ = make_hierarchy(L_, workers_, progress);
@@ -95,7 +96,7 @@ class MultigridSolver final : public LaplaceSolver {
 
 }  // namespace
 
-std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian L, Progress& progress) {
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, Progress& progress) {
   return std::make_unique<MultigridSolver>(std::move(L), progress);
 }
 

@@ -37,7 +37,7 @@ Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Inde
   return {Method::direct, "many right-hand sides: " + system};
 }
 
-std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian L, Progress& progress) {
+std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, Progress& progress) {
   return method == Method::direct ? make_direct_solver(std::move(L), progress)
                                   : make_multigrid_solver(std::move(L), progress);
 }
