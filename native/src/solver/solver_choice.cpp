@@ -10,9 +10,11 @@ namespace {
 // Measured against CHOLMOD with OpenBLAS on irregular surfaces. Below this the two are nearly equal, and the direct
 // solver leaves smaller residuals.
 constexpr double kSmall = 25'000;
-// The factorisation is paid once, and one more right-hand side is cheaper with it: from this number on the direct
-// solver is faster at kLarge unknowns; the number grows like the cube root of the size.
-constexpr double kMany = 24, kLarge = 500'000;
+// The factorisation is paid once, and one more right-hand side is cheaper with it than with multigrid on one thread. At
+// kLarge unknowns the direct solver is ahead from about 20 right-hand sides on one thread, and on two at none that was
+// measured; at kSmall from 4 and from about 20. The number in between serves more cores than one, and grows like the
+// cube root of the size.
+constexpr double kMany = 64, kLarge = 500'000;
 // Memory of a factor: about this times n log2 n bytes. More than kMostBytes is not asked for.
 constexpr double kFactorBytes = 60, kMostBytes = 4e9;
 
