@@ -30,9 +30,13 @@ SparseRows build_rows(int rows, std::size_t expected_entries, Workers& workers, 
   result.start.reserve(rows + std::size_t{1});
   result.column.reserve(expected_entries);
   result.weight.reserve(expected_entries);
-  std::vector<decltype(make_scratch())> scratch;
-  for (int t = 0; t < workers.count(); ++t) scratch.push_back(make_scratch());
-  struct Part {
+  // Each on cache lines of its own: threads that write to one line wait for each other.
+  struct alignas(128) Scratch {
+    decltype(make_scratch()) own;
+  };
+  std::vector<Scratch> scratch;
+  for (int t = 0; t < workers.count(); ++t) scratch.push_back({make_scratch()});
+  struct alignas(128) Part {
     std::vector<int> ends, column;
     std::vector<float> weight;
     std::exception_ptr failure;  // out of memory
@@ -49,7 +53,7 @@ SparseRows build_rows(int rows, std::size_t expected_entries, Workers& workers, 
       part.weight.clear();
       try {
         for (int i = begin_row; i < end_row; ++i) {
-          make_row(scratch[thread], i, part);
+          make_row(scratch[thread].own, i, part);
           part.ends.push_back(static_cast<int>(part.column.size()));
         }
       } catch (...) {
