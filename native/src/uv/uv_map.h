@@ -28,8 +28,9 @@ struct Quality {
 Quality quality(const mesh::Surface& surface, const UvArray& uv);
 
 /// Coefficients c, g complex numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most
-/// even: a minimum over the surface's area of the variance of log(|theta|^2 / mean + 1e-4), scaled so that the UV area
-/// is 1. The minimum is local, the best from several fixed starts; the same input gives the same bits.
+/// even: least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against distortion
+/// (balance.cpp), scaled so that the UV area is 1. The minimum is local, the best from several fixed starts; the same
+/// input gives the same bits.
 /// @param periods 2g x g, of the holomorphic basis; @param period_imaginary Im Omega
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                                        const forms::ClosedForms& forms, const Eigen::MatrixXcd& periods,
