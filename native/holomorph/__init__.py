@@ -13,8 +13,10 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 """
 
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
+from .closed import ConformalStructure
 from .progressive import ProgressiveMesh
-from .structure import ConformalStructure, Quality, Residuals, SolverReport, conformal_structure
+from .results import Quality, Residuals, SolverReport
+from .structure import conformal_structure
 from .surface import Repairs, Surface
 
 __all__ = [

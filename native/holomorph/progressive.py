@@ -9,7 +9,8 @@ import numpy as np
 
 from . import _native, arrays
 from ._native import InvalidMesh, TopologyError
-from .structure import SOLVERS, ConformalStructure, Residuals, SolverReport
+from .closed import ConformalStructure
+from .results import check_options, result
 from .surface import Surface
 
 ORDERS = ("quadric", "independent")
@@ -205,10 +206,7 @@ class ProgressiveMesh:
         ConformalStructure
             Its `surface` is ``level(n_faces)``.
         """
-        if solver not in SOLVERS:
-            raise ValueError(f"solver is {solver!r}; one of {', '.join(SOLVERS)} is needed")
-        if threads is not None and (threads != int(threads) or threads < 1):
-            raise ValueError(f"threads is {threads!r}; a positive integer or None is needed")
+        threads = check_options(solver, threads)
         genus, boundaries = self.base.genus, self.base.boundary_count
         if genus == 0 or boundaries:
             raise TopologyError(
@@ -217,13 +215,8 @@ class ProgressiveMesh:
             )
         splits = self._split_count(n_faces)
         surface = self._level(splits)
-        native = _native.conformal_structure_of_level(
-            self._native, splits, surface._native, solver, int(threads or os.cpu_count() or 1), progress
-        )
-        seconds = dict(native.timings())
-        seconds["total"] = sum(seconds.values())
-        report, residuals = SolverReport(*native.solver()), Residuals(*native.residuals())
-        return ConformalStructure(surface, report, residuals, seconds, native, surface)
+        native = _native.conformal_structure_of_level(self._native, splits, surface._native, solver, threads, progress)
+        return result(ConformalStructure, surface, surface, native)
 
     def vertex_map(self, n_faces):
         """(#V,) vertex of ``level(n_faces)`` that each vertex of the original was collapsed into; -1 for isolated ones.

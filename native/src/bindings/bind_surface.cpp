@@ -7,7 +7,6 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "mesh/components.h"
-#include "mesh/half_edges.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "mesh/io/read.h"
 
@@ -49,9 +48,7 @@ py::tuple component(const Surface& surface, int which) {
 
 // (Euler characteristic, boundary loops, genus) of a connected surface.
 py::tuple topology(const Surface& surface) {
-  Progress silent;
-  const int chi = mesh::euler_characteristic(surface),
-            boundaries = mesh::boundary_count(mesh::half_edges(surface, silent));
+  const int chi = mesh::euler_characteristic(surface), boundaries = mesh::boundary_count(surface);
   return py::make_tuple(chi, boundaries, mesh::genus(chi, boundaries));
 }
 

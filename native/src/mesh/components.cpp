@@ -1,5 +1,8 @@
 #include "mesh/components.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace holomorph::mesh {
 namespace {
 
@@ -65,6 +68,26 @@ Component component(const Surface& parent, int which) {
 int euler_characteristic(const Surface& surface) {
   return surface.vertex_count - static_cast<int>(surface.repairs.isolated_vertices.size()) -
          static_cast<int>(surface.edges.size()) + static_cast<int>(surface.triangles.size());
+}
+
+int boundary_count(const Surface& surface) {
+  // On each loop there are as many edges as vertices, and all but one join two parts of it.
+  std::vector<int> part(surface.vertex_count);
+  std::iota(part.begin(), part.end(), 0);
+  const auto find = [&part](int v) {
+    while (part[v] != v) v = part[v] = part[part[v]];
+    return v;
+  };
+  int loops = 0;
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    if (surface.edge_face_count[e] != 1) continue;
+    const int a = find(surface.edges[e][0]), b = find(surface.edges[e][1]);
+    if (a == b)
+      ++loops;
+    else
+      part[std::max(a, b)] = std::min(a, b);
+  }
+  return loops;
 }
 
 int genus(int euler_characteristic, int boundary_count) { return (2 - euler_characteristic - boundary_count) / 2; }

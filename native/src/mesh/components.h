@@ -19,6 +19,9 @@ Component component(const Surface& surface, int which);
 /// Euler characteristic of a connected surface, its isolated vertices not counted.
 int euler_characteristic(const Surface& surface);
 
+/// Number of boundary loops of a surface, without building its half-edges.
+int boundary_count(const Surface& surface);
+
 /// (2 - chi - boundary loops) / 2
 int genus(int euler_characteristic, int boundary_count);
 

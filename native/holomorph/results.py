@@ -1,0 +1,151 @@
+"""What the results of all kinds of surfaces have in common."""
+
+import os
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from . import _native, arrays
+from ._native import TopologyError
+from .surface import Surface
+
+SOLVERS = ("auto", "direct", "multigrid")
+
+
+@dataclass(frozen=True)
+class SolverReport:
+    """Which solver was used and why; iterations (of multigrid, or steps of iterative refinement of the direct solver);
+    the largest relative residual of the linear systems."""
+
+    name: str
+    reason: str
+    iterations: int
+    residual: float
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Relative maxima over all harmonic forms, on the intrinsic triangulation that was solved on.
+
+    closedness: sum around a face over the largest value of the form; harmonicity: sum of k h at a vertex over the
+    largest sum of |k h|; periods: difference of the integral of h_j over zeta_i from delta_ij.
+    """
+
+    closedness: float
+    harmonicity: float
+    periods: float
+
+
+@dataclass(frozen=True, eq=False)
+class Quality:
+    """Distortion of a UV map per triangle, s1 >= s2 its singular values.
+
+    angle: (#T,) s1 / s2 (1 where a triangle has no area); area: (#T,) s1 s2, UV area per surface area; flipped: (#T,)
+    bool; mean_angle: mean of s1 / s2 over the surface's area; density_ratio: 95 % over 5 % quantile of s1 s2 by area.
+    """
+
+    angle: np.ndarray
+    area: np.ndarray
+    flipped: np.ndarray
+    mean_angle: float
+    density_ratio: float
+
+
+@dataclass(frozen=True, eq=False)
+class Structure:
+    """Base of the results of `conformal_structure`. All arrays are read-only; the large ones are computed when first
+    asked for. Each kind of result adds its forms, its invariants and
+
+    uv(coefficients) : (#C, 2) UVs of a combination of `holomorphic_forms`, without a solve
+    balanced_coefficients() : those of the map that is shown first
+    description : one phrase that says what was made
+    invariants() : the conformal invariants as plain data, for reports
+    """
+
+    surface: Surface
+    solver: SolverReport
+    residuals: Residuals
+    timings: dict
+    _native: object = field(repr=False)
+    _component: Surface = field(repr=False)
+
+    @cached_property
+    def edges(self):
+        """(#E, 2) vertices of the artist's triangulation, lower first; forms are values on these."""
+        return self._of_surface(self._component._native.edges)
+
+    @cached_property
+    def seams(self):
+        """(#S,) indices into `edges` of the cut graph, on the artist's edges only: cut open there, a disk is left."""
+        return self._native.seams()
+
+    @cached_property
+    def flip_count(self):
+        """Edges turned to make the intrinsic triangulation Delaunay."""
+        return self._native.intrinsic()[0]
+
+    def prepare_uv(self, progress=None):
+        """Solves for the forms on the artist's own triangles, of which forms and UVs are made; done by itself when
+        first needed, and without work where no edge had to be turned.
+
+        Invariants come from the intrinsic Delaunay triangulation, but UVs with the least distortion on the artist's
+        triangles come from those triangles. `progress` as in `conformal_structure`."""
+        self._native.prepare_uv(progress)
+
+    @cached_property
+    def uv_solver(self):
+        """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
+        return SolverReport(*self._native.uv_solver())
+
+    def quality(self, uv):
+        """`Quality` of a (#C, 2) UV map on the surface's triangles."""
+        uv = np.ascontiguousarray(uv, dtype=np.float64)
+        if uv.shape != (len(self._component.corner_vertices), 2):
+            raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
+        return Quality(*_native.quality(self._component._native, uv))
+
+    def averaged_star(self, form):
+        """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
+        edge. It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
+        form = np.ascontiguousarray(form, dtype=np.float64)
+        if form.shape != (len(self.edges),):
+            raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
+        return self._native.averaged_star(form)
+
+    def _of_surface(self, vertices):
+        """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
+        return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
+
+
+def check_options(solver, threads):
+    """The number of threads to use. @throws ValueError"""
+    if solver not in SOLVERS:
+        raise ValueError(f"solver is {solver!r}; one of {', '.join(SOLVERS)} is needed")
+    if threads is not None and (threads != int(threads) or threads < 1):
+        raise ValueError(f"threads is {threads!r}; a positive integer or None is needed")
+    return int(threads or os.cpu_count() or 1)
+
+
+def only_component(surface):
+    """The one component of a connected surface, without isolated vertices. @throws TopologyError"""
+    count = len(surface.components)
+    if count != 1:
+        raise TopologyError(f"the surface has {count} connected components; take one of surface.components")
+    return surface.components[0]
+
+
+def result(kind, surface, component, native):
+    """A `kind` of `Structure` made of what the native core computed."""
+    seconds = dict(native.timings())
+    seconds["total"] = sum(seconds.values())
+    return kind(surface, SolverReport(*native.solver()), Residuals(*native.residuals()), seconds, native, component)
+
+
+def checked_coefficients(coefficients, count, kind):
+    """`coefficients` as (count,) finite numbers of type `kind`. @throws ValueError"""
+    c = np.asarray(coefficients)
+    if c.shape != (count,) or not np.isfinite(c).all() or (kind is not np.complex128 and np.iscomplexobj(c)):
+        wanted = f"({count},) finite {'numbers are' if kind is np.complex128 else 'real numbers are'} needed"
+        raise ValueError(f"coefficients has the shape {c.shape}; {wanted}")
+    return c.astype(kind)
