@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // progressive_mesh FILE...: for each mesh one line of JSON with the seconds of the two orders of holomorph's
 // progressive mesh (from the surface's arrays to base and splits), of rebuilding the original from them, and of
-// OpenMesh's Decimater with quadrics, normal check and progressive-mesh records, down to the same number of faces.
+// OpenMesh's Decimater with quadrics, normal check and progressive-mesh records, and of meshoptimizer's simplifier, which
+// keeps no records, both down to the same number of faces.
+#include <meshoptimizer.h>
+
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
 #include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
@@ -68,6 +71,23 @@ double openmesh_seconds(const mesh::Surface& surface, std::size_t faces_left, st
   });
 }
 
+double meshoptimizer_seconds(const mesh::Surface& surface, std::size_t faces_left, std::size_t& removed) {
+  std::vector<float> positions;
+  for (const auto& point : surface.polygons.vertices) {
+    for (const double x : point) positions.push_back(static_cast<float>(x));
+  }
+  std::vector<unsigned> corners;
+  for (const auto& triangle : surface.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  std::vector<unsigned> result(corners.size());
+  std::size_t left = 0;
+  const double seconds = median_seconds(3, [&] {
+    left = meshopt_simplify(result.data(), corners.data(), corners.size(), positions.data(), surface.vertex_count,
+                            3 * sizeof(float), 3 * faces_left, 1.0f, 0, nullptr);
+  });
+  removed = surface.triangles.size() - left / 3;
+  return seconds;
+}
+
 void measure(const char* path) {
   const mesh::Surface surface = mesh::make_surface(mesh::read(path));
   const std::size_t faces = surface.triangles.size();
@@ -79,12 +99,15 @@ void measure(const char* path) {
       median_seconds(runs, [&] { (void)progressive_mesh(surface, progressive::Order::independent); });
   std::size_t removed = 0;
   const double other = openmesh_seconds(surface, mesh.base.triangles.size(), removed);
+  std::size_t removed_too = 0;
+  const double meshoptimizer = meshoptimizer_seconds(surface, mesh.base.triangles.size(), removed_too);
   std::printf(
       "{\"mesh\": \"%s\", \"faces\": %zu, \"base_faces\": %zu, \"splits\": %zu, \"quadric\": %.4f, \"independent\": "
       "%.4f, "
-      "\"restore\": %.4f, \"openmesh\": %.4f, \"openmesh_collapses\": %zu}\n",
+      "\"restore\": %.4f, \"openmesh\": %.4f, \"openmesh_collapses\": %zu, \"meshoptimizer\": %.4f, "
+      "\"meshoptimizer_removed\": %zu}\n",
       std::filesystem::path(path).stem().c_str(), faces, mesh.base.triangles.size(), mesh.splits.size(), quadric,
-      independent, restore, other, removed);
+      independent, restore, other, removed, meshoptimizer, removed_too);
   std::fflush(stdout);
 }
 

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// solvers MESH METHOD RHS TOLERANCE: one line of JSON about solving L x = b, L the cotan Laplacian of a closed surface,
+// for RHS random right-hand sides. METHOD is one of
+//   multigrid, direct          the library's own, with half-edges, Delaunay flips and assembly
+//   cholmod-amd, cholmod-metis supernodal with OpenBLAS on all cores, one vertex pinned
+//   ldlt                       Eigen's SimplicialLDLT, one vertex pinned
+//   cg, jacobi-cg              conjugate gradients, all right-hand sides at once, on all cores
+//   matrix=FILE                writes the matrix and the right-hand sides for solvers written in Python
+// One method per process, so that the peak memory is its own.
+#include <sys/resource.h>
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCholesky>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "forms/harmonic_basis.h"
+#include "mesh/io/read.h"
+#include "solver/laplace_solver.h"
+
+extern "C" void openblas_set_num_threads(int);
+
+namespace {
+
+using namespace holomorph;
+using Matrix = Eigen::SparseMatrix<double>;
+using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+struct Result {
+  std::string name;
+  double assembly = 0, set_up = 0, solve = 0;  // seconds
+  int iterations = 0;
+  double residual = 0;
+};
+
+constexpr int kMostIterations = 100'000;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+Matrix assembled(const mesh::Surface& surface, bool delaunay) {
+  Progress silent;
+  const auto half_edges = mesh::half_edges(surface, silent);
+  auto triangulation = mesh::intrinsic_triangulation(surface, half_edges);
+  if (delaunay) mesh::make_delaunay(triangulation, silent);
+  return forms::laplacian(triangulation.half_edges, mesh::cotangent_weights(triangulation, silent), silent);
+}
+
+// Columns of sum 0, as those of d* eta are.
+Eigen::MatrixXd right_hand_sides(Eigen::Index n, int count) {
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd B = Eigen::MatrixXd::NullaryExpr(n, count, [&] { return normal(generator); });
+  return B.rowwise() - B.colwise().mean();
+}
+
+double largest_residual(const Matrix& L, const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) {
+  return ((L * X - B).colwise().norm().array() / B.colwise().norm().array()).maxCoeff();
+}
+
+Result library(const mesh::Surface& surface, solver::Method method, int count, Matrix& L, Eigen::MatrixXd& B,
+               Eigen::MatrixXd& X) {
+  Result result;
+  Progress silent;
+  const double start = now();
+  L = assembled(surface, true);
+  result.assembly = now() - start;
+  B = right_hand_sides(L.rows(), count);
+  Matrix given = L;
+  const double begin = now();
+  const auto solver = solver::make_solver(method, std::move(given), silent);
+  const double ready = now();
+  X = solver->solve(B, silent);
+  result.solve = now() - ready;
+  result.set_up = ready - begin;
+  result.name = solver->name();
+  result.iterations = solver->iterations();
+  return result;
+}
+
+// The matrix without its first row and column, which makes it positive definite; lower triangle.
+Matrix pinned(const Matrix& L) {
+  const Matrix inner = L.bottomRightCorner(L.rows() - 1, L.cols() - 1);
+  return inner.triangularView<Eigen::Lower>();
+}
+
+template <class Method>
+Result factorised(Method& method, const Matrix& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X) {
+  Result result;
+  const Matrix lower = pinned(L);
+  const double start = now();
+  method.compute(lower);
+  const double ready = now();
+  X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+  X.bottomRows(B.rows() - 1) = method.solve(B.bottomRows(B.rows() - 1));
+  result.solve = now() - ready;
+  result.set_up = ready - start;
+  return result;
+}
+
+Result cholmod(int ordering, const Matrix& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X) {
+  Eigen::CholmodSupernodalLLT<Matrix, Eigen::Lower> method;
+  method.cholmod().nmethods = 1;
+  method.cholmod().method[0].ordering = ordering;
+  method.cholmod().postorder = 1;
+  Result result = factorised(method, L, B, X);
+  result.name = ordering == CHOLMOD_METIS ? "CHOLMOD, METIS ordering" : "CHOLMOD, AMD ordering";
+  return result;
+}
+
+// Calls pass(i, sums) for every row on all cores; returns the total of what the threads summed up.
+template <class Pass>
+Eigen::RowVectorXd over_rows(Eigen::Index n, Eigen::Index width, const Pass& pass) {
+  Eigen::RowVectorXd total = Eigen::RowVectorXd::Zero(width);
+#pragma omp parallel
+  {
+    Eigen::RowVectorXd sums = Eigen::RowVectorXd::Zero(width);
+#pragma omp for schedule(static)
+    for (Eigen::Index i = 0; i < n; ++i) pass(i, sums);
+#pragma omp critical
+    total += sums;
+  }
+  return total;
+}
+
+Eigen::RowVectorXd quotient(const Eigen::RowVectorXd& a, const Eigen::RowVectorXd& b) {
+  return (b.array() > 0).select(a.array() / b.array(), 0.0);
+}
+
+// Textbook conjugate gradients for all columns at once, three passes over the rows an iteration.
+Result conjugate_gradients(bool jacobi, double tolerance, const Matrix& L, const Eigen::MatrixXd& B,
+                           Eigen::MatrixXd& solution) {
+  Result result;
+  result.name = jacobi ? "conjugate gradients, diagonal preconditioner" : "conjugate gradients";
+  const double start = now();
+  const Rows A = L;
+  const auto n = A.rows(), k = B.cols();
+  const Eigen::VectorXd scale = jacobi ? A.diagonal().cwiseInverse().eval() : Eigen::VectorXd::Ones(n).eval();
+  Block X = Block::Zero(n, k), R = B, P = scale.asDiagonal() * R, Q(n, k);
+  const Eigen::RowVectorXd wanted = (tolerance * B.colwise().norm()).cwiseAbs2();
+  Eigen::RowVectorXd rr = R.colwise().squaredNorm(), rz = (R.array() * P.array()).colwise().sum();
+  while ((rr.array() > wanted.array()).any() && result.iterations < kMostIterations) {
+    const Eigen::RowVectorXd pq = over_rows(n, k, [&](Eigen::Index i, Eigen::RowVectorXd& sums) {
+      Q.row(i).setZero();
+      for (Rows::InnerIterator entry(A, i); entry; ++entry) Q.row(i) += entry.value() * P.row(entry.col());
+      sums.array() += P.row(i).array() * Q.row(i).array();
+    });
+    const Eigen::RowVectorXd alpha = quotient(rz, pq);
+    const Eigen::RowVectorXd sums = over_rows(n, 2 * k, [&](Eigen::Index i, Eigen::RowVectorXd& s) {
+      X.row(i).array() += alpha.array() * P.row(i).array();
+      R.row(i).array() -= alpha.array() * Q.row(i).array();
+      s.head(k).array() += scale[i] * R.row(i).array().square();
+      s.tail(k).array() += R.row(i).array().square();
+    });
+    const Eigen::RowVectorXd beta = quotient(sums.head(k), rz);
+    over_rows(n, 0, [&](Eigen::Index i, Eigen::RowVectorXd&) {
+      P.row(i).array() = scale[i] * R.row(i).array() + beta.array() * P.row(i).array();
+    });
+    rz = sums.head(k);
+    rr = sums.tail(k);
+    ++result.iterations;
+  }
+  result.solve = now() - start;
+  solution = X;
+  return result;
+}
+
+template <class Scalar>
+void put(std::ofstream& file, const Scalar* data, Eigen::Index count) {
+  file.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(sizeof(Scalar)) * count);
+}
+
+// Row count, number of entries and number of right-hand sides (int64), row starts, columns (int32), values, B.
+void write_matrix(const std::string& path, const Matrix& L, const Eigen::MatrixXd& B) {
+  std::ofstream file(path, std::ios::binary);
+  const std::int64_t sizes[] = {L.rows(), L.nonZeros(), B.cols()};
+  put(file, sizes, 3);
+  put(file, L.outerIndexPtr(), L.rows() + 1);
+  put(file, L.innerIndexPtr(), L.nonZeros());
+  put(file, L.valuePtr(), L.nonZeros());
+  put(file, B.data(), B.size());
+}
+
+Result other(const std::string& method, double tolerance, const Matrix& L, const Eigen::MatrixXd& B,
+             Eigen::MatrixXd& X) {
+  if (method == "cholmod-amd") return cholmod(CHOLMOD_AMD, L, B, X);
+  if (method == "cholmod-metis") return cholmod(CHOLMOD_METIS, L, B, X);
+  if (method == "cg" || method == "jacobi-cg") return conjugate_gradients(method != "cg", tolerance, L, B, X);
+  Eigen::SimplicialLDLT<Matrix, Eigen::Lower> ldlt;
+  Result result = factorised(ldlt, L, B, X);
+  result.name = "Eigen SimplicialLDLT";
+  return result;
+}
+
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+void print(const Result& r, std::size_t faces, double before) {
+  std::printf(
+      "{\"name\": \"%s\", \"faces\": %zu, \"assembly\": %.4f, \"set_up\": %.4f, \"solve\": %.4f, \"iterations\": %d, "
+      "\"residual\": %.2e, \"peak_bytes\": %.0f, \"bytes_before\": %.0f}\n",
+      r.name.c_str(), faces, r.assembly, r.set_up, r.solve, r.iterations, r.residual, peak_bytes(), before);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 5) {
+    std::fprintf(stderr, "usage: solvers MESH METHOD RHS TOLERANCE\n");
+    return 2;
+  }
+  openblas_set_num_threads(static_cast<int>(std::thread::hardware_concurrency()));
+  const std::string method = argv[2];
+  const int count = std::stoi(argv[3]);
+  const auto surface = mesh::make_surface(mesh::read(argv[1]));
+  const double before = peak_bytes();
+  Matrix L;
+  Eigen::MatrixXd B, X;
+  Result result;
+  if (method == "multigrid" || method == "direct") {
+    result = library(surface, method == "direct" ? solver::Method::direct : solver::Method::multigrid, count, L, B, X);
+  } else {
+    L = assembled(surface, false);
+    B = right_hand_sides(L.rows(), count);
+    if (method.rfind("matrix=", 0) == 0) {
+      write_matrix(method.substr(7), L, B);
+      return 0;
+    }
+    result = other(method, std::stod(argv[4]), L, B, X);
+  }
+  result.residual = largest_residual(L, X, B);
+  print(result, surface.triangles.size(), before);
+}

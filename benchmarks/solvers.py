@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""python benchmarks/solvers.py [MESH ...] [--faces N ...] [--runs N] [--json FILE] [--plot FILE]
+
+Every solver of L x = b on the same surfaces, four right-hand sides, as many threads as the machine has cores: the
+library's multigrid, counted from the mesh's arrays on, against the others, counted from their assembled matrix. Each
+runs in a process of its own, so its peak memory is its own; the median of the runs counts. The surfaces: marching
+tetrahedra of genus 2 (irregular), the same with cuts down to 0.001 of an edge (bad), a torus grid, smooth and
+stretched 20:1, and the mesh files named. CHOLMOD comes with OpenBLAS. Prints ratios against the better of CHOLMOD's
+two orderings.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from meshes import BAD, double_torus, torus, write_ply
+from programs import ROOT, program
+
+SURFACES = {
+    "irregular": double_torus,
+    "bad": lambda faces: double_torus(faces, BAD),
+    "torus": torus,
+    "stretched": lambda faces: torus(faces, 20.0),
+}
+# The most faces with which a solver is tried: beyond, it takes minutes.
+MOST_FACES = {
+    "multigrid": 10**9,
+    "direct": 10**9,
+    "cholmod-amd": 10**9,
+    "cholmod-metis": 10**9,
+    "ldlt": 400_000,
+    "amg": 1_500_000,
+    "jacobi-cg": 1_500_000,
+    "cg": 100_000,
+}
+CHOLMOD = ("cholmod-amd", "cholmod-metis")
+RIGHT_HAND_SIDES = 4
+
+
+def measured(solvers, mesh, method, tolerance):
+    if method != "amg":
+        command = [solvers, mesh, method, str(RIGHT_HAND_SIDES), str(tolerance)]
+        return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "matrix"
+        subprocess.run([solvers, mesh, f"matrix={file}", str(RIGHT_HAND_SIDES), str(tolerance)], check=True)
+        command = [sys.executable, Path(__file__).with_name("pyamg_solver.py"), file, str(tolerance)]
+        return json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
+def seconds(method, result):
+    own = result["assembly"] if method in ("multigrid", "direct") else 0.0
+    return own + result["set_up"] + result["solve"]
+
+
+def compare(solvers, name, mesh, faces, options):
+    """Measures every solver in turn, so that a load on the machine meets all of them; returns rows for the table."""
+    methods = [m for m in options.methods if faces <= MOST_FACES[m]]
+    runs = {m: [] for m in methods}
+    for _ in range(options.runs):
+        for method in methods:
+            slow = method in ("cg", "jacobi-cg", "ldlt", "amg")
+            if not (slow and runs[method]):
+                runs[method].append(measured(solvers, mesh, method, options.tolerance))
+    rows = []
+    for method, results in runs.items():
+        results.sort(key=lambda r: seconds(method, r))
+        rows.append({"surface": name, "method": method, "seconds": seconds(method, results[len(results) // 2])})
+        rows[-1].update(results[len(results) // 2], faces=faces)
+    return rows
+
+
+def print_table(rows):
+    best = min((r["seconds"] for r in rows if r["method"] in CHOLMOD), default=np.nan)
+    for r in rows:
+        print(
+            f"{r['surface']:14} {r['faces']:>8} {r['method']:14} {r['seconds']:9.3f} s  {r['seconds'] / best:8.2f}  "
+            f"{r['assembly']:6.3f} {r['set_up']:7.3f} {r['solve']:8.3f}  {r['iterations']:6} {r['residual']:9.1e}  "
+            f"{r['peak_bytes'] / 1e9:6.2f} GB",
+            flush=True,
+        )
+
+
+def plot(rows, path):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    names = list(dict.fromkeys(r["surface"] for r in rows))
+    figure, axes = pyplot.subplots(1, len(names), figsize=(4 * len(names), 4), squeeze=False, sharey=True)
+    for axis, name in zip(axes[0], names, strict=True):
+        for method in MOST_FACES:
+            points = sorted((r["faces"], r["seconds"]) for r in rows if (r["surface"], r["method"]) == (name, method))
+            if points:
+                axis.loglog(*zip(*points, strict=True), "o-", label=method, linewidth=3 if method == "multigrid" else 1)
+        axis.set(title=name, xlabel="faces")
+        axis.grid(True, which="both", alpha=0.3)
+    axes[0, 0].set_ylabel("seconds")
+    axes[0, -1].legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(path, dpi=120)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[1])
+    parser.add_argument("meshes", nargs="*", type=Path)
+    parser.add_argument("--faces", nargs="*", type=int, default=[50_000, 250_000, 1_000_000, 4_000_000])
+    parser.add_argument("--surfaces", nargs="*", choices=SURFACES, default=list(SURFACES))
+    parser.add_argument("--methods", nargs="*", choices=MOST_FACES, default=list(MOST_FACES))
+    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--tolerance", type=float, default=1e-10, help="relative residual of the iterative solvers")
+    parser.add_argument("--json", type=Path, default=ROOT / "build" / "solvers.json")
+    parser.add_argument("--plot", type=Path, default=ROOT / "build" / "solvers.png")
+    options = parser.parse_args()
+    solvers = program("solvers")
+    print(f"{os.cpu_count()} cores, {RIGHT_HAND_SIDES} right-hand sides, relative residual {options.tolerance:g}")
+    print(f"{'':38} {'seconds':>11}  {'/CHOLMOD':>8}  {'asm':>6} {'set-up':>7} {'solve':>8}  {'iter.':>6}")
+    rows = []
+    with tempfile.TemporaryDirectory() as folder:
+        for faces in options.faces:
+            for name in options.surfaces:
+                vertices, triangles = SURFACES[name](faces)
+                mesh = write_ply(Path(folder) / f"{name}_{faces}.ply", vertices, triangles)
+                rows += compare(solvers, name, mesh, len(triangles), options)
+                print_table([r for r in rows if r["surface"] == name and r["faces"] == rows[-1]["faces"]])
+                mesh.unlink()
+        for mesh in options.meshes:
+            faces = measured(solvers, mesh, "multigrid", options.tolerance)["faces"]
+            rows += compare(solvers, mesh.stem[:14], mesh, faces, options)
+            print_table([r for r in rows if r["surface"] == mesh.stem[:14]])
+    options.json.parent.mkdir(parents=True, exist_ok=True)
+    options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+    if rows:
+        plot(rows, options.plot)
+
+
+if __name__ == "__main__":
+    main()
