@@ -80,7 +80,7 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>
 
 ClosedForms harmonic_basis(const HalfEdges& mesh, const std::vector<double>& weights,
                            const topology::IntegerForms& classes, solver::LaplaceSolver& solver, Progress& progress) {
-  return {classes, solver.solve(codifferentials(mesh, weights, classes), progress)};
+  return {classes, solver.solve(codifferentials(mesh, weights, classes), solver::Condition::natural, progress)};
 }
 
 RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end) {

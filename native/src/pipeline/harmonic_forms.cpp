@@ -6,7 +6,7 @@ HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vecto
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                              const Options& options, Progress& progress) {
   const auto choice = solver::choose_method(options.solver, laplacian.rows(), classes.form_count);
-  const auto solver = solver::make_solver(choice.method, std::move(laplacian), progress);
+  const auto solver = solver::make_solver(choice.method, std::move(laplacian), {}, progress);
   HarmonicForms result;
   result.forms = forms::harmonic_basis(half_edges, weights, classes, *solver, progress);
   const std::string remark = solver->remark();

@@ -1,5 +1,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cassert>
 #include <sstream>
 
 #include "solver/laplace_solver.h"
@@ -18,16 +19,17 @@ constexpr int kMostRefinements = 4;
 // the residual is no more than this part of the terms that it is the difference of, a few dozen rounding errors.
 constexpr double kRounding = 1e-14;
 
-// L without the row and column of the last vertex, lower triangle: positive definite for a connected surface.
-Laplacian pinned(const Laplacian& L, Progress& progress) {
+// L without the row and column of one vertex, lower triangle: positive definite for a connected surface.
+Laplacian pinned(const Laplacian& L, Eigen::Index vertex, Progress& progress) {
   const auto n = L.rows() - 1;
   Laplacian lower(n, n);
   lower.reserve(L.nonZeros() / 2 + n);
-  for (Eigen::Index column = 0; column < n; ++column) {
-    progress.step(column, n, 0.0, 0.1);
-    lower.startVec(column);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    progress.step(i, n, 0.0, 0.1);
+    const Eigen::Index column = i < vertex ? i : i + 1;
+    lower.startVec(i);
     for (Laplacian::InnerIterator it(L, column); it; ++it) {
-      if (it.row() >= column && it.row() < n) lower.insertBack(it.row(), column) = it.value();
+      if (it.row() >= column && it.row() != vertex) lower.insertBack(it.row() - (it.row() > vertex), i) = it.value();
     }
   }
   lower.finalize();
@@ -36,13 +38,21 @@ Laplacian pinned(const Laplacian& L, Progress& progress) {
 
 class DirectSolver final : public LaplaceSolver {
  public:
-  DirectSolver(Laplacian&& L, Progress& progress) {
+  // A held vertex is pinned where there is one: it is a single unknown less in both problems.
+  DirectSolver(Laplacian&& L, std::vector<int> held, Progress& progress) : held_(std::move(held)) {
     L_.swap(L);
-    factor_.compute(pinned(L_, progress));
+    pin_ = held_.empty() ? L_.rows() - 1 : held_.back();
+    std::vector<char> last(held_.empty() ? 0 : L_.rows() - 1);
+    for (const int v : held_) {
+      if (v != pin_) last[v] = 1;
+    }
+    factor_.compute(pinned(L_, pin_, progress), std::move(last));
     progress.report(0.8);
   }
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Progress& progress) override {
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) override {
+    assert(condition == Condition::natural || !held_.empty());
+    condition_ = condition;
     Eigen::MatrixXd X(B.rows(), B.cols());
     const auto block = std::max<Eigen::Index>(1, kBlockEntries / B.rows());
     for (Eigen::Index first = 0; first < B.cols(); first += block) {
@@ -56,18 +66,19 @@ class DirectSolver final : public LaplaceSolver {
   std::string name() const override { return "direct: " + SparseCholesky::name(); }
 
  private:
-  Eigen::MatrixXd solve_block(const Eigen::MatrixXd& B, Progress& progress) {
+  Eigen::MatrixXd solve_block(Eigen::MatrixXd B, Progress& progress) {
     progress.report(done_);
-    Eigen::MatrixXd X = apply(B), R = B - L_ * X;
+    if (condition_ == Condition::dirichlet) B(held_, Eigen::all).setZero();
+    Eigen::MatrixXd X = apply(B), R = rest(X, B);
     double residual = relative(R, B);
     for (int step = 0; residual > kGoal && step < kMostRefinements; ++step) {
       progress.report(done_);
       const Eigen::MatrixXd better = X + apply(R);
-      const Eigen::MatrixXd rest = B - L_ * better;
-      const double reached = relative(rest, B);
+      const Eigen::MatrixXd better_rest = rest(better, B);
+      const double reached = relative(better_rest, B);
       if (!(reached < residual)) break;
       X = better;
-      R = rest;
+      R = better_rest;
       residual = reached;
       iterations_ = std::max(iterations_, step + 1);
     }
@@ -81,13 +92,21 @@ class DirectSolver final : public LaplaceSolver {
     return X;
   }
 
-  // The solution that is 0 at the pinned vertex.
+  // The solution that is 0 at the pinned vertex, or at all that are held.
   Eigen::MatrixXd apply(const Eigen::MatrixXd& B) {
-    const auto n = B.rows() - 1;
-    Eigen::MatrixXd X(n + 1, B.cols());
-    X.topRows(n) = factor_.solve(B.topRows(n));
-    X.row(n).setZero();
+    const auto before = pin_, after = B.rows() - 1 - pin_;
+    Eigen::MatrixXd others(B.rows() - 1, B.cols());
+    others << B.topRows(before), B.bottomRows(after);
+    others = condition_ == Condition::dirichlet ? factor_.solve_held(others) : factor_.solve(others);
+    Eigen::MatrixXd X(B.rows(), B.cols());
+    X << others.topRows(before), Eigen::RowVectorXd::Zero(B.cols()), others.bottomRows(after);
     return X;
+  }
+
+  Eigen::MatrixXd rest(const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) const {
+    Eigen::MatrixXd R = B - L_ * X;
+    if (condition_ == Condition::dirichlet) R(held_, Eigen::all).setZero();
+    return R;
   }
 
   bool is_rounding(const Eigen::MatrixXd& R, const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) const {
@@ -107,14 +126,17 @@ class DirectSolver final : public LaplaceSolver {
   }
 
   Laplacian L_;
+  std::vector<int> held_;
+  Eigen::Index pin_ = 0;
   SparseCholesky factor_;
-  double done_ = 0;  // for the progress function
+  Condition condition_ = Condition::natural;  // of the solve that runs
+  double done_ = 0;                           // for the progress function
 };
 
 }  // namespace
 
-std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, Progress& progress) {
-  return std::make_unique<DirectSolver>(std::move(L), progress);
+std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int> held, Progress& progress) {
+  return std::make_unique<DirectSolver>(std::move(L), std::move(held), progress);
 }
 
 }  // namespace holomorph::solver

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/progress.h"
 
@@ -17,15 +18,22 @@ using Laplacian = Eigen::SparseMatrix<double>;
 /// The direct one also takes what rounding allows where weights are large, |L x - b| <= 1e-14 ||L| |x| + |b||.
 inline constexpr double kResidual = 1e-10;
 
+/// Which problem is solved. A solver is made for one set of vertices that can be held at 0, mostly those of the
+/// boundary.
+enum class Condition {
+  natural,   ///< L x = b at every vertex: nothing is held, and the flux through the boundary is part of b
+  dirichlet  ///< x = 0 at the held vertices, L x = b at the others
+};
+
 class LaplaceSolver {
  public:
   virtual ~LaplaceSolver() = default;
 
   /// Solves for all right-hand sides at once.
-  /// @param B #V x #rhs, each column summing to 0
-  /// @return #V x #rhs, each column up to a constant
+  /// @param B #V x #rhs; natural: each column sums to 0; dirichlet: the rows of held vertices are ignored
+  /// @return #V x #rhs; natural: each column up to a constant; dirichlet: 0 at the held vertices, exactly
   /// @throws SolverError with the residual reached and the size of the system; Cancelled
-  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Progress& progress) = 0;
+  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) = 0;
 
   /// What was used, e.g. "direct: CHOLMOD supernodal, AMD".
   virtual std::string name() const = 0;
@@ -43,9 +51,11 @@ class LaplaceSolver {
   int iterations_ = 0;
 };
 
-/// Sparse Cholesky with one vertex pinned: CHOLMOD where the library was built with it, Eigen's otherwise.
+/// Sparse Cholesky with one vertex pinned: CHOLMOD where the library was built with it, Eigen's otherwise. CHOLMOD
+/// takes the held vertices last, so that one factorisation serves both conditions.
+/// @param held vertices, ascending and distinct; none for a closed surface, where dirichlet must not be asked for
 /// @throws SolverError if the factorisation fails; Cancelled before or after it
-std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, Progress& progress);
+std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int> held, Progress& progress);
 
 /// Conjugate gradients for up to 8 right-hand sides at once, preconditioned by algebraic multigrid in single precision
 /// inside a correction in double precision: linear time and memory. Takes weights of any signs, fewer iterations
@@ -54,7 +64,7 @@ std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, Progress& progr
 /// @throws SolverError if the direct solver fails as well; Cancelled
 /// Cost: about 1 us per vertex and 2 us per vertex and 4 right-hand sides on one thread; 0.35 KB per vertex
 /// for 4 right-hand sides.
-std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, Progress& progress);
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, Progress& progress);
 
 enum class Method { direct, multigrid };
 
@@ -67,6 +77,7 @@ struct Choice {
 /// depend on the machine
 Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Index right_hand_sides);
 
-std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, Progress& progress);
+/// @param held vertices in any order; out of range: our bug
+std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress);
 
 }  // namespace holomorph::solver

@@ -8,7 +8,7 @@ namespace {
 
 class MultigridSolver final : public LaplaceSolver {
  public:
-  MultigridSolver(Laplacian&& L, Progress& progress) {
+  MultigridSolver(Laplacian&& L, std::vector<int> held, Progress& progress) : held_(std::move(held)) {
     L_.swap(L);
     L_.makeCompressed();
     try {
@@ -19,15 +19,16 @@ class MultigridSolver final : public LaplaceSolver {
     progress.report(kSetUp);
   }
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Progress& progress) override {
-    if (!direct_) {
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) override {
+    if (!direct_ && condition == Condition::natural) {
       try {
         return solve_by_multigrid(B, progress);
       } catch (const SolverError& error) {
         fall_back(error, progress);
       }
     }
-    Eigen::MatrixXd X = direct_->solve(B, progress);
+    if (!direct_) direct_ = make_direct_solver(std::move(L_), held_, progress);
+    Eigen::MatrixXd X = direct_->solve(B, condition, progress);
     residual_ = std::max(residual_, direct_->residual());
     iterations_ = direct_->iterations();
     return X;
@@ -46,7 +47,7 @@ class MultigridSolver final : public LaplaceSolver {
   void fall_back(const SolverError& error, Progress& progress) {
     remark_ = std::string("the direct solver took over: ") + error.what();
     hierarchy_ = {};
-    direct_ = make_direct_solver(std::move(L_), progress);
+    direct_ = make_direct_solver(std::move(L_), held_, progress);
   }
 
   // Blocks of 8, and at the end one of 4 or 2 where that is enough.
@@ -88,6 +89,7 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   Laplacian L_;  // moved on to the direct solver, where that takes over
+  std::vector<int> held_;
   Workers workers_;
   Hierarchy hierarchy_;
   std::unique_ptr<LaplaceSolver> direct_;
@@ -96,8 +98,8 @@ class MultigridSolver final : public LaplaceSolver {
 
 }  // namespace
 
-std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, Progress& progress) {
-  return std::make_unique<MultigridSolver>(std::move(L), progress);
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, Progress& progress) {
+  return std::make_unique<MultigridSolver>(std::move(L), std::move(held), progress);
 }
 
 }  // namespace holomorph::solver

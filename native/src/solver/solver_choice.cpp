@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "base/errors.h"
@@ -39,9 +41,12 @@ Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Inde
   return {Method::direct, "many right-hand sides: " + system};
 }
 
-std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, Progress& progress) {
-  return method == Method::direct ? make_direct_solver(std::move(L), progress)
-                                  : make_multigrid_solver(std::move(L), progress);
+std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress) {
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  assert(held.empty() || (held.front() >= 0 && held.back() < L.rows()));
+  return method == Method::direct ? make_direct_solver(std::move(L), std::move(held), progress)
+                                  : make_multigrid_solver(std::move(L), std::move(held), progress);
 }
 
 }  // namespace holomorph::solver

@@ -4,11 +4,15 @@
 #include <Eigen/SparseCore>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace holomorph::solver {
 
 /// Factorises a positive definite matrix given by its lower triangle. CHOLMOD's supernodal method with AMD ordering,
 /// its BLAS on one thread (so that the bits do not depend on the number of threads); else Eigen's simplicial LDL^T.
+///
+/// Some unknowns may be `held`: eliminated after all others, so that the factor of the matrix without them is a part of
+/// the factor of the whole, and both systems are solved with one factorisation (CHOLMOD; Eigen's method makes another).
 class SparseCholesky {
  public:
   SparseCholesky();
@@ -16,9 +20,13 @@ class SparseCholesky {
   SparseCholesky(const SparseCholesky&) = delete;
   SparseCholesky& operator=(const SparseCholesky&) = delete;
 
+  /// @param held one flag per unknown, or empty for none
   /// @throws SolverError if the matrix is not positive definite or memory runs out
-  void compute(const Eigen::SparseMatrix<double>& lower);
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
+  void compute(const Eigen::SparseMatrix<double>& lower, std::vector<char> held);
+  /// The solution of the whole system.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B);
+  /// The solution that is 0 at the held unknowns, of the equations of the others.
+  Eigen::MatrixXd solve_held(const Eigen::MatrixXd& B);
 
   static std::string name();
   /// Whether it is CHOLMOD's supernodal method, several times faster than the other on large systems.
