@@ -40,10 +40,21 @@ def addon_package():
     return importlib.import_module
 
 
+def _add_choices(parser):
+    group = parser.add_argument_group("choices on one object (vertices counted from 0)")
+    group.add_argument("--puncture", type=int, action="append", default=[], metavar="V", help="may be repeated")
+    group.add_argument("--residues", default="", metavar='"R R ..."', help="one for each puncture, may be complex")
+    group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
+    group.add_argument("--selection", choices=("automatic", "punctures", "rectangle", "none"), default="none")
+    group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
+    group.add_argument("--boundary", choices=("natural", "double_cover"), default="natural")
+    group.add_argument("--solver", choices=("auto", "direct", "multigrid"), default="auto")
+
+
 def parse(arguments):
     parser = Parser(
         prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
-        description="Conformal UV maps for the closed surfaces with handles in a mesh file or a .blend file.",
+        description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
     )
     parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY or STL; else the meshes of the .blend")
     parser.add_argument("--output", type=Path, help="where to save the .blend with the maps")
@@ -53,6 +64,7 @@ def parse(arguments):
     parser.add_argument("--forms", type=int, default=8, help="at most so many maps of single forms")
     parser.add_argument("--shown", type=int, default=0, help="the active map: 0 is the main one")
     parser.add_argument("--density", type=float, default=1.0, help="factor of all UV lengths")
+    parser.add_argument("--margin", type=float, default=0.02, help="between parts, as a share of the UV square")
     parser.add_argument("--rotation", type=float, default=0.0, help="degrees by which all maps are turned")
     parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
@@ -60,12 +72,17 @@ def parse(arguments):
     parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
     parser.add_argument("--resolution", type=int, default=800, help="pixels of the picture's sides")
     parser.add_argument("--samples", type=int, default=24, help="samples per pixel")
+    _add_choices(parser)
     options = parser.parse_args(arguments)
     for path in (options.output, options.render, options.report):
         if path is not None and not path.resolve().parent.is_dir():
             raise UsageError(f"{path}: the folder {path.resolve().parent} does not exist")
     if options.forms < 0 or options.density <= 0 or options.checker_scale < 0 or options.shown < 0:
         raise UsageError("--forms, --shown and --checker-scale cannot be negative, and --density must be positive")
+    if not 0 <= options.margin < 1:
+        raise UsageError("--margin must be at least 0 and less than 1")
+    if options.puncture and options.rectangle:
+        raise UsageError("--puncture and --rectangle exclude each other")
     if options.resolution < 1 or options.samples < 1:
         raise UsageError("--resolution and --samples must be at least 1")
     return options
@@ -105,35 +122,52 @@ def objects_in_file(options):
     return meshes
 
 
+def request(options, choices, run):
+    """What is asked of every object; vertices are named for a single one."""
+    try:
+        residues = choices.numbers(options.residues)
+    except ValueError as error:
+        raise UsageError(f"--residues: {error}") from error
+    use, vertices = options.selection.upper(), None
+    if options.puncture:
+        use, vertices = choices.PUNCTURES, tuple(options.puncture)
+    elif options.rectangle:
+        use, vertices = choices.RECTANGLE, tuple(options.rectangle)
+    return run.Request(use, vertices, residues, options.cut_at_seams, options.boundary, options.solver)
+
+
 def process(options):
     """Does the job; returns the sentences about what was not done."""
     load = addon_package()
     native = load(f"{PACKAGE}.native")
     if native.problem():
         raise UsageError(native.problem())
-    jobs, maps, mesh_io, report, run = (
-        load(f"{PACKAGE}.{name}") for name in ("jobs", "maps", "mesh_io", "report", "run")
+    choices, jobs, maps, mesh_io, report, run = (
+        load(f"{PACKAGE}.{name}") for name in ("choices", "jobs", "maps", "mesh_io", "report", "run")
     )
+    asked = request(options, choices, run)
     holomorph = native.load()
     start = time.perf_counter()
     if options.mesh is None:
         objects = objects_in_file(options)
+        if asked.vertices is not None and len(objects) > 1:
+            raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
-        targets = run.collect(objects)
+        targets = run.collect(objects, asked)
     else:
         try:
             obj, positions = import_mesh(options, holomorph, mesh_io)
         except holomorph.Error as error:
             raise UsageError(str(error)) from error
         objects = [obj]
-        targets = [run.with_positions(target, positions) for target in run.collect(objects)]
-    job = jobs.Job(run.polygons_to_solve(targets))
+        targets = [run.with_positions(target, positions) for target in run.collect(objects, asked)]
+    job = jobs.Job(run.tasks(targets))
     job.run()
     outcome = run.write(
         bpy.context,
         targets,
         run.align(targets, job.results),
-        maps.MapOptions(options.forms, options.density, options.rotation * Z_UP_FROM_Y_UP / 90),
+        maps.MapOptions(options.forms, options.density, options.rotation * Z_UP_FROM_Y_UP / 90, margin=options.margin),
         run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams),
     )
     content = report.run_report(outcome.entries)

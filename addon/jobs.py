@@ -7,18 +7,18 @@ from . import cache, native, solve
 
 
 class Job:
-    """Solves a list of `Polygons` one after the other.
+    """Solves a list of `solve.Task` one after the other.
 
     `results[i]` is a `SolvedObject`, or the `holomorph.Error` that refused the mesh. After `cancel()` the
     thread ends at the library's next question, and nothing more is solved or kept.
     """
 
-    def __init__(self, polygons, progress=None):
-        self.results = [None] * len(polygons)
+    def __init__(self, tasks, progress=None):
+        self.results = [None] * len(tasks)
         self.fraction = 0.0
         self.stage = ""
         self.failure = None  # anything but holomorph.Error is our bug: raised again in the main thread
-        self._polygons = polygons
+        self._tasks = tasks
         self._progress = progress
         self._cancelled = threading.Event()
         self._thread = threading.Thread(target=self._guarded_run, name="holomorph")
@@ -29,18 +29,17 @@ class Job:
     def run(self):
         """Solves here and now, in the calling thread."""
         error_type = native.load().Error
-        for index, polygons in enumerate(self._polygons):
+        for index, task in enumerate(self._tasks):
             if self._cancelled.is_set():
                 return
-            fingerprint = polygons.fingerprint
-            solved = cache.find(fingerprint)
+            solved = cache.find(task.key)
             if solved is None:
                 try:
-                    solved = solve.solve(polygons, lambda f, s, i=index: self._ask(i, f, s))
+                    solved = solve.solve(task, lambda f, s, i=index: self._ask(i, f, s))
                 except error_type as error:
                     solved = error
                 else:
-                    cache.keep(fingerprint, solved)
+                    cache.keep(task.key, solved)
             self.results[index] = solved
 
     def cancel(self):
@@ -63,7 +62,7 @@ class Job:
             self.failure = error
 
     def _ask(self, index, fraction, stage):
-        self.fraction = (index + fraction) / len(self._polygons)
+        self.fraction = (index + fraction) / len(self._tasks)
         self.stage = stage
         if self._progress is not None:
             self._progress(self.fraction, stage)

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV maps out of a solve: coefficients, dials, scale and rotation. Arrays only, no bpy."""
+"""UV maps out of a solve: coefficients, dials, and the parts side by side in the UV square. Arrays only, no bpy.
+
+All parts of a map have the same texel density (UV area in proportion to surface area), and at density 1 they fill the
+square from 0 to 1 together. Nothing here needs a new solve.
+"""
 
 import cmath
 import math
@@ -7,12 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from . import layout
 from .mesh_io import MAIN_MAP
 
 SAMPLED = 50_000  # triangles, for a median
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
-CENTRE = 0.5 + 0.5j  # every component is centred in the unit square; artists pack from there
+CENTRE = 0.5 + 0.5j  # of the UV square
 
 
 @dataclass(frozen=True)
@@ -20,14 +25,33 @@ class MapOptions:
     """What the redo panel's sliders change; none of it needs a new solve."""
 
     forms: int = 8  # basis forms that get a map of their own, at most
-    density: float = 1.0  # factor of UV lengths; at 1 each component has UV area 1
-    rotation: float = 0.0  # radians, counter-clockwise
+    density: float = 1.0  # factor of UV lengths, about the middle of the UV square
+    rotation: float = 0.0  # radians, counter-clockwise, of every part
     amounts: tuple = ()  # factor of each form's share in the main map; none means 1
     turns: tuple = ()  # radians, phase of each form's share in the main map
+    margin: float = 0.02  # least distance between parts, in sides of the UV square
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Of the map of one part, turned but not scaled: the bounding box in the complex plane, and the area."""
+
+    low: complex
+    high: complex
+    area: float
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a part comes to lie: it is multiplied by `factor`, `origin` goes to `target`."""
+
+    factor: complex
+    origin: complex
+    target: complex
 
 
 def map_names(solved, options):
-    """The main map, then one for each form up to the largest genus among the components."""
+    """The main map, then one for each form up to the largest number among the components."""
     count = min(solved.form_count, options.forms)
     return [MAIN_MAP] + [f"{MAIN_MAP} {j + 1}" for j in range(count)]
 
@@ -36,56 +60,84 @@ def map_values(solved, options):
     """Yields (name, (#C,2) float32) for every map; components that lack the form are zero there."""
     for index, name in enumerate(map_names(solved, options)):
         uv = np.zeros((len(solved.surface.corner_vertices), 2), np.float32)
-        for component in solved.components:
-            if component.structure is not None and index <= component.form_count:
-                uv[component.surface.corner_index] = component_uv(component, index, options)
+        parts = _parts(solved, index)
+        raw = [_raw(part, index, options) for part in parts]
+        for part, z, place in zip(parts, raw, _places(parts, index, options, raw)):
+            uv[part.surface.corner_index] = _placed(z, place)
         yield name, uv
 
 
+def _parts(solved, index):
+    return [c for c in solved.done if index == 0 or index <= c.form_count]
+
+
 def coefficients(component, index, options):
-    """(g,) complex: the balanced combination with its dials for index 0, else the unit of form `index`."""
+    """The balanced combination with its dials for index 0, else the unit of form `index`.
+
+    Real where the balanced ones are: a turned share would bend the boundaries that are straight.
+    """
+    balanced = np.asarray(component.balanced)
     if index > 0:
-        return np.eye(component.form_count, dtype=complex)[index - 1]
-    dials = np.array(options.amounts) * np.exp(1j * np.array(options.turns))
-    result = np.array(component.balanced, complex)
+        return np.eye(component.form_count, dtype=balanced.dtype)[index - 1]
+    dials = np.array(options.amounts, float)
+    if np.iscomplexobj(balanced):
+        dials = dials * np.exp(1j * np.array(options.turns))
+    result = balanced.copy()
     shared = min(len(result), len(dials))
     result[:shared] *= dials[:shared]
     return result
 
 
+def _raw(component, index, options):
+    """(#C of the component,) complex u + i v as the library gives them."""
+    uv = component.structure.uv(coefficients(component, index, options))
+    return np.ascontiguousarray(uv, np.float64).view(np.complex128)[:, 0]
+
+
 def uv_area(z, triangle_corners):
-    """The signed integral of du dv over the triangles, z = u + i v at the corners."""
+    """The sum of the triangles' areas in UV, whichever way they lie; z = u + i v at the corners."""
     p, q, r = z[triangle_corners].T
-    return 0.5 * float(np.vdot(q - p, r - p).imag)
+    return 0.5 * float(np.abs(((q - p).conj() * (r - p)).imag).sum())
 
 
-def component_uv(component, index, options):
-    """(#C of the component, 2) float64 with UV area density^2, centred in the unit square.
-
-    Centred before rounding to float32: the two copies of a seam edge stay equal to the last bits.
-    """
-    z = _as_complex(component.structure.uv(coefficients(component, index, options)))
-    middle, area = _frame(component, index, options, z)
-    # No area is left where all dials are at zero: a point, in the middle like everything else.
-    scale = options.density / math.sqrt(area) * cmath.exp(1j * options.rotation) if area > 0 else 0
-    z = z - middle
-    z *= scale
-    z += CENTRE
-    return z.view(np.float64).reshape(-1, 2)
-
-
-def _frame(component, index, options, z):
-    """The middle of the bounding box and the area, kept: they cost more than everything else here."""
-    key = (index, options.amounts, options.turns) if index == 0 else index
+def _frame(component, index, options, z=None):
+    """The frame, kept: it costs more than everything else here."""
+    dials = (options.amounts, options.turns) if index == 0 else ()
+    key = (index, options.rotation, dials)
     if key not in component.frames:
-        u, v = z.real, z.imag
-        middle = complex(u.min() + u.max(), v.min() + v.max()) / 2
-        component.frames[key] = middle, abs(uv_area(z - middle, component.surface.triangle_corners))
+        z = _raw(component, index, options) if z is None else z
+        turned = z * cmath.exp(1j * options.rotation) if options.rotation else z
+        u, v = turned.real, turned.imag
+        area = uv_area(z - z[0], component.surface.triangle_corners)
+        component.frames[key] = Frame(complex(u.min(), v.min()), complex(u.max(), v.max()), area)
     return component.frames[key]
 
 
-def _as_complex(uv):
-    return np.ascontiguousarray(uv).view(np.complex128)[:, 0]
+def _places(parts, index, options, raw=None):
+    """A `Place` for each part. Where a map has no area, as with all dials at zero, the part shrinks to a point."""
+    frames = [_frame(part, index, options, z) for part, z in zip(parts, raw or [None] * len(parts))]
+    scales = [math.sqrt(part.area / frame.area) if frame.area > 0 else 0.0 for part, frame in zip(parts, frames)]
+    sizes = [[s * (f.high - f.low).real, s * (f.high - f.low).imag] for s, f in zip(scales, frames)]
+    corners, side = layout.pack(sizes, options.margin)
+    fit = options.density / side if side > 0 else 0.0
+    middle = complex(side, side) / 2
+    return [
+        Place(
+            fit * scale * cmath.exp(1j * options.rotation),
+            (frame.low + frame.high) / 2 * cmath.exp(-1j * options.rotation),
+            CENTRE + fit * (complex(*corner) + complex(*size) / 2 - middle),
+        )
+        for scale, frame, corner, size in zip(scales, frames, corners, sizes)
+    ]
+
+
+def _placed(z, place):
+    """(#C,2) float64. Moved to the middle first and rounded to float32 last: the two copies of a seam edge stay equal
+    to the last bits, and so does v along a straight boundary."""
+    z = z - place.origin
+    z *= place.factor
+    z += place.target
+    return z.view(np.float64).reshape(-1, 2)
 
 
 @dataclass(frozen=True)
@@ -95,7 +147,7 @@ class MainQuality:
     mean_angle: float
     density_ratio: float
     flipped: int  # triangles
-    length_ratio: float  # UV length per length on the surface, the median by area, at density 1
+    length_ratio: float  # UV length per length on the surface, the median by area, as the library gives the map
 
 
 def main_quality(component, options):
@@ -104,13 +156,11 @@ def main_quality(component, options):
     if dials not in component.qualities:
         uv = component.structure.uv(coefficients(component, 0, options))
         quality = component.structure.quality(uv)
-        _, area = _frame(component, 0, options, _as_complex(uv))
-        ratio = _median_by_area(component.surface, quality.area)
         component.qualities[dials] = MainQuality(
             float(quality.mean_angle),
             float(quality.density_ratio),
             int(np.count_nonzero(quality.flipped)),
-            math.sqrt(ratio / area) if area > 0 else 0.0,
+            math.sqrt(_median_by_area(component.surface, quality.area)),
         )
     return component.qualities[dials]
 
@@ -128,8 +178,8 @@ def _median_by_area(surface, values):
 
 def squares_that_fit(solved, options):
     """Checker squares per UV unit so that about `SQUARES_ACROSS` of them span the largest part that has a map."""
-    parts = [c for c in solved.components if c.structure is not None]
-    sizes = [float(np.linalg.norm(np.ptp(c.surface.vertices, axis=0))) for c in parts]
-    size, part = max(zip(sizes, parts), key=lambda pair: pair[0])
-    density = options.density * main_quality(part, options).length_ratio * size
+    sizes = [float(np.linalg.norm(np.ptp(c.surface.vertices, axis=0))) for c in solved.done]
+    largest = int(np.argmax(sizes))
+    part, place = solved.done[largest], _places(solved.done, 0, options)[largest]
+    density = abs(place.factor) * main_quality(part, options).length_ratio * sizes[largest]
     return min(max(2 * round(SQUARES_ACROSS / density / 2), 2), SQUARES_LIMIT) if density > 0 else SQUARES_ACROSS

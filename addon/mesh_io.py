@@ -10,6 +10,7 @@ import hashlib
 import re
 from dataclasses import dataclass
 
+import bmesh
 import bpy
 import numpy as np
 
@@ -124,9 +125,33 @@ def read_seams(mesh):
     return _get((mesh.edges, "use_seam"), 1, bool)
 
 
+def _edge_vertices(mesh):
+    return _get(compatibility.edge_vertex_values(mesh), 2, np.int32).reshape(-1, 2)
+
+
+def seam_vertices(mesh):
+    """(#S,2) vertices of the edges that are marked as seams."""
+    return _edge_vertices(mesh)[read_seams(mesh)].astype(np.int64)
+
+
+def selected_vertices(mesh):
+    """(n,) selected vertices: in edit mode in the order in which they were picked, as far as Blender remembers it."""
+    selected = np.flatnonzero(_get((mesh.vertices, "select"), 1, bool))
+    if not mesh.is_editmode:
+        return selected
+    history = bmesh.from_edit_mesh(mesh).select_history
+    picked = np.array([e.index for e in history if isinstance(e, bmesh.types.BMVert)], np.int64)
+    return np.concatenate([picked[np.isin(picked, selected)], selected[~np.isin(selected, picked)]])
+
+
+def are_neighbours(mesh, vertices):
+    """Whether some edge joins two of the vertices."""
+    return bool(np.isin(_edge_vertices(mesh), vertices).all(axis=1).any())
+
+
 def add_seams(mesh, vertex_pairs):
     """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
-    ends = np.sort(_get(compatibility.edge_vertex_values(mesh), 2, np.int32).reshape(-1, 2), axis=1)
+    ends = np.sort(_edge_vertices(mesh), axis=1)
     pairs = np.sort(np.asarray(vertex_pairs, np.int64).reshape(-1, 2), axis=1)
     count = len(mesh.vertices)
     wanted = np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])

@@ -2,7 +2,7 @@
 """The operators: one computes the maps, one brings the artist's materials back."""
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, FloatVectorProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from . import native
 
@@ -10,9 +10,51 @@ MODAL_FACES = 20_000  # below, a solve is too short to be worth a progress displ
 TIMER_SECONDS = 0.05
 DIALS = 8
 
+SELECTION_USES = (
+    (
+        "AUTOMATIC",
+        "Automatic",
+        "In edit mode: four selected boundary vertices of a disk become the corners of a rectangle, other single "
+        "vertices punctures. Selected edges and faces, and vertices that do not fit, are no choice",
+    ),
+    (
+        "PUNCTURES",
+        "Punctures",
+        "The texture runs around each selected vertex, and its density grows towards it without end: at least two on "
+        "a closed surface, one on a disk",
+    ),
+    (
+        "RECTANGLE",
+        "Rectangle",
+        "The four selected vertices on the boundary of a disk become the corners of an exact rectangle",
+    ),
+    ("NONE", "None", "The selection does not matter"),
+)
+BOUNDARIES = (
+    ("natural", "Natural", "Solve on the surface itself: fast"),
+    (
+        "double_cover",
+        "Double Cover",
+        "Glue two copies of the surface along the boundary and solve on the closed "
+        "double: the same result at more than twice the cost",
+    ),
+)
+SOLVERS = (
+    ("auto", "Automatic", "By size and number of forms"),
+    ("direct", "Direct", "Sparse Cholesky factorisation"),
+    ("multigrid", "Multigrid", "Linear time and memory"),
+)
+
+
+DRAWN = (  # in groups
+    ("density", "margin", "rotation", "forms", "shown"),
+    ("checker", "checker_scale", "seams"),
+    ("use_selection", "residues", "cut_at_seams", "boundary", "solver"),
+)
+
 
 class HOLOMORPH_OT_maps(bpy.types.Operator):
-    """Compute conformal UV maps for the closed surfaces with handles among the selected meshes.
+    """Compute conformal UV maps for the selected meshes, whatever their shape.
     Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
 
     bl_idname = "uv.holomorphic_maps"
@@ -21,7 +63,8 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
 
     forms: IntProperty(
         name="Form Maps",
-        description="At most so many maps of single forms, besides the main map; a surface of genus g has g",
+        description="At most so many maps of single forms, besides the main map; a closed surface of genus g has g, "
+        "one with b boundary loops 2 g + b - 1",
         default=8,
         min=0,
         soft_max=32,
@@ -35,13 +78,40 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
     )
     density: FloatProperty(
         name="Density",
-        description="Factor of all UV lengths; at 1 each connected part has UV area 1",
+        description="Factor of all UV lengths; at 1 the parts fill the UV square together, with equal texel density",
         default=1.0,
         min=1e-4,
         soft_min=0.1,
         soft_max=10.0,
     )
-    rotation: FloatProperty(name="Rotation", description="Turns all maps", subtype="ANGLE", unit="ROTATION")
+    margin: FloatProperty(
+        name="Margin",
+        description="Distance between connected parts, as a share of the UV square; less where there are many",
+        default=0.02,
+        min=0.0,
+        max=0.2,
+    )
+    rotation: FloatProperty(
+        name="Rotation", description="Turns every part of all maps", subtype="ANGLE", unit="ROTATION"
+    )
+    use_selection: EnumProperty(
+        name="Use Selection", description="What the selected vertices are", items=SELECTION_USES, default="AUTOMATIC"
+    )
+    residues: StringProperty(
+        name="Residues",
+        description="One number for each puncture, in the order of selection, for example 1 1 -2; they sum to 0 on a "
+        "closed surface, and may be complex (1+0.5j). Empty: chosen by themselves",
+        default="",
+    )
+    cut_at_seams: BoolProperty(
+        name="Use Seams as Cut",
+        description="Cut the maps along your seams where these make each part a disk; else the report says why not",
+        default=False,
+    )
+    boundary: EnumProperty(
+        name="Boundary", description="How surfaces with a boundary are solved", items=BOUNDARIES, default="natural"
+    )
+    solver: EnumProperty(name="Solver", description="How the linear systems are solved", items=SOLVERS, default="auto")
     amounts: FloatVectorProperty(
         name="Amount",
         description="Factor of each form's share in the main map; at 1 the density is most even",
@@ -52,7 +122,7 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
     )
     turns: FloatVectorProperty(
         name="Turn",
-        description="Angle by which each form's share in the main map is turned",
+        description="Angle by which each form's share in the main map is turned; boundaries stay straight all the same",
         size=DIALS,
         default=(0.0,) * DIALS,
         subtype="EULER",
@@ -96,8 +166,10 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        for name in ("density", "rotation", "forms", "shown", "checker", "checker_scale", "seams"):
-            layout.prop(self, name)
+        for group in DRAWN:
+            column = layout.column()
+            for name in group:
+                column.prop(self, name)
         for index in range(min(self.form_count, DIALS)):
             row = layout.row(align=True)
             row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
@@ -108,10 +180,12 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         from . import jobs, run
 
         targets = self._collect(context)
+        if targets is None:
+            return {"CANCELLED"}
         manager = context.window_manager
         manager.progress_begin(0.0, 1.0)
         try:
-            job = jobs.Job(run.polygons_to_solve(targets), lambda fraction, _stage: manager.progress_update(fraction))
+            job = jobs.Job(run.tasks(targets), lambda fraction, _stage: manager.progress_update(fraction))
             job.run()
         finally:
             manager.progress_end()
@@ -121,12 +195,14 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         from . import cache, jobs, run
 
         targets = self._collect(context)
-        waiting = [p for p in run.polygons_to_solve(targets) if cache.find(p.fingerprint) is None]
+        if targets is None:
+            return {"CANCELLED"}
+        waiting = [task.polygons for task in run.tasks(targets) if cache.find(task.key) is None]
         faces = sum(len(p.face_offsets) - 1 for p in waiting)
         if bpy.app.background or context.window is None or faces < MODAL_FACES:
             return self.execute(context)
         self._targets = targets
-        self._job = jobs.Job(run.polygons_to_solve(targets))
+        self._job = jobs.Job(run.tasks(targets))
         manager = context.window_manager
         self._timer = manager.event_timer_add(TIMER_SECONDS, window=context.window)
         manager.progress_begin(0.0, 1.0)
@@ -159,9 +235,22 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         self._end_modal(context)
 
     def _collect(self, context):
-        from . import run
+        """The targets, or None where the residues cannot be read."""
+        from . import choices, run
 
-        return run.collect(run.mesh_objects(context))
+        try:
+            residues = choices.numbers(self.residues)
+        except ValueError as error:
+            self.report({"ERROR"}, f"Residues: {error}")
+            return None
+        request = run.Request(
+            use=self.use_selection,
+            residues=residues,
+            cut_at_seams=self.cut_at_seams,
+            boundary=self.boundary,
+            solver=self.solver,
+        )
+        return run.collect(run.mesh_objects(context), request)
 
     def _show_progress(self, context):
         percent = round(100 * self._job.fraction)
@@ -176,7 +265,9 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
     def _write(self, context, targets, results, time_has_passed=False):
         from . import maps, run
 
-        map_options = maps.MapOptions(self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns))
+        map_options = maps.MapOptions(
+            self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns), self.margin
+        )
         write_options = run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams)
         outcome = run.write(context, targets, run.align(targets, results), map_options, write_options, time_has_passed)
         self.form_count = outcome.forms

@@ -13,7 +13,8 @@ from . import maps, native
 PROPERTY = "holomorph_report"
 SUMMARISED = 8  # parts that the panel shows
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
-MATRICES = ("period_matrix", "imaginary_part_bounds")
+MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
+VERTICES = ("punctures", "rectangle_corners")
 LISTED = 20  # elements of a repair that the report names
 TEXT = "Holomorphic Report"
 
@@ -28,26 +29,34 @@ def component_report(component, options):
         "boundary_count": surface.boundary_count,
         "done": component.structure is not None,
     }
+    if component.note:
+        entry["not_followed"] = component.note
     if component.structure is None:
         return {**entry, "skipped": component.reason}
     structure = component.structure
-    lower, upper = structure.period_bounds
     quality = maps.main_quality(component, options)
     return {
         **entry,
-        "period_matrix": _complex(structure.period_matrix),
-        "imaginary_part_bounds": {"lower": lower, "upper": upper},
+        "description": structure.description,
+        "forms": component.form_count,
+        **_invariants(surface, structure),
         "residuals": structure.residuals,
         "solver": structure.solver,
         "timings": structure.timings,
         "seam_edges": len(structure.seams),
-        "balanced_coefficients": _complex(component.balanced),
+        "balanced_coefficients": component.balanced,
         "main_map": {
             "mean_angle": quality.mean_angle,
             "density_ratio": quality.density_ratio,
             "flipped": quality.flipped,
         },
     }
+
+
+def _invariants(surface, structure):
+    """What this kind of structure knows about the surface; vertices as the object counts them."""
+    found = structure.invariants()
+    return {name: surface.vertex_index[value] if name in VERTICES else value for name, value in found.items()}
 
 
 def object_report(obj, solved, written, new_seams, options):
@@ -57,7 +66,7 @@ def object_report(obj, solved, written, new_seams, options):
         "mesh": obj.data.name,
         "vertices": len(solved.surface.vertices),
         "faces": len(solved.surface.face_offsets) - 1,
-        "done": solved.form_count > 0,
+        "done": bool(solved.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "seams_added": new_seams,
         "repairs": _repairs(solved.surface.repairs),
@@ -109,19 +118,33 @@ def summary(stored):
 
 
 def _summary(entry):
-    parts = entry["components"]
-    lines = [f"{len(entry['maps'])} maps"]
+    parts, count = entry["components"], len(entry["maps"])
+    lines = ["1 map" if count == 1 else f"{count} maps"]
     for index, part in enumerate(parts[:SUMMARISED], 1):
-        lines.append(f"Part {index}: genus {part['genus']}" + ("" if part["done"] else ", skipped"))
+        lines.append(f"Part {index}: {_topology(part)}" + ("" if part["done"] else ", skipped"))
         if part["done"]:
-            angle = part["main_map"]["mean_angle"]  # none where it is infinite
-            lines.append("    a UV triangle has collapsed" if angle is None else f"    angle distortion {angle:.4f}")
-        if part["done"] and part["genus"] == 1:
-            period = part["period_matrix"]
-            lines.append(f"    tau = {round(period['real'][0][0], 4) + 0.0:.4f} + {period['imag'][0][0]:.4f} i")
+            lines += [f"    {line}" for line in _result_lines(part)]
     if len(parts) > SUMMARISED:
         lines.append(f"... {len(parts) - SUMMARISED} more parts in the report")
     return lines
+
+
+def _topology(part):
+    loops = part["boundary_count"]
+    return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
+
+
+def _result_lines(part):
+    yield part["description"]
+    angle = part["main_map"]["mean_angle"]  # none where it is infinite
+    yield "a UV triangle has collapsed" if angle is None else f"angle distortion {angle:.4f}"
+    if part.get("modulus") is not None:
+        yield f"modulus {part['modulus']:.6g}"
+    if "modulus_bounds" in part:
+        yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
+    if part["genus"] == 1 and part["boundary_count"] == 0 and "period_matrix" in part:
+        real, imaginary = part["period_matrix"][0][0]
+        yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"
 
 
 def _repairs(repairs):
@@ -132,12 +155,9 @@ def _repairs(repairs):
     }
 
 
-def _complex(array):
-    array = np.asarray(array)
-    return {"real": array.real, "imag": array.imag}
-
-
 def _plain(value):
+    if isinstance(value, np.ndarray) and np.iscomplexobj(value):
+        return {"real": _plain(value.real), "imag": _plain(value.imag)}
     if isinstance(value, np.ndarray):
         return _plain(value.tolist())
     if isinstance(value, dict):

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field, replace
 import bpy
 import numpy as np
 
-from . import compatibility, maps, material, mesh_io, native, report
+from . import choices, compatibility, maps, material, mesh_io, native, report, solve
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
+MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
 
@@ -20,11 +21,24 @@ class Target:
     name: str
     library: str | None
     polygons: mesh_io.Polygons | None
+    chosen: choices.Choices = choices.Choices()
     refused: str = ""
     note: str = ""
 
     def find(self):
         return bpy.data.objects.get((self.name, self.library))
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked of every object of a run; the choices on each mesh are made of it."""
+
+    use: str = choices.NONE  # of the selected vertices
+    vertices: tuple | None = None  # instead of the selected ones
+    residues: tuple = ()
+    cut_at_seams: bool = False
+    boundary: str = "natural"
+    solver: str = "auto"
 
 
 @dataclass
@@ -53,8 +67,8 @@ def mesh_objects(context):
     return sorted(objects, key=lambda o: o != active)
 
 
-def collect(objects):
-    """Reads the polygons of every object; of those that share a mesh, the first speaks for it."""
+def collect(objects, request=Request()):
+    """Reads the polygons and the choices of every object; of those that share a mesh, the first speaks for it."""
     targets, first = [], {}
     for obj in objects:
         mesh = obj.data
@@ -68,10 +82,27 @@ def collect(objects):
         first[mesh] = len(targets), obj
         if mesh.library is not None:
             refused = "its mesh is linked from another file; make it local first"
-            targets.append(Target(obj.name, library, None, refused))
+            targets.append(Target(obj.name, library, None, refused=refused))
             continue
-        targets.append(Target(obj.name, library, read(obj)))
+        targets.append(Target(obj.name, library, read(obj), _choices(obj, request)))
     return targets
+
+
+def _choices(obj, request):
+    """What was chosen on this object; `read` has brought pending edits into the mesh before."""
+    seams = mesh_io.seam_vertices(obj.data) if request.cut_at_seams else np.empty((0, 2), np.int64)
+    selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
+    return choices.Choices(request.use, tuple(selected), request.residues, seams, request.boundary, request.solver)
+
+
+def _selected(obj, use):
+    """The selected vertices. Automatic use takes single vertices in edit mode, not faces or edges that are selected."""
+    if use == choices.NONE or (use == choices.AUTOMATIC and obj.mode != "EDIT"):
+        return ()
+    selected = mesh_io.selected_vertices(obj.data)
+    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_io.are_neighbours(obj.data, selected)):
+        return ()
+    return selected.tolist()
 
 
 def _linear(obj):
@@ -90,8 +121,8 @@ def with_positions(target, vertices):
     return replace(target, polygons=replace(target.polygons, vertices=vertices))
 
 
-def polygons_to_solve(targets):
-    return [t.polygons for t in targets if not t.refused]
+def tasks(targets):
+    return [solve.Task(t.polygons, t.chosen) for t in targets if not t.refused]
 
 
 def align(targets, results):
@@ -154,7 +185,7 @@ def write(context, targets, results, map_options, write_options, time_has_passed
                 outcome.refuse(target.name, _sentence(result))
             elif obj is None or (time_has_passed and read(obj).fingerprint != target.polygons.fingerprint):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")
-            elif result.form_count == 0:
+            elif not result.done:
                 _report_all_skipped(outcome, obj, result, map_options)
             else:
                 _write_object(outcome, obj, target.polygons, result, map_options, write_options)
@@ -168,23 +199,25 @@ def _sentence(error):
     return " ".join(str(error).split()) or type(error).__name__
 
 
-def _skip_sentences(obj, solved):
+def _problems(obj, solved):
+    """What was not done, or not as it was chosen."""
     count = len(solved.components)
     for index, component in enumerate(solved.components, 1):
+        part = "" if count == 1 else f"part {index} of {count} "
         if component.structure is None:
-            part = "" if count == 1 else f"part {index} of {count} "
-            yield f"{part}skipped: {component.reason}{_modifier_hint(obj, component)}"
+            yield f"{obj.name}: {part}skipped: {_sentence(component.reason)}"
+        if component.note:
+            yield f"{obj.name}: {part}made without your choice: {_sentence(component.note)}"
 
 
-def _modifier_hint(obj, component):
+def _modifier_notes(obj, solved):
     closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS]
-    if component.surface.boundary_count and closing:
-        return f" (modifiers are not looked at: apply {closing[0]!r} if it closes the surface)"
-    return ""
+    if closing and any(c.surface.boundary_count for c in solved.components):
+        yield f"{obj.name}: modifiers are not looked at: apply {closing[0]!r} if it closes the surface"
 
 
 def _report_all_skipped(outcome, obj, solved, options):
-    outcome.problems += [f"{obj.name}: {s}" for s in _skip_sentences(obj, solved)]
+    outcome.problems += _problems(obj, solved)
     outcome.entries.append(report.object_report(obj, solved, [], 0, options))
 
 
@@ -203,7 +236,8 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     outcome.entries.append(entry)
     outcome.done.append(obj.name)
     outcome.forms = max(outcome.forms, solved.form_count)
-    outcome.problems += [f"{obj.name}: {s}" for s in _skip_sentences(obj, solved)]
+    outcome.problems += _problems(obj, solved)
+    outcome.notes += _modifier_notes(obj, solved)
     extra = sum(w.kind == "attribute" for w in written)
     if extra:
         maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
@@ -219,9 +253,4 @@ def _show_checker(outcome, obj, solved, shown, map_options, options):
 
 def _seam_pairs(solved):
     """(#S,2) vertices of the object: where the maps are cut."""
-    pairs = [
-        c.surface.vertex_index[c.structure.edges[c.structure.seams]]
-        for c in solved.components
-        if c.structure is not None
-    ]
-    return np.concatenate(pairs)
+    return np.concatenate([c.surface.vertex_index[c.structure.edges[c.structure.seams]] for c in solved.done])

@@ -1,28 +1,57 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From polygons to conformal structures, component by component. No bpy here: it runs in a worker thread."""
 
+import functools
+import inspect
 import time
 from dataclasses import dataclass, field
 
-from . import native
+import numpy as np
+
+from . import choices, native
 
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
 
 
 @dataclass(frozen=True)
+class Task:
+    """A mesh to solve, and what was chosen on it."""
+
+    polygons: object
+    chosen: choices.Choices = choices.Choices()
+
+    @property
+    def key(self):
+        """Equal for tasks with the same result."""
+        return self.polygons.fingerprint, self.chosen.key
+
+
+@dataclass(frozen=True)
 class SolvedComponent:
-    """A connected part of the object; `structure` is None where it was skipped, and `reason` says why."""
+    """A connected part of the object; `structure` is None where the library refused it, and `reason` says why.
+
+    The structure is whatever `holomorph.conformal_structure` gives for the part's topology and the choices; all kinds
+    have `uv(coefficients)`, `balanced_coefficients()`, `quality`, `seams` and `description`.
+    """
 
     surface: object
     structure: object | None
-    balanced: object | None  # (g,) complex coefficients, UV area 1
-    reason: str
-    frames: dict = field(default_factory=dict, compare=False)  # middle and area of each map
+    balanced: object | None  # coefficients of the main map: complex, real on bounded surfaces, none for a fixed map
+    reason: str = ""
+    note: str = ""  # which choice was not followed, and why
+    frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
     qualities: dict = field(default_factory=dict, compare=False)  # of main maps, by their dials
 
     @property
     def form_count(self):
-        return 0 if self.structure is None else self.surface.genus
+        """How many forms an artist can mix."""
+        return 0 if self.balanced is None else len(self.balanced)
+
+    @functools.cached_property
+    def area(self):
+        """Of the surface."""
+        p, q, r = self.surface.vertices[self.surface.triangles].transpose(1, 0, 2)
+        return 0.5 * float(np.linalg.norm(np.cross(q - p, r - p), axis=1).sum())
 
 
 @dataclass(frozen=True)
@@ -34,41 +63,40 @@ class SolvedObject:
     seconds: float
 
     @property
+    def done(self):
+        """The components that have maps."""
+        return [c for c in self.components if c.structure is not None]
+
+    @property
     def form_count(self):
-        """The largest number of forms among the components; 0 if every one was skipped."""
+        """The largest number of forms among the components."""
         return max((c.form_count for c in self.components), default=0)
 
     @property
     def size(self):
         """About how many doubles the kept structures hold: the harmonic forms and the potentials."""
-        return sum(4 * c.form_count * len(c.structure.edges) for c in self.components if c.structure)
+        return sum((4 * c.form_count + 4) * len(c.structure.edges) for c in self.done)
 
 
-def reason_to_skip(component):
-    """Why a component gets no map, or an empty string: closed surfaces of genus at least 1 are treated."""
-    genus, boundaries = component.genus, component.boundary_count
-    if boundaries:
-        loops = "boundary loop" if boundaries == 1 else "boundary loops"
-        return f"it is open ({boundaries} {loops}, genus {genus}); only closed surfaces are treated"
-    if genus == 0:
-        return "it has no handle (genus 0, like a sphere), and only forms on handles are computed"
-    return ""
+def solve(task, progress=None):
+    """The conformal structure of every component.
 
-
-def solve(polygons, progress=None):
-    """The conformal structure of every closed component with a handle.
-
-    progress(fraction, stage) returning False cancels. Raises `holomorph.Error`.
+    progress(fraction, stage) returning False cancels. Raises `holomorph.Error` for a mesh that cannot be treated as a
+    whole, and where an express choice of vertices does not fit the part they lie on.
     """
     holomorph = native.load()
     start = time.perf_counter()
+    polygons = task.polygons
     surface = holomorph.Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
     parts = surface.components
+    stray = choices.stray_vertex(surface, task.chosen)
+    if stray is not None:
+        raise holomorph.InvalidMesh(f"vertex {stray} belongs to no face and cannot be chosen")
     total = max(sum(len(p.face_index) for p in parts), 1)
     solved, done = [], 0
     for part in parts:
         share = len(part.face_index) / total
-        solved.append(_solve_component(holomorph, part, _scaled(progress, done, share)))
+        solved.append(_solve_component(holomorph, part, task.chosen, _scaled(progress, done, share)))
         done += share
     return SolvedObject(surface, tuple(solved), time.perf_counter() - start)
 
@@ -79,10 +107,27 @@ def _scaled(progress, done, share):
     return lambda fraction, stage: progress(done + share * fraction, stage)
 
 
-def _solve_component(holomorph, part, progress):
-    reason = reason_to_skip(part)
-    if reason:
-        return SolvedComponent(part, None, None, reason)
-    structure = holomorph.conformal_structure(part, progress=_scaled(progress, 0.0, UV_START))
+def _solve_component(holomorph, part, chosen, progress):
+    """The first attempt that the library accepts; a part that it refuses altogether is skipped, with its sentence."""
+    note = ""
+    *earlier, last = choices.attempts(part, chosen)
+    for keywords in earlier:
+        try:
+            return _make(holomorph, part, keywords, note, progress)
+        except (holomorph.InvalidMesh, holomorph.TopologyError) as error:
+            note = note or str(error)
+    try:
+        return _make(holomorph, part, last, note, progress)
+    except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
+        if choices.is_about_vertices(last):
+            raise
+        return SolvedComponent(part, None, None, reason=str(error), note=note)
+
+
+def _make(holomorph, part, keywords, note, progress):
+    unknown = set(keywords) - set(inspect.signature(holomorph.conformal_structure).parameters)
+    if unknown:
+        raise holomorph.TopologyError(f"this version of the library has no {', '.join(sorted(unknown))}")
+    structure = holomorph.conformal_structure(part, progress=_scaled(progress, 0.0, UV_START), **keywords)
     structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
-    return SolvedComponent(part, structure, structure.balanced_coefficients(), "")
+    return SolvedComponent(part, structure, structure.balanced_coefficients(), note=note)

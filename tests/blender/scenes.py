@@ -109,6 +109,12 @@ def signed_area(mesh, values):
     return 0.5 * np.sum(values[:, 0] * values[following, 1] - values[following, 0] * values[:, 1])
 
 
+def fills_the_square(values, density=1.0):
+    """Whether the box of the UVs has its middle at that of the UV square and the square's size times `density`."""
+    low, high = values.min(axis=0), values.max(axis=0)
+    return np.allclose((low + high) / 2, 0.5, atol=1e-6) and abs((high - low).max() - density) < 1e-5 * density
+
+
 def edge_mismatch(mesh, values):
     """Largest difference of the two UV vectors of an edge, over the median UV edge; and what float32 forgives."""
     corners, offsets = polygon_arrays(mesh)

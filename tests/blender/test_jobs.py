@@ -11,13 +11,13 @@ from scenes import mesh_io, mesh_object, run, select, sphere_arrays, torus, toru
 native = module("native")
 
 
-def polygons_of(obj):
-    return mesh_io.read_polygons(obj.data, np.eye(3))
+def task_of(obj):
+    return module("solve").Task(mesh_io.read_polygons(obj.data, np.eye(3)))
 
 
 def test_a_worker_gives_what_the_main_thread_gives():
-    polygons = [polygons_of(torus("First")), polygons_of(mesh_object("Second", *sphere_arrays()))]
-    job = module("jobs").Job(polygons)
+    tasks = [task_of(torus("First")), task_of(mesh_object("Second", *sphere_arrays()))]
+    job = module("jobs").Job(tasks)
     job.start()
     job.wait()
     assert not job.is_running()
@@ -27,7 +27,7 @@ def test_a_worker_gives_what_the_main_thread_gives():
 def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
     vertices, faces = torus_arrays()
     bad = mesh_object("Bad", vertices * np.nan, faces)
-    job = module("jobs").Job([polygons_of(bad), polygons_of(torus())])
+    job = module("jobs").Job([task_of(bad), task_of(torus())])
     job.start()
     job.wait()
     assert isinstance(job.results[0], native.load().InvalidMesh)
@@ -35,23 +35,23 @@ def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
 
 
 def test_cancel_leaves_the_rest_undone():
-    polygons = polygons_of(torus(around=200, across=100))
+    task = task_of(torus(around=200, across=100))
     job = None
 
     def cancel_at_once(_fraction, _stage):
         job.cancel()
 
-    job = module("jobs").Job([polygons, polygons], cancel_at_once)
+    job = module("jobs").Job([task, task], cancel_at_once)
     job.start()
     job.wait()
     assert isinstance(job.results[0], native.load().Cancelled) and job.results[1] is None
-    assert module("cache").find(polygons.fingerprint) is None
+    assert module("cache").find(task.key) is None
 
 
 def test_progress_grows_from_0_to_1():
     seen = []
-    polygons = [polygons_of(torus("First", around=100)), polygons_of(torus("Second", around=120))]
-    job = module("jobs").Job(polygons, lambda fraction, stage: seen.append((fraction, stage)))
+    tasks = [task_of(torus("First", around=100)), task_of(torus("Second", around=120))]
+    job = module("jobs").Job(tasks, lambda fraction, stage: seen.append((fraction, stage)))
     job.run()
     fractions = [f for f, _ in seen]
     assert fractions and fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
@@ -63,7 +63,7 @@ def test_our_own_mistakes_come_out_of_the_thread(monkeypatch):
         raise ZeroDivisionError("our own mistake")
 
     monkeypatch.setattr(module("solve"), "solve", broken)
-    job = module("jobs").Job([polygons_of(torus())])
+    job = module("jobs").Job([task_of(torus())])
     job.start()
     with pytest.raises(ZeroDivisionError):
         job.wait()
@@ -78,25 +78,25 @@ def test_no_thread_is_left():
 def test_the_oldest_solves_go_when_memory_is_full(monkeypatch):
     cache = module("cache")
     objects = [torus(str(size), around=size) for size in (20, 24, 28)]
-    fingerprints = []
+    keys = []
     for obj in objects:
-        job = module("jobs").Job([polygons_of(obj)])
+        job = module("jobs").Job([task_of(obj)])
         job.run()
-        fingerprints.append(polygons_of(obj).fingerprint)
-    assert all(cache.find(f) for f in fingerprints)
+        keys.append(task_of(obj).key)
+    assert all(cache.find(key) for key in keys)
     monkeypatch.setattr(cache, "SIZE_LIMIT", 1)
-    module("jobs").Job([polygons_of(torus("Last", around=32))]).run()
-    assert not any(cache.find(f) for f in fingerprints)
-    assert cache.find(polygons_of(bpy.data.objects["Last"]).fingerprint)
+    module("jobs").Job([task_of(torus("Last", around=32))]).run()
+    assert not any(cache.find(key) for key in keys)
+    assert cache.find(task_of(bpy.data.objects["Last"]).key)
 
 
 def test_opening_a_file_forgets_the_solves():
     obj = torus()
     run()
-    fingerprint = mesh_io.read_polygons(obj.data, np.eye(3)).fingerprint
-    assert module("cache").find(fingerprint)
+    key = module("run").tasks(module("run").collect([obj]))[0].key
+    assert module("cache").find(key)
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    assert module("cache").find(fingerprint) is None
+    assert module("cache").find(key) is None
 
 
 @pytest.mark.skipif(bpy.app.version >= (4, 0, 0), reason="since 4.0 corners are always in the polygons' order")

@@ -151,13 +151,6 @@ def test_maps_of_an_earlier_run_survive_a_refusal():
     assert everything(obj) == before
 
 
-def test_an_open_surface_with_a_mirror_modifier_is_told_about_it():
-    obj, _ = open_surface()
-    obj.modifiers.new("My Mirror", "MIRROR")
-    with pytest.raises(RuntimeError, match="My Mirror"):
-        run()
-
-
 def test_a_linked_mesh_is_refused(tmp_path):
     torus("Linked")
     path = str(tmp_path / "library.blend")

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the artist chose on a mesh (vertices, seams, method), and what it means for each connected part. No bpy here.
+
+A choice becomes keywords of `holomorph.conformal_structure`. Choices that were made expressly are the library's to
+refuse; those that were only found (a selection under "Automatic", seams) are dropped where they do not fit.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+AUTOMATIC, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "PUNCTURES", "RECTANGLE", "NONE"
+CORNERS = 4
+
+
+@dataclass(frozen=True)
+class Choices:
+    """Vertices are those of the whole mesh; an empty choice changes nothing."""
+
+    use: str = NONE  # what the selected vertices are
+    selected: tuple = ()  # in the order in which they were selected, as far as that is known
+    residues: tuple = ()  # complex, one for each puncture; none lets the library choose
+    seams: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64), compare=False)  # (#S,2) vertices
+    boundary: str = "natural"
+    solver: str = "auto"
+
+    @property
+    def key(self):
+        """Equal for choices that give the same solve."""
+        selected = (self.use, self.selected, self.residues) if self.selected else ()
+        return (*selected, self.seams.tobytes(), self.boundary, self.solver)
+
+    @property
+    def is_express(self):
+        return self.use in (PUNCTURES, RECTANGLE)
+
+
+def attempts(part, choices):
+    """Keywords for a connected part, the most wanted first; the later ones leave out what was only found."""
+    base = {"solver": choices.solver}
+    if part.boundary_count and choices.boundary != "natural":
+        base["boundary"] = choices.boundary
+    selection = _selection(part, choices)
+    seams = _inside(part, choices.seams.ravel()).reshape(-1, 2)
+    seams = seams[(seams >= 0).all(axis=1)]
+    cut = {"cut_edges": seams} if len(seams) else {}
+    wanted = [base]
+    if cut:
+        wanted.insert(0, base | cut)
+    if not selection:
+        return wanted
+    with_selection = [keywords | selection for keywords in wanted]
+    return with_selection if choices.is_express else with_selection + wanted
+
+
+def numbers(text):
+    """The complex numbers in a text like "1 1 -2" or "1+0.5j, -1-0.5j"; raises ValueError naming what is none."""
+    result = []
+    for word in text.replace(",", " ").split():
+        try:
+            number = complex(word)
+        except ValueError:
+            number = complex("nan")
+        if not np.isfinite(number):
+            raise ValueError(f"{word!r} is not a number")
+        result.append(number)
+    return tuple(result)
+
+
+def stray_vertex(surface, choices):
+    """The first expressly chosen vertex that no face has, or None."""
+    chosen = np.asarray(choices.selected if choices.is_express else (), np.int64)
+    stray = chosen[~np.isin(chosen, surface.corner_vertices)]
+    return int(stray[0]) if len(stray) else None
+
+
+def _inside(part, vertices):
+    """The part's own numbers of vertices of the whole mesh, -1 for those of other parts."""
+    if len(vertices) == 0:
+        return np.empty(0, np.int64)
+    index = part.vertex_index
+    order = np.argsort(index, kind="stable")
+    place = np.minimum(np.searchsorted(index, vertices, sorter=order), len(index) - 1)
+    return np.where(index[order[place]] == vertices, order[place], -1)
+
+
+def _selection(part, choices):
+    """The selected vertices of this part as punctures or corners; nothing where there are none."""
+    if choices.use == NONE or not choices.selected:
+        return {}
+    own = _inside(part, np.asarray(choices.selected, np.int64))
+    is_own = own >= 0
+    own = own[is_own]
+    if len(own) == 0:
+        return {}
+    if choices.use == RECTANGLE or (choices.use == AUTOMATIC and _are_corners_of_a_disk(part, own)):
+        return {"rectangle_corners": around_boundary(part, own)}
+    if not choices.residues:
+        return {"punctures": own}
+    residues = np.asarray(choices.residues, complex)
+    # A wrong number of residues is the library's to refuse.
+    return {"punctures": own, "residues": residues[is_own] if len(residues) == len(is_own) else residues}
+
+
+def _are_corners_of_a_disk(part, vertices):
+    is_disk = part.genus == 0 and part.boundary_count == 1
+    return is_disk and len(vertices) == CORNERS and bool(np.isin(vertices, _boundary_edges(part)[0]).all())
+
+
+def _boundary_edges(part):
+    """(starts, ends) of the boundary edges as the triangles beside them run."""
+    triangles = part.triangles.astype(np.int64)
+    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    count = len(part.vertex_index)
+    is_boundary = ~np.isin(start * count + end, end * count + start)
+    return start[is_boundary], end[is_boundary]
+
+
+def around_boundary(part, vertices):
+    """The vertices in the order in which the boundary loop of the first passes them, surface on the left; as they are
+    where they do not lie on one loop.
+
+    Steps to the first vertex by pointer doubling, O(n log n).
+    """
+    start, end = _boundary_edges(part)
+    if not np.isin(vertices, start).all():
+        return vertices
+    following = np.full(len(part.vertex_index), -1, np.int64)
+    following[start] = end
+    following[vertices[0]] = vertices[0]
+    steps = np.ones(len(following), np.int64)
+    steps[vertices[0]] = 0
+    live = start
+    for _ in range(len(start).bit_length()):
+        steps[live], following[live] = steps[live] + steps[following[live]], following[following[live]]
+    if (following[vertices] != vertices[0]).any():
+        return vertices
+    return vertices[np.concatenate([[0], 1 + np.argsort(-steps[vertices[1:]], kind="stable")])]
+
+
+def is_about_vertices(keywords):
+    """Whether the keywords name chosen vertices."""
+    return "punctures" in keywords or "rectangle_corners" in keywords

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The parts of an object side by side in the UV square: rectangles on shelves. Arrays only, no bpy.
+
+Shelf packing: rectangles by falling height, from left to right, a new row where the width is used up; the height of a
+row is that of its first. Of a fixed set of widths the one that fits the smallest square is taken. Nothing is turned,
+for loops that lie straight are to stay horizontal. Same sizes, same layout: ties go by index.
+"""
+
+import math
+
+import numpy as np
+
+WIDTHS = 24  # tried, from the square of the total area upwards
+WIDEST = 2.0  # of these, in sides of that square
+MOST_GAP = 0.3  # of the side, all gaps beside each other: many parts get less than the margin asked for
+GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each round leaves a few per cent of the error
+
+
+def rows(sizes, width, gap):
+    """((n, 2) lower left corners, (w, h) of the whole): the rectangles of (n, 2) `sizes` on shelves of `width`."""
+    order = np.argsort(-sizes[:, 1], kind="stable")
+    corners = np.zeros_like(sizes)
+    x = y = widest = height = 0.0
+    for index in order:
+        w, h = sizes[index]
+        if x > 0 and x + w > width:
+            x, y = 0.0, y + height + gap
+            height = 0.0
+        corners[index] = x, y
+        widest, height = max(widest, x + w), max(height, h)
+        x += w + gap
+    return corners, (widest, y + height)
+
+
+def _best_rows(sizes, gap):
+    padded = sizes + gap
+    square = max(math.sqrt(float(np.prod(padded, axis=1).sum())), float(sizes[:, 0].max()))
+    found = [rows(sizes, width, gap) for width in np.geomspace(square, WIDEST * square, WIDTHS)]
+    return min(found, key=lambda layout: max(layout[1]))  # the first of equals
+
+
+def pack(sizes, margin):
+    """((n, 2) lower left corners, side): rectangles that do not overlap, inside a square of that side.
+
+    sizes : (n, 2) widths and heights; margin : distance of neighbours, as a share of the side. The whole is centred in
+    the square. O(n log n).
+    """
+    sizes = np.asarray(sizes, np.float64).reshape(-1, 2)
+    if not sizes.any():  # all of them points
+        return np.zeros_like(sizes), 0.0
+    margin = min(margin, MOST_GAP / math.sqrt(len(sizes)))
+    corners, whole = _best_rows(sizes, 0.0)
+    for _ in range(GAP_ROUNDS if len(sizes) > 1 else 0):
+        corners, whole = _best_rows(sizes, margin * max(whole))
+    side = max(whole)
+    return corners + (side - np.array(whole)) / 2, side
