@@ -46,7 +46,7 @@ def main():
             columns = " ".join(f"{speed[key]:{width}}" for key, width in KEYS.items())
             ratios = [result[key] / result["quadric"] for key in ("openmesh", "meshoptimizer")]
             fast = result["meshoptimizer_removed"] / 1e6 / result["meshoptimizer"]
-            print(f"{result['mesh']:28} {result['faces']:8} {columns} {ratios[0]:6.1f} {fast:14.2f} {ratios[1]:6.2f}", flush=True)
+            print(f"{result['mesh']:28} {result['faces']:8} {columns} {ratios[0]:6.1f} {fast:14.2f} {ratios[1]:6.2f}")
     arguments.json.parent.mkdir(parents=True, exist_ok=True)
     arguments.json.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
 
