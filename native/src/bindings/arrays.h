@@ -7,7 +7,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstring>
+#include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/errors.h"
@@ -49,6 +52,23 @@ py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
 template <class T>
 py::array copy(const std::vector<T>& values) {
   return read_only(py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data()));
+}
+
+/// A read-only array of the values that a vector or matrix holds, without copying them.
+template <class Container>
+py::array give(Container&& values, std::vector<py::ssize_t> shape) {
+  using Values = std::remove_reference_t<Container>;
+  using T = std::remove_const_t<std::remove_reference_t<decltype(*values.data())>>;
+  auto kept = std::make_unique<Values>(std::forward<Container>(values));
+  const T* data = kept->data();
+  const py::capsule owner(kept.release(), [](void* held) { delete static_cast<Values*>(held); });
+  return read_only(py::array_t<T>(std::move(shape), data, owner));
+}
+
+template <class T>
+py::array give(std::vector<T>&& values) {
+  const auto size = static_cast<py::ssize_t>(values.size());
+  return give(std::move(values), {size});
 }
 
 /// Rows of N values; the facade has checked the shape.

@@ -107,7 +107,8 @@ py::array harmonic_forms(Structure& s) {
     const py::gil_scoped_release unlocked;
     values = forms::edge_values(s.value.half_edges, s.forms_for_uv(), 0, edges).transpose();
   }
-  return copy(values);
+  const py::ssize_t rows = values.rows(), columns = values.cols();
+  return give(std::move(values), {rows, columns});
 }
 
 py::array uv(Structure& s, const Eigen::VectorXcd& periods) {
@@ -116,7 +117,8 @@ py::array uv(Structure& s, const Eigen::VectorXcd& periods) {
     const py::gil_scoped_release unlocked;
     result = uv::uv_map(*s.surface, s.value.sheets, s.forms_for_uv().functions, periods);
   }
-  return copy(result);
+  const py::ssize_t corners = result.rows();
+  return give(std::move(result), {corners, 2});
 }
 
 py::array balanced_coefficients(Structure& s) {
@@ -140,8 +142,8 @@ py::tuple quality(const Surface& surface, const Contiguous<double>& uv_array) {
     const py::gil_scoped_release unlocked;
     q = uv::quality(surface, uv);
   }
-  const py::array flipped = read_only(copy(q.flipped).attr("astype")("bool"));
-  return py::make_tuple(copy(q.angle), copy(q.area), flipped, q.mean_angle, q.density_ratio);
+  const py::array flipped = give(std::move(q.flipped)).attr("view")("bool");
+  return py::make_tuple(give(std::move(q.angle)), give(std::move(q.area)), flipped, q.mean_angle, q.density_ratio);
 }
 
 }  // namespace

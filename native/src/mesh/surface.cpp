@@ -89,6 +89,11 @@ Surface make_surface(Polygons polygons) {
   const Orientation orientation = orient(face_count, meetings_of(mesh, edges));
   surface.edges = std::move(edges.edges);
   record_orientation(surface, orientation);
+  const std::size_t triangle_count = mesh.corner_vertices.size() - 2 * static_cast<std::size_t>(face_count);
+  surface.triangles.reserve(triangle_count);
+  surface.triangle_corners.reserve(triangle_count);
+  surface.triangle_edges.reserve(triangle_count);
+  surface.triangle_faces.reserve(triangle_count);
   PolygonCutter cutter(surface, edges);
   for (int f = 0; f < face_count; ++f) cutter.cut(f, orientation.reversed[f]);
   surface.edge_lengths.reserve(surface.edges.size());
