@@ -28,41 +28,86 @@ struct Farther {
   bool operator()(const Entry& a, const Entry& b) const { return a.key != b.key ? a.key < b.key : a.index > b.index; }
 };
 
-// Dijkstra along the artist's edges: fills T and returns the distances from the root.
-std::vector<double> shortest_path_tree(const mesh::Surface& surface, const HalfEdges& mesh, int root,
-                                       FundamentalDomain& domain, Progress& progress) {
-  const std::size_t vertex_count = mesh.n_vertices();
-  std::vector<double> distance(vertex_count, std::numeric_limits<double>::infinity());
-  std::vector<char> settled(vertex_count, 0);
-  domain.to_parent_vertex.assign(vertex_count, HalfedgeHandle());
-  domain.vertex_depth.assign(vertex_count, 0);
-  std::priority_queue<Entry, std::vector<Entry>, Nearer> queue;
-  distance[root] = 0;
-  queue.push({0.0, root});
-  for (std::size_t done = 0; !queue.empty();) {
-    const int v = queue.top().index;
-    queue.pop();
-    if (settled[v]) continue;
-    settled[v] = 1;
-    if (++done % kReportEvery == 0)
-      progress.report(0.5 * static_cast<double>(done) / static_cast<double>(vertex_count));
-    const HalfedgeHandle parent = domain.to_parent_vertex[v];
-    if (parent.is_valid()) domain.vertex_depth[v] = domain.vertex_depth[to_vertex(mesh, parent)] + 1;
-    const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));
+// Dijkstra along the artist's edges: fills T and the distances from the root. A star is entered as a whole: with the
+// first vertex of it that is settled come its centre and all its spokes.
+class ShortestPathTree {
+ public:
+  ShortestPathTree(const mesh::Surface& surface, const HalfEdges& mesh, const std::vector<mesh::Star>& stars,
+                   FundamentalDomain& domain)
+      : surface_(surface), mesh_(mesh), stars_(stars), domain_(domain), star_of_(mesh.n_vertices(), -1) {
+    const std::size_t n = mesh.n_vertices();
+    distance.assign(n, std::numeric_limits<double>::infinity());
+    settled_.assign(n, 0);
+    domain_.to_parent_vertex.assign(n, HalfedgeHandle());
+    domain_.vertex_depth.assign(n, 0);
+    for (std::size_t s = 0; s < stars.size(); ++s) {
+      star_of_[stars[s].vertex] = static_cast<int>(s);
+      for (const HalfedgeHandle h : stars[s].link) star_of_[to_vertex(mesh, h)] = static_cast<int>(s);
+    }
+  }
+
+  void grow(int root, Progress& progress) {
+    distance[root] = 0;
+    queue_.push({0.0, root});
+    while (!queue_.empty()) {
+      const int v = queue_.top().index;
+      queue_.pop();
+      if (settled_[v]) continue;
+      settle(v);
+      if (star_of_[v] >= 0) settle_star(v, stars_[star_of_[v]]);
+      if (done_ % kReportEvery == 0)
+        progress.report(0.5 * static_cast<double>(done_) / static_cast<double>(distance.size()));
+    }
+  }
+
+  std::vector<double> distance;
+
+ private:
+  void settle(int v) {
+    settled_[v] = 1;
+    ++done_;
+    const HalfedgeHandle parent = domain_.to_parent_vertex[v];
+    if (parent.is_valid()) domain_.vertex_depth[v] = domain_.vertex_depth[to_vertex(mesh_, parent)] + 1;
+    const HalfedgeHandle start = mesh_.halfedge_handle(VertexHandle(v));
     HalfedgeHandle h = start;
     do {
-      const int w = to_vertex(mesh, h), e = edge_of(h);
-      const double through = distance[v] + surface.edge_lengths[e];
-      if (!surface.is_diagonal(e) && !settled[w] && through < distance[w]) {
-        distance[w] = through;
-        domain.to_parent_vertex[w] = opposite(h);
-        queue.push({through, w});
-      }
-      h = next(mesh, opposite(h));
+      const int w = to_vertex(mesh_, h), e = edge_of(h);
+      const double through = distance[v] + surface_.edge_lengths[e];
+      if (!surface_.is_diagonal(e) && !settled_[w] && through < distance[w]) reach(w, through, opposite(h));
+      h = next(mesh_, opposite(h));
     } while (h != start);
   }
-  return distance;
-}
+
+  void reach(int w, double at, HalfedgeHandle to_parent) {
+    distance[w] = at;
+    domain_.to_parent_vertex[w] = to_parent;
+    queue_.push({at, w});
+  }
+
+  void settle_star(int first, const mesh::Star& star) {
+    for (const HalfedgeHandle h : star.link) {
+      if (to_vertex(mesh_, h) == first) join(star.vertex, first, next(mesh_, h));
+    }
+    for (const HalfedgeHandle h : star.link) join(to_vertex(mesh_, h), first, next(mesh_, h));
+  }
+
+  // `spoke` lies between v and its parent, in either direction; it becomes the way of v to its parent.
+  void join(int v, int first, HalfedgeHandle spoke) {
+    if (settled_[v]) return;
+    distance[v] = distance[first];
+    domain_.to_parent_vertex[v] = mesh::from_vertex(mesh_, spoke) == v ? spoke : opposite(spoke);
+    settle(v);
+  }
+
+  const mesh::Surface& surface_;
+  const HalfEdges& mesh_;
+  const std::vector<mesh::Star>& stars_;
+  FundamentalDomain& domain_;
+  std::vector<int> star_of_;  // #V star that the vertex belongs to, or -1
+  std::vector<char> settled_;
+  std::priority_queue<Entry, std::vector<Entry>, Nearer> queue_;
+  std::size_t done_ = 0;
+};
 
 // Grows D by the face behind the edge of the largest key (Prim's maximum spanning tree of the dual graph).
 void grow_domain(const HalfEdges& mesh, const std::vector<double>& key, FundamentalDomain& domain, Progress& progress) {
@@ -116,10 +161,12 @@ std::vector<double> loop_lengths(const mesh::Surface& surface, const Fundamental
 
 }  // namespace
 
-FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress) {
+FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress,
+                                     const std::vector<mesh::Star>& stars) {
   FundamentalDomain domain;
-  const std::vector<double> distance = shortest_path_tree(surface, half_edges, 0, domain, progress);
-  const std::vector<double> key = loop_lengths(surface, domain, distance);
+  ShortestPathTree tree(surface, half_edges, stars, domain);
+  tree.grow(0, progress);
+  const std::vector<double> key = loop_lengths(surface, domain, tree.distance);
   grow_domain(half_edges, key, domain, progress);
   for (int e = 0; e < static_cast<int>(key.size()); ++e) {
     if (!domain.crossed[e] && key[e] >= 0) domain.left_over.push_back(e);
@@ -127,9 +174,10 @@ FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdg
   return domain;
 }
 
-std::vector<int> cut_graph(const HalfEdges& mesh, const FundamentalDomain& domain) {
+std::vector<int> cut_graph(const HalfEdges& mesh, const FundamentalDomain& domain, const std::vector<int>& ends) {
   std::vector<char> in_graph(mesh.n_edges());
   std::vector<int> degree(mesh.n_vertices(), 0), dangling;
+  for (const int v : ends) degree[v] = 1;  // as if one more edge ended there
   for (int e = 0; e < static_cast<int>(in_graph.size()); ++e) {
     in_graph[e] = !domain.crossed[e];
     if (!in_graph[e]) continue;

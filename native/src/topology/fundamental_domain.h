@@ -11,6 +11,7 @@
 
 #include "base/progress.h"
 #include "mesh/half_edges.h"
+#include "mesh/stars.h"
 
 namespace holomorph::topology {
 
@@ -30,10 +31,16 @@ struct FundamentalDomain {
 };
 
 /// @param surface,half_edges the artist's triangulation; C takes all its diagonals, so G and T run on the artist's
-/// edges Cost: O(n log n).
-FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress);
+/// edges
+/// @param stars of punctures, whose spokes all go into T: then C enters each face of a star across its link edge, as a
+/// leaf, and the surface without the stars is cut as if they were holes. @pre no spoke is a diagonal
+/// Cost: O(n log n).
+FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress,
+                                     const std::vector<mesh::Star>& stars = {});
 
 /// The cut graph: G without its dangling ends, ascending. Cutting the surface along it leaves a disk.
-std::vector<int> cut_graph(const HalfEdges& half_edges, const FundamentalDomain& domain);
+/// @param ends vertices to which dangling ends are kept
+std::vector<int> cut_graph(const HalfEdges& half_edges, const FundamentalDomain& domain,
+                           const std::vector<int>& ends = {});
 
 }  // namespace holomorph::topology

@@ -1,0 +1,177 @@
+#include "mesh/stars.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/errors.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::mesh {
+namespace {
+
+class Names {
+ public:
+  explicit Names(const std::vector<int>& names) : names_(names) {}
+  std::string operator()(int vertex) const { return std::to_string(names_.empty() ? vertex : names_[vertex]); }
+
+ private:
+  const std::vector<int>& names_;
+};
+
+// Angle at the apex of the triangle on side h.
+double apex_angle(const HalfEdges& mesh, const std::vector<double>& lengths, HalfedgeHandle h) {
+  const HalfedgeHandle h1 = next(mesh, h), h2 = next(mesh, h1);
+  const double a = lengths[edge_of(h)], b = lengths[edge_of(h1)], c = lengths[edge_of(h2)];
+  return std::atan2(4 * triangle_area(a, b, c), (b - a) * (b + a) + c * c);
+}
+
+Star star(const HalfEdges& mesh, const std::vector<double>& lengths, int vertex, const Names& name) {
+  Star result;
+  result.vertex = vertex;
+  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  if (!start.is_valid()) throw TopologyError("puncture " + name(vertex) + " is a vertex of no face");
+  HalfedgeHandle h = start;
+  do {  // h leaves the vertex; the face to its left is the next one counter-clockwise
+    if (!mesh.face_handle(h).is_valid())
+      throw TopologyError("puncture " + name(vertex) + " lies on the boundary; an interior vertex is needed");
+    const HalfedgeHandle outer = next(mesh, h);
+    result.link.push_back(outer);
+    result.angles.push_back(apex_angle(mesh, lengths, outer));
+    result.total_angle += result.angles.back();
+    h = opposite(next(mesh, outer));
+  } while (h != start);
+  return result;
+}
+
+bool on_boundary(const HalfEdges& mesh, int vertex) {
+  return !mesh.face_handle(mesh.halfedge_handle(VertexHandle(vertex))).is_valid();
+}
+
+// Marks the vertices of a star with its owner; refuses what another star, the same one or the boundary has taken.
+void claim(const HalfEdges& mesh, const Star& star, const Names& name, std::vector<int>& owner) {
+  const std::string itself = "the star of puncture " + name(star.vertex);
+  const auto take = [&](int v) {
+    if (owner[v] == star.vertex)
+      throw TopologyError(itself + " meets itself at vertex " + name(v) + ": the mesh is too coarse there");
+    if (owner[v] >= 0) {
+      throw TopologyError("the stars of the punctures " + name(owner[v]) + " and " + name(star.vertex) +
+                          " share vertex " + name(v) + ": take punctures farther apart, or subdivide the mesh");
+    }
+    owner[v] = star.vertex;
+  };
+  take(star.vertex);
+  for (const HalfedgeHandle h : star.link) {
+    const int v = to_vertex(mesh, h);
+    if (on_boundary(mesh, v)) throw TopologyError(itself + " touches the boundary at vertex " + name(v));
+    take(v);
+  }
+}
+
+struct Side {
+  int triangle, side;
+};
+
+// The side of another triangle of the same polygon that lies on the same diagonal.
+Side across(const Surface& surface, Side s) {
+  const int edge = surface.triangle_edges[s.triangle][s.side], face = surface.triangle_faces[s.triangle];
+  for (const int step : {-1, 1}) {
+    for (int t = s.triangle + step;
+         t >= 0 && t < static_cast<int>(surface.triangles.size()) && surface.triangle_faces[t] == face; t += step) {
+      for (int i = 0; i < 3; ++i) {
+        if (surface.triangle_edges[t][i] == edge) return {t, i};
+      }
+    }
+  }
+  throw Error("diagonal " + std::to_string(edge) + " has one triangle");
+}
+
+// 1 for each of the vertices.
+std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vector<int>& vertices, const Names& name) {
+  std::vector<char> chosen(surface.vertex_count, 0);
+  for (const int v : vertices) chosen[v] = 1;
+  const auto& offsets = surface.polygons.face_offsets;
+  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
+    int first = -1;
+    for (auto c = offsets[f]; c < offsets[f + 1]; ++c) {
+      const auto v = static_cast<int>(surface.polygons.corner_vertices[c]);
+      if (!chosen[v]) continue;
+      if (first >= 0 && first != v) {
+        throw TopologyError("the punctures " + name(first) + " and " + name(v) +
+                            " are corners of one face: take punctures farther apart, or subdivide the mesh");
+      }
+      first = v;
+    }
+  }
+  return chosen;
+}
+
+// The diagonal x -> y of triangle s and y -> x of the one behind it becomes the one between their other corners.
+void turn(Surface& surface, Side s) {
+  const Side o = across(surface, s);
+  const auto corner = [&](const Side& side, int i) {
+    return surface.triangle_corners[side.triangle][(side.side + i) % 3];
+  };
+  const auto edge = [&](const Side& side, int i) { return surface.triangle_edges[side.triangle][(side.side + i) % 3]; };
+  const int e = edge(s, 0);
+  const int x = corner(s, 0), y = corner(s, 1), a = corner(s, 2), b = corner(o, 2);
+  const Triple first_edges{edge(s, 2), edge(o, 1), e}, second_edges{edge(o, 2), edge(s, 1), e};
+  surface.triangle_corners[s.triangle] = {a, x, b};
+  surface.triangle_corners[o.triangle] = {b, y, a};
+  surface.triangle_edges[s.triangle] = first_edges;
+  surface.triangle_edges[o.triangle] = second_edges;
+  for (const int t : {s.triangle, o.triangle}) {
+    for (int i = 0; i < 3; ++i)
+      surface.triangles[t][i] = static_cast<int>(surface.polygons.corner_vertices[surface.triangle_corners[t][i]]);
+  }
+  const auto [low, high] = std::minmax(surface.triangles[s.triangle][0], surface.triangles[o.triangle][0]);
+  surface.edges[e] = {low, high};
+  surface.edge_lengths[e] = distance(surface.polygons.vertices[low], surface.polygons.vertices[high]);
+}
+
+}  // namespace
+
+std::vector<Star> stars(const HalfEdges& half_edges, const std::vector<double>& lengths,
+                        const std::vector<int>& vertices, const std::vector<int>& names) {
+  const Names name(names);
+  std::vector<Star> result;
+  std::vector<int> owner(half_edges.n_vertices(), -1);
+  for (const int v : vertices) {
+    result.push_back(star(half_edges, lengths, v, name));
+    claim(half_edges, result.back(), name, owner);
+  }
+  return result;
+}
+
+bool has_free_star(const HalfEdges& mesh, int vertex, const std::vector<char>& taken) {
+  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  if (!start.is_valid() || taken[vertex] || on_boundary(mesh, vertex)) return false;
+  std::vector<int> met{vertex};
+  HalfedgeHandle h = start;
+  do {
+    const int v = to_vertex(mesh, h);
+    if (taken[v] || on_boundary(mesh, v)) return false;
+    met.push_back(v);
+    h = next(mesh, opposite(h));
+  } while (h != start);
+  std::sort(met.begin(), met.end());
+  return std::adjacent_find(met.begin(), met.end()) == met.end();
+}
+
+void turn_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names) {
+  const std::vector<char> chosen = refuse_shared_polygons(surface, vertices, Names(names));
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    // Each turn lowers the number of the polygon's diagonals at its one chosen corner.
+    for (int i = 0; i < 3;) {
+      const int e = surface.triangle_edges[t][i];
+      if (surface.is_diagonal(e) && (chosen[surface.edges[e][0]] || chosen[surface.edges[e][1]])) {
+        turn(surface, {t, i});
+        i = 0;
+      } else {
+        ++i;
+      }
+    }
+  }
+}
+
+}  // namespace holomorph::mesh

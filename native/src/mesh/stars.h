@@ -1,0 +1,36 @@
+// The stars of vertices that become punctures: disks of faces, apart from each other and from the boundary.
+#pragma once
+
+#include <vector>
+
+#include "mesh/half_edges.h"
+
+namespace holomorph::mesh {
+
+/// The faces around one interior vertex in polar coordinates (r, alpha): r is the length of a spoke, alpha the sum of
+/// the corner angles, counter-clockwise from the end of link[0].
+struct Star {
+  int vertex = 0;
+  std::vector<HalfedgeHandle> link;  ///< opposite the vertex in each of its faces, counter-clockwise
+  std::vector<double> angles;        ///< at the vertex, of the face of each link half-edge, in radians
+  double total_angle = 0;
+
+  std::size_t size() const { return link.size(); }
+};
+
+/// @param lengths #E
+/// @param names what a vertex is called in messages; empty: its index
+/// @throws TopologyError if a vertex has no face, a star touches the boundary or itself, or two stars share a vertex
+std::vector<Star> stars(const HalfEdges& half_edges, const std::vector<double>& lengths,
+                        const std::vector<int>& vertices, const std::vector<int>& names = {});
+
+/// Whether the stars of `vertex` and of the vertices in `taken` (1 for each vertex of their stars) fit together as
+/// `stars` asks for, without saying why not.
+bool has_free_star(const HalfEdges& half_edges, int vertex, const std::vector<char>& taken);
+
+/// Turns the diagonals of polygons that end at one of the vertices, so that each polygon has one triangle there: then
+/// every spoke is an edge of the artist's. Edges keep their indices.
+/// @throws TopologyError if two of the vertices are corners of one polygon
+void turn_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names = {});
+
+}  // namespace holomorph::mesh
