@@ -10,7 +10,7 @@ IRREGULAR, BAD = 0.05, 0.001
 
 
 def torus(faces, stretch=1.0):
-    """Vertices (#V, 3) and triangles (#F, 3) of a torus of revolution; its cells are `stretch` times longer than wide."""
+    """Vertices (#V, 3) and triangles (#F, 3) of a torus of revolution; cells are `stretch` times as long as wide."""
     across = round((faces / 5 * stretch) ** 0.5)
     around = round(faces / 2 / across)
     i, j = np.divmod(np.arange(around * across), across)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // progressive_mesh FILE...: for each mesh one line of JSON with the seconds of the two orders of holomorph's
 // progressive mesh (from the surface's arrays to base and splits), of rebuilding the original from them, and of
-// OpenMesh's Decimater with quadrics, normal check and progressive-mesh records, and of meshoptimizer's simplifier, which
-// keeps no records, both down to the same number of faces.
+// OpenMesh's Decimater with quadrics, normal check and progressive-mesh records, and of meshoptimizer's simplifier,
+// which keeps no records, both down to the same number of faces.
 #include <meshoptimizer.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>

@@ -2,8 +2,8 @@
 """python benchmarks/progressive_mesh.py [MESH ...] [--faces N ...] [--json FILE]
 
 Faces per second of the progressive mesh, one thread, against OpenMesh's Decimater (quadrics, normal check, progressive
-mesh records) and meshoptimizer (no records) in the same run: of the mesh files named, and of bumpy tori with about N faces. Prints ratios and writes
-the seconds as JSON.
+mesh records) and meshoptimizer (no records) in the same run: of the mesh files named, and of bumpy tori with about N
+faces. Prints ratios and writes the seconds as JSON.
 """
 
 import argparse
@@ -28,9 +28,7 @@ def main():
     measure = program("progressive_mesh")
     results = []
     with tempfile.TemporaryDirectory() as folder:
-        tori = [
-            write_ply(Path(folder) / f"torus_{faces}.ply", *bumpy_torus(faces)) for faces in arguments.faces
-        ]
+        tori = [write_ply(Path(folder) / f"torus_{faces}.ply", *bumpy_torus(faces)) for faces in arguments.faces]
         print(
             f"{'mesh':28} {'faces':>8} {'quadric':>9} {'independent':>12} {'restore':>8} {'OpenMesh':>9} "
             f"{'ratio':>6} {'meshoptimizer':>14} {'ratio':>6}"
@@ -40,9 +38,7 @@ def main():
             line = subprocess.run([measure, mesh], capture_output=True, text=True, check=True).stdout
             result = json.loads(line)
             results.append(result)
-            speed = {
-                key: result["faces"] / 1e6 / result[key] for key in KEYS
-            }
+            speed = {key: result["faces"] / 1e6 / result[key] for key in KEYS}
             columns = " ".join(f"{speed[key]:{width}}" for key, width in KEYS.items())
             ratios = [result[key] / result["quadric"] for key in ("openmesh", "meshoptimizer")]
             fast = result["meshoptimizer_removed"] / 1e6 / result["meshoptimizer"]
