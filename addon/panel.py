@@ -22,6 +22,8 @@ class _HolomorphPanel:
         if native.problem():
             _draw_sentence(layout, native.problem())
             return
+        if context.mode == "EDIT_MESH":
+            _draw_choices(layout)
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             _draw_result(layout, obj)
@@ -33,6 +35,14 @@ class HOLOMORPH_PT_view3d(_HolomorphPanel, bpy.types.Panel):
 
 class HOLOMORPH_PT_image(_HolomorphPanel, bpy.types.Panel):
     bl_space_type = "IMAGE_EDITOR"
+
+
+def _draw_choices(layout):
+    """The button again, for what the selected vertices are to be."""
+    column = layout.column(align=True)
+    column.label(text="Selected vertices as")
+    for use, text in (("PUNCTURES", "Punctures"), ("RECTANGLE", "Corners of a Rectangle")):
+        column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
 
 
 def _draw_sentence(layout, sentence):

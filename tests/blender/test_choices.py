@@ -1,0 +1,145 @@
+"""What is chosen on a mesh (vertices, residues, seams), and how it reaches the library."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import mesh_io, mesh_object, sphere_arrays, torus, torus_arrays
+
+choices, native = module("choices"), module("native")
+
+
+def grid_arrays(count=6):
+    i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij")
+    vertices = np.stack([i, j, 0.1 * i * j], -1).reshape(-1, 3).astype(float)
+    a = (i * (count + 1) + j)[:-1, :-1].ravel()
+    return vertices, np.stack([a, a + count + 1, a + count + 2, a + 1], -1)
+
+
+def part_of(*arrays):
+    (part,) = native.load().Surface(*arrays).components
+    return part
+
+
+def two_grids():
+    """A surface of two parts with their vertices mixed: the even ones are the first grid's."""
+    vertices, faces = grid_arrays()
+    mixed = np.empty((2 * len(vertices), 3))
+    mixed[::2], mixed[1::2] = vertices, vertices + (0, 0, 5)
+    return native.load().Surface(mixed, np.concatenate([2 * faces, 2 * faces + 1]))
+
+
+def test_numbers():
+    assert choices.numbers("") == ()
+    assert choices.numbers("1, 1 -2") == (1, 1, -2)
+    assert choices.numbers("1+0.5j,-1-0.5j") == (1 + 0.5j, -1 - 0.5j)
+    for wrong in ("one", "1 nan", "inf"):
+        with pytest.raises(ValueError, match="is not a number"):
+            choices.numbers(wrong)
+
+
+def test_each_part_gets_its_own_vertices_and_residues():
+    chosen = choices.Choices(choices.PUNCTURES, (17, 40, 6), residues=(1, 2, 3))
+    first, second = two_grids().components
+    if first.vertex_index[0] != 0:
+        first, second = second, first
+    (keywords,) = choices.attempts(first, chosen)
+    assert first.vertex_index[keywords["punctures"]].tolist() == [40, 6]
+    assert keywords["residues"].tolist() == [2, 3]
+    (keywords,) = choices.attempts(second, chosen)
+    assert second.vertex_index[keywords["punctures"]].tolist() == [17]
+
+
+def test_what_was_only_found_is_left_out_in_the_end():
+    part = part_of(*grid_arrays())
+    seams = np.array([[16, 17], [17, 18]])
+    found = choices.Choices(choices.AUTOMATIC, (24,), seams=seams, boundary="double_cover")
+    wanted = choices.attempts(part, found)
+    assert [("punctures" in w, "cut_edges" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
+    assert all(w["boundary"] == "double_cover" for w in wanted)
+    express = choices.Choices(choices.PUNCTURES, (24,), seams=seams)
+    assert [("punctures" in w, "cut_edges" in w) for w in choices.attempts(part, express)] == [(1, 1), (1, 0)]
+    assert choices.attempts(part, choices.Choices(choices.NONE, (24,))) == [{"solver": "auto"}]
+
+
+def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop():
+    part = part_of(*grid_arrays(6))
+    corners = [0, 42, 48, 6]  # counter-clockwise, seen from above
+    for picked in ([0, 48, 6, 42], [42, 0, 6, 48], [48, 6, 42, 0]):
+        chosen = choices.Choices(choices.AUTOMATIC, tuple(picked))
+        found = choices.attempts(part, chosen)[0]["rectangle_corners"].tolist()
+        start = corners.index(picked[0])
+        assert found == corners[start:] + corners[:start]
+
+
+def test_corners_that_are_none_stay_as_they_were_picked():
+    part = part_of(*grid_arrays(6))
+    assert choices.around_boundary(part, np.array([0, 24, 48, 6])).tolist() == [0, 24, 48, 6]
+    assert "punctures" in choices.attempts(part, choices.Choices(choices.AUTOMATIC, (0, 24, 48, 6)))[0]
+    vertices, faces = grid_arrays(6)
+    ring = part_of(vertices, np.delete(faces, 14, axis=0))  # with a second loop
+    inner = int(faces[14][0])
+    assert choices.around_boundary(ring, np.array([0, inner, 48, 6])).tolist() == [0, inner, 48, 6]
+
+
+def test_choices_that_change_nothing_have_one_key():
+    assert choices.Choices(choices.AUTOMATIC).key == choices.Choices(choices.NONE).key
+    assert choices.Choices(choices.AUTOMATIC, (3,)).key != choices.Choices(choices.NONE).key
+    assert choices.Choices(seams=np.array([[1, 2]])).key != choices.Choices().key
+
+
+def edit(obj, picked, kind="VERT"):
+    """Edit mode with these vertices picked one after the other."""
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type=kind)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for index in picked:
+        bm.verts[index].select = True
+        bm.select_history.add(bm.verts[index])
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+def collected(obj, use):
+    run = module("run")
+    (target,) = run.collect([obj], run.Request(use=use))
+    return target.chosen.selected
+
+
+def test_the_selection_is_read_in_its_order():
+    obj = torus()
+    edit(obj, [50, 7, 120])
+    assert collected(obj, choices.AUTOMATIC) == (50, 7, 120)
+    assert collected(obj, choices.PUNCTURES) == (50, 7, 120)
+    assert collected(obj, choices.NONE) == ()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert collected(obj, choices.AUTOMATIC) == ()
+    assert collected(obj, choices.PUNCTURES) == (7, 50, 120)
+
+
+def test_selected_edges_and_everything_selected_are_no_choice():
+    obj = torus()
+    edit(obj, [0, 1, 50])
+    assert collected(obj, choices.AUTOMATIC) == ()
+    bpy.ops.mesh.select_all(action="SELECT")
+    assert collected(obj, choices.AUTOMATIC) == ()
+    assert len(collected(obj, choices.PUNCTURES)) == len(torus_arrays()[0])
+
+
+def test_a_loose_vertex_cannot_be_chosen():
+    vertices, faces = sphere_arrays()
+    obj = mesh_object("Sphere", [*vertices, (3, 3, 3)], faces)
+    task = module("run").tasks(module("run").collect([obj], module("run").Request(choices.PUNCTURES, (0, 162))))[0]
+    with pytest.raises(native.load().InvalidMesh, match="vertex 162 belongs to no face"):
+        module("solve").solve(task)
+
+
+def test_seams_are_read_as_vertices():
+    obj = torus()
+    obj.data.edges[4].use_seam = True
+    (pair,) = mesh_io.seam_vertices(obj.data)
+    assert sorted(pair) == sorted(obj.data.edges[4].vertices)
