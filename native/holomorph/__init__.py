@@ -14,6 +14,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
 from .closed import ConformalStructure
+from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh
 from .results import Quality, Residuals, SolverReport
 from .structure import conformal_structure
@@ -24,6 +25,7 @@ __all__ = [
     "ConformalStructure",
     "Error",
     "InvalidMesh",
+    "LevelOfDetail",
     "ProgressiveMesh",
     "Quality",
     "Repairs",

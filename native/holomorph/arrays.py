@@ -1,5 +1,6 @@
 """Arrays from the caller, checked before they reach the native core."""
 
+import json
 from itertools import chain
 
 import numpy as np
@@ -54,3 +55,13 @@ def frozen(array):
     """The same array, read-only."""
     array.setflags(write=False)
     return array
+
+
+def packed(corner_data, corner_count):
+    """The type of one row in words, and all rows as bytes."""
+    rows = np.ascontiguousarray(corner_data)
+    if rows.dtype.kind not in "biufc":
+        raise InvalidMesh(f"corner_data has the type {rows.dtype}; numbers or booleans are needed")
+    if rows.ndim == 0 or len(rows) != corner_count:
+        raise InvalidMesh(f"corner_data has {len(rows) if rows.ndim else 0} rows for {corner_count} polygon corners")
+    return json.dumps([rows.dtype.str, rows.shape[1:]]), rows.tobytes()

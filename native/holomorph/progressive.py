@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from . import _native, arrays
+from . import _native, arrays, levels
 from ._native import InvalidMesh, TopologyError
 from .closed import ConformalStructure
 from .results import check_options, result
@@ -59,7 +59,7 @@ class ProgressiveMesh:
             raise ValueError(f"order is {order!r}; one of {', '.join(map(repr, ORDERS))} is needed")
         kind, data = "", b""
         if corner_data is not None:
-            kind, data = _packed(corner_data, len(surface.corner_vertices))
+            kind, data = arrays.packed(corner_data, len(surface.corner_vertices))
         self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data)
 
     @classmethod
@@ -150,8 +150,7 @@ class ProgressiveMesh:
 
     @cached_property
     def corner_data(self):
-        """The rows given for the original's polygon corners; None if there were none. The corners of a level have
-        those at ``level.corner_index``."""
+        """The rows given for the original's polygon corners; None if there were none; see `level_corner_data`."""
         kind = self._native.corner_type
         if not kind:
             return None
@@ -161,10 +160,18 @@ class ProgressiveMesh:
             if dtype.kind not in "biufc" or not all(isinstance(n, int) and n >= 0 for n in shape):
                 raise ValueError(kind)
             rows = np.frombuffer(self._native.corner_data, dtype)
-            count = int(self._native.face_offsets[-1]) if len(self._native.face_offsets) else self._corners.size
-            return arrays.frozen(rows.reshape((count, *shape)))
+            return arrays.frozen(rows.reshape((self._corner_count, *shape)))
         except (ValueError, TypeError, RecursionError) as error:
             raise InvalidMesh("the progressive mesh is damaged: its corner data are of no known type") from error
+
+    # Defined in levels.py.
+    level_corner_data = levels.level_corner_data
+    levels_of_detail = levels.levels_of_detail
+
+    @property
+    def _corner_count(self):
+        offsets = self._native.face_offsets
+        return int(offsets[-1]) if len(offsets) else self._corners.size
 
     def _split_count(self, n_faces):
         return self._native.split_count(max(0, min(int(n_faces), 2**62)))
@@ -278,13 +285,3 @@ class ProgressiveMesh:
         kind = np.int64 if np.issubdtype(forms.dtype, np.integer) else np.float64
         sign = np.where(half_edge < 0, 0, 1 - 2 * (half_edge & 1)).astype(kind)
         return arrays.frozen(forms[:, half_edge >> 1].astype(kind) * sign)
-
-
-def _packed(corner_data, corner_count):
-    """The type of one row in words, and all rows as bytes."""
-    rows = np.ascontiguousarray(corner_data)
-    if rows.dtype.kind not in "biufc":
-        raise InvalidMesh(f"corner_data has the type {rows.dtype}; numbers or booleans are needed")
-    if rows.ndim == 0 or len(rows) != corner_count:
-        raise InvalidMesh(f"corner_data has {len(rows) if rows.ndim else 0} rows for {corner_count} polygon corners")
-    return json.dumps([rows.dtype.str, rows.shape[1:]]), rows.tobytes()

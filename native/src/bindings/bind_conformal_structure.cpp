@@ -10,6 +10,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "pipeline/artist_forms.h"
+#include "pipeline/harmonic_map.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::bindings {
@@ -131,6 +132,20 @@ py::array balanced_coefficients(Structure& s) {
   return read_only(copy(c).attr("reshape")(c.size()));
 }
 
+// Moves of the vertices, and the solver's report.
+py::tuple harmonic_map(const Surface& surface, const Contiguous<double>& corner_values, const std::string& solver,
+                       int threads, const py::object& progress_function) {
+  using Rows = forms::RowMajorMatrix;
+  const Rows given = Eigen::Map<const Rows>(corner_values.data(), corner_values.shape(0), corner_values.shape(1));
+  Progress progress(callback(progress_function));
+  pipeline::HarmonicMap map;
+  {
+    const py::gil_scoped_release unlocked;
+    map = pipeline::harmonic_map(surface, given, {solver, threads}, progress);
+  }
+  return py::make_tuple(copy(map.moves), report(map.solver));
+}
+
 py::array averaged_star(const Structure& s, const Contiguous<double>& form) {
   return copy(forms::averaged_star(s.value.half_edges, s.surface->edge_lengths, values(form)));
 }
@@ -178,6 +193,7 @@ void bind_conformal_structure(py::module_& m) {
   m.def("conformal_structure", &compute);
   m.def("conformal_structure_of_level", &compute_level);
   m.def("quality", &quality);
+  m.def("harmonic_map", &harmonic_map);
 }
 
 }  // namespace holomorph::bindings

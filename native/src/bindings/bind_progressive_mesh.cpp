@@ -4,6 +4,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "progressive/corner_values.h"
 #include "progressive/file_format.h"
 #include "progressive/progressive_mesh.h"
 #include "topology/carried_classes.h"
@@ -97,6 +98,24 @@ py::array carry_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32
   return copy(values);
 }
 
+// For each level the values at its corners, and the corners of the original whose data they have.
+py::list carry_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
+                             const std::vector<int>& splits) {
+  const std::vector<double> given = values(array);
+  const int width = static_cast<int>(array.shape(1));
+  std::vector<progressive::CornerValues> carried;
+  {
+    const py::gil_scoped_release unlocked;
+    carried = progressive::carry_corner_values(mesh, given, width, splits);
+  }
+  py::list result;
+  for (const auto& level : carried) {
+    const py::array rows = copy(level.values).attr("reshape")(-1, width);
+    result.append(py::make_tuple(read_only(rows), copy(level.corners)));
+  }
+  return result;
+}
+
 }  // namespace
 
 void bind_progressive_mesh(py::module_& m) {
@@ -113,6 +132,7 @@ void bind_progressive_mesh(py::module_& m) {
            [](const ProgressiveMesh& mesh, int splits) { return copy(progressive::vertex_map(mesh, splits)); })
       .def("carry_loops", &carry_loops)
       .def("carry_classes", &carry_classes)
+      .def("carry_corner_values", &carry_corner_values)
       .def("base_half_edges",
            [](const ProgressiveMesh& mesh, const mesh::Surface& surface, const std::vector<int>& map) {
              return copy(topology::base_half_edges(mesh.base, surface, map));

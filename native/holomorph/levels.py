@@ -1,0 +1,116 @@
+"""Levels of detail of a progressive mesh, with UV maps that stay in place."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _native, arrays
+from ._native import InvalidMesh
+from .results import SolverReport, check_options
+from .surface import Surface
+
+
+@dataclass(frozen=True, eq=False)
+class LevelOfDetail:
+    """One level with the UV maps of the original.
+
+    surface : Surface, triangles; its vertices are some of the original's, by `vertex_index`, its triangles come from
+        the polygons `face_index`
+    uv : (#C, 2) or (#C, m, 2), as was given
+    corners : (#C,) polygon corner of the original whose data each corner has: at the same vertex, and on the same side
+        of the seams, as far as there is one
+    drift : (#V,) or (#V, m) distance of the UVs of each vertex from those that it has in the original
+    solver : SolverReport of a harmonic map, else None
+    """
+
+    surface: Surface
+    uv: np.ndarray
+    corners: np.ndarray
+    drift: np.ndarray
+    solver: SolverReport | None
+
+
+def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", threads=None, progress=None):
+    """Levels with UV maps of the original, whose textures stay in place from level to level.
+
+    A UV map of a holomorphic form jumps across its seams by translations. Every level gets a map with the same
+    periods over the carried loops, on the same sheets of the same seams, carried along by the collapses: each
+    vertex keeps the UVs that it has in the original, exactly. With `harmonic` the map is then made the harmonic
+    one of these periods on the triangles of the level, which is the form that would be computed there; its
+    constant is such that it stays in place on the average, and `drift` tells how far each vertex moves.
+
+    Any other UV map is carried too, by collapses alone: within its islands every vertex keeps its UVs.
+
+    Parameters
+    ----------
+    uv : (#C, 2) of the original's polygon corners, or (#C, m, 2) for several maps
+    n_faces : numbers of triangles, as in `level`; one level each
+    harmonic : whether to solve on each level; for one closed surface of genus 1 or more, and maps that are
+        translated across seams
+    solver, threads, progress : as in `holomorph.conformal_structure`, for `harmonic`
+
+    Returns
+    -------
+    tuple of LevelOfDetail
+
+    Raises
+    ------
+    InvalidMesh
+        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a turn or a stretch
+    TopologyError
+        if `harmonic` is asked for another topology
+
+    Cost: linear in the number of corners; with `harmonic` 2m solves on each level.
+    """
+    threads = check_options(solver, threads)
+    uv, maps = _maps(uv, mesh._corner_count)
+    splits = [mesh._split_count(n) for n in n_faces]
+    carried = mesh._native.carry_corner_values(maps, splits)
+    levels = []
+    for index, (count, (values, corners)) in enumerate(zip(splits, carried)):
+        surface, report = mesh._level(count), None
+        moves = np.zeros((len(surface.vertices), values.shape[1]))
+        if harmonic:
+            asked = _part(progress, index, len(splits))
+            moves, report = _native.harmonic_map(surface._native, values, solver, threads, asked)
+            values, report = values + moves[surface.corner_vertices], SolverReport(*report)
+        drift = np.linalg.norm(moves.reshape(len(moves), *uv.shape[1:]), axis=-1)
+        values = arrays.frozen(values.reshape(-1, *uv.shape[1:]))
+        levels.append(LevelOfDetail(surface, values, corners, arrays.frozen(drift), report))
+    return tuple(levels)
+
+
+def level_corner_data(mesh, n_faces):
+    """Rows of `corner_data` for the corners of ``level(n_faces)``, None if there are none: that of a corner of the
+    original at the same vertex and on the same side of all edges across which the data jump; where the vertex has
+    no corner on that side, that of the corner which the triangle had in the original."""
+    data = mesh.corner_data
+    if data is None:
+        return None
+    rows = np.ascontiguousarray(data).reshape(len(data), -1)
+    kinds = np.zeros(len(rows))
+    if rows.size:
+        rows = rows.view(np.dtype((np.void, rows.dtype.itemsize * rows.shape[1])))[:, 0]
+        kinds = np.unique(rows, return_inverse=True)[1].astype(float)
+    ((_, corners),) = mesh._native.carry_corner_values(kinds[:, None], [mesh._split_count(n_faces)])
+    return arrays.frozen(data[corners])
+
+
+def _maps(uv, corner_count):
+    """The array as given, and as one row of 2m numbers for each corner."""
+    uv = np.asarray(uv, dtype=np.float64)
+    if uv.ndim not in (2, 3) or uv.shape[0] != corner_count or uv.shape[-1] != 2 or uv.size == 0:
+        wanted = f"({corner_count}, 2) or ({corner_count}, maps, 2)"
+        raise InvalidMesh(f"uv has the shape {uv.shape}; {wanted} is needed")
+    rows = np.ascontiguousarray(uv.reshape(corner_count, -1))
+    if not np.isfinite(rows).all():
+        corner = int(np.argmin(np.isfinite(rows).all(axis=1)))
+        raise InvalidMesh(f"uv of corner {corner} is not finite")
+    return uv, rows
+
+
+def _part(progress, index, count):
+    """Progress of one of `count` equal parts."""
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress((index + fraction) / count, stage)

@@ -1,0 +1,116 @@
+#include "pipeline/harmonic_map.h"
+
+#include <string>
+
+#include "base/errors.h"
+#include "mesh/components.h"
+#include "mesh/triangle_geometry.h"
+#include "pipeline/threads.h"
+
+namespace holomorph::pipeline {
+namespace {
+
+// The two sides of an edge may differ by this fraction of the largest coordinate: UVs are often kept in single
+// precision, which rounds each coordinate by 6e-8 of itself.
+constexpr double kSameVector = 1e-6;
+
+void check_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
+  const int boundaries = mesh::boundary_count(half_edges);
+  const int genus = mesh::genus(mesh::euler_characteristic(surface), boundaries);
+  if (surface.component_count == 1 && genus > 0 && boundaries == 0) return;
+  const std::string found = surface.component_count == 1 ? "genus " + std::to_string(genus) + " and " +
+                                                               std::to_string(boundaries) + " boundary loops"
+                                                         : std::to_string(surface.component_count) + " components";
+  throw TopologyError("the surface has " + found +
+                      "; a harmonic map of the same periods needs one closed surface of genus 1 or more");
+}
+
+// #V x 2m the values at the first corner of each vertex.
+forms::RowMajorMatrix first_values(const mesh::Surface& surface, const forms::RowMajorMatrix& values) {
+  forms::RowMajorMatrix first(surface.vertex_count, values.cols());
+  const auto& corner_vertices = surface.polygons.corner_vertices;
+  for (std::size_t c = corner_vertices.size(); c-- > 0;)
+    first.row(corner_vertices[c]) = values.row(static_cast<Eigen::Index>(c));
+  return first;
+}
+
+// #E x 2m the differences of the corner values along half-edges 2e, the same in both triangles of an edge.
+forms::RowMajorMatrix differences(const mesh::Surface& surface, const forms::RowMajorMatrix& values) {
+  forms::RowMajorMatrix edge_values(static_cast<Eigen::Index>(surface.edges.size()), values.cols());
+  std::vector<char> seen(surface.edges.size(), 0);
+  const double tolerance = kSameVector * values.cwiseAbs().maxCoeff();
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int e = surface.triangle_edges[t][i], from = surface.triangle_corners[t][i],
+                to = surface.triangle_corners[t][(i + 1) % 3];
+      const double sign = surface.edges[e][0] == surface.triangles[t][i] ? 1 : -1;
+      const Eigen::RowVectorXd along = sign * (values.row(to) - values.row(from));
+      if (!seen[e]) {
+        edge_values.row(e) = along;
+        seen[e] = 1;
+      } else if ((edge_values.row(e) - along).cwiseAbs().maxCoeff() > tolerance) {
+        throw InvalidMesh("across the edge between vertices " + std::to_string(surface.edges[e][0]) + " and " +
+                          std::to_string(surface.edges[e][1]) +
+                          " of the level the UV map is turned or stretched; only a map that is translated across its "
+                          "seams has a harmonic one of the same periods");
+      }
+    }
+  }
+  return edge_values;
+}
+
+// -d^T (k w) for the rows w.
+Eigen::MatrixXd codifferential(const mesh::Surface& surface, const std::vector<double>& weights,
+                               const forms::RowMajorMatrix& edge_values) {
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(surface.vertex_count, edge_values.cols());
+  for (std::size_t e = 0; e < weights.size(); ++e) {
+    const auto row = static_cast<Eigen::Index>(e);
+    B.row(surface.edges[e][1]) -= weights[e] * edge_values.row(row);
+    B.row(surface.edges[e][0]) += weights[e] * edge_values.row(row);
+  }
+  return B;
+}
+
+Eigen::VectorXd vertex_areas(const mesh::Surface& surface, const std::vector<double>& lengths) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.vertex_count);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& side = surface.triangle_edges[t];
+    const double area = mesh::triangle_area(lengths[side[0]], lengths[side[1]], lengths[side[2]]);
+    for (const int v : surface.triangles[t]) areas[v] += area / 3;
+  }
+  return areas;
+}
+
+}  // namespace
+
+HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatrix& corner_values,
+                         const Options& options, Progress& progress) {
+  const ThreadCount threads(options.threads);
+  progress.stage("level of detail", 0.0, 0.2);
+  const auto half_edges = mesh::half_edges(surface, progress);
+  check_topology(surface, half_edges);
+  // The map is a function of the vertices and a form that is 0 away from the seams. Starting from that form, the
+  // right-hand sides are large even if the map is harmonic already, and residuals relative to them mean something.
+  const auto start = first_values(surface, corner_values);
+  forms::RowMajorMatrix edge_values = differences(surface, corner_values);
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    edge_values.row(static_cast<Eigen::Index>(e)) -= start.row(surface.edges[e][1]) - start.row(surface.edges[e][0]);
+  }
+  const auto plain = mesh::intrinsic_triangulation(surface, half_edges);
+  const auto weights = mesh::cotangent_weights(plain, progress);
+
+  progress.stage("harmonic map of the level", 0.2, 1.0);
+  const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
+  const auto solver = solver::make_solver(choice.method, forms::laplacian(half_edges, weights, progress), progress);
+  HarmonicMap result;
+  result.moves = solver->solve(codifferential(surface, weights, edge_values), progress) - start;
+  const Eigen::VectorXd areas = vertex_areas(surface, plain.lengths);
+  result.moves.rowwise() -= (areas.transpose() * result.moves / areas.sum()).eval();
+  const std::string remark = solver->remark();
+  result.solver = {solver->name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver->iterations(),
+                   solver->residual()};
+  progress.finish();
+  return result;
+}
+
+}  // namespace holomorph::pipeline

@@ -1,0 +1,31 @@
+// Values at polygon corners, such as UVs, carried from the original to coarser levels.
+#pragma once
+
+#include <vector>
+
+#include "progressive/progressive_mesh.h"
+
+namespace holomorph::progressive {
+
+/// What the corners of one level have.
+struct CornerValues {
+  std::vector<double> values;  ///< 3#T x width
+  std::vector<int> corners;    ///< 3#T polygon corner of the original whose data it takes over
+};
+
+/// Corners of the original at the same vertex with the same values are one wedge (Hoppe 1996). The collapse of v_t into
+/// v_s takes the wedges of v_t in the two triangles that vanish to those of v_s in the same triangles. A wedge of v_t
+/// in neither of them lies beyond a cut that v_t is on and v_s is not: v_s has no value there, and the wedge is
+/// translated by the same vector as the others.
+///
+/// For UVs that only jump by translations across their cuts, those of holomorphic forms, that vector is the same in all
+/// wedges: every vertex of a level keeps its UVs, every edge has the difference of those of its ends along the
+/// collapsed path, so a level's map has the periods of the original's, and jumps across the image of its cuts only.
+///
+/// @param values #C x width, one row for each polygon corner of the original; finite
+/// @param splits the levels, from 0 to all splits each
+/// @return one entry for each level. Cost: O(#T width), apart from the logarithm of a large star.
+std::vector<CornerValues> carry_corner_values(const ProgressiveMesh& mesh, const std::vector<double>& values, int width,
+                                              const std::vector<int>& splits);
+
+}  // namespace holomorph::progressive
