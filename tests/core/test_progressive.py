@@ -44,6 +44,7 @@ REAL = (
     "featuretype_unwelded.ply",
     "suzanne_blender.obj",
 )
+FERTILITY = "fertility_ngon_g4.obj"
 TORI = ("torus of triangles", "torus of quads", "thin torus", "torus knot", "slivers", "relabelled")
 
 
@@ -457,7 +458,7 @@ def structures(name):
     return [mesh.conformal_structure(count // 4**k) for k in (3, 2, 1, 0)]
 
 
-@pytest.mark.parametrize("name", ["torus knot", "genus 2 block", "kitten_19k.obj", "double-torus.obj"])
+@pytest.mark.parametrize("name", ["torus knot", "genus 2 block", "kitten_19k.obj", "double-torus.obj", FERTILITY])
 def test_levels_have_the_same_classes(name):
     found = structures(name)
     for structure in found:
@@ -469,7 +470,7 @@ def test_levels_have_the_same_classes(name):
         assert max(structure.residuals.closedness, structure.residuals.harmonicity) < 1e-8
 
 
-@pytest.mark.parametrize("name", ["torus knot", "kitten_19k.obj", "double-torus.obj"])
+@pytest.mark.parametrize("name", ["torus knot", "kitten_19k.obj", "double-torus.obj", FERTILITY])
 def test_period_matrices_of_levels_approach_that_of_the_original(name):
     """Entry by entry, which makes sense only because the classes are the same."""
     *coarse, fine = (structure.period_matrix for structure in structures(name))

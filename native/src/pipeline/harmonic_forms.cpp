@@ -2,6 +2,11 @@
 
 namespace holomorph::pipeline {
 
+SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Choice& choice) {
+  const std::string remark = solver.remark();
+  return {solver.name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver.iterations(), solver.residual()};
+}
+
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                              const Options& options, Progress& progress) {
@@ -9,9 +14,7 @@ HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vecto
   const auto solver = solver::make_solver(choice.method, std::move(laplacian), {}, progress);
   HarmonicForms result;
   result.forms = forms::harmonic_basis(half_edges, weights, classes, *solver, progress);
-  const std::string remark = solver->remark();
-  result.solver = {solver->name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver->iterations(),
-                   solver->residual()};
+  result.solver = solver_report(*solver, choice);
   return result;
 }
 

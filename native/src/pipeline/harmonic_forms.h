@@ -19,6 +19,9 @@ struct SolverReport {
   double residual = 0;  ///< largest relative residual of the linear systems
 };
 
+/// What a solver reports after its last solve.
+SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Choice& choice);
+
 struct HarmonicForms {
   forms::ClosedForms forms;
   SolverReport solver;

@@ -101,14 +101,13 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
 
   progress.stage("harmonic map of the level", 0.2, 1.0);
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
-  const auto solver = solver::make_solver(choice.method, forms::laplacian(half_edges, weights, progress), progress);
+  const auto solver = solver::make_solver(choice.method, forms::laplacian(half_edges, weights, progress), {}, progress);
   HarmonicMap result;
-  result.moves = solver->solve(codifferential(surface, weights, edge_values), progress) - start;
+  const auto B = codifferential(surface, weights, edge_values);
+  result.moves = solver->solve(B, solver::Condition::natural, progress) - start;
   const Eigen::VectorXd areas = vertex_areas(surface, plain.lengths);
   result.moves.rowwise() -= (areas.transpose() * result.moves / areas.sum()).eval();
-  const std::string remark = solver->remark();
-  result.solver = {solver->name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver->iterations(),
-                   solver->residual()};
+  result.solver = solver_report(*solver, choice);
   progress.finish();
   return result;
 }
