@@ -46,21 +46,24 @@ class ProgressiveMesh:
     order : which edges are collapsed first: "quadric", by quadric error (Garland & Heckbert 1997,
         doi:10.1145/258734.258849), for levels of detail; "independent", several times faster, by rounds in which
         vertices that are pairwise not adjacent are collapsed along their shortest edges
+    progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Raises
     ------
     InvalidMesh
         if the surface is intrinsic, if its triangulated polygons have two edges with the same ends even after turning
         diagonals, or if `corner_data` does not fit the corners.
+    Cancelled
+        if `progress` returned False
     """
 
-    def __init__(self, surface, *, corner_data=None, order="quadric"):
+    def __init__(self, surface, *, corner_data=None, order="quadric", progress=None):
         if order not in ORDERS:
             raise ValueError(f"order is {order!r}; one of {', '.join(map(repr, ORDERS))} is needed")
         kind, data = "", b""
         if corner_data is not None:
             kind, data = arrays.packed(corner_data, len(surface.corner_vertices))
-        self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data)
+        self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, progress)
 
     @classmethod
     def load(cls, path):

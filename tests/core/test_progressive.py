@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import SHARED
 from forms import EdgeForms
-from holomorph import Error, InvalidMesh, ProgressiveMesh, Surface, TopologyError, conformal_structure
+from holomorph import Cancelled, Error, InvalidMesh, ProgressiveMesh, Surface, TopologyError, conformal_structure
 from solved import surface_of
 
 ORDERS = ("quadric", "independent")
@@ -533,3 +533,14 @@ def test_corner_data_must_fit():
         ProgressiveMesh(surface("cube"), corner_data=np.array(["a"] * 24))
     with pytest.raises(ValueError, match="order is 'random'"):
         ProgressiveMesh(surface("cube"), order="random")
+
+
+@in_both_orders
+def test_progress_rises_and_can_cancel(order):
+    seen = []
+    ProgressiveMesh(surface("torus knot"), order=order, progress=lambda fraction, stage: seen.append((stage, fraction)))
+    assert {stage for stage, _ in seen} == {"edge collapses"}
+    fractions = [fraction for _, fraction in seen]
+    assert fractions == sorted(fractions) and fractions[-1] == 1
+    with pytest.raises(Cancelled, match="edge collapses"):
+        ProgressiveMesh(surface("torus knot"), order=order, progress=lambda fraction, stage: False)

@@ -1,6 +1,5 @@
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
-#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -9,6 +8,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "bindings/callback.h"
 #include "pipeline/artist_forms.h"
 #include "pipeline/harmonic_map.h"
 #include "uv/uv_map.h"
@@ -38,15 +38,6 @@ struct Structure {
     return forms_for_uv(silent);
   }
 };
-
-Progress::Callback callback(const py::object& progress) {
-  if (progress.is_none()) return {};
-  return [progress](double fraction, const std::string& stage) {
-    const py::gil_scoped_acquire locked;
-    const py::object answer = progress(fraction, stage);
-    return !(answer.ptr() == Py_False);
-  };
-}
 
 std::shared_ptr<Structure> compute(std::shared_ptr<Surface> surface, const std::string& solver, int threads,
                                    const py::object& progress_function) {

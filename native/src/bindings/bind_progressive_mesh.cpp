@@ -4,6 +4,7 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "bindings/callback.h"
 #include "progressive/corner_values.h"
 #include "progressive/file_format.h"
 #include "progressive/progressive_mesh.h"
@@ -17,11 +18,12 @@ using Pointer = std::shared_ptr<ProgressiveMesh>;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
 Pointer make(const mesh::Surface& surface, const std::string& order, const std::string& corner_type,
-             const py::bytes& corner_data) {
+             const py::bytes& corner_data, const py::object& progress_function) {
   const std::string_view data = corner_data;
+  Progress progress(callback(progress_function));
   const py::gil_scoped_release unlocked;
-  auto mesh = std::make_shared<ProgressiveMesh>(
-      progressive_mesh(surface, order == "quadric" ? progressive::Order::quadric : progressive::Order::independent));
+  const auto which = order == "quadric" ? progressive::Order::quadric : progressive::Order::independent;
+  auto mesh = std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, progress));
   mesh->corner_type = corner_type;
   mesh->corner_data.assign(data.begin(), data.end());
   return mesh;

@@ -55,6 +55,9 @@ class EdgeCollapse {
   /// No triangle of the star turns by more than 75 degrees.
   bool keeps_normals(int i) const;
 
+  /// Collapses over vertices: nearly 1 at the end.
+  double part_gone() const { return static_cast<double>(collapses_.size()) / static_cast<double>(vertices_.size()); }
+
   /// Collapses v into neighbour i.
   void collapse(int i);
   /// Makes the neighbour's quadric the sum of both; to be called before `collapse`.

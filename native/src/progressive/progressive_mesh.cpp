@@ -120,11 +120,13 @@ class Recorder {
 
 }  // namespace
 
-ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order) {
+ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Progress& progress) {
+  progress.stage("edge collapses", 0.0, 1.0);
   const auto turned = with_single_edges(given);
   const mesh::Surface& surface = turned ? *turned : given;
   EdgeCollapse collapse(surface);
-  order == Order::quadric ? collapse_by_quadrics(collapse) : collapse_independent_sets(collapse);
+  order == Order::quadric ? collapse_by_quadrics(collapse, progress) : collapse_independent_sets(collapse, progress);
+  progress.finish();
   const std::size_t count = collapse.collapses().size();
   for (std::size_t left_out = 0;; left_out = 2 * left_out + 1) {
     const Recorder recorder(surface, collapse.collapses(), count - std::min(count, left_out));

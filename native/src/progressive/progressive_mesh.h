@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/progress.h"
 #include "mesh/surface.h"
 
 namespace holomorph::progressive {
@@ -53,9 +54,9 @@ struct ProgressiveMesh {
 /// vertices move along the boundary only. As long as possible no triangle turns by more than 75 degrees. Where that
 /// would leave a base without any area, the last collapses are left out.
 /// Where a diagonal of the triangulation joins vertices that another edge joins too, it is turned.
-/// @throws InvalidMesh for an intrinsic surface, or if turning helps nothing. Deterministic, one thread, O(#T) apart
-/// from very large stars.
-ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order);
+/// @throws InvalidMesh for an intrinsic surface, or if turning helps nothing; Cancelled. Deterministic, one thread,
+/// O(#T) apart from very large stars.
+ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Progress& progress);
 
 /// Number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
 int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count);

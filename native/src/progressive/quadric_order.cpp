@@ -6,11 +6,12 @@
 namespace holomorph::progressive {
 namespace {
 
+constexpr std::size_t kReportEvery = 256;  // batches
 constexpr float kRefused = std::numeric_limits<float>::infinity();
 
 class QuadricOrder {
  public:
-  explicit QuadricOrder(EdgeCollapse& mesh) : mesh_(mesh), queue_(mesh) {}
+  QuadricOrder(EdgeCollapse& mesh, Progress& progress) : mesh_(mesh), progress_(progress), queue_(mesh) {}
 
   void run(Geometry geometry) {
     geometry_ = geometry;
@@ -19,6 +20,7 @@ class QuadricOrder {
     }
     std::array<int, BucketQueue::kBatch> batch;
     for (int count = queue_.pop(batch); count > 0; count = queue_.pop(batch)) {
+      if (++batches_ % kReportEvery == 0) progress_.report(mesh_.part_gone());
       mesh_.prefetch_stars(batch.data(), count);
       for (int i = 0; i < count; ++i) {
         queue_.visiting(batch[i]);
@@ -56,17 +58,19 @@ class QuadricOrder {
   }
 
   EdgeCollapse& mesh_;
+  Progress& progress_;
   BucketQueue queue_;
   Geometry geometry_ = Geometry::checked;
+  std::size_t batches_ = 0;
   std::vector<float> costs_ = std::vector<float>(64);
 };
 
 }  // namespace
 
-void collapse_by_quadrics(EdgeCollapse& mesh) {
+void collapse_by_quadrics(EdgeCollapse& mesh, Progress& progress) {
   mesh.compute_quadrics();
   mesh.reserve(mesh.vertex_count());
-  QuadricOrder order(mesh);
+  QuadricOrder order(mesh, progress);
   order.run(Geometry::checked);
   // A refused vertex is tried again when its own star changes, not when a neighbour's does: so once more until nothing
   // is left. Each round but the last makes a collapse.
