@@ -6,41 +6,20 @@ import threading
 from . import cache, native, solve
 
 
-class Job:
-    """Solves a list of `solve.Task` one after the other.
+class Work:
+    """What runs in a worker thread and can be asked to stop: after `cancel()` the thread ends at the library's next
+    question, and nothing more is solved or kept. A kind of work defines `run`."""
 
-    `results[i]` is a `SolvedObject`, or the `holomorph.Error` that refused the mesh. After `cancel()` the
-    thread ends at the library's next question, and nothing more is solved or kept.
-    """
-
-    def __init__(self, tasks, progress=None):
-        self.results = [None] * len(tasks)
+    def __init__(self, progress=None):
         self.fraction = 0.0
         self.stage = ""
         self.failure = None  # anything but holomorph.Error is our bug: raised again in the main thread
-        self._tasks = tasks
         self._progress = progress
         self._cancelled = threading.Event()
         self._thread = threading.Thread(target=self._guarded_run, name="holomorph")
 
     def start(self):
         self._thread.start()
-
-    def run(self):
-        """Solves here and now, in the calling thread."""
-        error_type = native.load().Error
-        for index, task in enumerate(self._tasks):
-            if self._cancelled.is_set():
-                return
-            solved = cache.find(task.key)
-            if solved is None:
-                try:
-                    solved = solve.solve(task, lambda f, s, i=index: self._ask(i, f, s))
-                except error_type as error:
-                    solved = error
-                else:
-                    cache.keep(task.key, solved)
-            self.results[index] = solved
 
     def cancel(self):
         self._cancelled.set()
@@ -61,9 +40,44 @@ class Job:
         except BaseException as error:  # noqa: BLE001  carried to the main thread, not swallowed
             self.failure = error
 
-    def _ask(self, index, fraction, stage):
-        self.fraction = (index + fraction) / len(self._tasks)
+    def ask(self, fraction, stage):
+        """The library's question: how far it is, and whether to go on."""
+        self.fraction = fraction
         self.stage = stage
         if self._progress is not None:
-            self._progress(self.fraction, stage)
+            self._progress(fraction, stage)
         return not self._cancelled.is_set()
+
+
+def solved(task, ask):
+    """The kept solve of a `solve.Task`, or a new one, which is kept. Raises `holomorph.Error`."""
+    found = cache.find(task.key)
+    if found is None:
+        found = solve.solve(task, ask)
+        cache.keep(task.key, found)
+    return found
+
+
+class Job(Work):
+    """Solves a list of `solve.Task` one after the other.
+
+    `results[i]` is a `SolvedObject`, or the `holomorph.Error` that refused the mesh.
+    """
+
+    def __init__(self, tasks, progress=None):
+        super().__init__(progress)
+        self.results = [None] * len(tasks)
+        self._tasks = tasks
+
+    def run(self):
+        """Solves here and now, in the calling thread."""
+        error_type = native.load().Error
+        count = len(self._tasks)
+        for index, task in enumerate(self._tasks):
+            if self._cancelled.is_set():
+                return
+            try:
+                result = solved(task, lambda f, s, i=index: self.ask((i + f) / count, s))
+            except error_type as error:
+                result = error
+            self.results[index] = result

@@ -5,9 +5,8 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from . import native
+from .modal import WorkOperator
 
-MODAL_FACES = 20_000  # below, a solve is too short to be worth a progress display
-TIMER_SECONDS = 0.05
 DIALS = 8
 
 SELECTION_USES = (
@@ -53,7 +52,7 @@ DRAWN = (  # in groups
 )
 
 
-class HOLOMORPH_OT_maps(bpy.types.Operator):
+class HOLOMORPH_OT_maps(WorkOperator, bpy.types.Operator):
     """Compute conformal UV maps for the selected meshes, whatever their shape.
     Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
 
@@ -175,64 +174,20 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
             row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
             row.prop(self, "turns", index=index, text="")
 
-    def execute(self, context):
-        """Solves here and now: for scripts, small meshes, and the redo panel (where the solve is kept)."""
+    def prepare(self, context):
+        self._targets = self._collect(context)
+        return self._targets is not None
+
+    def make_work(self, progress):
         from . import jobs, run
 
-        targets = self._collect(context)
-        if targets is None:
-            return {"CANCELLED"}
-        manager = context.window_manager
-        manager.progress_begin(0.0, 1.0)
-        try:
-            job = jobs.Job(run.tasks(targets), lambda fraction, _stage: manager.progress_update(fraction))
-            job.run()
-        finally:
-            manager.progress_end()
-        return self._write(context, targets, job.results)
+        return jobs.Job(run.tasks(self._targets), progress)
 
-    def invoke(self, context, _event):
-        from . import cache, jobs, run
+    def waiting_faces(self):
+        from . import cache, run
 
-        targets = self._collect(context)
-        if targets is None:
-            return {"CANCELLED"}
-        waiting = [task.polygons for task in run.tasks(targets) if cache.find(task.key) is None]
-        faces = sum(len(p.face_offsets) - 1 for p in waiting)
-        if bpy.app.background or context.window is None or faces < MODAL_FACES:
-            return self.execute(context)
-        self._targets = targets
-        self._job = jobs.Job(run.tasks(targets))
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(TIMER_SECONDS, window=context.window)
-        manager.progress_begin(0.0, 1.0)
-        manager.modal_handler_add(self)
-        self._job.start()
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context, event):
-        """Every event but ESC is held back until the worker is done, so the meshes stay as they were read."""
-        if event.type == "ESC":
-            self.cancel(context)
-            self.report({"INFO"}, "Cancelled: nothing was changed")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
-        if self._job.is_running():
-            self._show_progress(context)
-            return {"RUNNING_MODAL"}
-        self._end_modal(context)
-        self._job.wait()
-        return self._write(context, self._targets, self._job.results, time_has_passed=True)
-
-    def cancel(self, context):
-        """ESC, or another file is loaded, or the program ends in the middle of a solve.
-
-        The worker is not waited for: it may be inside a factorisation, which is not interrupted. It has nothing
-        of Blender's in its hands, and ends by itself at the library's next question.
-        """
-        self._job.cancel()
-        self._end_modal(context)
+        waiting = [task.polygons for task in run.tasks(self._targets) if cache.find(task.key) is None]
+        return sum(len(p.face_offsets) - 1 for p in waiting)
 
     def _collect(self, context):
         """The targets, or None where the residues cannot be read."""
@@ -252,24 +207,15 @@ class HOLOMORPH_OT_maps(bpy.types.Operator):
         )
         return run.collect(run.mesh_objects(context), request)
 
-    def _show_progress(self, context):
-        percent = round(100 * self._job.fraction)
-        context.workspace.status_text_set(f"Holomorph: {percent} % {self._job.stage}   (ESC cancels)")
-        context.window_manager.progress_update(self._job.fraction)
-
-    def _end_modal(self, context):
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
-
-    def _write(self, context, targets, results, time_has_passed=False):
+    def finish(self, context, work, time_has_passed):
         from . import maps, run
 
         map_options = maps.MapOptions(
             self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns), self.margin
         )
         write_options = run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams)
-        outcome = run.write(context, targets, run.align(targets, results), map_options, write_options, time_has_passed)
+        results = run.align(self._targets, work.results)
+        outcome = run.write(context, self._targets, results, map_options, write_options, time_has_passed)
         self.form_count = outcome.forms
         if not outcome.done:
             self.report({"ERROR"}, "; ".join(outcome.problems) or "No mesh selected")

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What operators have in common whose work runs in a worker thread while Blender's window stays alive."""
+
+import bpy
+
+MODAL_FACES = 20_000  # below, the work is too short to be worth a progress display
+TIMER_SECONDS = 0.05
+
+
+class WorkOperator:
+    """A mixin for operators. One of them defines
+
+    prepare(context) : reads what the work needs, returns whether there is work
+    make_work(progress) : a `jobs.Work` of what was read
+    waiting_faces() : how many polygons are waited for
+    finish(context, work, time_has_passed) : writes the results; the set that an operator returns
+    """
+
+    def execute(self, context):
+        """Works here and now: for scripts, small meshes, and the redo panel (where solves are kept)."""
+        if not self.prepare(context):
+            return {"CANCELLED"}
+        return self._work_here(context)
+
+    def invoke(self, context, _event):
+        if not self.prepare(context):
+            return {"CANCELLED"}
+        if bpy.app.background or context.window is None or self.waiting_faces() < MODAL_FACES:
+            return self._work_here(context)
+        self._work = self.make_work(None)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(TIMER_SECONDS, window=context.window)
+        manager.progress_begin(0.0, 1.0)
+        manager.modal_handler_add(self)
+        self._work.start()
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        """Every event but ESC is held back until the worker is done, so the meshes stay as they were read."""
+        if event.type == "ESC":
+            self.cancel(context)
+            self.report({"INFO"}, "Cancelled: nothing was changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}
+        if self._work.is_running():
+            self._show_progress(context)
+            return {"RUNNING_MODAL"}
+        self._end_modal(context)
+        self._work.wait()
+        return self.finish(context, self._work, time_has_passed=True)
+
+    def cancel(self, context):
+        """ESC, or another file is loaded, or the program ends in the middle of the work.
+
+        The worker is not waited for: it may be inside a factorisation, which is not interrupted. It has nothing
+        of Blender's in its hands, and ends by itself at the library's next question.
+        """
+        self._work.cancel()
+        self._end_modal(context)
+
+    def _work_here(self, context):
+        manager = context.window_manager
+        manager.progress_begin(0.0, 1.0)
+        try:
+            work = self.make_work(lambda fraction, _stage: manager.progress_update(fraction))
+            work.run()
+        finally:
+            manager.progress_end()
+        return self.finish(context, work, time_has_passed=False)
+
+    def _show_progress(self, context):
+        percent = round(100 * self._work.fraction)
+        context.workspace.status_text_set(f"Holomorph: {percent} % {self._work.stage}   (ESC cancels)")
+        context.window_manager.progress_update(self._work.fraction)
+
+    def _end_modal(self, context):
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
