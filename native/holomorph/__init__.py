@@ -13,6 +13,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 """
 
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
+from .bounded import BoundedStructure
 from .closed import ConformalStructure
 from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh
@@ -21,6 +22,7 @@ from .structure import conformal_structure
 from .surface import Repairs, Surface
 
 __all__ = [
+    "BoundedStructure",
     "Cancelled",
     "ConformalStructure",
     "Error",

@@ -2,12 +2,14 @@
 
 from . import _native
 from ._native import TopologyError
+from .bounded import BoundedStructure
 from .closed import ConformalStructure
 from .results import check_options, only_component, result
 
 
 def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
-    """Harmonic and holomorphic one-forms and the period matrix of one connected closed surface of genus >= 1.
+    """Harmonic and holomorphic one-forms and conformal invariants of one connected surface: closed of genus >= 1, or
+    with boundary, except a disk.
 
     Parameters
     ----------
@@ -19,26 +21,31 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
 
     Returns
     -------
-    ConformalStructure
+    ConformalStructure of a closed surface, BoundedStructure of one with boundary
 
     Raises
     ------
     TopologyError
-        several components, genus 0, or a boundary (names genus and boundary count)
+        several components, a sphere or a disk (names genus and boundary count)
     SolverError
         if neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out
     Cancelled
         if `progress` returned False
 
-    Cost: 2g solves of the Laplacian, after one factorisation or the set-up of multigrid; 2 g #V numbers of memory.
-    Source: Gu, Wang, Yau (2003), § 4 to § 7 and Eq. 13; the star by Gu & Yau (2003), projected.
+    Cost: 2n solves of the Laplacian for n complex forms (n = g closed, 2g + b - 1 with boundary), after one
+    factorisation or the set-up of multigrid; 2 n #V numbers of memory.
+    Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
     threads = check_options(solver, threads)
     component = only_component(surface)
     genus, boundaries = component.genus, component.boundary_count
-    if genus >= 1 and boundaries == 0:
+    if boundaries and 2 * genus + boundaries > 1:
+        native = _native.bounded_structure(component._native, solver, threads, progress)
+        return result(BoundedStructure, surface, component, native)
+    if genus >= 1:
         native = _native.conformal_structure(component._native, solver, threads, progress)
         return result(ConformalStructure, surface, component, native)
     raise TopologyError(
-        f"the surface has genus {genus} and {boundaries} boundary loops; a closed surface of genus 1 or more is needed"
+        f"the surface has genus {genus} and {boundaries} boundary loops; "
+        "a closed surface of genus 1 or more, or one with a boundary that is no disk, is needed"
     )

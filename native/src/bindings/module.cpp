@@ -32,5 +32,6 @@ PYBIND11_MODULE(_native, m) {
   declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
   bindings::bind_surface(m);
   bindings::bind_conformal_structure(m);
+  bindings::bind_bounded_structure(m);
   bindings::bind_progressive_mesh(m);
 }

@@ -1,34 +1,8 @@
 #include "conformal/holomorphic_basis.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
-#include "base/errors.h"
-
 namespace holomorph::conformal {
-namespace {
 
 using Eigen::MatrixXd;
-
-MatrixXd inverse(const MatrixXd& A) { return A.llt().solve(MatrixXd::Identity(A.rows(), A.cols())); }
-MatrixXd symmetric(const MatrixXd& A) { return (A + A.transpose()) / 2; }
-
-}  // namespace
-
-MatrixXd geometric_mean(const MatrixXd& A, const MatrixXd& B) {
-  const Eigen::LLT<MatrixXd> root(A);
-  if (root.info() != Eigen::Success)
-    throw SolverError("the Gram matrix of " + std::to_string(A.rows()) + " forms is not positive definite");
-  const MatrixXd L = root.matrixL();
-  const MatrixXd half = L.triangularView<Eigen::Lower>().solve(B);
-  const MatrixXd inner = L.triangularView<Eigen::Lower>().solve(half.transpose());  // L^-1 B L^-T
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(symmetric(inner));
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues().minCoeff() > 0)) {
-    throw SolverError("the Gram matrix of " + std::to_string(A.rows()) +
-                      " forms is too badly conditioned to be projected");
-  }
-  return symmetric(L * eigen.operatorSqrt() * L.transpose());
-}
 
 HolomorphicBasis holomorphic_basis(const MatrixXd& G_zeta, const topology::CanonicalBasis& basis) {
   const auto g = G_zeta.rows() / 2;
@@ -37,8 +11,7 @@ HolomorphicBasis holomorphic_basis(const MatrixXd& G_zeta, const topology::Canon
   MatrixXd J = MatrixXd::Zero(2 * g, 2 * g);
   J.topRightCorner(g, g).setIdentity();
   J.bottomLeftCorner(g, g) = -MatrixXd::Identity(g, g);
-  // The polar projection C# = C (-C^2)^(-1/2) is the geometric mean of the two sides of G_exact <= G, >= J^T G^-1 J.
-  const MatrixXd projected = geometric_mean(G, J.transpose() * inverse(G) * J);
+  const MatrixXd projected = projected_star(G, G, J).natural_gram;
 
   HolomorphicBasis result;
   const MatrixXd imaginary = symmetric(inverse(projected.bottomRightCorner(g, g)));

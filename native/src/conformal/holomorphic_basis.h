@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "conformal/projection.h"
 #include "topology/homology.h"
 
 namespace holomorph::conformal {
@@ -21,9 +22,5 @@ struct HolomorphicBasis {
 
 /// @param G Gram matrix of the harmonic basis dual to zeta
 HolomorphicBasis holomorphic_basis(const Eigen::MatrixXd& G, const topology::CanonicalBasis& basis);
-
-/// A # B = A^(1/2) (A^(-1/2) B A^(-1/2))^(1/2) A^(1/2) of positive definite matrices, by Cholesky and one symmetric
-/// eigenproblem (the mean is invariant under congruence, so any root of A will do).
-Eigen::MatrixXd geometric_mean(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
 }  // namespace holomorph::conformal

@@ -1,4 +1,4 @@
-// gram_matrix and residuals: sums and maxima over all edges, faces and vertices of all forms.
+// gram_matrix, energies and residuals: sums and maxima over all edges, faces and vertices of all forms.
 #include <algorithm>
 #include <array>
 
@@ -67,11 +67,12 @@ void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, i
 }
 
 // Vertices: |d* h| = |sum of k h over the half-edges that leave| against the sum of |k h|.
-void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms, int begin,
-                      int end, Maxima& maxima) {
+void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+                      const std::vector<char>& is_held, int begin, int end, Maxima& maxima) {
   const auto n = forms.functions.cols();
   Eigen::RowVectorXd sum(n), size(n), value(n);
   for (int v = begin; v < end; ++v) {
+    if (is_held[v]) continue;
     sum.setZero();
     size.setZero();
     const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
@@ -124,16 +125,33 @@ Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& we
   return (G + G.transpose()) / 2;
 }
 
+Eigen::VectorXd energies(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+                         Progress& progress) {
+  std::array<Eigen::VectorXd, kBatch> slots;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(forms.functions.cols());
+  for_blocks(
+      weights.size(), progress, 0.0, 1.0,
+      [&](int slot, int begin, int end) {
+        const RowMajorMatrix h = edge_values(mesh, forms, begin, end);
+        const auto k = Eigen::Map<const Eigen::VectorXd>(weights.data() + begin, end - begin);
+        slots[slot].noalias() = h.cwiseAbs2().transpose() * k;
+      },
+      [&](int slot) { sum += slots[slot]; });
+  return sum;
+}
+
 Residuals residuals(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
-                    Progress& progress) {
+                    Progress& progress, const std::vector<int>& held) {
   const auto n = forms.functions.cols();
+  std::vector<char> is_held(mesh.n_vertices(), 0);
+  for (const int v : held) is_held[v] = 1;
   Residuals result;
   result.closedness = relative_maximum(mesh.n_faces(), n, progress, 0.0, 0.5, [&](int begin, int end, Maxima& maxima) {
     measure_faces(mesh, forms, begin, end, maxima);
   });
   result.harmonicity = relative_maximum(
       mesh.n_vertices(), n, progress, 0.5, 1.0,
-      [&](int begin, int end, Maxima& maxima) { measure_vertices(mesh, weights, forms, begin, end, maxima); });
+      [&](int begin, int end, Maxima& maxima) { measure_vertices(mesh, weights, forms, is_held, begin, end, maxima); });
   return result;
 }
 

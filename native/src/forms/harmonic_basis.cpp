@@ -79,8 +79,9 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>
 }
 
 ClosedForms harmonic_basis(const HalfEdges& mesh, const std::vector<double>& weights,
-                           const topology::IntegerForms& classes, solver::LaplaceSolver& solver, Progress& progress) {
-  return {classes, solver.solve(codifferentials(mesh, weights, classes), solver::Condition::natural, progress)};
+                           const topology::IntegerForms& classes, solver::LaplaceSolver& solver,
+                           solver::Condition condition, Progress& progress) {
+  return {classes, solver.solve(codifferentials(mesh, weights, classes), condition, progress)};
 }
 
 RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end) {

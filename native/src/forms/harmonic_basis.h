@@ -26,9 +26,11 @@ solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, const std::vector
 Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                                 const topology::IntegerForms& classes);
 
-/// The harmonic form of each class: L f_i = -d* eta_i, all right-hand sides in one block.
+/// The harmonic form of each class: L f_i = -d* eta_i, all right-hand sides in one block. With the Dirichlet condition
+/// f_i = 0 at the solver's held vertices, and d* h_i need not vanish there.
 ClosedForms harmonic_basis(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
-                           const topology::IntegerForms& classes, solver::LaplaceSolver& solver, Progress& progress);
+                           const topology::IntegerForms& classes, solver::LaplaceSolver& solver,
+                           solver::Condition condition, Progress& progress);
 
 /// Values of all forms on the edges begin .. end-1, (end - begin) x #forms, along half-edge 2e.
 RowMajorMatrix edge_values(const mesh::HalfEdges& half_edges, const ClosedForms& forms, int begin, int end);
@@ -38,13 +40,18 @@ RowMajorMatrix edge_values(const mesh::HalfEdges& half_edges, const ClosedForms&
 Eigen::MatrixXd gram_matrix(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                             const ClosedForms& forms, Progress& progress);
 
+/// The diagonal of gram_matrix: cost #E x #forms.
+Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                         const ClosedForms& forms, Progress& progress);
+
 /// Relative maxima over all forms: |sum of a form around a face| over its largest value; |d* h| at a vertex over the
 /// largest sum of |k h| at a vertex.
+/// @param held vertices at which the functions are prescribed, so that d* h need not vanish there
 struct Residuals {
   double closedness = 0, harmonicity = 0;
 };
 Residuals residuals(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const ClosedForms& forms,
-                    Progress& progress);
+                    Progress& progress, const std::vector<int>& held = {});
 
 /// Integrals of the forms over closed loops of half-edges, #loops x #forms.
 Eigen::MatrixXd periods(const mesh::HalfEdges& half_edges, const ClosedForms& forms,

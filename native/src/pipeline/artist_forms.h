@@ -1,6 +1,7 @@
 // Harmonic forms for the artist's triangles.
 #pragma once
 
+#include "pipeline/bounded_structure.h"
 #include "pipeline/conformal_structure.h"
 
 namespace holomorph::pipeline {
@@ -13,6 +14,8 @@ namespace holomorph::pipeline {
 /// (relative; their energy on the artist's triangles bounds the gain from above), they are taken as they are.
 /// @throws SolverError, Cancelled
 HarmonicForms artist_forms(const mesh::Surface& surface, const ConformalStructure& structure, const Options& options,
+                           Progress& progress);
+HarmonicForms artist_forms(const mesh::Surface& surface, const BoundedStructure& structure, const Options& options,
                            Progress& progress);
 
 }  // namespace holomorph::pipeline

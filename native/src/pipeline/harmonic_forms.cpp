@@ -13,7 +13,7 @@ HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vecto
   const auto choice = solver::choose_method(options.solver, laplacian.rows(), classes.form_count);
   const auto solver = solver::make_solver(choice.method, std::move(laplacian), {}, progress);
   HarmonicForms result;
-  result.forms = forms::harmonic_basis(half_edges, weights, classes, *solver, progress);
+  result.forms = forms::harmonic_basis(half_edges, weights, classes, *solver, solver::Condition::natural, progress);
   result.solver = solver_report(*solver, choice);
   return result;
 }

@@ -29,7 +29,8 @@ struct Farther {
 };
 
 // Dijkstra along the artist's edges: fills T and the distances from the root. A star is entered as a whole: with the
-// first vertex of it that is settled come its centre and all its spokes.
+// first vertex of it that is settled come its centre and all its spokes. So is a boundary loop, at no cost, because the
+// surface need not be cut along it.
 class ShortestPathTree {
  public:
   ShortestPathTree(const mesh::Surface& surface, const HalfEdges& mesh, const std::vector<mesh::Star>& stars,
@@ -40,6 +41,7 @@ class ShortestPathTree {
     settled_.assign(n, 0);
     domain_.to_parent_vertex.assign(n, HalfedgeHandle());
     domain_.vertex_depth.assign(n, 0);
+    domain_.gaps.resize(domain_.boundary.loops.size());
     for (std::size_t s = 0; s < stars.size(); ++s) {
       star_of_[stars[s].vertex] = static_cast<int>(s);
       for (const HalfedgeHandle h : stars[s].link) star_of_[to_vertex(mesh, h)] = static_cast<int>(s);
@@ -55,6 +57,7 @@ class ShortestPathTree {
       if (settled_[v]) continue;
       settle(v);
       if (star_of_[v] >= 0) settle_star(v, stars_[star_of_[v]]);
+      if (domain_.boundary.loop_of_vertex[v] >= 0) settle_loop(v);
       if (done_ % kReportEvery == 0)
         progress.report(0.5 * static_cast<double>(done_) / static_cast<double>(distance.size()));
     }
@@ -91,12 +94,27 @@ class ShortestPathTree {
     for (const HalfedgeHandle h : star.link) join(to_vertex(mesh_, h), first, next(mesh_, h));
   }
 
-  // `spoke` lies between v and its parent, in either direction; it becomes the way of v to its parent.
-  void join(int v, int first, HalfedgeHandle spoke) {
+  // `between` lies between v and its parent, in either direction; it becomes the way of v to its parent.
+  void join(int v, int first, HalfedgeHandle between) {
     if (settled_[v]) return;
     distance[v] = distance[first];
-    domain_.to_parent_vertex[v] = mesh::from_vertex(mesh_, spoke) == v ? spoke : opposite(spoke);
+    domain_.to_parent_vertex[v] = mesh::from_vertex(mesh_, between) == v ? between : opposite(between);
     settle(v);
+  }
+
+  // From v both ways to the edge opposite, which stays outside T.
+  void settle_loop(int v) {
+    std::vector<HalfedgeHandle> loop;
+    const HalfedgeHandle start = mesh_.halfedge_handle(VertexHandle(v));
+    HalfedgeHandle h = start;
+    do {
+      loop.push_back(h);
+      h = next(mesh_, h);
+    } while (h != start);
+    const std::size_t middle = loop.size() / 2;
+    domain_.gaps[domain_.boundary.loop_of_vertex[v]] = loop[middle];
+    for (std::size_t i = 0; i < middle; ++i) join(to_vertex(mesh_, loop[i]), v, loop[i]);
+    for (std::size_t i = loop.size() - 1; i > middle; --i) join(mesh::from_vertex(mesh_, loop[i]), v, loop[i]);
   }
 
   const mesh::Surface& surface_;
@@ -144,7 +162,7 @@ void grow_domain(const HalfEdges& mesh, const std::vector<double>& key, Fundamen
   assert(domain.face_order.size() == face_count);
 }
 
-// Length of the loop that an edge closes in T; infinite for diagonals, negative for the edges of T.
+// Length of the loop that an edge closes in T; infinite for diagonals, negative for the edges of T and of the boundary.
 std::vector<double> loop_lengths(const mesh::Surface& surface, const FundamentalDomain& domain,
                                  const std::vector<double>& distance) {
   std::vector<double> key(surface.edges.size());
@@ -156,6 +174,7 @@ std::vector<double> loop_lengths(const mesh::Surface& surface, const Fundamental
   for (const HalfedgeHandle h : domain.to_parent_vertex) {
     if (h.is_valid()) key[edge_of(h)] = -1;
   }
+  for (const HalfedgeHandle h : domain.gaps) key[edge_of(h)] = -1;
   return key;
 }
 
@@ -164,8 +183,9 @@ std::vector<double> loop_lengths(const mesh::Surface& surface, const Fundamental
 FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress,
                                      const std::vector<mesh::Star>& stars) {
   FundamentalDomain domain;
+  domain.boundary = mesh::boundary_loops(surface, half_edges);
   ShortestPathTree tree(surface, half_edges, stars, domain);
-  tree.grow(0, progress);
+  tree.grow(domain.boundary.count() == 0 ? 0 : mesh::from_vertex(half_edges, domain.boundary.loops[0][0]), progress);
   const std::vector<double> key = loop_lengths(surface, domain, tree.distance);
   grow_domain(half_edges, key, domain, progress);
   for (int e = 0; e < static_cast<int>(key.size()); ++e) {
@@ -199,7 +219,7 @@ std::vector<int> cut_graph(const HalfEdges& mesh, const FundamentalDomain& domai
   }
   std::vector<int> graph;
   for (int e = 0; e < static_cast<int>(in_graph.size()); ++e) {
-    if (in_graph[e]) graph.push_back(e);
+    if (in_graph[e] && !mesh.is_boundary(mesh::EdgeHandle(e))) graph.push_back(e);
   }
   return graph;
 }

@@ -5,12 +5,15 @@
 // G are the 2g edges e_i. The paper takes faces from a plain queue. Here the next face is the one behind the edge whose
 // loop through T is longest (diagonals of polygons first, edges of T never), so the edges left over close the shortest
 // loops: the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a root.
+//
+// With boundary: no boundary edge is crossed. T has all edges of each loop but one, e_k: the search for shortest paths
+// goes along a loop at no cost, because the surface need not be cut there. 2g interior edges are left over, as before.
 #pragma once
 
 #include <vector>
 
 #include "base/progress.h"
-#include "mesh/half_edges.h"
+#include "mesh/boundary_loops.h"
 #include "mesh/stars.h"
 
 namespace holomorph::topology {
@@ -18,7 +21,7 @@ namespace holomorph::topology {
 using mesh::HalfedgeHandle;
 using mesh::HalfEdges;
 
-/// @pre connected and closed; every vertex has a face.
+/// @pre connected; every vertex has a face.
 struct FundamentalDomain {
   std::vector<HalfedgeHandle>
       to_parent_face;  ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
@@ -27,7 +30,9 @@ struct FundamentalDomain {
   std::vector<char> crossed;                     ///< #E 1 for the edges of C, which are inside D; the others are G
   std::vector<HalfedgeHandle> to_parent_vertex;  ///< #V the half-edge towards the root of T; invalid at the root
   std::vector<int> vertex_depth;                 ///< #V steps to the root
-  std::vector<int> left_over;                    ///< the 2g edges of G outside T, ascending
+  std::vector<int> left_over;                    ///< the 2g interior edges of G outside T, ascending
+  mesh::BoundaryLoops boundary;
+  std::vector<HalfedgeHandle> gaps;  ///< e_k, the edge of boundary loop k outside T: the half-edge without a face
 };
 
 /// @param surface,half_edges the artist's triangulation; C takes all its diagonals, so G and T run on the artist's
@@ -38,7 +43,8 @@ struct FundamentalDomain {
 FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress,
                                      const std::vector<mesh::Star>& stars = {});
 
-/// The cut graph: G without its dangling ends, ascending. Cutting the surface along it leaves a disk.
+/// The cut graph: the interior edges of G without its dangling ends, ascending. Cutting the surface along it leaves a
+/// disk.
 /// @param ends vertices to which dangling ends are kept
 std::vector<int> cut_graph(const HalfEdges& half_edges, const FundamentalDomain& domain,
                            const std::vector<int>& ends = {});

@@ -17,6 +17,20 @@ void add_crossing(HalfedgeHandle leaving, int form, int direction, IntegerForms&
   forms.rows[edge_of(leaving)].emplace_back(form, direction * sign(leaving));
 }
 
+// The dual path inside D from one face to another.
+void add_dual_path(const HalfEdges& mesh, const FundamentalDomain& domain, int here, int there, int form,
+                   IntegerForms& forms) {
+  while (here != there) {
+    if (domain.face_depth[here] >= domain.face_depth[there]) {
+      add_crossing(domain.to_parent_face[here], form, 1, forms);
+      here = face_of(mesh, opposite(domain.to_parent_face[here]));
+    } else {
+      add_crossing(domain.to_parent_face[there], form, -1, forms);
+      there = face_of(mesh, opposite(domain.to_parent_face[there]));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& mesh, const FundamentalDomain& domain) {
@@ -44,23 +58,53 @@ std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& mesh, c
 
 IntegerForms cohomology_basis(const HalfEdges& mesh, const FundamentalDomain& domain) {
   IntegerForms forms;
-  forms.form_count = static_cast<int>(domain.left_over.size());
   forms.rows.resize(mesh.n_edges());
-  for (int i = 0; i < forms.form_count; ++i) {
-    const HalfedgeHandle h(2 * domain.left_over[i]);
-    add_crossing(h, i, 1, forms);  // out of the face at h, and back to it through D
-    int here = face_of(mesh, opposite(h)), there = face_of(mesh, h);
-    while (here != there) {
-      if (domain.face_depth[here] >= domain.face_depth[there]) {
-        add_crossing(domain.to_parent_face[here], i, 1, forms);
-        here = face_of(mesh, opposite(domain.to_parent_face[here]));
-      } else {
-        add_crossing(domain.to_parent_face[there], i, -1, forms);
-        there = face_of(mesh, opposite(domain.to_parent_face[there]));
-      }
-    }
+  for (const int e : domain.left_over) {  // out of the face at h, and back to it through D
+    const HalfedgeHandle h(2 * e);
+    const int i = forms.form_count++;
+    add_crossing(h, i, 1, forms);
+    add_dual_path(mesh, domain, face_of(mesh, opposite(h)), face_of(mesh, h), i, forms);
   }
   return forms;
+}
+
+void add_paths_between_loops(const HalfEdges& mesh, const FundamentalDomain& domain, IntegerForms& forms) {
+  for (std::size_t k = 1; k < domain.gaps.size(); ++k) {
+    const HalfedgeHandle in = opposite(domain.gaps[k]), out = opposite(domain.gaps[0]);
+    const int i = forms.form_count++;
+    add_crossing(in, i, -1, forms);
+    add_dual_path(mesh, domain, face_of(mesh, in), face_of(mesh, out), i, forms);
+    add_crossing(out, i, 1, forms);
+  }
+}
+
+void add_loop_indicators(const HalfEdges& mesh, const mesh::BoundaryLoops& boundary, IntegerForms& forms) {
+  const int first = forms.form_count - 1;  // loop k >= 1 is form first + k
+  forms.form_count += boundary.count() - 1;
+  for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e) {
+    const HalfedgeHandle h(2 * e);
+    const int head = boundary.loop_of_vertex[to_vertex(mesh, h)], tail = boundary.loop_of_vertex[from_vertex(mesh, h)];
+    if (head == tail) continue;
+    auto& row = forms.rows[e];
+    if (head > 0) row.emplace_back(first + head, 1);
+    if (tail > 0) row.emplace_back(first + tail, -1);
+    if (head > 0 && tail > 0 && tail < head) std::swap(row.back(), row[row.size() - 2]);
+  }
+}
+
+IntegerMatrix pairing(const HalfEdges& mesh, const IntegerForms& a, const IntegerForms& b) {
+  IntegerMatrix twice = IntegerMatrix::Zero(a.form_count, b.form_count);
+  for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
+    const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
+    const int factor = sign(h0) * sign(h1), e0 = edge_of(h0), e1 = edge_of(h1);
+    for (const auto& [i, x] : a.rows[e0]) {
+      for (const auto& [j, y] : b.rows[e1]) twice(i, j) += factor * x * y;
+    }
+    for (const auto& [i, x] : a.rows[e1]) {
+      for (const auto& [j, y] : b.rows[e0]) twice(i, j) -= factor * x * y;
+    }
+  }
+  return twice / 2;
 }
 
 IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Progress& progress) {

@@ -20,6 +20,19 @@ std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& half_ed
 /// gives a form of the same class; this one is its special case with all free choices 0.
 IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain);
 
+/// Appends b - 1 classes: the signed crossings of the dual path that enters through e_k, runs in D and leaves through
+/// e_0, k = 1 .. b-1. The period of class k over boundary loop k, the hole on its left, is 1, over loop 0 it is -1,
+/// over the other loops and over the zeta 0.
+void add_paths_between_loops(const HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms& forms);
+
+/// Appends b - 1 classes of H^1(M, dM): d(1 on loop k, 0 at all other vertices), k = 1 .. b-1. Any triangulation on the
+/// same vertices.
+void add_loop_indicators(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary, IntegerForms& forms);
+
+/// W_ij = int a_i ^ b_j of closed integer forms, b zero along the boundary: it depends on the classes only, and is an
+/// integer.
+IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b);
+
 /// W_ij = int eta_i ^ eta_j, integer because both are classes of integers; exact on any triangulation they live on.
 IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Progress& progress);
 

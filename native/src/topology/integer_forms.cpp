@@ -1,5 +1,7 @@
 #include "topology/integer_forms.h"
 
+#include <algorithm>
+
 namespace holomorph::topology {
 
 IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, int factor) {
@@ -20,6 +22,27 @@ IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, in
     }
   }
   return sum;
+}
+
+IntegerForms beside(const IntegerForms& a, const IntegerForms& b) {
+  IntegerForms both = a;
+  both.form_count += b.form_count;
+  for (std::size_t e = 0; e < b.rows.size(); ++e) {
+    for (const auto& [form, value] : b.rows[e]) both.rows[e].emplace_back(a.form_count + form, value);
+  }
+  return both;
+}
+
+IntegerForms first_forms(const IntegerForms& forms, int count, int form_count) {
+  IntegerForms first;
+  first.form_count = form_count;
+  first.rows.resize(forms.rows.size());
+  for (std::size_t e = 0; e < forms.rows.size(); ++e) {
+    const auto& row = forms.rows[e];
+    const auto end = std::find_if(row.begin(), row.end(), [count](const auto& entry) { return entry.first >= count; });
+    first.rows[e].assign(row.begin(), end);
+  }
+  return first;
 }
 
 void carry_through(const std::vector<mesh::Flip>& flips, IntegerForms& forms) {

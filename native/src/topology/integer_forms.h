@@ -18,6 +18,12 @@ struct IntegerForms {
 /// a + factor * b
 IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, int factor);
 
+/// Both families as one: first the forms of `a`, then those of `b`.
+IntegerForms beside(const IntegerForms& a, const IntegerForms& b);
+
+/// The first `count` forms, and zeros up to `form_count`.
+IntegerForms first_forms(const IntegerForms& forms, int count, int form_count);
+
 /// The same closed forms on a triangulation that was flipped: exact, by closedness.
 void carry_through(const std::vector<mesh::Flip>& flips, IntegerForms& forms);
 

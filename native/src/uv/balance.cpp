@@ -46,9 +46,18 @@ struct Parts {
   Eigen::MatrixXcd M, N;  // #samples x g
 };
 
+// c as the unknowns of the minimiser: real parts, then imaginary ones where they are free.
+VectorXcd as_complex(const VectorXd& x, Coefficients kind) {
+  const auto g = kind == Coefficients::real ? x.size() : x.size() / 2;
+  VectorXcd c = VectorXcd::Zero(g);
+  c.real() = x.head(g);
+  if (kind == Coefficients::complex) c.imag() = x.tail(g);
+  return c;
+}
+
 // For a harmonic form h, A = (h_x - i h_y) / 2 up to a common phase, and B = conj(A).
 Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
-                    const Eigen::MatrixXcd& periods, const std::vector<int>& samples) {
+                    const Eigen::MatrixXcd& basis, const std::vector<int>& samples) {
   Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples.size()), forms.functions.cols());
   for (std::size_t s = 0; s < samples.size(); ++s) {
     mesh::HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(samples[s]));
@@ -69,7 +78,7 @@ Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_ed
         (0.5 * (h_x.cast<Complex>() - Complex(0, 1) * h_y.cast<Complex>())).transpose();
     if (!(area > 0)) parts.row(static_cast<Eigen::Index>(s)).setZero();
   }
-  return {parts * periods, parts.conjugate() * periods};
+  return {parts * basis, parts.conjugate() * basis};
 }
 
 // Variance over the samples of log(q / mean q + floor), q = |A|^2, plus kDistortion times the mean of
@@ -77,13 +86,10 @@ Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_ed
 // a good map; without it |A| may be made even where B, the error of the mesh, outweighs it and the map turns over.
 class LogVariance {
  public:
-  LogVariance(const Parts& parts, double floor) : parts_(parts), floor_(floor) {}
+  LogVariance(const Parts& parts, Coefficients kind, double floor) : parts_(parts), kind_(kind), floor_(floor) {}
 
   double operator()(const VectorXd& x, VectorXd& gradient) const {
-    const auto g = parts_.M.cols();
-    VectorXcd c(g);
-    c.real() = x.head(g);
-    c.imag() = x.tail(g);
+    const VectorXcd c = as_complex(x, kind_);
     const VectorXcd A = parts_.M * c, B = parts_.N * c;
     const Eigen::ArrayXd q = A.cwiseAbs2().array(), b = B.cwiseAbs2().array();
     const double mean = q.mean(), count = static_cast<double>(q.size());
@@ -97,13 +103,15 @@ class LogVariance {
     const VectorXcd weighted_A = (by_q.cast<Complex>() * A.array()).matrix(),
                     weighted_B = (by_b.cast<Complex>() * B.array()).matrix();
     const VectorXcd by_c = 2 * (parts_.M.adjoint() * weighted_A + parts_.N.adjoint() * weighted_B);
-    gradient.resize(2 * g);
-    gradient << by_c.real(), by_c.imag();
+    gradient.resize(x.size());
+    gradient.head(c.size()) = by_c.real();
+    if (kind_ == Coefficients::complex) gradient.tail(c.size()) = by_c.imag();
     return deviation.square().mean() + kDistortion * r.mean();
   }
 
  private:
   const Parts& parts_;
+  Coefficients kind_;
   double floor_;
 };
 
@@ -113,21 +121,22 @@ struct Candidate {
 };
 
 template <std::size_t N>
-Candidate descend(const Parts& parts, VectorXd x, const double (&floors)[N], int most_steps) {
+Candidate descend(const Parts& parts, Coefficients kind, VectorXd x, const double (&floors)[N], int most_steps) {
   double variance = INFINITY;
   for (const double floor : floors) {
-    variance = minimise(LogVariance(parts, floor), x, most_steps);
+    variance = minimise(LogVariance(parts, kind, floor), x, most_steps);
     x.normalize();  // the variance does not depend on the scale
   }
   return {variance, std::move(x)};
 }
 
-VectorXd lowest_variance(const Parts& parts) {
+VectorXcd lowest_variance(const Parts& parts, Coefficients kind) {
   const auto lower = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
   const auto every = Eigen::seq(0, Eigen::last, kThinning);
   const Parts thinned{parts.M(every, Eigen::all), parts.N(every, Eigen::all)};
   std::mt19937_64 numbers(1);  // fixed: the same surface gives the same coefficients
-  std::vector<Candidate> candidates(kStarts, {INFINITY, VectorXd(2 * parts.M.cols())});
+  const auto unknowns = (kind == Coefficients::real ? 1 : 2) * parts.M.cols();
+  std::vector<Candidate> candidates(kStarts, {INFINITY, VectorXd(unknowns)});
   for (auto& candidate : candidates) {
     // One number in [-1, 1) from each draw: the standard's distributions differ between libraries.
     for (auto& value : candidate.x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
@@ -135,31 +144,29 @@ VectorXd lowest_variance(const Parts& parts) {
   // Each descent is on its own, so the number of threads changes nothing.
 #pragma omp parallel for schedule(dynamic, 1)
   for (int i = 0; i < kStarts; ++i)
-    candidates[i] = descend(thinned, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
+    candidates[i] = descend(thinned, kind, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
   std::stable_sort(candidates.begin(), candidates.end(), lower);
   candidates.resize(kKept);
 #pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < kKept; ++i) candidates[i] = descend(parts, std::move(candidates[i].x), kFineFloors, kFineSteps);
-  return std::min_element(candidates.begin(), candidates.end(), lower)->x;
+  for (int i = 0; i < kKept; ++i)
+    candidates[i] = descend(parts, kind, std::move(candidates[i].x), kFineFloors, kFineSteps);
+  return as_complex(std::min_element(candidates.begin(), candidates.end(), lower)->x, kind);
 }
 
 }  // namespace
 
 VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                const forms::ClosedForms& forms, const Eigen::MatrixXcd& periods,
-                                const Eigen::MatrixXd& period_imaginary) {
-  const auto g = periods.cols();
-  VectorXcd c = VectorXcd::Ones(g);
-  if (g > 1) {
-    const VectorXd x = lowest_variance(sampled_parts(surface, half_edges, forms, periods, sample_triangles(surface)));
-    c.real() = x.head(g);
-    c.imag() = x.tail(g);
+                                const forms::ClosedForms& forms, const Eigen::MatrixXcd& basis,
+                                const Eigen::MatrixXd& area_form, Coefficients kind) {
+  VectorXcd c = VectorXcd::Ones(basis.cols());
+  if (basis.cols() > 1) {
+    c = lowest_variance(sampled_parts(surface, half_edges, forms, basis, sample_triangles(surface)), kind);
     Eigen::Index largest;
     c.cwiseAbs().maxCoeff(&largest);
-    c *= std::conj(c[largest]) / std::abs(c[largest]);  // the phase is free: the largest coefficient is made positive
+    const Complex phase = std::conj(c[largest]) / std::abs(c[largest]);
+    c *= phase;  // the phase is free: the largest coefficient is made positive
   }
-  const double area =
-      (c.adjoint() * period_imaginary.cast<Complex>() * c)(0, 0).real();  // (i/2) int theta ^ conj(theta)
+  const double area = (c.adjoint() * area_form.cast<Complex>() * c)(0, 0).real();
   return c / std::sqrt(area);
 }
 

@@ -27,13 +27,17 @@ struct Quality {
 
 Quality quality(const mesh::Surface& surface, const UvArray& uv);
 
-/// Coefficients c, g complex numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most
+enum class Coefficients { complex, real };
+
+/// Coefficients c, g numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most
 /// even: least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against distortion
 /// (balance.cpp), scaled so that the UV area is 1. The minimum is local, the best from several fixed starts; the same
 /// input gives the same bits.
-/// @param periods 2g x g, of the holomorphic basis; @param period_imaginary Im Omega
+/// @param basis #forms x g, the theta_j in the forms. @param area_form g x g: the UV area of theta is c^* area_form c,
+/// on closed surfaces Im Omega, on bounded ones G_N#
+/// @param kind real on bounded surfaces, so that boundaries stay straight
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                       const forms::ClosedForms& forms, const Eigen::MatrixXcd& periods,
-                                       const Eigen::MatrixXd& period_imaginary);
+                                       const forms::ClosedForms& forms, const Eigen::MatrixXcd& basis,
+                                       const Eigen::MatrixXd& area_form, Coefficients kind);
 
 }  // namespace holomorph::uv

@@ -1,0 +1,186 @@
+"""The conformal structure of a surface with boundary, and everything that is read off it."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import arrays
+from ._native import TopologyError
+from .report import complex_pairs
+from .results import Structure, checked_coefficients
+
+
+@dataclass(frozen=True, eq=False)
+class BoundedStructure(Structure):
+    """Result of `conformal_structure` for a surface of genus g with b >= 1 boundary loops. n = 2g + b - 1 >= 1 is the
+    genus of its double (paper § 8).
+
+    Two families of n harmonic forms: the natural ones, in which nothing is held, and the Dirichlet ones, which vanish
+    along the boundary. The star exchanges them: theta_i = h^N_i + i sum_j C#_ij h^D_j is holomorphic, and the imaginary
+    part of every real combination is constant along each boundary loop, which becomes a straight line.
+    """
+
+    @property
+    def description(self):
+        """What was made, in one phrase."""
+        n = len(self.pairing)
+        return "1 form, its boundaries straight" if n == 1 else f"{n} forms, their boundaries straight"
+
+    @cached_property
+    def boundary_loops(self):
+        """Tuple of b integer arrays of vertices, the hole on the left. Loop 0 is the longest; the others follow by
+        their lowest vertex, at which each loop starts."""
+        return tuple(self._of_surface(loop) for loop in self._native.boundary_loops())
+
+    @cached_property
+    def homology_basis(self):
+        """Tuple of n integer arrays: 2g closed loops zeta_i of vertices, the first not repeated, then the boundary
+        loops 1 .. b-1."""
+        return tuple(self._of_surface(loop) for loop in self._native.homology_basis())
+
+    @cached_property
+    def pairing(self):
+        """(n, n) integers W_ij, the integral of h^N_i ^ h^D_j: [[J_h, 0], [X, 1]], |det| 1; the first 2g classes are
+        those of the handles, the others those of the loops."""
+        return self._native.pairing()
+
+    @cached_property
+    def natural_forms(self):
+        """(n, #E), dual to `homology_basis`: harmonic, with free boundary; see `prepare_uv`."""
+        return arrays.frozen(self._harmonic_forms[: len(self.pairing)])
+
+    @cached_property
+    def dirichlet_forms(self):
+        """(n, #E): harmonic, zero on all boundary edges. The first 2g are of the classes of the handles; the others are
+        d of the harmonic functions that are 1 on one of the loops 1 .. b-1 and 0 on the others."""
+        return arrays.frozen(self._harmonic_forms[len(self.pairing) :])
+
+    @cached_property
+    def _harmonic_forms(self):
+        return self._native.harmonic_forms()
+
+    @cached_property
+    def holomorphic_forms(self):
+        """(n, #E) complex: theta_i = h^N_i + i sum_j C#_ij h^D_j, C# the `star`."""
+        return arrays.frozen(self.natural_forms + 1j * (self.star @ self.dirichlet_forms))
+
+    @cached_property
+    def gram_matrices(self):
+        """(natural, Dirichlet), (n, n) each: L2 products of the forms, on the intrinsic triangulation."""
+        return self._native.gram_matrices()
+
+    @cached_property
+    def projected_gram_matrices(self):
+        """(natural, Dirichlet), (n, n) each: G_N# = G_N # (W G_D^-1 W^T), the geometric mean, and W^T (G_N#)^-1 W. They
+        lie between the bounds W G_D^-1 W^T <= G_N and W^T G_N^-1 W <= G_D of the polyhedral surface."""
+        return self._native.projected()[:2]
+
+    @cached_property
+    def star(self):
+        """(n, n) C#: the conjugate of h^N_i is sum_j C#_ij h^D_j; that of h^D_j is -sum_i (C#^-1)_ji h^N_i."""
+        return self._native.projected()[2]
+
+    @cached_property
+    def period_matrix(self):
+        """(n, n) complex, of the double: symmetric, Im Omega > 0; (i/2) `capacity_matrix` on planar surfaces."""
+        return self._native.period_matrix()
+
+    @cached_property
+    def collapsed_triangles(self):
+        """(#,) triangles all of whose corners lie on one boundary loop: a map that makes the loop straight gives them
+        no area."""
+        return self._native.collapsed_triangles()
+
+    # ---- planar surfaces -------------------------------------------------------------------------
+
+    @property
+    def capacity_matrix(self):
+        """(b-1, b-1) of a planar surface, genus 0: the energy of the harmonic functions that are 1 on one of the loops
+        1 .. b-1 and 0 on the others. It does not change under conformal maps.
+
+        Raises
+        ------
+        TopologyError
+            on a surface with handles.
+        """
+        self._check_planar("capacity matrix")
+        return self.projected_gram_matrices[1]
+
+    @property
+    def capacity_bounds(self):
+        """(lower, upper), (b-1, b-1) each: guaranteed bounds of the polyhedral surface's `capacity_matrix`, as
+        quadratic forms."""
+        self._check_planar("capacity matrix")
+        return self._capacity_bounds
+
+    @cached_property
+    def _capacity_bounds(self):
+        natural, dirichlet = self.gram_matrices
+        return arrays.frozen(np.linalg.inv(natural)), dirichlet
+
+    @property
+    def modulus(self):
+        """Of an annulus (genus 0, two loops): height over circumference of the conformal cylinder, ln(R/r) / 2 pi of a
+        round ring; the inverse of the capacity.
+
+        Raises
+        ------
+        TopologyError
+            on any other surface.
+        """
+        self._check_annulus()
+        return float(self.projected_gram_matrices[0][0, 0])
+
+    @property
+    def modulus_bounds(self):
+        """(lower, upper): guaranteed bounds of the polyhedral annulus's `modulus`."""
+        self._check_annulus()
+        natural, dirichlet = self.gram_matrices
+        return float(1 / dirichlet[0, 0]), float(natural[0, 0])
+
+    def _check_planar(self, what):
+        genus = self._component.genus
+        if genus:
+            raise TopologyError(f"a {what} belongs to planar surfaces; the surface has genus {genus}")
+
+    def _check_annulus(self):
+        genus, loops = self._component.genus, self._component.boundary_count
+        if (genus, loops) != (0, 2):
+            raise TopologyError(
+                f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops"
+            )
+
+    # ---- UV maps ---------------------------------------------------------------------------------
+
+    def uv(self, coefficients):
+        """(#C, 2) UVs of the form sum_i c_i theta_i, from n real coefficients c. No solve: one small product.
+
+        v is the same number at all corners of a boundary loop; where a seam meets it, it jumps by a period. Across
+        every seam the UVs jump by a constant translation."""
+        c = checked_coefficients(coefficients, len(self.pairing), np.float64)
+        return self._native.uv(self._native.coefficients() @ c)
+
+    def balanced_coefficients(self):
+        """(n,) real coefficients of the combination whose texture density is most even (least variance of its
+        logarithm over the surface's area), scaled so that the UV area of the surface is 1."""
+        return self._balanced
+
+    @cached_property
+    def _balanced(self):
+        return self._native.balanced_coefficients()
+
+    def invariants(self):
+        """Period matrix of the double, capacities and modulus with their bounds, as plain data."""
+        surface = self._component
+        values = {
+            "conventions": "Omega is the period matrix of the double, a_i.b_j = delta_ij; loop 0 is the longest",
+            "period_matrix": complex_pairs(self.period_matrix),
+            "collapsed_triangles": len(self.collapsed_triangles),
+        }
+        if surface.genus == 0:
+            values["capacity_matrix"] = self.capacity_matrix.tolist()
+            values["capacity_bounds"] = [bound.tolist() for bound in self.capacity_bounds]
+        if (surface.genus, surface.boundary_count) == (0, 2):
+            values["modulus"], values["modulus_bounds"] = self.modulus, list(self.modulus_bounds)
+        return values

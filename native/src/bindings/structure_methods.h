@@ -1,0 +1,90 @@
+// Methods that the results for all kinds of surfaces have in Python.
+#pragma once
+
+#include "bindings/structures.h"
+#include "uv/uv_map.h"
+
+namespace holomorph::bindings {
+
+inline py::tuple report(const pipeline::SolverReport& solver) {
+  return py::make_tuple(solver.name, solver.reason, solver.iterations, solver.residual);
+}
+
+template <class Value>
+py::tuple uv_solver(Structure<Value>& s) {
+  {
+    const py::gil_scoped_release unlocked;
+    s.forms_for_uv();
+  }
+  return report(s.artist_forms->solver);
+}
+
+template <class Value>
+void prepare_uv(Structure<Value>& s, const py::object& progress_function) {
+  Progress progress(callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  s.forms_for_uv(progress);
+}
+
+inline py::list loops_of_vertices(const mesh::HalfEdges& half_edges,
+                                  const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
+  py::list result;
+  for (const auto& loop : loops) {
+    std::vector<int> vertices;
+    for (const auto h : loop) vertices.push_back(mesh::from_vertex(half_edges, h));
+    result.append(copy(vertices));
+  }
+  return result;
+}
+
+/// #forms x #E
+template <class Value>
+py::array harmonic_forms(Structure<Value>& s) {
+  const int edges = static_cast<int>(s.surface->edges.size());
+  forms::RowMajorMatrix values;
+  {
+    const py::gil_scoped_release unlocked;
+    values = forms::edge_values(s.value.half_edges, s.forms_for_uv(), 0, edges).transpose();
+  }
+  const py::ssize_t rows = values.rows(), columns = values.cols();
+  return give(std::move(values), {rows, columns});
+}
+
+template <class Value>
+py::array uv(Structure<Value>& s, const Eigen::VectorXcd& coefficients) {
+  uv::UvArray result;
+  {
+    const py::gil_scoped_release unlocked;
+    result = uv::uv_map(*s.surface, s.value.sheets, s.forms_for_uv().functions, coefficients);
+  }
+  const py::ssize_t corners = result.rows();
+  return give(std::move(result), {corners, 2});
+}
+
+template <class Value>
+Eigen::VectorXcd balanced_coefficients(Structure<Value>& s, const Eigen::MatrixXcd& basis,
+                                       const Eigen::MatrixXd& area_form, uv::Coefficients kind) {
+  const py::gil_scoped_release unlocked;
+  return uv::balanced_coefficients(*s.surface, s.value.half_edges, s.forms_for_uv(), basis, area_form, kind);
+}
+
+/// Everything that needs no more than the members named above.
+template <class Value>
+py::class_<Structure<Value>, std::shared_ptr<Structure<Value>>> bind_structure(py::module_& m, const char* name) {
+  using S = Structure<Value>;
+  return py::class_<S, std::shared_ptr<S>>(m, name)
+      .def("prepare_uv", &prepare_uv<Value>)
+      .def("harmonic_forms", &harmonic_forms<Value>)
+      .def("uv", &uv<Value>)
+      .def("uv_solver", &uv_solver<Value>)
+      .def("averaged_star",
+           [](const S& s, const Contiguous<double>& form) {
+             return copy(forms::averaged_star(s.value.half_edges, s.surface->edge_lengths, values(form)));
+           })
+      .def("seams", [](const S& s) { return copy(s.value.seams); })
+      .def("solver", [](const S& s) { return report(s.value.solver); })
+      .def("intrinsic", [](const S& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })
+      .def("timings", [](const S& s) { return s.value.seconds; });
+}
+
+}  // namespace holomorph::bindings

@@ -1,0 +1,28 @@
+// The boundary loops of a surface, in a fixed order.
+#pragma once
+
+#include <vector>
+
+#include "mesh/half_edges.h"
+
+namespace holomorph::mesh {
+
+struct BoundaryLoops {
+  /// Loop 0 is the longest (of loops equally long to 1e-9 the one with the lowest vertex); the others follow by their
+  /// lowest vertex, at which each loop starts. Half-edges without a face, one behind the other: the hole on their left,
+  /// the surface on their right.
+  std::vector<std::vector<HalfedgeHandle>> loops;
+  std::vector<int> loop_of_vertex;  ///< #V; -1 in the interior
+
+  int count() const { return static_cast<int>(loops.size()); }
+};
+
+BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& half_edges);
+
+/// The vertices of all loops, ascending.
+std::vector<int> boundary_vertices(const BoundaryLoops& boundary);
+
+/// Triangles all of whose corners lie on one loop, ascending: every map that makes the loop straight collapses them.
+std::vector<int> triangles_on_one_loop(const Surface& surface, const BoundaryLoops& boundary);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,46 @@
+#include "pipeline/bounded_forms.h"
+
+#include "topology/homology.h"
+
+namespace holomorph::pipeline {
+namespace {
+
+using solver::Condition;
+
+// 1 on each loop >= 1 in the column of its form.
+void add_indicators(const mesh::BoundaryLoops& boundary, int handles, forms::RowMajorMatrix& functions) {
+  for (int v = 0; v < static_cast<int>(boundary.loop_of_vertex.size()); ++v) {
+    if (const int k = boundary.loop_of_vertex[v]; k > 0) functions(v, handles + k - 1) += 1;
+  }
+}
+
+}  // namespace
+
+forms::RowMajorMatrix side_by_side(const BoundedForms& forms) {
+  forms::RowMajorMatrix both(forms.natural.functions.rows(),
+                             forms.natural.functions.cols() + forms.dirichlet.functions.cols());
+  both << forms.natural.functions, forms.dirichlet.functions;
+  return both;
+}
+
+BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                           solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
+                           const mesh::BoundaryLoops& boundary, const Options& options, Progress& progress) {
+  const int n = classes.form_count, handles = n - (boundary.count() - 1);
+  const auto choice = solver::choose_method(options.solver, laplacian.rows(), 2 * n);
+  const auto solver =
+      solver::make_solver(choice.method, std::move(laplacian), mesh::boundary_vertices(boundary), progress);
+  BoundedForms result;
+  result.natural = forms::harmonic_basis(half_edges, weights, classes, *solver, Condition::natural, progress);
+
+  auto relative = topology::first_forms(classes, handles, handles);
+  topology::add_loop_indicators(half_edges, boundary, relative);
+  result.dirichlet = forms::harmonic_basis(half_edges, weights, relative, *solver, Condition::dirichlet, progress);
+  result.dirichlet.classes = topology::first_forms(classes, handles, n);
+  add_indicators(boundary, handles, result.dirichlet.functions);
+
+  result.solver = solver_report(*solver, choice);
+  return result;
+}
+
+}  // namespace holomorph::pipeline
