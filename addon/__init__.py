@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holomorph: conformal UV maps for closed surfaces with handles, in Blender."""
+"""Holomorph: conformal UV maps for surfaces of any shape, in Blender."""
 
 bl_info = {
     "name": "Holomorph",
-    "description": "Conformal UV maps for closed surfaces with handles",
+    "description": "Conformal UV maps for surfaces of any shape",
     "author": "The Holomorph authors",
     "version": (0, 1, 0),
     "blender": (3, 4, 0),

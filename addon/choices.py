@@ -36,13 +36,13 @@ class Choices:
 
 
 def attempts(part, choices):
-    """Keywords for a connected part, the most wanted first; the later ones leave out what was only found."""
+    """Keywords for a connected part, the most wanted first; the later ones leave out what was only found. Vertices are
+    those of the whole mesh."""
     base = {"solver": choices.solver}
     if part.boundary_count and choices.boundary != "natural":
         base["boundary"] = choices.boundary
     selection = _selection(part, choices)
-    seams = _inside(part, choices.seams.ravel()).reshape(-1, 2)
-    seams = seams[(seams >= 0).all(axis=1)]
+    seams = choices.seams[np.isin(choices.seams, part.vertex_index).all(axis=1)]
     cut = {"cut_edges": seams} if len(seams) else {}
     wanted = [base]
     if cut:
@@ -51,6 +51,16 @@ def attempts(part, choices):
         return wanted
     with_selection = [keywords | selection for keywords in wanted]
     return with_selection if choices.is_express else with_selection + wanted
+
+
+def name_vertices(keywords):
+    """Whether the keywords name vertices."""
+    return not keywords.keys().isdisjoint({"punctures", "rectangle_corners", "cut_edges"})
+
+
+def are_express(keywords, choices):
+    """Whether the keywords hold what the library is to refuse where it does not fit."""
+    return choices.is_express and not keywords.keys().isdisjoint({"punctures", "rectangle_corners"})
 
 
 def numbers(text):
@@ -74,23 +84,13 @@ def stray_vertex(surface, choices):
     return int(stray[0]) if len(stray) else None
 
 
-def _inside(part, vertices):
-    """The part's own numbers of vertices of the whole mesh, -1 for those of other parts."""
-    if len(vertices) == 0:
-        return np.empty(0, np.int64)
-    index = part.vertex_index
-    order = np.argsort(index, kind="stable")
-    place = np.minimum(np.searchsorted(index, vertices, sorter=order), len(index) - 1)
-    return np.where(index[order[place]] == vertices, order[place], -1)
-
-
 def _selection(part, choices):
     """The selected vertices of this part as punctures or corners; nothing where there are none."""
     if choices.use == NONE or not choices.selected:
         return {}
-    own = _inside(part, np.asarray(choices.selected, np.int64))
-    is_own = own >= 0
-    own = own[is_own]
+    selected = np.asarray(choices.selected, np.int64)
+    is_own = np.isin(selected, part.vertex_index)
+    own = selected[is_own]
     if len(own) == 0:
         return {}
     if choices.use == RECTANGLE or (choices.use == AUTOMATIC and _are_corners_of_a_disk(part, own)):
@@ -108,10 +108,10 @@ def _are_corners_of_a_disk(part, vertices):
 
 
 def _boundary_edges(part):
-    """(starts, ends) of the boundary edges as the triangles beside them run."""
-    triangles = part.triangles.astype(np.int64)
+    """(starts, ends) of the boundary edges as the triangles beside them run, in vertices of the whole mesh."""
+    triangles = part.vertex_index[part.triangles].astype(np.int64)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    count = len(part.vertex_index)
+    count = triangles.max() + 1
     is_boundary = ~np.isin(start * count + end, end * count + start)
     return start[is_boundary], end[is_boundary]
 
@@ -120,24 +120,18 @@ def around_boundary(part, vertices):
     """The vertices in the order in which the boundary loop of the first passes them, surface on the left; as they are
     where they do not lie on one loop.
 
-    Steps to the first vertex by pointer doubling, O(n log n).
+    Steps to the first vertex by pointer doubling, O(n log n) for n vertices of the whole mesh.
     """
     start, end = _boundary_edges(part)
     if not np.isin(vertices, start).all():
         return vertices
-    following = np.full(len(part.vertex_index), -1, np.int64)
+    following = np.arange(start.max() + 1)
     following[start] = end
     following[vertices[0]] = vertices[0]
     steps = np.ones(len(following), np.int64)
     steps[vertices[0]] = 0
-    live = start
     for _ in range(len(start).bit_length()):
-        steps[live], following[live] = steps[live] + steps[following[live]], following[following[live]]
+        steps[start], following[start] = steps[start] + steps[following[start]], following[following[start]]
     if (following[vertices] != vertices[0]).any():
         return vertices
     return vertices[np.concatenate([[0], 1 + np.argsort(-steps[vertices[1:]], kind="stable")])]
-
-
-def is_about_vertices(keywords):
-    """Whether the keywords name chosen vertices."""
-    return "punctures" in keywords or "rectangle_corners" in keywords

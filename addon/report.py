@@ -14,7 +14,6 @@ PROPERTY = "holomorph_report"
 SUMMARISED = 8  # parts that the panel shows
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
 MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
-VERTICES = ("punctures", "rectangle_corners")
 LISTED = 20  # elements of a repair that the report names
 TEXT = "Holomorphic Report"
 
@@ -39,7 +38,7 @@ def component_report(component, options):
         **entry,
         "description": structure.description,
         "forms": component.form_count,
-        **_invariants(surface, structure),
+        **structure.invariants(),
         "residuals": structure.residuals,
         "solver": structure.solver,
         "timings": structure.timings,
@@ -51,12 +50,6 @@ def component_report(component, options):
             "flipped": quality.flipped,
         },
     }
-
-
-def _invariants(surface, structure):
-    """What this kind of structure knows about the surface; vertices as the object counts them."""
-    found = structure.invariants()
-    return {name: surface.vertex_index[value] if name in VERTICES else value for name, value in found.items()}
 
 
 def object_report(obj, solved, written, new_seams, options):

@@ -253,4 +253,4 @@ def _show_checker(outcome, obj, solved, shown, map_options, options):
 
 def _seam_pairs(solved):
     """(#S,2) vertices of the object: where the maps are cut."""
-    return np.concatenate([c.surface.vertex_index[c.structure.edges[c.structure.seams]] for c in solved.done])
+    return np.concatenate([c.structure.edges[c.structure.seams] for c in solved.done])

@@ -4,7 +4,7 @@
 import functools
 import inspect
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,8 +30,9 @@ class Task:
 class SolvedComponent:
     """A connected part of the object; `structure` is None where the library refused it, and `reason` says why.
 
-    The structure is whatever `holomorph.conformal_structure` gives for the part's topology and the choices; all kinds
-    have `uv(coefficients)`, `balanced_coefficients()`, `quality`, `seams` and `description`.
+    The structure is whatever `holomorph.conformal_structure` gives for the part's topology and the choices, with the
+    vertices as the whole mesh counts them, and the corners as the part does. All kinds have `uv(coefficients)`,
+    `balanced_coefficients()`, `quality`, `seams`, `description` and `invariants()`.
     """
 
     surface: object
@@ -96,7 +97,7 @@ def solve(task, progress=None):
     solved, done = [], 0
     for part in parts:
         share = len(part.face_index) / total
-        solved.append(_solve_component(holomorph, part, task.chosen, _scaled(progress, done, share)))
+        solved.append(_solve_component(holomorph, surface, part, task.chosen, _scaled(progress, done, share)))
         done += share
     return SolvedObject(surface, tuple(solved), time.perf_counter() - start)
 
@@ -107,27 +108,33 @@ def _scaled(progress, done, share):
     return lambda fraction, stage: progress(done + share * fraction, stage)
 
 
-def _solve_component(holomorph, part, chosen, progress):
+def _solve_component(holomorph, surface, part, chosen, progress):
     """The first attempt that the library accepts; a part that it refuses altogether is skipped, with its sentence."""
     note = ""
     *earlier, last = choices.attempts(part, chosen)
     for keywords in earlier:
         try:
-            return _make(holomorph, part, keywords, note, progress)
+            return _make(holomorph, surface, part, keywords, note, progress)
         except (holomorph.InvalidMesh, holomorph.TopologyError) as error:
             note = note or str(error)
     try:
-        return _make(holomorph, part, last, note, progress)
+        return _make(holomorph, surface, part, last, note, progress)
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
-        if choices.is_about_vertices(last):
+        if choices.are_express(last, chosen):
             raise
         return SolvedComponent(part, None, None, reason=str(error), note=note)
 
 
-def _make(holomorph, part, keywords, note, progress):
+def _make(holomorph, surface, part, keywords, note, progress):
     unknown = set(keywords) - set(inspect.signature(holomorph.conformal_structure).parameters)
     if unknown:
         raise holomorph.TopologyError(f"this version of the library has no {', '.join(sorted(unknown))}")
-    structure = holomorph.conformal_structure(part, progress=_scaled(progress, 0.0, UV_START), **keywords)
+    target = part
+    if choices.name_vertices(keywords):
+        # The part's faces with all of the mesh's vertices: then the library speaks of them by the artist's numbers.
+        corners = part.vertex_index[part.corner_vertices]
+        target = holomorph.Surface.from_polygons(surface.vertices, corners, part.face_offsets)
+    structure = holomorph.conformal_structure(target, progress=_scaled(progress, 0.0, UV_START), **keywords)
     structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
+    structure = replace(structure, surface=surface)  # likewise in its results
     return SolvedComponent(part, structure, structure.balanced_coefficients(), note=note)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the example files of this folder with Blender's own tools. Run it with Blender 3.4:
 
-blender -b --factory-startup --python-exit-code 1 --python blend_examples/make_examples.py [-- folder]
+blender -b --factory-startup --python-exit-code 1 --python blend_examples/make_examples.py [-- folder [name]...]
 
-3.4 because its files open in every later version. Each mesh is checked before it is saved: closed, manifold, and
-of the genus stated in EXAMPLES.
+3.4 because its files open in every later version. Each mesh is checked before it is saved: manifold, and of the genus
+and number of boundary loops stated in EXAMPLES.
 """
 
 import math
@@ -203,18 +203,149 @@ def mixed():
     return [ring, bowl]
 
 
-# name of the file and maker: for each object the genus of its parts (None for an open part), sorted
+def hand():
+    """A hand as in the paper's Figure 5: open at the wrist, with a hole at each fingertip; fingers and thumb are drawn
+    out of the faces of a box."""
+    bm = bmesh.new()
+    tops, thumb = palm(bm)
+    tips = []
+    lengths, leanings = (1.9, 2.3, 2.1, 1.6), (-0.16, -0.04, 0.08, 0.22)
+    for face, length, leaning in zip(tops, lengths, leanings):
+        origin = face.calc_center_median()
+        for share, size in ((0.06, 0.74), (0.36, 0.98), (0.42, 1.03), (0.68, 0.93), (0.74, 0.98), (0.97, 0.8)):
+            target = origin + Vector((leaning * share * length, -0.1 * length * share**2, share * length))
+            face = drawn_out(bm, face, target, size)
+        tips.append(face)
+    origin, face = thumb.calc_center_median(), thumb
+    for out, up, size in ((0.22, 0.1, 0.8), (0.62, 0.5, 0.86), (0.72, 0.62, 1.04), (0.98, 1.12, 0.9), (1.06, 1.4, 0.8)):
+        face = drawn_out(bm, face, origin + Vector((-out, -0.2 * out, up)), size, turn=math.radians(14))
+    tips.append(face)
+    bmesh.ops.delete(bm, geom=tips, context="FACES_ONLY")
+    obj = object_of("Hand", bm)
+    subdivide(obj, 3)
+    return [obj]
+
+
+def palm(bm):
+    """Forearm and palm, one box for each finger's width; returns the faces on top and the one of the thumb."""
+    rows = [(-3.4, 0.50, 0.36), (-2.4, 0.46, 0.34), (-1.7, 0.62, 0.38), (-0.9, 0.92, 0.42), (0.0, 1.02, 0.40)]
+    rows += [(0.8, 1.0, 0.36)]  # height, half width, half depth
+    front, back = (
+        [[bm.verts.new((width * x, side * depth, z)) for x in (-1.0, -0.5, 0.0, 0.5, 1.0)] for z, width, depth in rows]
+        for side in (-1, 1)
+    )
+    inner = []  # the faces on the thumb's side
+    for low in range(len(rows) - 1):
+        up = low + 1
+        for k in range(4):
+            bm.faces.new((front[low][k], front[low][k + 1], front[up][k + 1], front[up][k]))
+            bm.faces.new((back[low][k + 1], back[low][k], back[up][k], back[up][k + 1]))
+        inner.append(bm.faces.new((back[low][0], front[low][0], front[up][0], back[up][0])))
+        bm.faces.new((front[low][4], back[low][4], back[up][4], front[up][4]))
+    tops = [bm.faces.new((front[-1][k], front[-1][k + 1], back[-1][k + 1], back[-1][k])) for k in range(4)]
+    return tops, inner[3]
+
+
+def pipe():
+    """A bent pipe with swellings, open at both ends: a straight strip in UV."""
+    points = [(0, 0, 0, 1.0), (1.2, 0, 0, 1.0), (2.2, 0.2, 0.3, 1.25), (2.6, 1.4, 0.8, 1.0), (1.4, 2.0, 1.3, 1.0)]
+    points += [(0.2, 1.4, 1.8, 1.35), (0.2, 0.2, 2.3, 1.0), (1.4, 0.0, 2.8, 0.9), (2.6, 0.6, 2.9, 1.2)]
+    points += [(3.4, 1.0, 2.9, 1.3)]
+    curve = bevel_curve("Pipe", points, radius=0.3, cyclic=False, resolution=16, around=8)
+    curve.data.use_fill_caps = False
+    return [convert_to_mesh(curve)]
+
+
+def critter():
+    """An animal of clay, without a handle: the texture runs in rings from the nose to the tail."""
+    data = bpy.data.metaballs.new("Critter")
+    data.resolution = data.render_resolution = 0.05
+    obj = bpy.data.objects.new("Critter", data)
+    bpy.context.scene.collection.objects.link(obj)
+    balls = [((0.24 * k - 0.84, 0, 0.86 + 0.05 * math.sin(k)), 0.5) for k in range(8)]
+    balls += [((0.98, 0, 1.2), 0.36), ((1.12, 0, 1.5), 0.42), ((1.36, 0, 1.48), 0.32), ((1.56, 0, 1.43), 0.24)]
+    balls += [((-1.0 - 0.16 * k, 0, 1.0 + 0.07 * k), 0.26 - 0.022 * k) for k in range(6)]
+    for side in (-1, 1):
+        balls += [((x, side * (0.24 + 0.03 * k), 0.62 - 0.14 * k), 0.27) for x in (-0.66, 0.62) for k in range(5)]
+        balls += [((1.02 - 0.03 * k, side * (0.2 + 0.07 * k), 1.74 + 0.09 * k), 0.19) for k in range(4)]
+    for place, radius in balls:
+        ball = data.elements.new()
+        ball.co, ball.radius = place, radius
+    obj = convert_to_mesh(obj)
+    obj.rotation_euler = Euler((0, 0, math.radians(-35)))
+    return [obj]
+
+
+def face_height(x, y):
+    """The relief of a mask over the unit disk: brow, eyes, nose, lips and chin on a dome."""
+
+    def bump(cx, cy, wx, wy):
+        return math.exp(-(((x - cx) / wx) ** 2) - ((y - cy) / wy) ** 2)
+
+    eyes = sum(bump(s * 0.34, 0.22, 0.17, 0.1) for s in (-1, 1))
+    lids = sum(bump(s * 0.34, 0.22, 0.09, 0.06) for s in (-1, 1))
+    brow = sum(bump(s * 0.33, 0.4, 0.24, 0.08) for s in (-1, 1))
+    nose = 0.34 * bump(0, -0.1, 0.11, 0.12) + 0.22 * bump(0, 0.1, 0.08, 0.22)
+    lips = 0.1 * bump(0, -0.43, 0.22, 0.05) + 0.09 * bump(0, -0.55, 0.18, 0.05) - 0.07 * bump(0, -0.49, 0.2, 0.025)
+    dome = 0.75 * math.sqrt(max(1.08 - x * x - y * y, 0))
+    return dome - 0.2 * eyes + 0.12 * lids + 0.09 * brow + nose + lips + 0.1 * bump(0, -0.8, 0.2, 0.14)
+
+
+def mask():
+    """The same mask twice, in edit mode: with one selected vertex, the centre of a disk, and with four, the corners of
+    a rectangle."""
+    count = 48
+    objects = []
+    turn = Matrix.Rotation(math.radians(30), 3, "Z")
+    for name, shift in (("Mask as Disk", -0.85), ("Mask as Rectangle", 0.85)):
+        bm = bmesh.new()
+        grid = [[None] * (count + 1) for _ in range(count + 1)]
+        for i in range(count + 1):
+            for j in range(count + 1):
+                a, b = 2 * i / count - 1, 2 * j / count - 1
+                # The square as a disk: each coordinate shrinks with the other.
+                x, y = a * math.sqrt(1 - b * b / 2), b * math.sqrt(1 - a * a / 2)
+                grid[i][j] = bm.verts.new((0.78 * x, y, face_height(x, y)))
+        for i in range(count):
+            for j in range(count):
+                bm.faces.new((grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1]))
+        nose = grid[count // 2][round(0.45 * count)]
+        picked = [nose] if "Disk" in name else [grid[i][j] for i, j in ((0, 0), (count, 0), (count, count), (0, count))]
+        for vertex in picked:
+            vertex.select = True
+        obj = object_of(name, bm)
+        obj.location, obj.rotation_euler = turn @ Vector((shift, 0, 0)), Euler((math.radians(70), 0, math.radians(30)))
+        objects.append(obj)
+    return objects
+
+
+# name of the file and maker: for each object (genus, boundary loops) of its parts, sorted
 EXAMPLES = {
-    torus: [[1]],
-    mug: [[1]],
-    pretzel: [[3]],
-    chain: [[1] * 7],
-    gear: [[6]],
-    knot: [[1]],
-    lantern: [[13]],
-    clay: [[2]],
-    mixed: [[0, 1], [None]],
+    torus: [[(1, 0)]],
+    mug: [[(1, 0)]],
+    pretzel: [[(3, 0)]],
+    chain: [[(1, 0)] * 7],
+    gear: [[(6, 0)]],
+    knot: [[(1, 0)]],
+    lantern: [[(13, 0)]],
+    clay: [[(2, 0)]],
+    mixed: [[(0, 0), (1, 0)], [(0, 1)]],
+    hand: [[(0, 6)]],
+    pipe: [[(0, 2)]],
+    critter: [[(0, 0)]],
+    mask: [[(0, 1)], [(0, 1)]],
 }
+EDITED = {mask}  # saved in edit mode, for the sake of the selected vertices
+
+
+def drawn_out(bm, face, target, size, turn=0.0):
+    """The face extruded so that its middle comes to `target`, scaled, and turned about the y axis (radians)."""
+    face = bmesh.ops.extrude_discrete_faces(bm, faces=[face])["faces"][0]
+    bmesh.ops.translate(bm, verts=face.verts, vec=target - face.calc_center_median())
+    around = Matrix.Translation(-target)
+    bmesh.ops.scale(bm, verts=face.verts, vec=(size, size, size), space=around)
+    bmesh.ops.rotate(bm, verts=face.verts, cent=target, matrix=Matrix.Rotation(turn, 3, "Y"))
+    return face
 
 
 def turned_ring(bm, radius, height, sides):
@@ -286,47 +417,58 @@ def apply_modifiers(obj):
         bpy.ops.object.modifier_apply(modifier=modifier.name)
 
 
-def part_genera(mesh):
-    """The genus of each connected part, None for one with a boundary; raises on a non-manifold edge."""
+def part_topologies(mesh):
+    """(genus, boundary loops) of each connected part, sorted; raises on a mesh that is not a manifold."""
     bm = bmesh.new()
     bm.from_mesh(mesh)
-    unseen, genera = set(bm.verts), []
+    unseen, found = set(bm.verts), []
     while unseen:
-        part, front = set(), [unseen.pop()]
-        while front:
-            vertex = front.pop()
-            part.add(vertex)
-            near = {e.other_vert(vertex) for e in vertex.link_edges} & unseen
-            unseen -= near
-            front.extend(near)
+        part = connected({unseen.pop()}, lambda v: v.link_edges)
+        unseen -= part
         edges = {e for v in part for e in v.link_edges}
         faces = {f for v in part for f in v.link_faces}
-        is_open = any(e.is_boundary for e in edges)
-        if any(len(e.link_faces) > 2 for e in edges) or not (is_open or all(v.is_manifold for v in part)):
+        boundary = [e for e in edges if e.is_boundary]
+        fans_whole = all(sum(e.is_boundary for e in v.link_edges) in (0, 2) for v in part)
+        if any(len(e.link_faces) not in (1, 2) for e in edges) or not fans_whole:
             raise RuntimeError(f"{mesh.name} is not a manifold")
-        euler = len(part) - len(edges) + len(faces)
-        genera.append(None if is_open else (2 - euler) // 2)
+        loops, rest = 0, {v for e in boundary for v in e.verts}
+        while rest:
+            rest -= connected({rest.pop()}, lambda v: [e for e in v.link_edges if e.is_boundary])
+            loops += 1
+        found.append(((2 - loops - (len(part) - len(edges) + len(faces))) // 2, loops))
     bm.free()
-    return sorted(genera, key=str)
+    return sorted(found)
+
+
+def connected(front, edges_of):
+    """The vertices that the edges lead to from those in `front`."""
+    seen = set()
+    while front:
+        vertex = front.pop()
+        seen.add(vertex)
+        front |= {e.other_vert(vertex) for e in edges_of(vertex)} - seen
+    return seen
 
 
 def save(make, expected, folder):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.context.preferences.filepaths.save_version = 0
     objects = make()
-    for obj, genera in zip(objects, expected):
+    for obj, topologies in zip(objects, expected):
         while obj.data.uv_layers:
             obj.data.uv_layers.remove(obj.data.uv_layers[0])
         obj.data.polygons.foreach_set("use_smooth", [True] * len(obj.data.polygons))
         obj.data.use_auto_smooth, obj.data.auto_smooth_angle = True, math.radians(40)
-        found = part_genera(obj.data)
-        print(f"{make.__name__}: {obj.name}, {len(obj.data.polygons)} faces, genus of parts {found}")
-        if found != genera:
-            raise RuntimeError(f"{obj.name}: genus {found}, expected {genera}")
+        found = part_topologies(obj.data)
+        print(f"{make.__name__}: {obj.name}, {len(obj.data.polygons)} faces, (genus, boundary loops) of parts {found}")
+        if found != topologies:
+            raise RuntimeError(f"{obj.name}: {found}, expected {topologies}")
     select_only(objects[0])
     for obj in objects:
         obj.select_set(True)
     bpy.ops.outliner.orphans_purge(do_recursive=True)
+    if make in EDITED:
+        bpy.ops.object.mode_set(mode="EDIT")
     path = folder / f"{make.__name__}.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True)
 
@@ -335,7 +477,8 @@ def main():
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     folder = Path(arguments[0]) if arguments else Path(__file__).resolve().parent
     for make, expected in EXAMPLES.items():
-        save(make, expected, folder.resolve())
+        if make.__name__ in arguments[1:] or len(arguments) < 2:
+            save(make, expected, folder.resolve())
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 mesh_io = importlib.import_module("holomorph_addon.mesh_io")
+native = importlib.import_module("holomorph_addon.native")
 
 
 def select(*objects):
@@ -16,6 +17,23 @@ def select(*objects):
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj in objects)
     bpy.context.view_layer.objects.active = objects[0]
+
+
+def pick(obj, vertices):
+    """Edit mode with these vertices selected one after the other."""
+    if obj.mode == "EDIT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    select(obj)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="VERT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    for index in vertices:
+        bm.verts[index].select = True
+        bm.select_history.add(bm.verts[index])
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
 
 
 def mesh_object(name, vertices, faces):
@@ -129,6 +147,30 @@ def edge_mismatch(mesh, values):
     median = np.median(np.linalg.norm(vector, axis=1))
     forgiven = max(1e-4 * median, 4e-7 * np.ptp(values, axis=0).max())
     return difference, forgiven
+
+
+def parts_of(obj):
+    """The connected parts of an object as the library numbers them, with `corner_index` into its corners."""
+    polygons = mesh_io.read_polygons(obj.data, np.eye(3))
+    surface = native.load().Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    return surface.components
+
+
+def boundary_corners(part):
+    """(#, 2) polygon corners at the two ends of each boundary edge of a part."""
+    following = next_corner(part.face_offsets)
+    start, end = part.corner_vertices.astype(np.int64), part.corner_vertices[following].astype(np.int64)
+    count = len(part.vertex_index)
+    key = np.minimum(start, end) * count + np.maximum(start, end)
+    _, place, uses = np.unique(key, return_inverse=True, return_counts=True)
+    once = np.flatnonzero(uses[place] == 1)
+    return np.stack([once, following[once]], 1)
+
+
+def straightness(part, values):
+    """The largest difference of v along a boundary edge; `values` are at the corners of the part."""
+    v = values[boundary_corners(part), 1]
+    return np.abs(v[:, 0] - v[:, 1]).max()
 
 
 def everything(obj):

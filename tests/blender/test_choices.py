@@ -1,11 +1,10 @@
 """What is chosen on a mesh (vertices, residues, seams), and how it reaches the library."""
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_io, mesh_object, sphere_arrays, torus, torus_arrays
+from scenes import mesh_io, mesh_object, pick, sphere_arrays, torus, torus_arrays
 
 choices, native = module("choices"), module("native")
 
@@ -45,10 +44,10 @@ def test_each_part_gets_its_own_vertices_and_residues():
     if first.vertex_index[0] != 0:
         first, second = second, first
     (keywords,) = choices.attempts(first, chosen)
-    assert first.vertex_index[keywords["punctures"]].tolist() == [40, 6]
+    assert keywords["punctures"].tolist() == [40, 6]
     assert keywords["residues"].tolist() == [2, 3]
     (keywords,) = choices.attempts(second, chosen)
-    assert second.vertex_index[keywords["punctures"]].tolist() == [17]
+    assert keywords["punctures"].tolist() == [17]
 
 
 def test_what_was_only_found_is_left_out_in_the_end():
@@ -89,21 +88,6 @@ def test_choices_that_change_nothing_have_one_key():
     assert choices.Choices(seams=np.array([[1, 2]])).key != choices.Choices().key
 
 
-def edit(obj, picked, kind="VERT"):
-    """Edit mode with these vertices picked one after the other."""
-    bpy.context.view_layer.objects.active = obj
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_mode(type=kind)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    for index in picked:
-        bm.verts[index].select = True
-        bm.select_history.add(bm.verts[index])
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(obj.data)
-
-
 def collected(obj, use):
     run = module("run")
     (target,) = run.collect([obj], run.Request(use=use))
@@ -112,7 +96,7 @@ def collected(obj, use):
 
 def test_the_selection_is_read_in_its_order():
     obj = torus()
-    edit(obj, [50, 7, 120])
+    pick(obj, [50, 7, 120])
     assert collected(obj, choices.AUTOMATIC) == (50, 7, 120)
     assert collected(obj, choices.PUNCTURES) == (50, 7, 120)
     assert collected(obj, choices.NONE) == ()
@@ -123,7 +107,7 @@ def test_the_selection_is_read_in_its_order():
 
 def test_selected_edges_and_everything_selected_are_no_choice():
     obj = torus()
-    edit(obj, [0, 1, 50])
+    pick(obj, [0, 1, 50])
     assert collected(obj, choices.AUTOMATIC) == ()
     bpy.ops.mesh.select_all(action="SELECT")
     assert collected(obj, choices.AUTOMATIC) == ()

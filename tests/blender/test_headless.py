@@ -1,9 +1,7 @@
 """The headless command as its users run it: in a Blender program of its own."""
 
-import gzip
 import json
 import os
-import shutil
 import subprocess
 import sys
 
@@ -11,11 +9,10 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import edge_mismatch, mesh_io, torus, torus_arrays
+from scenes import mesh_io, torus, torus_arrays
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
 SCRIPT = str(ROOT / "addon" / "headless.py")
-MESHES = ROOT.parent / "shared" / "meshes"
 SECONDS = 300
 # What `blender -b FILE --python SCRIPT` does, where Blender is a Python module.
 AS_MODULE = """
@@ -193,69 +190,11 @@ def test_a_blend_file_without_a_mesh(tmp_path):
     assert done.returncode == 1 and "no mesh object" in our_lines(done)[0]
 
 
-# file: genus; all meshes of the shared folder that are closed and have a handle
-SHARED = {
-    "big_brain_cit168_854k_g15.ply.gz": 15,
-    "bob_small.ply": 1,
-    "boot_g12.obj": 12,
-    "double-torus.obj": 2,
-    "elephant_g3_50k.obj": 3,
-    "fertility_ngon_g4.obj": 4,
-    "kitten_19k.obj": 1,
-    "plate_holes_g5.stl": 5,
-    "rna_3JAJ_7.off": 4,
-    "rna_4P70_YB.off": 3,
-    "rockerArm_ngon.obj": 1,
-    "skull_low_g2.obj": 2,
-    "soccerball_g31.obj": 31,
-    "torus_ddg.obj": 1,
-    "torus_stein.obj": 1,
-    "tray_g23.stl": 23,
-}
-
-
-@needs_program
-@pytest.mark.parametrize("name", SHARED)
-def test_shared_mesh(name, tmp_path):
-    path = MESHES / name
-    if not path.exists():
-        pytest.skip("no folder ../shared/meshes")
-    if path.suffix == ".gz":
-        with gzip.open(path) as packed, open(tmp_path / path.stem, "wb") as unpacked:
-            shutil.copyfileobj(packed, unpacked)
-        path = tmp_path / path.stem
-    report, blend = tmp_path / "report.json", tmp_path / "out.blend"
-    done = headless(path, "--report", report, "--output", blend, seconds=580)
-    assert done.returncode == 0, done.stderr
-    parts = json.loads(report.read_text())["objects"][0]["components"]
-    assert max(p["genus"] for p in parts) == SHARED[name]
-    for part in parts:
-        if part["done"]:
-            assert max(part["residuals"].values()) < 1e-8
-    bpy.ops.wm.open_mainfile(filepath=str(blend))
-    mesh = bpy.context.view_layer.objects.active.data
-    for map_name in ("Holomorphic", "Holomorphic 1"):
-        values = mesh_io.read_map(mesh, map_name).astype(np.float64)
-        difference, forgiven = edge_mismatch(mesh, values)
-        assert difference <= forgiven, map_name
-
-
-REFUSED = [
-    "bunny_nonmanifold.ply",
-    "moebius_quads.obj",
-    "hourglass_ico.obj",
-    "triple_vierbein.obj",
-    "armadillo_29k.obj",
-]
-
-
-@needs_program
-@pytest.mark.parametrize("name", REFUSED)
-def test_shared_mesh_that_is_refused(name):
-    path = MESHES / name
-    if not path.exists():
-        pytest.skip("no folder ../shared/meshes")
-    done = headless(path)
-    assert done.returncode == 1
-    assert len(our_lines(done)) == 1
-    assert "Traceback" not in done.stderr + done.stdout
+def ring_arrays(around=24, along=8):
+    """An open tube of uneven thickness."""
+    i, j = np.meshgrid(np.arange(around), np.arange(along), indexing="ij")
+    angle, radius = 2 * np.pi * i / around, 1 + 0.2 * np.cos(4 * np.pi * i / around) + 0.05 * j
+    vertices = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.4 * j], -1).reshape(-1, 3)
+    a = np.arange(around * along).reshape(around, along)
+    b = np.roll(a, -1, axis=0)
+    return vertices, np.stack([a[:, :-1], b[:, :-1], b[:, 1:], a[:, 1:]], -1).reshape(-1, 4)

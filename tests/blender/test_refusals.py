@@ -76,11 +76,6 @@ def sphere():
     return mesh_object("Bad", *sphere_arrays()), "genus 0"
 
 
-def open_surface():
-    vertices, faces = torus_arrays()
-    return mesh_object("Bad", vertices, faces[1:]), "1 boundary loop"
-
-
 BAD = [
     non_manifold,
     non_manifold_vertex,
@@ -93,7 +88,6 @@ BAD = [
     empty,
     no_faces,
     sphere,
-    open_surface,
 ]
 
 

@@ -1,0 +1,93 @@
+"""What each kind of surface gets in Blender: straight boundaries, rectangles, disks, punctures; and choices that do not
+fit."""
+
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import (
+    boundary_corners,
+    mesh_object,
+    parts_of,
+    run,
+    select,
+    stored_report,
+    straightness,
+    torus_arrays,
+    uv,
+)
+
+FLOAT32 = 1e-6  # of the UV size
+
+
+def tube_arrays(around=32, along=12):
+    """An uneven tube: triangles of all shapes, both ends wavy."""
+    i, j = np.meshgrid(np.arange(around), np.arange(along), indexing="ij")
+    angle, height = 2 * np.pi * i / around + 0.2 * np.sin(j), j / 3 + 0.2 * np.sin(3 * 2 * np.pi * i / around)
+    radius = 1 + 0.3 * np.sin(height) + 0.2 * np.cos(2 * angle)
+    vertices = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], -1).reshape(-1, 3)
+    a = np.arange(around * along).reshape(around, along)
+    b = np.roll(a, -1, axis=0)
+    return vertices, np.stack([a[:, :-1], b[:, :-1], b[:, 1:], a[:, 1:]], -1).reshape(-1, 4)
+
+
+def torus_with_a_hole():
+    vertices, faces = torus_arrays()
+    return mesh_object("Holed", vertices, np.delete(faces, [5, 100], axis=0))
+
+
+def only_part(obj):
+    (entry,) = stored_report(obj)["components"]
+    return entry
+
+
+def test_the_ends_of_a_tube_are_straight_and_their_length_is_the_same():
+    obj = mesh_object("Tube", *tube_arrays())
+    assert run() == {"FINISHED"}
+    values, (part,) = uv(obj), parts_of(obj)
+    assert straightness(part, values) < FLOAT32
+    ends = values[boundary_corners(part)]
+    heights = np.unique(np.round(ends[..., 1], 6))
+    assert len(heights) == 2
+    lengths = [np.abs(np.diff(ends[np.isclose(ends[:, 0, 1], h, atol=1e-5), :, 0])).sum() for h in heights]
+    assert lengths[0] == pytest.approx(lengths[1], rel=1e-5)
+    entry = only_part(obj)
+    lower, upper = entry["modulus_bounds"]
+    assert lower <= entry["modulus"] <= upper
+    # Height over circumference, read off the map itself.
+    assert np.ptp(heights) / lengths[0] == pytest.approx(entry["modulus"], rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["Holomorphic", "Holomorphic 1", "Holomorphic 2", "Holomorphic 3"])
+def test_all_maps_of_a_surface_with_handles_and_holes_have_straight_boundaries(name):
+    obj = torus_with_a_hole()
+    assert run(turns=(0.7,) * 8, amounts=(0.5, 2, 1, 1, 1, 1, 1, 1)) == {"FINISHED"}
+    assert (only_part(obj)["genus"], only_part(obj)["boundary_count"], only_part(obj)["forms"]) == (1, 2, 3)
+    (part,) = parts_of(obj)
+    assert straightness(part, uv(obj, name)) < FLOAT32
+
+
+@pytest.mark.parametrize("solver", ["direct"])
+def test_the_solver_can_be_chosen(solver):
+    obj = mesh_object("Tube", *tube_arrays(around=240, along=120))
+    assert run(solver=solver) == {"FINISHED"}
+    assert only_part(obj)["solver"]["name"].startswith(solver)
+
+
+def test_a_modifier_that_may_close_the_surface_is_told():
+    obj = mesh_object("Tube", *tube_arrays())
+    obj.modifiers.new("My Mirror", "MIRROR")
+    run_module, maps = module("run"), module("maps")
+    targets = run_module.collect([obj])
+    job = module("jobs").Job(run_module.tasks(targets))
+    job.run()
+    outcome = run_module.write(bpy.context, targets, job.results, maps.MapOptions(), run_module.WriteOptions())
+    assert any("My Mirror" in note for note in outcome.notes)
+
+
+def test_the_panel_tells_kinds_and_moduli():
+    obj = mesh_object("Tube", *tube_arrays())
+    select(obj)
+    run()
+    lines = "\n".join(module("report").summary(obj["holomorph_report"]))
+    assert "genus 0, 2 holes" in lines and "modulus" in lines and "between" in lines
