@@ -37,6 +37,7 @@ def component_report(structure):
             "mean_angle": finite_or_none(quality.mean_angle),
             "density_ratio": finite_or_none(quality.density_ratio),
             "flipped_triangles": int(quality.flipped.sum()),
+            "collapsed_triangles": int(quality.collapsed.sum()),
         },
     }
 

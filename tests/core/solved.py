@@ -29,6 +29,25 @@ FLAT = {
     "four squares": families.square_tiled([1, 2, 3, 0], [1, 0, 3, 2], 3),
 }
 
+BOUNDED = {
+    "tube": families.cylinder(24, 9),
+    "square minus square": families.square_minus_square(4, jitter=0.2),
+    "punctured torus": families.punctured_torus(),
+    "torus of triangles with 3 holes": families.punched(families.torus(24, 18, shape="triangles", jitter=0.3), 3),
+    "torus with chords": families.chord_torus(),
+    "ball with 2 holes": families.punched(families.block_with_holes(0, refine=4, jitter=0.2), 2),
+    "ball with 5 holes": families.punched(families.block_with_holes(0, refine=4, jitter=0.2), 5, seed=1),
+    "ball with 11 holes": families.punched(families.block_with_holes(0, refine=4, jitter=0.2), 11, seed=2),
+    "genus 2 with 1 hole": families.punched(families.block_with_holes(2, refine=3, jitter=0.25), 1),
+    "genus 2 with 5 holes": families.punched(families.block_with_holes(2, refine=2, jitter=0.1), 5),
+    "genus 3 with 2 holes": families.punched(families.block_with_holes(3, refine=2, jitter=0.2), 2),
+    "partly reversed": families.partly_reversed(families.punched(families.block_with_holes(1, refine=2), 3)),
+}
+BOUNDED_FLAT = {
+    "flat torus without a triangle": families.without_triangle(families.flat_torus(0.3 + 1.1j, 6, jitter=0.25), 40),
+    "three squares without a triangle": families.without_triangle(families.square_tiled([1, 0, 2], [2, 1, 0], 4), 13),
+}
+
 
 def surface_of(mesh):
     """Of a `Mesh` or a `FlatSurface`."""
@@ -40,3 +59,8 @@ def surface_of(mesh):
 @cache
 def solved(name):
     return conformal_structure(surface_of((CLOSED | FLAT)[name]))
+
+
+@cache
+def solved_bounded(name):
+    return conformal_structure(surface_of((BOUNDED | BOUNDED_FLAT)[name]))

@@ -104,4 +104,24 @@ PolygonEdges polygon_edges(const Polygons& mesh) {
   return result;
 }
 
+std::vector<int> boundary_loop_of_vertex(const PolygonEdges& edges, int vertex_count) {
+  std::vector<int> loop(vertex_count, -1);
+  const auto find = [&loop](int v) {
+    while (loop[v] != v) v = loop[v] = loop[loop[v]];
+    return v;
+  };
+  for (std::size_t e = 0; e < edges.edges.size(); ++e) {
+    if (edges.edge_sides[e][1] >= 0) continue;
+    for (const int v : edges.edges[e]) {
+      if (loop[v] < 0) loop[v] = v;
+    }
+    const int a = find(edges.edges[e][0]), b = find(edges.edges[e][1]);
+    loop[std::max(a, b)] = std::min(a, b);
+  }
+  for (int v = 0; v < vertex_count; ++v) {
+    if (loop[v] >= 0) loop[v] = find(v);
+  }
+  return loop;
+}
+
 }  // namespace holomorph::mesh

@@ -18,6 +18,9 @@ struct PolygonEdges {
 /// @throws InvalidMesh for an edge of more than two faces, and for two faces with the same vertices.
 PolygonEdges polygon_edges(const Polygons& polygons);
 
+/// #V: equal numbers at the vertices of one boundary loop, -1 in the interior.
+std::vector<int> boundary_loop_of_vertex(const PolygonEdges& edges, int vertex_count);
+
 /// The polygon of each corner.
 std::vector<int> corner_faces(const Polygons& polygons);
 

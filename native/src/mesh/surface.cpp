@@ -16,7 +16,8 @@ namespace {
 // Appends the triangles of one polygon; diagonals get new edges, each known to its two triangles only.
 class PolygonCutter {
  public:
-  PolygonCutter(Surface& surface, const PolygonEdges& edges) : surface_(surface), edges_(edges) {}
+  PolygonCutter(Surface& surface, const PolygonEdges& edges, std::vector<int> loop_of_vertex)
+      : surface_(surface), edges_(edges), loop_of_vertex_(std::move(loop_of_vertex)) {}
 
   void cut(int face, bool reversed) {
     const auto& mesh = surface_.polygons;
@@ -24,9 +25,13 @@ class PolygonCutter {
     const int n = static_cast<int>(mesh.face_offsets[face + 1]) - first;
     if (n == 3) return add(face, reversed, first, {0, 1, 2}, 3);
     points_.resize(n);
-    for (int i = 0; i < n; ++i) points_[i] = mesh.vertices[mesh.corner_vertices[first + i]];
+    loops_.resize(n);
+    for (int i = 0; i < n; ++i) {
+      points_[i] = mesh.vertices[mesh.corner_vertices[first + i]];
+      loops_[i] = loop_of_vertex_[mesh.corner_vertices[first + i]];
+    }
     diagonals_.clear();
-    for (const auto& local : triangulate_polygon(points_)) add(face, reversed, first, local, n);
+    for (const auto& local : triangulate_polygon(points_, loops_)) add(face, reversed, first, local, n);
   }
 
  private:
@@ -60,7 +65,9 @@ class PolygonCutter {
 
   Surface& surface_;
   const PolygonEdges& edges_;
+  std::vector<int> loop_of_vertex_;  // #V, -1 in the interior
   std::vector<std::array<double, 3>> points_;
+  std::vector<int> loops_;         // of the polygon being cut
   std::map<Pair, int> diagonals_;  // of the polygon being cut, by its local corners
 };
 
@@ -87,6 +94,7 @@ Surface make_surface(Polygons polygons) {
   const int face_count = static_cast<int>(mesh.face_offsets.size()) - 1;
   surface.polygon_edge_count = static_cast<int>(edges.edges.size());
   const Orientation orientation = orient(face_count, meetings_of(mesh, edges));
+  std::vector<int> loop_of_vertex = boundary_loop_of_vertex(edges, surface.vertex_count);
   surface.edges = std::move(edges.edges);
   record_orientation(surface, orientation);
   const std::size_t triangle_count = mesh.corner_vertices.size() - 2 * static_cast<std::size_t>(face_count);
@@ -94,7 +102,7 @@ Surface make_surface(Polygons polygons) {
   surface.triangle_corners.reserve(triangle_count);
   surface.triangle_edges.reserve(triangle_count);
   surface.triangle_faces.reserve(triangle_count);
-  PolygonCutter cutter(surface, edges);
+  PolygonCutter cutter(surface, edges, std::move(loop_of_vertex));
   for (int f = 0; f < face_count; ++f) cutter.cut(f, orientation.reversed[f]);
   surface.edge_lengths.reserve(surface.edges.size());
   for (const auto& [a, b] : surface.edges) surface.edge_lengths.push_back(distance(mesh.vertices[a], mesh.vertices[b]));

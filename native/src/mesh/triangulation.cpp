@@ -15,10 +15,12 @@ constexpr int kExactSize = 64;
 constexpr double kBadTriangle = 1e12;
 // Below this ratio of area to squared size a triangle counts as degenerate.
 constexpr double kThin = 1e-10;
+// Added for a triangle with all corners on one boundary loop: more than any but a nearly degenerate shape costs.
+constexpr double kOnOneLoop = 1e8;
 
 class Polygon {
  public:
-  explicit Polygon(const std::vector<std::array<double, 3>>& corners) {
+  Polygon(const std::vector<std::array<double, 3>>& corners, const std::vector<int>& loops) : loops_(loops) {
     // Relative to the first corner, so that a polygon far from the origin loses no digits.
     for (const auto& p : corners)
       points_.push_back(Vector3d(p[0] - corners[0][0], p[1] - corners[0][1], p[2] - corners[0][2]));
@@ -35,12 +37,17 @@ class Polygon {
     const Vector3d cross = a.cross(b);
     const double facing = cross.dot(normal_), area = cross.norm();
     if (!(area > kThin * squares) || facing <= 0) return kBadTriangle;
-    return squares / area;
+    return squares / area + (on_one_loop(i, j, k) ? kOnOneLoop : 0.0);
   }
 
  private:
+  bool on_one_loop(int i, int j, int k) const {
+    return !loops_.empty() && loops_[i] >= 0 && loops_[i] == loops_[j] && loops_[i] == loops_[k];
+  }
+
   std::vector<Vector3d> points_;
   Vector3d normal_;
+  const std::vector<int>& loops_;
 };
 
 // best(i, k) = least cost of the sub-polygon i, i+1, .., k; the first of equal choices is taken.
@@ -103,9 +110,9 @@ Triangles best_ears(const Polygon& polygon) {
 
 }  // namespace
 
-Triangles triangulate_polygon(const std::vector<std::array<double, 3>>& corners) {
+Triangles triangulate_polygon(const std::vector<std::array<double, 3>>& corners, const std::vector<int>& loops) {
   if (corners.size() == 3) return {{0, 1, 2}};
-  const Polygon polygon(corners);
+  const Polygon polygon(corners, loops);
   return polygon.size() <= kExactSize ? optimal(polygon) : best_ears(polygon);
 }
 

@@ -11,6 +11,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// A triangle has collapsed where s2 is below this fraction of s1: what is left of it is rounding.
+constexpr double kCollapsed = 1e-12;
+
 struct Weighted {
   double value, weight;
 };
@@ -74,12 +77,16 @@ Quality quality(const mesh::Surface& surface, const UvArray& uv) {
     const Complex B = (along * apex - (at(2) - at(0))) / Complex(0, 2 * apex.imag()), A = along - B;
     const double larger = std::abs(A) + std::abs(B), smaller = std::abs(std::abs(A) - std::abs(B));
     result.area[t] = larger * smaller;
+    if (larger > 0 && !(smaller > kCollapsed * larger)) {
+      result.angle[t] = INFINITY;
+      continue;
+    }
     result.flipped[t] = std::abs(B) > std::abs(A);
     result.angle[t] = larger > 0 ? larger / smaller : 1.0;
     total += areas[t];
     sum += areas[t] * result.angle[t];
   }
-  result.mean_angle = sum / total;
+  result.mean_angle = total > 0 ? sum / total : INFINITY;
   std::vector<Weighted> items(count);
   for (std::size_t t = 0; t < count; ++t) items[t] = {result.area[t], areas[t]};
   const double high = weighted_quantile(items, 0.95);
