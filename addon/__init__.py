@@ -13,15 +13,17 @@ bl_info = {
 
 
 def register():
-    from . import native, operators, panel
+    from . import lod, native, operators, panel
 
     native.forget()
     operators.register()
+    lod.register()
     panel.register()
 
 
 def unregister():
-    from . import operators, panel
+    from . import lod, operators, panel
 
     panel.unregister()
+    lod.unregister()
     operators.unregister()

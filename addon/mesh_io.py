@@ -46,6 +46,18 @@ def _get(values, width, dtype):
     return array
 
 
+def read_values(values, width, dtype):
+    """(n,) or, for a width above 1, (n, width) values; `values` is a collection and the name of a property."""
+    array = _get(values, width, dtype)
+    return array if width == 1 else array.reshape(-1, width)
+
+
+def write_values(values, array):
+    """The reverse of `read_values`; `array` has the type of the property, or it is slow."""
+    collection, name = values
+    collection.foreach_set(name, np.ascontiguousarray(array).ravel())
+
+
 def read_polygons(mesh, linear):
     """Copies the polygons out of `mesh`, positions multiplied by the 3x3 matrix `linear`.
 
@@ -75,14 +87,16 @@ class WrittenMap:
     kind: str
 
 
+def is_our_attribute(attribute):
+    """Whether a corner attribute is a map of ours; from Blender 3.5 on, UV maps are such attributes too."""
+    return attribute.domain == "CORNER" and attribute.data_type == "FLOAT2" and bool(OUR_MAP.match(attribute.name))
+
+
 def remove_maps(mesh):
     """Removes the maps of an earlier run, and no other."""
     for name in [layer.name for layer in mesh.uv_layers if OUR_MAP.match(layer.name)]:
         mesh.uv_layers.remove(mesh.uv_layers[name])
-    ours = [
-        a.name for a in mesh.attributes if a.domain == "CORNER" and a.data_type == "FLOAT2" and OUR_MAP.match(a.name)
-    ]
-    for name in ours:
+    for name in [a.name for a in mesh.attributes if is_our_attribute(a)]:
         mesh.attributes.remove(mesh.attributes[name])
 
 
@@ -131,7 +145,7 @@ def _edge_vertices(mesh):
 
 def seam_vertices(mesh):
     """(#S,2) vertices of the edges that are marked as seams."""
-    return _edge_vertices(mesh)[read_seams(mesh)].astype(np.int64)
+    return marked_edges(mesh, "use_seam")
 
 
 def selected_vertices(mesh):
@@ -149,12 +163,27 @@ def are_neighbours(mesh, vertices):
     return bool(np.isin(_edge_vertices(mesh), vertices).all(axis=1).any())
 
 
-def add_seams(mesh, vertex_pairs):
-    """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
+def marked_edges(mesh, mark):
+    """(n, 2) vertices of the edges with this mark, "use_seam" or "use_edge_sharp"."""
+    return _edge_vertices(mesh)[_get((mesh.edges, mark), 1, bool)].astype(np.int64)
+
+
+def mark_edges(mesh, mark, vertex_pairs):
+    """Gives the edges between these (n, 2) vertices the mark, and no other edge."""
+    mesh.edges.foreach_set(mark, _edges_between(mesh, vertex_pairs))
+
+
+def _edges_between(mesh, vertex_pairs):
+    """(#mesh edges,) bool: the edges whose vertices are one of the pairs."""
     ends = np.sort(_edge_vertices(mesh), axis=1)
     pairs = np.sort(np.asarray(vertex_pairs, np.int64).reshape(-1, 2), axis=1)
     count = len(mesh.vertices)
-    wanted = np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])
+    return np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])
+
+
+def add_seams(mesh, vertex_pairs):
+    """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
+    wanted = _edges_between(mesh, vertex_pairs)
     before = read_seams(mesh)
     mesh.edges.foreach_set("use_seam", before | wanted)
     return int(np.count_nonzero(wanted & ~before))

@@ -6,6 +6,7 @@ import textwrap
 import bpy
 
 from . import native
+from .lod import HOLOMORPH_OT_levels
 from .operators import HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
 
 LINE_WIDTH = 36  # characters that fit a sidebar of the default width
@@ -26,6 +27,8 @@ class _HolomorphPanel:
             _draw_choices(layout)
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
+            if context.mode == "OBJECT":
+                layout.operator(HOLOMORPH_OT_levels.bl_idname, icon="MOD_DECIM")
             _draw_result(layout, obj)
 
 
