@@ -358,6 +358,31 @@ def ring_of_revolution(radius, height, n):
     return uniform(points.reshape(-1, 3), quads, ((0, 2),))
 
 
+def cube_corner(k, jitter=0.0, seed=0):
+    """The part k <= x + y + z <= 2 k of the three faces of a cube at a corner: a ring of three trapezoids, four of which
+    make `square_minus_square`. Inner vertices of a face may move in it."""
+    random, points, index, faces = np.random.default_rng(seed), [], {}, []
+
+    def vertex(x, y, z):
+        key = (x, y, z)
+        if key not in index:
+            index[key] = len(points)
+            inner = sum(c > 0 for c in key) == 2 and k < sum(key) < 2 * k
+            points.append(np.array(key) + inner * (np.array(key) > 0) * jitter * random.uniform(-1, 1, 3))
+        return index[key]
+
+    for axis in range(3):
+        for i, j in np.argwhere(np.add.outer(np.arange(2 * k), np.arange(2 * k)) < 2 * k):
+            low, right, up, high = (
+                np.roll((a, b, 0), axis) for a, b in ((i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1))
+            )
+            if i + j >= k:
+                faces.append([vertex(*low), vertex(*right), vertex(*up)])
+            if k <= i + j + 1 and i + j + 2 <= 2 * k:
+                faces.append([vertex(*right), vertex(*high), vertex(*up)])
+    return uniform(np.array(points) / k, faces, ((0, 2),))
+
+
 def moebius(n=16, m=3):
     """A strip closed with a half turn: one-sided."""
     i, j = np.divmod(np.arange(n * m), m)
