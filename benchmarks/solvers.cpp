@@ -72,9 +72,9 @@ Result library(const mesh::Surface& surface, solver::Method method, int count, M
   B = right_hand_sides(L.rows(), count);
   Matrix given = L;
   const double begin = now();
-  const auto solver = solver::make_solver(method, std::move(given), silent);
+  const auto solver = solver::make_solver(method, std::move(given), {}, silent);
   const double ready = now();
-  X = solver->solve(B, silent);
+  X = solver->solve(B, solver::Condition::natural, silent);
   result.solve = now() - ready;
   result.set_up = ready - begin;
   result.name = solver->name();

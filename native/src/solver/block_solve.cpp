@@ -48,10 +48,15 @@ BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, Worker
       q_(n_) {}
 
 template <int K>
-void BlockSolve<K>::solve(const Eigen::MatrixXd& B, Eigen::Index first, int width, Eigen::MatrixXd& X,
-                          const Report& report) {
+void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
+                          int width, Eigen::MatrixXd& X, const Report& report) {
   Columns b{};
-  for (int d = 0; d < width; ++d) b[d] = B.col(first + d).data();
+  natural_ = Block<K>::Ones();
+  for (int d = 0; d < width; ++d) {
+    b[d] = B.col(first + d).data();
+    if (conditions[first + d] == Condition::dirichlet) natural_[d] = 0;
+  }
+  cycle_.set_conditions(natural_);
   read(b);
   iterations_ = 0;
   update_residual(b);
@@ -76,7 +81,15 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, Eigen::Index first, int widt
   });
 }
 
-// The right-hand sides without their mean, the part of their rounding that no x can answer for; and X = 0.
+// Entry i of every right-hand side, as it is solved for: nothing is asked of x where it is held, and without held
+// vertices the mean is left out, the part of the rounding that no x can answer for.
+template <int K>
+Sums<K> BlockSolve<K>::right_hand_sides(const Columns& b, int i) const {
+  const Sums<K> all = row<K>(b, i) - mean_;
+  return level_.omega[i] < 0 ? all * natural_.template cast<double>() : all;
+}
+
+// The means and norms of the right-hand sides; and X = 0.
 template <int K>
 void BlockSolve<K>::read(const Columns& b) {
   const Sums<K> zero = Sums<K>::Zero();
@@ -84,9 +97,9 @@ void BlockSolve<K>::read(const Columns& b) {
     sum += row<K>(b, i);
     X_[i] = zero;
   });
-  mean_ /= static_cast<double>(n_);
+  mean_ *= natural_.template cast<double>() / static_cast<double>(n_);
   norm_b_ =
-      sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) { sum += (row<K>(b, i) - mean_).square(); }).sqrt();
+      sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) { sum += right_hand_sides(b, i).square(); }).sqrt();
   scale_ = norm_b_;
 }
 
@@ -97,13 +110,14 @@ void BlockSolve<K>::update_residual(const Columns& b) {
   Blocks<K>&r = cycle_.residual(), &u = cycle_.start();
   norm_r_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
               const Sums<K> here = X_[i];
-              Sums<K> rest = row<K>(b, i) - mean_;
+              Sums<K> rest = right_hand_sides(b, i);
               for (auto e = L_.outerIndexPtr()[i]; e < L_.outerIndexPtr()[i + 1]; ++e) {
                 rest += L_.valuePtr()[e] * (here - X_[L_.innerIndexPtr()[e]]);
               }
+              if (level_.omega[i] < 0) rest *= natural_.template cast<double>();
               sum += rest.square();
               r[i] = (rest * inverse).template cast<float>();
-              u[i] = level_.omega[i] * r[i];
+              u[i] = jacobi_step<K>(level_, i, r[i], natural_);
               x_[i] = p_[i] = q_[i] = Block<K>::Zero();
             }).sqrt();
   reached_ = relative(norm_r_);
@@ -131,7 +145,8 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
     norm = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
              x_[i] += alpha * p_[i];
              r[i] -= alpha * q_[i];
-             u[i] = level_.omega[i] * r[i];
+             if (level_.omega[i] < 0) r[i] *= natural_;
+             u[i] = jacobi_step<K>(level_, i, r[i], natural_);
              sum += r[i].square().template cast<double>();
            }).sqrt();
     report(relative(norm * scale_));

@@ -21,8 +21,10 @@ class BlockSolve {
   BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, Workers& workers);
 
   /// Solves for the columns first .. first + width - 1 of B, width <= K, and writes the same columns of X.
+  /// @param conditions of all columns
   /// @throws SolverError after 300 iterations or two corrections without progress; what `report` throws
-  void solve(const Eigen::MatrixXd& B, Eigen::Index first, int width, Eigen::MatrixXd& X, const Report& report);
+  void solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first, int width,
+             Eigen::MatrixXd& X, const Report& report);
 
   int iterations() const { return iterations_; }
   /// Largest |B - L X| / |B| of the last solve, as computed in double precision.
@@ -32,6 +34,7 @@ class BlockSolve {
   using Columns = std::array<const double*, K>;
 
   void read(const Columns& b);
+  Sums<K> right_hand_sides(const Columns& b, int i) const;
   void update_residual(const Columns& b);
   void conjugate_gradients(const Report& report);
   double relative(const Sums<K>& norms) const;
@@ -43,6 +46,7 @@ class BlockSolve {
   Cycle<K> cycle_;
   Array<Sums<K>> X_;
   Blocks<K> x_, p_, q_;
+  Block<K> natural_;       // 1 for the right-hand sides that hold no vertex, 0 for the others
   Sums<K> mean_, norm_b_;  // of the right-hand sides
   Sums<K> norm_r_;         // |B - L X|
   Sums<K> scale_;          // by which the residual is divided for single precision

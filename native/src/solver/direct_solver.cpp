@@ -50,13 +50,15 @@ class DirectSolver final : public LaplaceSolver {
     progress.report(0.8);
   }
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) override {
-    assert(condition == Condition::natural || !held_.empty());
-    condition_ = condition;
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                        Progress& progress) override {
     Eigen::MatrixXd X(B.rows(), B.cols());
     const auto block = std::max<Eigen::Index>(1, kBlockEntries / B.rows());
-    for (Eigen::Index first = 0; first < B.cols(); first += block) {
-      const auto width = std::min(block, B.cols() - first);
+    for (Eigen::Index first = 0, width = 1; first < B.cols(); first += width) {
+      condition_ = conditions[first];
+      assert(condition_ == Condition::natural || !held_.empty());
+      width = 1;
+      while (width < std::min(block, B.cols() - first) && conditions[first + width] == condition_) ++width;
       done_ = 0.8 + 0.2 * static_cast<double>(first) / static_cast<double>(B.cols());
       X.middleCols(first, width) = solve_block(B.middleCols(first, width), progress);
     }

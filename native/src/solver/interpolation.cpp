@@ -13,6 +13,8 @@ constexpr float kWeak = 0.05F;
 // Weights of P but the largest are multiples of this; half of single precision is left for sums of them.
 constexpr double kWeightStep = 1.0 / (1 << 20);
 
+bool is_held(const Array<char>& held, int i) { return !held.empty() && held[i] != 0; }
+
 Array<float> largest_weights(const SparseRows& A, Workers& workers) {
   Array<float> largest(A.size());
   for_rows(workers, A.size(), [&](int i) {
@@ -65,7 +67,8 @@ struct Mean {
 
 // One step of the mean: the staying neighbours of a vertex that goes, with weights of sum 1; a staying vertex itself.
 // No row is empty: a vertex goes because of a staying neighbour.
-SparseRows staying_neighbours(const SparseRows& A, const Array<int>& coarse, Workers& workers, Progress& progress) {
+SparseRows staying_neighbours(const SparseRows& A, const Array<char>& held, const Array<int>& coarse, Workers& workers,
+                              Progress& progress) {
   const auto no_scratch = [] { return 0; };
   return build_rows(A.size(), 3 * coarse.size(), workers, progress, no_scratch, [&](int, int i, auto& part) {
     if (coarse[i] >= 0) {
@@ -76,8 +79,8 @@ SparseRows staying_neighbours(const SparseRows& A, const Array<int>& coarse, Wor
     const auto first = part.weight.size();
     float sum = 0;
     for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-      const int c = coarse[A.column[e]];
-      if (c < 0 || A.weight[e] <= 0) continue;
+      const int j = A.column[e], c = coarse[j];
+      if (c < 0 || A.weight[e] <= 0 || (is_held(held, i) && !is_held(held, j))) continue;
       part.column.push_back(c);
       part.weight.push_back(A.weight[e]);
       sum += A.weight[e];
@@ -88,7 +91,7 @@ SparseRows staying_neighbours(const SparseRows& A, const Array<int>& coarse, Wor
 
 }  // namespace
 
-Array<int> coarse_vertices(const SparseRows& A, Workers& workers, Progress& progress) {
+Array<int> coarse_vertices(const SparseRows& A, const Array<char>& held, Workers& workers, Progress& progress) {
   constexpr int kUndecided = -2, kGoes = -1;
   const Array<float> largest = largest_weights(A, workers);
   Array<int> coarse(A.size());
@@ -100,15 +103,16 @@ Array<int> coarse_vertices(const SparseRows& A, Workers& workers, Progress& prog
     coarse[i] = count++;
     for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
       const int j = A.column[e];
-      if (coarse[j] == kUndecided && A.weight[e] > 0 && A.weight[e] >= kStrong * largest[j]) coarse[j] = kGoes;
+      if (coarse[j] != kUndecided || A.weight[e] <= 0 || A.weight[e] < kStrong * largest[j]) continue;
+      if (is_held(held, i) || !is_held(held, j)) coarse[j] = kGoes;
     }
   }
   return coarse;
 }
 
-SparseRows interpolation(const SparseRows& A, const Array<int>& coarse, int coarse_count, int most, Workers& workers,
-                         Progress& progress) {
-  const SparseRows one_step = staying_neighbours(A, coarse, workers, progress);
+SparseRows interpolation(const SparseRows& A, const Array<char>& held, const Array<int>& coarse, int coarse_count,
+                         int most, Workers& workers, Progress& progress) {
+  const SparseRows one_step = staying_neighbours(A, held, coarse, workers, progress);
   const auto scratch = [&] { return Mean{std::vector<double>(coarse_count), {}}; };
   const auto expected = most * (coarse.size() - coarse_count) + coarse_count;
   return build_rows(A.size(), expected, workers, progress, scratch, [&](Mean& mean, int i, auto& part) {
@@ -122,6 +126,7 @@ SparseRows interpolation(const SparseRows& A, const Array<int>& coarse, int coar
     for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
       if (A.weight[e] <= kWeak * largest) continue;
       const int j = A.column[e];
+      if (is_held(held, i) && !is_held(held, j)) continue;
       for (int s = one_step.start[j]; s < one_step.start[j + 1]; ++s) {
         mean.add(one_step.column[s], static_cast<double>(A.weight[e]) * one_step.weight[s]);
       }

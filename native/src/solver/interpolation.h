@@ -7,18 +7,22 @@ namespace holomorph::solver {
 
 /// Classical coarsening (Ruge & Stuben 1987, doi:10.1137/1.9781611971057.ch4) by a maximal independent set: in the
 /// order of the vertices each undecided one stays, and its undecided neighbours j with w_ij >= 0.2 max_k w_jk go.
+/// A held vertex goes only because of a held one, so that held vertices are coarsened among themselves.
 /// @param A off-diagonal weights w_ij = -a_ij, #V rows
+/// @param held one flag per vertex, or empty for none
 /// @return #V: the number of the vertex on the coarse level, in the same order, or -1 for a vertex that goes
-Array<int> coarse_vertices(const SparseRows& A, Workers& workers, Progress& progress);
+Array<int> coarse_vertices(const SparseRows& A, const Array<char>& held, Workers& workers, Progress& progress);
 
 /// P, #V x #coarse: the value at a vertex that goes is a mean over its neighbours, in each of which that goes as well a
 /// mean over that one's staying neighbours; positive weights alone, and of those means the `most` largest entries.
 ///
 /// Every row sums to 1 exactly: all weights but the largest are multiples of 2^-20. Then constants are carried exactly,
 /// and the rounding of a large weight of a sliver does not become a coupling on the coarse level.
-/// @param coarse of coarse_vertices
-SparseRows interpolation(const SparseRows& A, const Array<int>& coarse, int coarse_count, int most, Workers& workers,
-                         Progress& progress);
+/// The row of a held vertex has entries at held ones alone: a coarse function that is 0 at the held vertices is so on
+/// the fine level as well, and P^T A P without their rows and columns is the coarse operator of A without them.
+/// @param held,coarse of coarse_vertices
+SparseRows interpolation(const SparseRows& A, const Array<char>& held, const Array<int>& coarse, int coarse_count,
+                         int most, Workers& workers, Progress& progress);
 
 /// The transpose, entries of a row in ascending order.
 SparseRows transposed(const SparseRows& P, int columns, Progress& progress);

@@ -29,11 +29,16 @@ class LaplaceSolver {
  public:
   virtual ~LaplaceSolver() = default;
 
-  /// Solves for all right-hand sides at once.
+  /// Solves for all right-hand sides at once, each under its own condition.
+  /// @param conditions #rhs
   /// @param B #V x #rhs; natural: each column sums to 0; dirichlet: the rows of held vertices are ignored
   /// @return #V x #rhs; natural: each column up to a constant; dirichlet: 0 at the held vertices, exactly
   /// @throws SolverError with the residual reached and the size of the system; Cancelled
-  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) = 0;
+  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                                Progress& progress) = 0;
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) {
+    return solve(B, std::vector<Condition>(B.cols(), condition), progress);
+  }
 
   /// What was used, e.g. "direct: CHOLMOD supernodal, AMD".
   virtual std::string name() const = 0;

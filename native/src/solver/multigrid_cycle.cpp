@@ -36,8 +36,9 @@ Sums<K> Cycle<K>::run() {
     carry_up(k);
     const Level& level = hierarchy_.levels[k];
     auto& [r, u, t] = work_[k];
-    for_rows(workers_, level.A.size(),
-             [&, &r = r, &u = u, &t = t](int i) { u[i] = t[i] + level.omega[i] * (r[i] - difference(level.A, i, t)); });
+    for_rows(workers_, level.A.size(), [&, &r = r, &u = u, &t = t](int i) {
+      u[i] = t[i] + jacobi_step<K>(level, i, r[i] - difference(level.A, i, t), natural_);
+    });
   }
   // On the finest level the sum comes with the last step.
   const Level& level = hierarchy_.levels[0];
@@ -45,7 +46,8 @@ Sums<K> Cycle<K>::run() {
   if (coarsest > 0) carry_up(0);
   return sum_over_rows(workers_, level.A.size(), Sums<K>(Sums<K>::Zero()),
                        [&, &r = r, &u = u, &t = t](int i, Sums<K>& sum) {
-                         if (coarsest > 0) u[i] = t[i] + level.omega[i] * (r[i] - difference(level.A, i, t));
+                         if (coarsest > 0)
+                           u[i] = t[i] + jacobi_step<K>(level, i, r[i] - difference(level.A, i, t), natural_);
                          sum += (r[i] * u[i]).template cast<double>();
                        });
 }
@@ -59,18 +61,20 @@ void Cycle<K>::descend(std::size_t k) {
   for_rows(workers_, next.A.size(), [&](int i) {
     const Block<K> r = product(level.R, i, fine.t);
     coarse.r[i] = r;
-    coarse.u[i] = next.omega[i] * r;
+    coarse.u[i] = jacobi_step<K>(next, i, r, natural_);
   });
 }
 
 template <int K>
 void Cycle<K>::solve_coarsest() {
-  const Eigen::MatrixXf& inverse = hierarchy_.coarsest_inverse;
+  const Eigen::MatrixXf &natural = hierarchy_.coarsest_inverse, &held = hierarchy_.held_inverse;
+  const bool some = !(natural_ == 1).all();
   Work& work = work_.back();
-  for (Eigen::Index i = 0; i < inverse.cols(); ++i) {
-    Block<K> sum = Block<K>::Zero();
-    for (Eigen::Index j = 0; j < inverse.rows(); ++j) sum += inverse(j, i) * work.r[j];  // symmetric
-    work.u[i] = sum;
+  for (Eigen::Index i = 0; i < natural.cols(); ++i) {
+    Block<K> sum = Block<K>::Zero(), held_sum = Block<K>::Zero();
+    for (Eigen::Index j = 0; j < natural.rows(); ++j) sum += natural(j, i) * work.r[j];  // symmetric
+    for (Eigen::Index j = 0; some && j < held.rows(); ++j) held_sum += held(j, i) * work.r[j];
+    work.u[i] = some ? Block<K>((natural_ == 1).select(sum, held_sum)) : sum;
   }
 }
 

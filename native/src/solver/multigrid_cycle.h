@@ -27,6 +27,15 @@ EIGEN_STRONG_INLINE Block<K> difference(const SparseRows& A, int i, const Blocks
   return sum;
 }
 
+/// omega_i r_i, the smoother's step; 0 at a held vertex for the right-hand sides that hold it.
+/// @param natural 1 for the right-hand sides that do not, 0 for the others
+template <int K>
+EIGEN_STRONG_INLINE Block<K> jacobi_step(const Level& level, int i, const Block<K>& r, const Block<K>& natural) {
+  const float omega = level.omega[i];
+  if (omega >= 0) return omega * r;
+  return (-omega * natural) * r;
+}
+
 /// z = M r for the symmetric positive semi-definite M of one V-cycle: a Jacobi step on each level down (on the way down
 /// from zero, so that it is one product), the exact solution on the coarsest, a Jacobi step on each level up.
 template <int K>
@@ -34,7 +43,11 @@ class Cycle {
  public:
   Cycle(const Hierarchy& hierarchy, Workers& workers);
 
-  /// The residual r that run() is applied to, and omega r; both for the caller to fill.
+  /// @param natural of jacobi_step(); 1 for all until this is called
+  void set_conditions(const Block<K>& natural) { natural_ = natural; }
+
+  /// The residual r that run() is applied to, 0 where vertices are held, and its jacobi_step(); both for the caller to
+  /// fill.
   Blocks<K>& residual() { return work_[0].r; }
   Blocks<K>& start() { return work_[0].u; }
   /// z, in the place of start().
@@ -53,6 +66,7 @@ class Cycle {
 
   const Hierarchy& hierarchy_;
   Workers& workers_;
+  Block<K> natural_ = Block<K>::Ones();
   std::vector<Work> work_;
 };
 

@@ -43,7 +43,7 @@ SparseRows finest_weights(const Laplacian& L, Workers& workers) {
   return A;
 }
 
-Array<float> jacobi_steps(const SparseRows& A, Workers& workers) {
+Array<float> jacobi_steps(const SparseRows& A, const Array<char>& held, Workers& workers) {
   Array<float> omega(A.size());
   for_rows(workers, A.size(), [&](int i) {
     double diagonal = 0, sum = 0;
@@ -53,6 +53,7 @@ Array<float> jacobi_steps(const SparseRows& A, Workers& workers) {
     }
     sum += std::abs(diagonal);
     omega[i] = sum > 0 ? static_cast<float>(kStep / sum) : 0.0F;
+    if (!held.empty() && held[i] != 0) omega[i] = -omega[i];
   });
   return omega;
 }
@@ -106,8 +107,7 @@ SparseRows coarse_operator(const Level& fine, Workers& workers, Progress& progre
   });
 }
 
-// With the constants, the kernel, lifted to an eigenvalue like the others and taken out again.
-Eigen::MatrixXf pseudo_inverse(const SparseRows& weights) {
+Eigen::MatrixXd dense(const SparseRows& weights) {
   const int n = weights.size();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   for (int i = 0; i < n; ++i) {
@@ -121,17 +121,45 @@ Eigen::MatrixXf pseudo_inverse(const SparseRows& weights) {
       A(j, j) += half;
     }
   }
+  return A;
+}
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(A);
+  if (factor.info() != Eigen::Success) {
+    throw SolverError("the multigrid hierarchy failed: its coarsest matrix, of " + std::to_string(A.rows()) +
+                      " unknowns, is not positive semi-definite");
+  }
+  return factor.solve(Eigen::MatrixXd::Identity(A.rows(), A.rows()));
+}
+
+// With the constants, the kernel, lifted to an eigenvalue like the others and taken out again.
+Eigen::MatrixXf pseudo_inverse(Eigen::MatrixXd A) {
+  const auto n = static_cast<double>(A.rows());
   const double trace = A.trace();
   const double lift = trace > 0 ? trace / n / n : 1.0;
   A.array() += lift;
-  const Eigen::LLT<Eigen::MatrixXd> factor(A);
-  if (factor.info() != Eigen::Success) {
-    throw SolverError("the multigrid hierarchy failed: its coarsest matrix, of " + std::to_string(n) +
-                      " unknowns, is not positive semi-definite");
+  return (inverse(A).array() - 1.0 / (lift * n * n)).cast<float>();
+}
+
+Eigen::MatrixXf inverse_of_others(const Eigen::MatrixXd& A, const Array<char>& held) {
+  std::vector<int> others;
+  for (int i = 0; i < static_cast<int>(held.size()); ++i) {
+    if (held[i] == 0) others.push_back(i);
   }
-  Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(n, n));
-  inverse.array() -= 1.0 / (lift * n * n);
-  return inverse.cast<float>();
+  Eigen::MatrixXf result = Eigen::MatrixXf::Zero(A.rows(), A.cols());
+  if (!others.empty()) result(others, others) = inverse(A(others, others)).cast<float>();
+  return result;
+}
+
+// The flags of the next level.
+Array<char> held_below(const Array<char>& held, const Array<int>& coarse, int coarse_count) {
+  if (held.empty()) return {};
+  Array<char> below(coarse_count);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (coarse[i] >= 0) below[coarse[i]] = held[i];
+  }
+  return below;
 }
 
 }  // namespace
@@ -142,25 +170,28 @@ double Hierarchy::operator_complexity() const {
   return entries / static_cast<double>(levels[0].A.column.size() + levels[0].A.size());
 }
 
-Hierarchy make_hierarchy(const Laplacian& L, Workers& workers, Progress& progress) {
+Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Workers& workers, Progress& progress) {
   Hierarchy result;
   result.levels.emplace_back();
   result.levels[0].A = finest_weights(L, workers);
+  if (!held.empty()) result.levels[0].held.assign(L.rows(), 0);
+  for (const int v : held) result.levels[0].held[v] = 1;
   progress.report(0);
   for (;;) {
     Level& level = result.levels.back();
-    level.omega = jacobi_steps(level.A, workers);
+    level.omega = jacobi_steps(level.A, level.held, workers);
     progress.report(0);
     const int n = level.A.size();
     if (n <= kCoarsest) break;
-    const Array<int> coarse = coarse_vertices(level.A, workers, progress);
+    const Array<int> coarse = coarse_vertices(level.A, level.held, workers, progress);
     const int count = 1 + *std::max_element(coarse.begin(), coarse.end());
     if (count > kSlowest * n) break;
-    level.P = interpolation(level.A, coarse, count, result.levels.size() == 1 ? kFinestMeans : kCoarseMeans, workers,
-                            progress);
+    const int most = result.levels.size() == 1 ? kFinestMeans : kCoarseMeans;
+    level.P = interpolation(level.A, level.held, coarse, count, most, workers, progress);
     level.R = transposed(level.P, count, progress);
     Level next;
     next.A = coarse_operator(level, workers, progress);
+    next.held = held_below(level.held, coarse, count);
     result.levels.push_back(std::move(next));
   }
   const int coarsest = result.levels.back().A.size();
@@ -169,7 +200,9 @@ Hierarchy make_hierarchy(const Laplacian& L, Workers& workers, Progress& progres
                       std::to_string(coarsest));
   }
   progress.report(0);
-  result.coarsest_inverse = pseudo_inverse(result.levels.back().A);
+  const Eigen::MatrixXd A = dense(result.levels.back().A);
+  result.coarsest_inverse = pseudo_inverse(A);
+  if (!held.empty()) result.held_inverse = inverse_of_others(A, result.levels.back().held);
   return result;
 }
 

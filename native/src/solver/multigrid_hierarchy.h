@@ -16,14 +16,16 @@ namespace holomorph::solver {
 
 struct Level {
   SparseRows A;        ///< off-diagonal weights w_ij = -a_ij: (A x)_i = sum_j w_ij (x_i - x_j)
-  Array<float> omega;  ///< #V, the smoother's step: x += omega (r - A x)
+  Array<float> omega;  ///< #V, the smoother's step: x += omega (r - A x); negative at a held vertex
   SparseRows P;        ///< #V x #V of the next level; rows sum to 1; none on the coarsest level
   SparseRows R;        ///< its transpose
+  Array<char> held;    ///< one flag per vertex, or empty for none
 };
 
 struct Hierarchy {
   std::vector<Level> levels;         ///< finest first
   Eigen::MatrixXf coarsest_inverse;  ///< pseudo-inverse of the coarsest A, computed in double precision
+  Eigen::MatrixXf held_inverse;      ///< inverse of the part without the held vertices, and 0 at these; or empty
 
   /// Sum of all entries of the matrices over those of the finest.
   double operator_complexity() const;
@@ -33,6 +35,9 @@ struct Hierarchy {
 /// single precision the rows of a stored diagonal form do not sum to 0, and smooth functions drown in that.
 /// @throws SolverError if the graph cannot be coarsened further or the matrix is not semi-definite; Cancelled
 /// Cost: linear; about 0.2 KB and 0.5 us per vertex.
-Hierarchy make_hierarchy(const Laplacian& L, Workers& workers, Progress& progress);
+///
+/// The held vertices of a level are among those of the level above, and their values are means of theirs alone. So one
+/// hierarchy serves both conditions: functions that are 0 at the held vertices of a level are so on all.
+Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Workers& workers, Progress& progress);
 
 }  // namespace holomorph::solver

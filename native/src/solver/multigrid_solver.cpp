@@ -12,23 +12,23 @@ class MultigridSolver final : public LaplaceSolver {
     L_.swap(L);
     L_.makeCompressed();
     try {
-      hierarchy_ = make_hierarchy(L_, workers_, progress);
+      hierarchy_ = make_hierarchy(L_, held_, workers_, progress);
     } catch (const SolverError& error) {
       fall_back(error, progress);
     }
     progress.report(kSetUp);
   }
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) override {
-    if (!direct_ && condition == Condition::natural) {
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                        Progress& progress) override {
+    if (!direct_) {
       try {
-        return solve_by_multigrid(B, progress);
+        return solve_by_multigrid(B, conditions, progress);
       } catch (const SolverError& error) {
         fall_back(error, progress);
       }
     }
-    if (!direct_) direct_ = make_direct_solver(std::move(L_), held_, progress);
-    Eigen::MatrixXd X = direct_->solve(B, condition, progress);
+    Eigen::MatrixXd X = direct_->solve(B, conditions, progress);
     residual_ = std::max(residual_, direct_->residual());
     iterations_ = direct_->iterations();
     return X;
@@ -51,15 +51,16 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   // Blocks of 8, and at the end one of 4 or 2 where that is enough.
-  Eigen::MatrixXd solve_by_multigrid(const Eigen::MatrixXd& B, Progress& progress) {
+  Eigen::MatrixXd solve_by_multigrid(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                                     Progress& progress) {
     Eigen::MatrixXd X(B.rows(), B.cols());
     const Eigen::Index rest = B.cols() % 8, in_eights = B.cols() - (rest <= 4 ? rest : 0);
     Reached reached;
-    solve_blocks<8>(B, 0, in_eights, X, reached, progress);
+    solve_blocks<8>(B, conditions, 0, in_eights, X, reached, progress);
     if (rest <= 2) {
-      solve_blocks<2>(B, in_eights, B.cols(), X, reached, progress);
+      solve_blocks<2>(B, conditions, in_eights, B.cols(), X, reached, progress);
     } else {
-      solve_blocks<4>(B, in_eights, B.cols(), X, reached, progress);
+      solve_blocks<4>(B, conditions, in_eights, B.cols(), X, reached, progress);
     }
     iterations_ = std::max(iterations_, reached.iterations);
     residual_ = std::max(residual_, reached.residual);
@@ -72,13 +73,13 @@ class MultigridSolver final : public LaplaceSolver {
   };
 
   template <int K>
-  void solve_blocks(const Eigen::MatrixXd& B, Eigen::Index begin, Eigen::Index end, Eigen::MatrixXd& X,
-                    Reached& reached, Progress& progress) {
+  void solve_blocks(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index begin,
+                    Eigen::Index end, Eigen::MatrixXd& X, Reached& reached, Progress& progress) {
     if (begin == end) return;
     BlockSolve<K> block(L_, hierarchy_, workers_);
     for (Eigen::Index first = begin; first < end; first += K) {
       const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
-      block.solve(B, first, width, X, [&](double residual) {
+      block.solve(B, conditions, first, width, X, [&](double residual) {
         const double digits = std::clamp(std::log10(residual) / std::log10(kResidual), 0.0, 1.0);
         const double columns = static_cast<double>(first) + digits * width;
         progress.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));

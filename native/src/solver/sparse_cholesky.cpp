@@ -1,5 +1,7 @@
 #include "solver/sparse_cholesky.h"
 
+#include <cmath>
+
 #include "base/errors.h"
 
 #ifdef HOLOMORPH_WITH_CHOLMOD
@@ -40,9 +42,30 @@ void check(bool done, Eigen::Index unknowns) {
                     " unknowns failed: not positive definite, or out of memory");
 }
 
+// The rows and columns of `places`, ascending.
+Lower part(const Lower& lower, const std::vector<Eigen::Index>& places) {
+  std::vector<Eigen::Index> number(lower.rows(), -1);
+  for (std::size_t i = 0; i < places.size(); ++i) number[places[i]] = static_cast<Eigen::Index>(i);
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Lower result(n, n);
+  result.reserve(lower.nonZeros());
+  for (Eigen::Index column = 0; column < n; ++column) {
+    result.startVec(column);
+    for (Lower::InnerIterator it(lower, places[column]); it; ++it) {
+      if (number[it.row()] >= 0) result.insertBack(number[it.row()], column) = it.value();
+    }
+  }
+  result.finalize();
+  return result;
+}
+
 }  // namespace
 
 #ifdef HOLOMORPH_WITH_CHOLMOD
+
+// Held unknowns become a dense block at the end of the factor where what is left of the surface connects them. Beyond
+// this many times n^1.5 operations two factorisations are faster than that one; in the order AMD would take, 3 to 30.
+constexpr double kMostOperations = 100;
 
 struct SparseCholesky::Factor {
   Factor() {
@@ -51,6 +74,7 @@ struct SparseCholesky::Factor {
     common.error_handler = nullptr;
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.nmethods = 1;  // AMD alone: METIS is slower here up to 4M faces
+    common.method[0].ordering = CHOLMOD_AMD;
     common.postorder = 1;
   }
   ~Factor() {
@@ -60,128 +84,111 @@ struct SparseCholesky::Factor {
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
 
-  void analyse(cholmod_sparse& A);
-  Eigen::MatrixXd apply(int system, const Eigen::MatrixXd& B);
+  void compute(const Lower& lower) {
+    cholmod_sparse A = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
+    L = cholmod_analyze(&A, &common);
+    factorise(A);
+  }
+
+  // AMD with the constraint that the held unknowns come last. The postordering that follows moves some of them forward
+  // again, but never before an unknown that depends on them: the ancestors of a held one are held.
+  // @return false where that would be slow
+  bool compute_held_last(const Lower& lower, const std::vector<char>& held) {
+    cholmod_sparse A = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
+    std::vector<int> last(held.begin(), held.end()), order(held.size());
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    if (cholmod_camd(&A, nullptr, 0, last.data(), order.data(), &common)) {
+      L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common);
+    }
+    if (L == nullptr || common.fl > kMostOperations * std::pow(static_cast<double>(lower.rows()), 1.5)) return false;
+    factorise(A);
+    return true;
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) { return apply(CHOLMOD_A, B); }
+
+  // Forward and backward substitution; in between the held unknowns are set to 0. Forward they do not act on the
+  // others, none of which depends on them; backward they stay 0, as those that they depend on are held.
+  Eigen::MatrixXd solve_held(const Eigen::MatrixXd& B, const std::vector<char>& held) {
+    Eigen::MatrixXd X = apply(CHOLMOD_L, apply(CHOLMOD_P, B));
+    const int* const order = static_cast<const int*>(L->Perm);
+    for (Eigen::Index i = 0; i < X.rows(); ++i) {
+      if (held[order[i]]) X.row(i).setZero();
+    }
+    return apply(CHOLMOD_Pt, apply(CHOLMOD_Lt, X));
+  }
+
+ private:
+  void factorise(cholmod_sparse& A) {
+    const auto unknowns = static_cast<Eigen::Index>(A.nrow);
+    check(L != nullptr, unknowns);
+    cholmod_factorize(&A, L, &common);
+    check(common.status == CHOLMOD_OK, unknowns);
+  }
+
+  // The solution of one of CHOLMOD's systems: A x = b, L x = b, L' x = b, and permutations.
+  Eigen::MatrixXd apply(int system, const Eigen::MatrixXd& B) {
+    cholmod_dense b = Eigen::viewAsCholmod(const_cast<Eigen::MatrixXd&>(B));  // CHOLMOD only reads it
+    cholmod_dense* x = cholmod_solve(system, L, &b, &common);
+    check(x != nullptr, B.rows());
+    Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
+    cholmod_free_dense(&x, &common);
+    return X;
+  }
 
   cholmod_common common;
   cholmod_factor* L = nullptr;
-  std::vector<char> held;
 };
-
-// Where unknowns are held, AMD with the constraint that they come last. The postordering that follows moves some of
-// them forward again, but never before an unknown that depends on them: the ancestors of a held one are held.
-void SparseCholesky::Factor::analyse(cholmod_sparse& A) {
-  if (held.empty()) {
-    common.method[0].ordering = CHOLMOD_AMD;
-    L = cholmod_analyze(&A, &common);
-    return;
-  }
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  std::vector<int> last(held.begin(), held.end()), order(held.size());
-  if (cholmod_camd(&A, nullptr, 0, last.data(), order.data(), &common)) {
-    L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common);
-  }
-}
-
-// The solution of one of CHOLMOD's systems: A x = b, P' x = b, L x = b, L' x = b, P x = b.
-Eigen::MatrixXd SparseCholesky::Factor::apply(int system, const Eigen::MatrixXd& B) {
-  cholmod_dense b = Eigen::viewAsCholmod(const_cast<Eigen::MatrixXd&>(B));  // CHOLMOD only reads it
-  cholmod_dense* x = cholmod_solve(system, L, &b, &common);
-  check(x != nullptr, B.rows());
-  const Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
-  cholmod_free_dense(&x, &common);
-  return X;
-}
-
-void SparseCholesky::compute(const Lower& lower, std::vector<char> held) {
-  const OneBlasThread one_thread;
-  factor_ = std::make_unique<Factor>();
-  factor_->held = std::move(held);
-  if (lower.rows() == 0) return;
-  cholmod_sparse A = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
-  factor_->analyse(A);
-  check(factor_->L != nullptr, lower.rows());
-  cholmod_factorize(&A, factor_->L, &factor_->common);
-  check(factor_->common.status == CHOLMOD_OK, lower.rows());
-}
-
-Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& B) {
-  const OneBlasThread one_thread;
-  return B.rows() == 0 ? B : factor_->apply(CHOLMOD_A, B);
-}
-
-// Forward and backward substitution; in between the held unknowns are set to 0. Forward they do not act on the others,
-// as no other comes after them that depends on them; backward they are 0, as those that they depend on are held.
-Eigen::MatrixXd SparseCholesky::solve_held(const Eigen::MatrixXd& B) {
-  const OneBlasThread one_thread;
-  if (B.rows() == 0) return B;
-  Eigen::MatrixXd X = factor_->apply(CHOLMOD_L, factor_->apply(CHOLMOD_P, B));
-  const int* const order = static_cast<const int*>(factor_->L->Perm);
-  for (Eigen::Index i = 0; i < X.rows(); ++i) {
-    if (factor_->held[order[i]]) X.row(i).setZero();
-  }
-  return factor_->apply(CHOLMOD_Pt, factor_->apply(CHOLMOD_Lt, X));
-}
 
 #else
 
 struct SparseCholesky::Factor {
-  using Method = Eigen::SimplicialLDLT<Lower, Eigen::Lower>;
-
-  static void compute(Method& method, const Lower& lower) {
-    if (lower.rows() == 0) return;
+  void compute(const Lower& lower) {
     method.compute(lower);
     check(method.info() == Eigen::Success, lower.rows());
   }
+  bool compute_held_last(const Lower&, const std::vector<char>&) { return false; }
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) { return method.solve(B); }
+  Eigen::MatrixXd solve_held(const Eigen::MatrixXd& B, const std::vector<char>&) { return solve(B); }
 
-  Method whole, others;
-  Lower lower_of_others;             // until `others` is asked for
-  std::vector<Eigen::Index> places;  // of the others among all
-  bool asked = false;
+  Eigen::SimplicialLDLT<Lower, Eigen::Lower> method;
 };
 
+#endif
+
 void SparseCholesky::compute(const Lower& lower, std::vector<char> held) {
+  const OneBlasThread one_thread;
+  held_ = std::move(held);
+  others_.clear();
+  of_others_.reset();
   factor_ = std::make_unique<Factor>();
-  Factor::compute(factor_->whole, lower);
-  if (held.empty()) return;
-  std::vector<Eigen::Index> number(held.size(), -1);
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (held[i]) continue;
-    number[i] = static_cast<Eigen::Index>(factor_->places.size());
-    factor_->places.push_back(static_cast<Eigen::Index>(i));
-  }
-  const auto n = static_cast<Eigen::Index>(factor_->places.size());
-  Lower& others = factor_->lower_of_others;
-  others.resize(n, n);
-  others.reserve(lower.nonZeros());
-  for (Eigen::Index column = 0; column < n; ++column) {
-    others.startVec(column);
-    for (Lower::InnerIterator it(lower, factor_->places[column]); it; ++it) {
-      if (number[it.row()] >= 0) others.insertBack(number[it.row()], column) = it.value();
+  if (lower.rows() == 0) return;
+  if (held_.empty()) {
+    factor_->compute(lower);
+  } else if (!factor_->compute_held_last(lower, held_)) {
+    factor_ = std::make_unique<Factor>();
+    factor_->compute(lower);
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      if (held_[i] == 0) others_.push_back(static_cast<Eigen::Index>(i));
     }
+    of_others_ = std::make_unique<Factor>();
+    if (!others_.empty()) of_others_->compute(part(lower, others_));
   }
-  others.finalize();
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& B) {
-  if (B.rows() == 0) return B;
-  return factor_->whole.solve(B);
+  const OneBlasThread one_thread;
+  return B.rows() == 0 ? B : factor_->solve(B);
 }
 
 Eigen::MatrixXd SparseCholesky::solve_held(const Eigen::MatrixXd& B) {
+  const OneBlasThread one_thread;
+  if (B.rows() == 0) return B;
+  if (!of_others_) return factor_->solve_held(B, held_);
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
-  if (factor_->places.empty()) return X;
-  if (!factor_->asked) {
-    Factor::compute(factor_->others, factor_->lower_of_others);
-    factor_->lower_of_others = {};
-    factor_->asked = true;
-  }
-  const Eigen::MatrixXd rows = B(factor_->places, Eigen::all);
-  X(factor_->places, Eigen::all) = factor_->others.solve(rows);
+  if (!others_.empty()) X(others_, Eigen::all) = of_others_->solve(B(others_, Eigen::all));
   return X;
 }
-
-#endif
 
 SparseCholesky::SparseCholesky() = default;
 SparseCholesky::~SparseCholesky() = default;

@@ -12,7 +12,8 @@ namespace holomorph::solver {
 /// its BLAS on one thread (so that the bits do not depend on the number of threads); else Eigen's simplicial LDL^T.
 ///
 /// Some unknowns may be `held`: eliminated after all others, so that the factor of the matrix without them is a part of
-/// the factor of the whole, and both systems are solved with one factorisation (CHOLMOD; Eigen's method makes another).
+/// the factor of the whole, and both systems are solved with one factorisation. Where that would be slow, because too
+/// many are held, and with Eigen's method there are two.
 class SparseCholesky {
  public:
   SparseCholesky();
@@ -34,7 +35,9 @@ class SparseCholesky {
 
  private:
   struct Factor;
-  std::unique_ptr<Factor> factor_;
+  std::unique_ptr<Factor> factor_, of_others_;  // the second one only where there are two
+  std::vector<char> held_;
+  std::vector<Eigen::Index> others_;  // that are not held, with two factors
 };
 
 }  // namespace holomorph::solver

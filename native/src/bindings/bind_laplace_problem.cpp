@@ -1,0 +1,55 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "pipeline/laplace_problem.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using Problem = pipeline::LaplaceProblem;
+
+std::shared_ptr<Problem> make(const mesh::Surface& surface, const std::vector<int>& held, const std::string& solver,
+                              int threads) {
+  const py::gil_scoped_release unlocked;
+  Progress silent;
+  return std::make_shared<Problem>(pipeline::laplace_problem(surface, held, {solver, threads}, silent));
+}
+
+// @param holds one flag per column of B
+py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bool>& holds) {
+  Eigen::MatrixXd X;
+  {
+    const py::gil_scoped_release unlocked;
+    std::vector<solver::Condition> conditions;
+    for (const bool held : holds) {
+      conditions.push_back(held ? solver::Condition::dirichlet : solver::Condition::natural);
+    }
+    Progress silent;
+    X = problem.solver->solve(B, conditions, silent);
+  }
+  return copy(X);
+}
+
+py::tuple report(const Problem& problem) {
+  const auto& solver = *problem.solver;
+  return py::make_tuple(solver.name(), solver.remark(), solver.iterations(), solver.residual());
+}
+
+Eigen::MatrixX2i ends(const Problem& problem) {
+  const auto& all = problem.ends;
+  return Eigen::Map<const Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>>(all.front().data(), all.size(), 2);
+}
+
+}  // namespace
+
+void bind_laplace_problem(py::module_& m) {
+  py::class_<Problem, std::shared_ptr<Problem>>(m, "LaplaceProblem")
+      .def(py::init(&make))
+      .def("solve", &solve)
+      .def("report", &report)
+      .def("edges", [](const Problem& p) { return py::make_tuple(copy(ends(p)), copy(p.weights)); });
+}
+
+}  // namespace holomorph::bindings
