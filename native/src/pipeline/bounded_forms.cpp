@@ -7,6 +7,19 @@ namespace {
 
 using solver::Condition;
 
+// The right-hand sides of both families, solved together.
+Eigen::MatrixXd solve_both(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                           const topology::IntegerForms& natural, const topology::IntegerForms& relative,
+                           solver::LaplaceSolver& solver, Progress& progress) {
+  const int n = natural.form_count;
+  Eigen::MatrixXd B(half_edges.n_vertices(), 2 * n);
+  B.leftCols(n) = forms::codifferentials(half_edges, weights, natural);
+  B.rightCols(n) = forms::codifferentials(half_edges, weights, relative);
+  std::vector<Condition> conditions(n, Condition::natural);
+  conditions.resize(2 * static_cast<std::size_t>(n), Condition::dirichlet);
+  return solver.solve(B, conditions, progress);
+}
+
 // 1 on each loop >= 1 in the column of its form.
 void add_indicators(const mesh::BoundaryLoops& boundary, int handles, forms::RowMajorMatrix& functions) {
   for (int v = 0; v < static_cast<int>(boundary.loop_of_vertex.size()); ++v) {
@@ -30,13 +43,12 @@ BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, const std::vector<
   const auto choice = solver::choose_method(options.solver, laplacian.rows(), 2 * n);
   const auto solver =
       solver::make_solver(choice.method, std::move(laplacian), mesh::boundary_vertices(boundary), progress);
-  BoundedForms result;
-  result.natural = forms::harmonic_basis(half_edges, weights, classes, *solver, Condition::natural, progress);
-
   auto relative = topology::first_forms(classes, handles, handles);
   topology::add_loop_indicators(half_edges, boundary, relative);
-  result.dirichlet = forms::harmonic_basis(half_edges, weights, relative, *solver, Condition::dirichlet, progress);
-  result.dirichlet.classes = topology::first_forms(classes, handles, n);
+  const Eigen::MatrixXd functions = solve_both(half_edges, weights, classes, relative, *solver, progress);
+  BoundedForms result;
+  result.natural = {classes, functions.leftCols(n)};
+  result.dirichlet = {topology::first_forms(classes, handles, n), functions.rightCols(n)};
   add_indicators(boundary, handles, result.dirichlet.functions);
 
   result.solver = solver_report(*solver, choice);
