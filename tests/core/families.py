@@ -359,8 +359,8 @@ def ring_of_revolution(radius, height, n):
 
 
 def cube_corner(k, jitter=0.0, seed=0):
-    """The part k <= x + y + z <= 2 k of the three faces of a cube at a corner: a ring of three trapezoids, four of which
-    make `square_minus_square`. Inner vertices of a face may move in it."""
+    """The part k <= x + y + z <= 2 k of the three faces of a cube at a corner: a ring of three trapezoids, four of
+    which make `square_minus_square`. Inner vertices of a face may move in it."""
     random, points, index, faces = np.random.default_rng(seed), [], {}, []
 
     def vertex(x, y, z):

@@ -38,11 +38,20 @@ def least_eigenvalue(matrix):
     return np.linalg.eigvalsh((matrix + matrix.T) / 2).min()
 
 
+def is_boundary_side(surface):
+    """(#T, 3): side i of a triangle, from corner i to the next, is the only one between its two vertices."""
+    ends = np.sort(np.stack([surface.triangles, np.roll(surface.triangles, -1, axis=1)], axis=-1), axis=-1)
+    keys = ends.astype(np.int64) @ [len(surface.vertices), 1]
+    _, place, count = np.unique(keys, return_inverse=True, return_counts=True)
+    return count[place].reshape(keys.shape) == 1
+
+
 def boundary_edges(structure):
     """Indices of the edges on the boundary."""
     surface = structure.surface
-    edge, _ = edge_forms(structure).index(surface.triangles, np.roll(surface.triangles, -1, axis=1))
-    return np.flatnonzero(np.bincount(edge.ravel(), minlength=len(structure.edges)) == 1)
+    ends = np.stack([surface.triangles, np.roll(surface.triangles, -1, axis=1)], axis=-1)[is_boundary_side(surface)]
+    weights = [len(surface.vertices), 1]
+    return np.flatnonzero(np.isin(structure.edges.astype(np.int64) @ weights, np.sort(ends, axis=1) @ weights))
 
 
 # ---- topology, exactly ---------------------------------------------------------------------------
@@ -255,10 +264,8 @@ def some_coefficients(structure, seed=4):
 def boundary_sides(structure):
     """(#, 2) corners at both ends of every boundary edge, in the triangle there."""
     surface = structure.surface
-    edge, _ = edge_forms(structure).index(surface.triangles, np.roll(surface.triangles, -1, axis=1))
-    count = np.bincount(edge.ravel(), minlength=len(structure.edges))
     corners = surface.triangle_corners
-    return np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1)[count[edge] == 1]
+    return np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1)[is_boundary_side(surface)]
 
 
 @embedded
