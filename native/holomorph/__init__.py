@@ -17,6 +17,7 @@ from .bounded import BoundedStructure
 from .closed import ConformalStructure
 from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh
+from .punctured import PuncturedStructure
 from .results import Quality, Residuals, SolverReport
 from .structure import conformal_structure
 from .surface import Repairs, Surface
@@ -29,6 +30,7 @@ __all__ = [
     "InvalidMesh",
     "LevelOfDetail",
     "ProgressiveMesh",
+    "PuncturedStructure",
     "Quality",
     "Repairs",
     "Residuals",

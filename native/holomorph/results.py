@@ -106,10 +106,7 @@ class Structure:
 
     def quality(self, uv):
         """`Quality` of a (#C, 2) UV map on the surface's triangles."""
-        uv = np.ascontiguousarray(uv, dtype=np.float64)
-        if uv.shape != (len(self._component.corner_vertices), 2):
-            raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
-        return Quality(*_native.quality(self._component._native, uv))
+        return Quality(*_native.quality(self._component._native, self._checked_uv(uv)))
 
     def averaged_star(self, form):
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
@@ -118,6 +115,20 @@ class Structure:
         if form.shape != (len(self.edges),):
             raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
         return self._native.averaged_star(form)
+
+    def _checked_uv(self, uv):
+        uv = np.ascontiguousarray(uv, dtype=np.float64)
+        if uv.shape != (len(self._component.corner_vertices), 2):
+            raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
+        return uv
+
+    def _at_vertices(self, values):
+        """Values at the component's vertices as values at the surface's, NaN at isolated ones."""
+        if self._component is self.surface:
+            return values
+        result = np.full((self.surface._native.vertex_count, *values.shape[1:]), np.nan, dtype=values.dtype)
+        result[self._component.vertex_index] = values
+        return arrays.frozen(result)
 
     def _of_surface(self, vertices):
         """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
@@ -139,6 +150,27 @@ def only_component(surface):
     if count != 1:
         raise TopologyError(f"the surface has {count} connected components; take one of surface.components")
     return surface.components[0]
+
+
+def own_vertices(surface, component, vertices, word):
+    """`vertices` of the surface as a list of the component's, and the surface's index of each of the component's
+    vertices; `word` is what one is called in messages.
+
+    Raises TopologyError for anything but indices of vertices that have a face.
+    """
+    given = np.asarray(vertices)
+    if given.ndim != 1 or not (np.issubdtype(given.dtype, np.integer) or given.size == 0):
+        raise TopologyError(f"{word}s must be a list of vertex indices, not an array of {given.dtype} of {given.shape}")
+    count = surface._native.vertex_count
+    for vertex in given[(given < 0) | (given >= count)]:
+        raise TopologyError(f"{word} {vertex} is no vertex: there are {count}")
+    if component is surface:
+        return given.tolist(), []
+    own = np.full(count, -1)
+    own[component.vertex_index] = np.arange(len(component.vertex_index))
+    for vertex in given[own[given.astype(int)] < 0]:
+        raise TopologyError(f"{word} {vertex} is a vertex of no face")
+    return own[given.astype(int)].tolist(), component.vertex_index.tolist()
 
 
 def result(kind, surface, component, native):

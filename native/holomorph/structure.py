@@ -4,16 +4,21 @@ from . import _native
 from ._native import TopologyError
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
-from .results import check_options, only_component, result
+from .punctured import PuncturedStructure
+from .results import check_options, only_component, own_vertices, result
 
 
-def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
-    """Harmonic and holomorphic one-forms and conformal invariants of one connected surface: closed of genus >= 1, or
-    with boundary, except a disk.
+def conformal_structure(surface, *, punctures=None, residues=None, solver="auto", threads=None, progress=None):
+    """Conformal structure of one connected surface: harmonic and holomorphic one-forms and conformal invariants; with
+    punctures, and on genus 0, a differential of the third kind.
 
     Parameters
     ----------
     surface : Surface, connected; isolated vertices are ignored
+    punctures : list of vertices whose stars are apart from each other; None takes two far apart on genus 0, and none
+        elsewhere
+    residues : list of complex numbers, one for each puncture, not 0 and summing to 0: the UVs change by it around the
+        puncture. Default: 1 and -1 for two punctures; for more, 1 but at the one that is farthest from the others
     solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
         by size and number of right-hand sides; the result's `solver` says what was taken and why
     threads : number of threads, None for one per core; the result has the same bits for any number
@@ -21,12 +26,13 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
 
     Returns
     -------
-    ConformalStructure of a closed surface, BoundedStructure of one with boundary
+    ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of one
+    with punctures
 
     Raises
     ------
     TopologyError
-        several components, a sphere or a disk (names genus and boundary count)
+        several components; a disk (names genus and boundary count); punctures or residues that do not fit
     SolverError
         if neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out
     Cancelled
@@ -39,6 +45,11 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
     threads = check_options(solver, threads)
     component = only_component(surface)
     genus, boundaries = component.genus, component.boundary_count
+    vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
+    chosen = vertices, _residues(residues), names
+    if any(map(len, chosen[:2])) or (genus == 0 and boundaries == 0):
+        native = _native.punctured_structure(component._native, *chosen, solver, threads, progress)
+        return result(PuncturedStructure, surface, component, native)
     if boundaries and 2 * genus + boundaries > 1:
         native = _native.bounded_structure(component._native, solver, threads, progress)
         return result(BoundedStructure, surface, component, native)
@@ -49,3 +60,10 @@ def conformal_structure(surface, *, solver="auto", threads=None, progress=None):
         f"the surface has genus {genus} and {boundaries} boundary loops; "
         "a closed surface of genus 1 or more, or one with a boundary that is no disk, is needed"
     )
+
+
+def _residues(residues):
+    try:
+        return [] if residues is None else [complex(r) for r in residues]
+    except TypeError as error:
+        raise TopologyError(f"residues must be a list of numbers, not {residues!r}") from error

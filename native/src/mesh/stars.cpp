@@ -68,6 +68,18 @@ void claim(const HalfEdges& mesh, const Star& star, const Names& name, std::vect
   }
 }
 
+// The vertex and its neighbours along the artist's edges.
+std::vector<int> star_vertices(const Surface& surface, const HalfEdges& mesh, int vertex) {
+  std::vector<int> met{vertex};
+  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  HalfedgeHandle h = start;
+  do {
+    if (!surface.is_diagonal(edge_of(h))) met.push_back(to_vertex(mesh, h));
+    h = next(mesh, opposite(h));
+  } while (h != start);
+  return met;
+}
+
 struct Side {
   int triangle, side;
 };
@@ -143,19 +155,18 @@ std::vector<Star> stars(const HalfEdges& half_edges, const std::vector<double>& 
   return result;
 }
 
-bool has_free_star(const HalfEdges& mesh, int vertex, const std::vector<char>& taken) {
-  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
-  if (!start.is_valid() || taken[vertex] || on_boundary(mesh, vertex)) return false;
-  std::vector<int> met{vertex};
-  HalfedgeHandle h = start;
-  do {
-    const int v = to_vertex(mesh, h);
+bool has_free_star(const Surface& surface, const HalfEdges& mesh, int vertex, const std::vector<char>& taken) {
+  if (!mesh.halfedge_handle(VertexHandle(vertex)).is_valid()) return false;
+  std::vector<int> met = star_vertices(surface, mesh, vertex);
+  for (const int v : met) {
     if (taken[v] || on_boundary(mesh, v)) return false;
-    met.push_back(v);
-    h = next(mesh, opposite(h));
-  } while (h != start);
+  }
   std::sort(met.begin(), met.end());
   return std::adjacent_find(met.begin(), met.end()) == met.end();
+}
+
+void mark_star(const Surface& surface, const HalfEdges& mesh, int vertex, std::vector<char>& taken) {
+  for (const int v : star_vertices(surface, mesh, vertex)) taken[v] = 1;
 }
 
 void turn_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names) {

@@ -24,9 +24,12 @@ struct Star {
 std::vector<Star> stars(const HalfEdges& half_edges, const std::vector<double>& lengths,
                         const std::vector<int>& vertices, const std::vector<int>& names = {});
 
-/// Whether the stars of `vertex` and of the vertices in `taken` (1 for each vertex of their stars) fit together as
-/// `stars` asks for, without saying why not.
-bool has_free_star(const HalfEdges& half_edges, int vertex, const std::vector<char>& taken);
+/// Whether `stars` would take the vertex, once its diagonals are turned away: its neighbours along the artist's edges
+/// are distinct, not on the boundary and, like itself, not marked in `taken` (#V). It marks nothing.
+bool has_free_star(const Surface& surface, const HalfEdges& half_edges, int vertex, const std::vector<char>& taken);
+
+/// Marks the vertex and its neighbours along the artist's edges.
+void mark_star(const Surface& surface, const HalfEdges& half_edges, int vertex, std::vector<char>& taken);
 
 /// Turns the diagonals of polygons that end at one of the vertices, so that each polygon has one triangle there: then
 /// every spoke is an edge of the artist's. Edges keep their indices.

@@ -38,13 +38,22 @@ double weighted_quantile(std::vector<Weighted>& items, double part) {
   return begin->value;
 }
 
+UvArray real_and_imaginary(const Eigen::VectorXcd& p) {
+  UvArray columns(p.size(), 2);
+  columns << p.real(), p.imag();
+  return columns;
+}
+
 }  // namespace
 
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
                const Eigen::VectorXcd& p) {
-  Eigen::Matrix<double, Eigen::Dynamic, 2> coefficients(p.size(), 2);
-  coefficients << p.real(), p.imag();
-  const UvArray at_vertex = functions * coefficients;
+  return uv_map(surface, sheets, UvArray(functions * real_and_imaginary(p)), p);
+}
+
+UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+               const Eigen::VectorXcd& p) {
+  const UvArray coefficients = real_and_imaginary(p);
   UvArray translation = UvArray::Zero(static_cast<Eigen::Index>(sheets.sheets.size()), 2);
   for (std::size_t s = 0; s < sheets.sheets.size(); ++s) {
     for (const auto& [k, value] : sheets.sheets[s])

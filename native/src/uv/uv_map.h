@@ -17,6 +17,10 @@ using UvArray = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
                const Eigen::VectorXcd& p);
 
+/// UV(corner) = at_vertex(vertex) + sum_k p_k P_k(corner): the same from any potentials, #V x 2.
+UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+               const Eigen::VectorXcd& p);
+
 struct Quality {
   /// #T s1 / s2 >= 1, the singular values of the map; 1 where the triangle has no area, infinite where it has collapsed
   std::vector<double> angle;

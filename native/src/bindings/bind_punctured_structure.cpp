@@ -1,0 +1,91 @@
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "pipeline/punctured_structure.h"
+#include "pipeline/sphere_map.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using pipeline::PuncturedStructure;
+
+Progress::Callback callback(const py::object& progress) {
+  if (progress.is_none()) return {};
+  return [progress](double fraction, const std::string& stage) {
+    const py::gil_scoped_acquire locked;
+    const py::object answer = progress(fraction, stage);
+    return !(answer.ptr() == Py_False);
+  };
+}
+
+std::shared_ptr<PuncturedStructure> compute(const mesh::Surface& surface, const std::vector<int>& vertices,
+                                            const std::vector<std::complex<double>>& residues,
+                                            const std::vector<int>& names, const std::string& solver, int threads,
+                                            const py::object& progress_function) {
+  Progress progress(callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  return std::make_shared<PuncturedStructure>(
+      pipeline::punctured_structure(surface, {vertices, residues, names}, {solver, threads}, progress));
+}
+
+py::array uv(const PuncturedStructure& s, const Eigen::VectorXcd& c) {
+  uv::UvArray result;
+  {
+    const py::gil_scoped_release unlocked;
+    result = pipeline::uv_map(s, c);
+  }
+  const py::ssize_t corners = result.rows();
+  return give(std::move(result), {corners, 2});
+}
+
+py::array edge_values(const PuncturedStructure& s) {
+  Eigen::MatrixXcd values;
+  {
+    const py::gil_scoped_release unlocked;
+    values = pipeline::edge_values(s);
+  }
+  return copy(values);
+}
+
+py::array sphere_map(const PuncturedStructure& s) {
+  pipeline::PointArray points;
+  {
+    const py::gil_scoped_release unlocked;
+    points = pipeline::sphere_map(s);
+  }
+  const py::ssize_t rows = points.rows();
+  return give(std::move(points), {rows, 3});
+}
+
+}  // namespace
+
+void bind_punctured_structure(py::module_& m) {
+  py::class_<PuncturedStructure, std::shared_ptr<PuncturedStructure>>(m, "PuncturedStructure")
+      .def("uv", &uv)
+      .def("edge_values", &edge_values)
+      .def("sphere_map", &sphere_map)
+      .def("genus", [](const PuncturedStructure& s) { return s.periods.cols(); })
+      .def("surface", [](const PuncturedStructure& s) { return std::make_shared<mesh::Surface>(s.surface); })
+      .def("punctures", [](const PuncturedStructure& s) { return copy(s.punctures.vertices); })
+      .def("residues", [](const PuncturedStructure& s) { return copy(s.punctures.residues); })
+      .def("seams", [](const PuncturedStructure& s) { return copy(s.seams); })
+      .def("residuals",
+           [](const PuncturedStructure& s) {
+             return py::make_tuple(s.residuals.closedness, s.residuals.harmonicity, s.period_residual);
+           })
+      .def("solver",
+           [](const PuncturedStructure& s) {
+             return py::make_tuple(s.solver.name, s.solver.reason, s.solver.iterations, s.solver.residual);
+           })
+      .def("intrinsic", [](const PuncturedStructure& s) { return py::make_tuple(0, s.mollification); })
+      .def("timings", [](const PuncturedStructure& s) { return s.seconds; });
+  m.def("punctured_structure", &compute);
+}
+
+}  // namespace holomorph::bindings

@@ -1,0 +1,105 @@
+#include "forms/singular_part.h"
+
+#include <array>
+#include <cmath>
+
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::forms {
+namespace {
+
+using mesh::edge_of;
+using mesh::HalfedgeHandle;
+using mesh::HalfEdges;
+using mesh::next;
+using mesh::opposite;
+
+// A triangle (p, a, b) of a star, seen from p: the line ab at the distance h, on it t from t0 at a to t1 at b.
+struct StarTriangle {
+  int a, b;
+  double angle, length, height, t0, t1;
+  double log_a, log_b;  // of the spokes, in units of their mean
+
+  StarTriangle(const HalfEdges& mesh, const std::vector<double>& lengths, HalfedgeHandle link, double angle_at_p,
+               double unit)
+      : a(mesh::from_vertex(mesh, link)), b(mesh::to_vertex(mesh, link)), angle(angle_at_p) {
+    const HalfedgeHandle from_b = next(mesh, link), to_a = next(mesh, from_b);
+    length = lengths[edge_of(link)];
+    const double at_a = lengths[edge_of(to_a)], at_b = lengths[edge_of(from_b)];
+    height = 2 * mesh::triangle_area(length, at_a, at_b) / length;
+    t0 = -((at_a - at_b) * (at_a + at_b) + length * length) / (2 * length);
+    t1 = t0 + length;
+    log_a = std::log(at_a / unit);
+    log_b = std::log(at_b / unit);
+  }
+
+  double log_ratio() const { return log_b - log_a; }
+  // int alpha' phi_b and int (t / r^2) phi_b along the edge, phi_b = (t - t0) / length
+  double flux_of_log() const { return (height * log_ratio() - t0 * angle) / length; }
+  double flux_of_angle() const { return (length - height * angle - t0 * log_ratio()) / length; }
+  // int of log r, and of alpha seen from the foot, minus the linear interpolants
+  double excess_of_log() const {
+    return t1 * log_b - t0 * log_a - length + height * angle - length * (log_a + log_b) / 2;
+  }
+  double excess_of_angle() const {
+    const auto integral = [this](double t) {
+      return t * std::atan(t / height) - height / 2 * std::log(height * height + t * t);
+    };
+    return integral(t1) - integral(t0) - length * (std::atan(t0 / height) + std::atan(t1 / height)) / 2;
+  }
+};
+
+double mean_spoke(const HalfEdges& mesh, const std::vector<double>& lengths, const mesh::Star& star) {
+  double sum = 0;
+  for (const HalfedgeHandle h : star.link) sum += lengths[edge_of(next(mesh, h))];
+  return sum / static_cast<double>(star.size());
+}
+
+// Adds `flux` with the weights of the ends a, b, and `excess` with the normal derivatives of the hat functions.
+void add(const StarTriangle& t, int p, double flux_a, double flux_b, double excess, const Eigen::RowVectorXd& scale,
+         Eigen::MatrixXd& b) {
+  b.row(t.a) += flux_a * scale;
+  b.row(t.b) += flux_b * scale;
+  const double at_b = -t.t0 / t.length / t.height, at_p = -1 / t.height;
+  b.row(p) += at_p * excess * scale;
+  b.row(t.a) -= (at_p + at_b) * excess * scale;
+  b.row(t.b) += at_b * excess * scale;
+}
+
+}  // namespace
+
+SingularPart singular_part(const HalfEdges& mesh, const std::vector<double>& lengths,
+                           const std::vector<mesh::Star>& stars, const Eigen::MatrixXd& residues) {
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), residues.cols());
+  SingularPart part{zero, zero, zero, zero};
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    const mesh::Star& star = stars[i];
+    const Eigen::RowVectorXd scale = residues.row(static_cast<Eigen::Index>(i)) / star.total_angle;
+    const double unit = mean_spoke(mesh, lengths, star);
+    double alpha = -star.angles[0];  // 0 at the end of link[0]
+    for (std::size_t j = 0; j < star.size(); ++j) {
+      const StarTriangle t(mesh, lengths, star.link[j], star.angles[j], unit);
+      alpha += t.angle;
+      part.u.row(t.b) = alpha * scale;
+      part.v.row(t.b) = -t.log_b * scale;
+      add(t, star.vertex, t.angle - t.flux_of_log(), t.flux_of_log(), -t.excess_of_log(), scale, part.b_v);
+      add(t, star.vertex, t.log_ratio() - t.flux_of_angle(), t.flux_of_angle(), t.excess_of_angle(), scale, part.b_u);
+    }
+  }
+  return part;
+}
+
+std::vector<double> outer_weights(const HalfEdges& mesh, const std::vector<double>& lengths,
+                                  std::vector<double> weights, const std::vector<mesh::Star>& stars) {
+  for (const mesh::Star& star : stars) {
+    for (const HalfedgeHandle h : star.link) {
+      weights[edge_of(next(mesh, h))] = 0;
+      const HalfedgeHandle outer = opposite(h), outer1 = next(mesh, outer), outer2 = next(mesh, outer1);
+      const double a = lengths[edge_of(outer)], b = lengths[edge_of(outer1)], c = lengths[edge_of(outer2)];
+      weights[edge_of(h)] = 0.5 * mesh::cotangent(a, b, c, mesh::triangle_area(a, b, c));
+    }
+  }
+  return weights;
+}
+
+}  // namespace holomorph::forms

@@ -1,0 +1,32 @@
+// The singular part of a differential of the third kind in the stars of its punctures.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mesh/stars.h"
+
+namespace holomorph::forms {
+
+/// Near a puncture of real residue s and total angle Theta, in polar coordinates (r, alpha) of its star,
+/// u_s = s alpha/Theta and v_s = -s log(r)/Theta: u_s + i v_s = s / (2 pi i) log z with z = (r e^(i alpha))^(2
+/// pi/Theta).
+///
+/// b_u, b_v: the fluxes of u_s, v_s out of the star through its link, tested with the hat functions; and the difference
+/// between u_s, v_s and their linear interpolants on the straight link edges, tested with the normal derivatives of the
+/// hat functions, which makes the result second order. For each residue b_u sums to 0 and b_v to s; both test linear
+/// functions exactly.
+struct SingularPart {
+  Eigen::MatrixXd u, v;      ///< #V x m, supported on the links; u jumps by s at the link edge link[0]
+  Eigen::MatrixXd b_u, b_v;  ///< #V x m
+};
+
+/// @param lengths #E; @param residues #stars x m reals, a column for each differential
+SingularPart singular_part(const mesh::HalfEdges& half_edges, const std::vector<double>& lengths,
+                           const std::vector<mesh::Star>& stars, const Eigen::MatrixXd& residues);
+
+/// Weights k over the faces outside the stars: 0 on spokes, that of the outer face alone on link edges.
+std::vector<double> outer_weights(const mesh::HalfEdges& half_edges, const std::vector<double>& lengths,
+                                  std::vector<double> weights, const std::vector<mesh::Star>& stars);
+
+}  // namespace holomorph::forms

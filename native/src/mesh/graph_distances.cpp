@@ -1,0 +1,35 @@
+#include "mesh/graph_distances.h"
+
+#include <functional>
+#include <limits>
+#include <queue>
+
+namespace holomorph::mesh {
+
+std::vector<double> graph_distances(const HalfEdges& mesh, const std::vector<double>& lengths,
+                                    const std::vector<int>& sources) {
+  using Entry = std::pair<double, int>;
+  std::vector<double> distance(mesh.n_vertices(), std::numeric_limits<double>::infinity());
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (const int v : sources) {
+    distance[v] = 0;
+    queue.push({0.0, v});
+  }
+  while (!queue.empty()) {
+    const auto [at, v] = queue.top();
+    queue.pop();
+    if (at > distance[v]) continue;
+    const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));
+    if (!start.is_valid()) continue;
+    HalfedgeHandle h = start;
+    do {
+      const int w = to_vertex(mesh, h);
+      const double through = at + lengths[edge_of(h)];
+      if (through < distance[w]) queue.push({distance[w] = through, w});
+      h = next(mesh, opposite(h));
+    } while (h != start);
+  }
+  return distance;
+}
+
+}  // namespace holomorph::mesh

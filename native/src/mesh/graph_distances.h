@@ -1,0 +1,15 @@
+// Distances along the edges of a mesh.
+#pragma once
+
+#include <vector>
+
+#include "mesh/half_edges.h"
+
+namespace holomorph::mesh {
+
+/// #V length of the shortest path of edges from the nearest of the sources (Dijkstra); infinite where there is none.
+/// @param lengths #E. Cost: O(n log n).
+std::vector<double> graph_distances(const HalfEdges& half_edges, const std::vector<double>& lengths,
+                                    const std::vector<int>& sources);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,28 @@
+#include "topology/puncture_classes.h"
+
+namespace holomorph::topology {
+
+using mesh::edge_of;
+using mesh::face_of;
+using mesh::opposite;
+using mesh::sign;
+
+IntegerForms puncture_classes(const HalfEdges& mesh, const FundamentalDomain& domain,
+                              const std::vector<mesh::Star>& stars) {
+  IntegerForms forms;
+  forms.form_count = static_cast<int>(stars.size()) - 1;
+  forms.rows.resize(mesh.n_edges());
+  for (int i = 0; i < forms.form_count; ++i) {
+    int here = face_of(mesh, stars[i].link[0]), there = face_of(mesh, stars.back().link[0]);
+    while (here != there) {
+      const bool leaving = domain.face_depth[here] >= domain.face_depth[there];
+      int& face = leaving ? here : there;
+      const HalfedgeHandle h = domain.to_parent_face[face];
+      forms.rows[edge_of(h)].emplace_back(i, leaving ? sign(h) : -sign(h));
+      face = face_of(mesh, opposite(h));
+    }
+  }
+  return forms;
+}
+
+}  // namespace holomorph::topology

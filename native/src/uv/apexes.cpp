@@ -1,0 +1,31 @@
+#include "uv/apexes.h"
+
+#include <complex>
+
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::uv {
+
+using Complex = std::complex<double>;
+
+void place_apexes(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<mesh::Star>& stars,
+                  UvArray& uv) {
+  const auto& length = surface.edge_lengths;
+  for (const mesh::Star& star : stars) {
+    for (const mesh::HalfedgeHandle link : star.link) {
+      const int t = mesh::face_of(mesh, link);
+      const auto& corner = surface.triangle_corners[t];
+      const auto& edge = surface.triangle_edges[t];
+      int side = 0;  // the one on the link
+      while (edge[side] != mesh::edge_of(link)) ++side;
+      const double l = length[edge[side]], to_b = length[edge[(side + 1) % 3]], to_a = length[edge[(side + 2) % 3]];
+      const Complex z((l * l + (to_a - to_b) * (to_a + to_b)) / (2 * l * l),
+                      2 * mesh::triangle_area(l, to_a, to_b) / (l * l));
+      const int at_a = corner[side], at_b = corner[(side + 1) % 3], at_p = corner[(side + 2) % 3];
+      const Complex a(uv(at_a, 0), uv(at_a, 1)), b(uv(at_b, 0), uv(at_b, 1)), apex = a + z * (b - a);
+      uv.row(at_p) << apex.real(), apex.imag();
+    }
+  }
+}
+
+}  // namespace holomorph::uv
