@@ -15,8 +15,7 @@ def conformal_structure(surface, *, punctures=None, residues=None, solver="auto"
     Parameters
     ----------
     surface : Surface, connected; isolated vertices are ignored
-    punctures : list of vertices whose stars are apart from each other; None takes two far apart on genus 0, and none
-        elsewhere
+    punctures : list of vertices whose stars are apart from each other; without any, two far apart are taken on genus 0
     residues : list of complex numbers, one for each puncture, not 0 and summing to 0: the UVs change by it around the
         puncture. Default: 1 and -1 for two punctures; for more, 1 but at the one that is farthest from the others
     solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
@@ -26,8 +25,8 @@ def conformal_structure(surface, *, punctures=None, residues=None, solver="auto"
 
     Returns
     -------
-    ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of one
-    with punctures
+    ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of
+    one with punctures
 
     Raises
     ------

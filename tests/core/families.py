@@ -285,6 +285,62 @@ def tetrahedron():
     )
 
 
+def geodesic_sphere(n, jitter=0.0, seed=0):
+    """The unit sphere as an icosahedron whose faces are cut into n^2: 10 n^2 + 2 vertices; `jitter` in edge lengths."""
+    golden = (1 + 5**0.5) / 2
+    corners = np.array(
+        [np.roll([0, a, b * golden], shift) for shift in range(3) for a in (-1, 1) for b in (-1, 1)], dtype=float
+    )
+    distance = np.linalg.norm(corners[:, None] - corners, axis=2)
+    near = np.isclose(distance, 2)
+    a, b, c = (index for index in np.nonzero(near[:, :, None] & near[:, None] & near[None]))
+    turn = np.einsum("ij,ij->i", np.cross(corners[b], corners[c]), corners[a])
+    first = (a < b) & (a < c) & (turn > 0)
+    i, j = (index[(np.add(*np.indices((n + 1, n + 1))) <= n)] for index in np.indices((n + 1, n + 1)))
+    points, faces = [], []
+    number = np.full((n + 2, n + 2), -1)
+    number[i, j] = np.arange(len(i))
+    up = np.stack([number[i, j], number[i + 1, j], number[i, j + 1]], axis=1)[i + j < n]
+    down = np.stack([number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]], axis=1)[i + j < n - 1]
+    for x, y, z in zip(corners[a[first]], corners[b[first]], corners[c[first]], strict=True):
+        faces.append(np.concatenate([up, down]) + len(i) * len(points))
+        points.append(x + np.outer(i, y - x) / n + np.outer(j, z - x) / n)
+    points = np.concatenate(points)
+    _, kept, index = np.unique(np.rint(points * 1e6).astype(int), axis=0, return_index=True, return_inverse=True)
+    points = points[kept] / np.linalg.norm(points[kept], axis=1)[:, None]
+    points += jitter * 1.1 / n * np.random.default_rng(seed).uniform(-1, 1, points.shape)
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    return uniform(points, index.reshape(-1)[np.concatenate(faces)], ((0, 0),))
+
+
+def hexagonal_disk(n, jitter=0.0, seed=0):
+    """The unit disk (#V, 2) in n rings around vertex 0: 3 n (n + 1) + 1 points and 6 n^2 triangles. Interior points are
+    moved, `jitter` in units of a ring."""
+    q, r = (index.ravel() - n for index in np.indices((2 * n + 1, 2 * n + 1)))
+    ring = np.maximum(np.abs(q), np.maximum(np.abs(r), np.abs(q + r)))
+    order = np.argsort(ring, kind="stable")[: 3 * n * (n + 1) + 1]
+    number = np.full((2 * n + 2, 2 * n + 2), -1)
+    number[q[order] + n, r[order] + n] = np.arange(len(order))
+    q, r, ring = q[order] + n, r[order] + n, ring[order]
+    up = np.stack([number[q, r], number[q + 1, r], number[q, r + 1]], axis=1)
+    down = np.stack([number[q + 1, r], number[q + 1, r + 1], number[q, r + 1]], axis=1)
+    faces = np.concatenate([up, down])
+    lattice = (q - n) + (r - n) * np.exp(1j * np.pi / 3)
+    z = ring / n * np.exp(1j * np.angle(lattice))
+    noise = np.random.default_rng(seed).uniform(-1, 1, (2, len(z)))
+    z = np.where(ring < n, z + jitter / n * (noise[0] + 1j * noise[1]), z)
+    return np.stack([z.real, z.imag], axis=1), faces[(faces >= 0).all(axis=1)]
+
+
+def hemisphere(n, jitter=0.0, seed=0):
+    """The upper half of the unit sphere, its boundary on the equator, its pole at vertex 0."""
+    disk, faces = hexagonal_disk(n, jitter, seed)
+    radius = np.linalg.norm(disk, axis=1)
+    factor = np.where(radius > 0, np.sin(np.pi / 2 * radius) / np.maximum(radius, 1e-300), np.pi / 2)
+    points = np.column_stack([disk * factor[:, None], np.cos(np.pi / 2 * radius)])
+    return uniform(points, faces, ((0, 1),))
+
+
 def cylinder(n, m):
     """A tube without ends: genus 0, two boundary loops."""
     theta, height = angles(n, m)

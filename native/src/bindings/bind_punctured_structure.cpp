@@ -1,12 +1,12 @@
 #include <pybind11/complex.h>
 #include <pybind11/eigen.h>
-#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
 #include <memory>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "bindings/callback.h"
 #include "pipeline/punctured_structure.h"
 #include "pipeline/sphere_map.h"
 
@@ -14,15 +14,6 @@ namespace holomorph::bindings {
 namespace {
 
 using pipeline::PuncturedStructure;
-
-Progress::Callback callback(const py::object& progress) {
-  if (progress.is_none()) return {};
-  return [progress](double fraction, const std::string& stage) {
-    const py::gil_scoped_acquire locked;
-    const py::object answer = progress(fraction, stage);
-    return !(answer.ptr() == Py_False);
-  };
-}
 
 std::shared_ptr<PuncturedStructure> compute(const mesh::Surface& surface, const std::vector<int>& vertices,
                                             const std::vector<std::complex<double>>& residues,

@@ -170,6 +170,7 @@ void mark_star(const Surface& surface, const HalfEdges& mesh, int vertex, std::v
 }
 
 void turn_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names) {
+  if (surface.intrinsic()) return;  // triangles have no diagonals
   const std::vector<char> chosen = refuse_shared_polygons(surface, vertices, Names(names));
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
     // Each turn lowers the number of the polygon's diagonals at its one chosen corner.

@@ -1,0 +1,410 @@
+"""Differentials of the third kind: residues (exact), linearity (solver accuracy), log maps (discretisation)."""
+
+import families
+import numpy as np
+import pytest
+from forms import edge_forms
+from holomorph import Surface, TopologyError, conformal_structure
+from solved import CLOSED, surface_of
+from test_uv import corner_sides, jumps
+
+EXACT = 1e-12
+SOLVER = 1e-8
+TAU = 2 * np.pi
+
+
+def vertex_at(mesh, point):
+    return int(np.argmin(np.linalg.norm(mesh.vertices - point, axis=1)))
+
+
+RING = families.square_ring(5)
+SPHERE = families.geodesic_sphere(7, jitter=0.25)
+FLAT_QUADS = families.block_with_holes(2, refine=4, jitter=0.2)
+CASES = {
+    "sphere, two far apart": (SPHERE, {}),
+    "sphere, three": (SPHERE, {"punctures": [3, 100, 400], "residues": [1, 2, -3]}),
+    "sphere, complex residues": (SPHERE, {"punctures": [3, 100, 400], "residues": [1j, 2 - 1j, -2]}),
+    "torus of triangles": (CLOSED["torus of triangles"], {"punctures": [0, 200]}),
+    "torus of quads": (CLOSED["torus of quads"], {"punctures": [5, 222], "residues": [1 + 2j, -1 - 2j]}),
+    "genus 2 block": (FLAT_QUADS, {"punctures": [0, 600]}),
+    "cube": (families.cube(), {}),
+    "n-gons": (RING, {"punctures": [vertex_at(RING, [2, 2, 0]), vertex_at(RING, [-3, -3, 1])]}),
+}
+everywhere = pytest.mark.parametrize("name", CASES)
+solved_cases = {}
+
+
+def solved(name):
+    if name not in solved_cases:
+        mesh, options = CASES[name]
+        solved_cases[name] = conformal_structure(surface_of(mesh), **options)
+    return solved_cases[name]
+
+
+def first(structure):
+    """UVs of theta_0 alone, as complex numbers."""
+    return structure.uv(np.eye(len(structure.holomorphic_forms))[0]) @ [1, 1j]
+
+
+def triangulation(structure):
+    """Triangles and their corners of the structure's own triangulation."""
+    return structure._triangulation.triangles, structure._triangulation.triangle_corners
+
+
+def star_triangles(structure):
+    return np.isin(triangulation(structure)[0], structure.punctures).any(axis=1)
+
+
+def neighbours(structure, puncture):
+    """The link of a puncture, counter-clockwise."""
+    triangles, _ = triangulation(structure)
+    rows, place = np.nonzero(triangles == puncture)
+    after = {triangles[t][(i + 1) % 3]: triangles[t][(i + 2) % 3] for t, i in zip(rows, place, strict=True)}
+    link = [min(after)]
+    while after[link[-1]] != link[0]:
+        link.append(after[link[-1]])
+    assert len(link) == len(after)
+    return np.array(link)
+
+
+# ---- what a differential of the third kind is --------------------------------------------------------------------
+
+
+@everywhere
+def test_periods_around_the_punctures_are_the_residues(name):
+    structure = solved(name)
+    assert abs(structure.residues.sum()) < EXACT
+    for puncture, residue in zip(structure.punctures, structure.residues, strict=True):
+        integrals = edge_forms(structure).integrals(structure.holomorphic_forms, [neighbours(structure, puncture)])
+        assert np.abs(integrals[0] - residue).max() < EXACT * abs(residue)
+        assert np.abs(integrals[1:]).max(initial=0) < SOLVER
+
+
+@everywhere
+def test_forms_are_closed_off_the_punctures_and_infinite_at_them(name):
+    structure = solved(name)
+    triangles, _ = triangulation(structure)
+    sides = edge_forms(structure).along(structure.holomorphic_forms, triangles, np.roll(triangles, -1, axis=1))
+    largest = np.nanmax(np.abs(structure.holomorphic_forms), axis=1)
+    off = ~star_triangles(structure)
+    assert (np.abs(sides[:, off].sum(axis=2)).max(axis=1) < EXACT * largest).all()
+    infinite = np.isnan(structure.holomorphic_forms[0])
+    assert (infinite == np.isin(structure.edges, structure.punctures).any(axis=1)).all()
+    assert not np.isnan(structure.holomorphic_forms[1:]).any()
+
+
+@everywhere
+def test_certificates(name):
+    structure = solved(name)
+    assert max(vars(structure.residuals).values()) < SOLVER
+    assert structure.solver.residual < SOLVER
+    assert structure.uv_solver == structure.solver
+    for puncture in structure.punctures:
+        assert str(puncture) in structure.description
+
+
+@everywhere
+def test_steps_are_the_values_of_the_form(name):
+    structure = solved(name)
+    surface = structure.surface
+    c = np.random.default_rng(3).normal(size=(2, len(structure.holomorphic_forms))).T @ [1, 1j]
+    uv = structure.uv(c) @ [1, 1j]
+    form = c @ structure.holomorphic_forms
+    start, end = corner_sides(surface)
+    off = ~np.isin(surface.corner_vertices[[start, end]], structure.punctures).any(axis=0)
+    start, end = start[off], end[off]
+    step = edge_forms(structure).along(form[None], surface.corner_vertices[start], surface.corner_vertices[end])[0]
+    assert np.abs(uv[end] - uv[start] - step).max() < SOLVER * np.nanmax(np.abs(form))
+
+
+@everywhere
+def test_jumps(name):
+    """Across an edge away from the punctures the UVs jump by a translation, and only at seams. On genus 0 it is an
+    integer combination of the residues; elsewhere, for real residues, at least real: v is single-valued."""
+    structure = solved(name)
+    surface = structure.surface
+    uv = first(structure)
+    jump, keys = jumps(surface, np.stack([uv.real, uv.imag], axis=1))
+    jump = jump @ [1, 1j]
+    scale = np.abs(uv).max()
+    ends = np.stack(np.divmod(keys, len(surface.vertices)), axis=1)
+    off = ~np.isin(ends, structure.punctures).any(axis=1)
+    assert np.abs(jump[off, 0] - jump[off, 1]).max() < SOLVER * scale
+    seams = structure.edges[structure.seams].astype(np.int64) @ [len(surface.vertices), 1]
+    assert np.abs(jump[off & ~np.isin(keys, seams)]).max() < SOLVER * scale
+    if (structure.residues.imag == 0).all():
+        assert np.abs(jump[off].imag).max() < SOLVER * scale
+    if surface.genus == 0 and (structure.residues.imag == 0).all():
+        assert np.abs(jump[off] - np.rint(jump[off].real)).max() < SOLVER * scale
+
+
+@everywhere
+def test_seams_are_the_artists_edges_and_all_spokes(name):
+    structure = solved(name)
+    surface = structure.surface
+    start, end = corner_sides(surface)
+    sides = np.sort(surface.corner_vertices[[start, end]], axis=0)
+    artists = np.unique(sides[0].astype(np.int64) * len(surface.vertices) + sides[1])
+    seams = structure.edges[structure.seams].astype(np.int64) @ [len(surface.vertices), 1]
+    assert np.isin(seams, artists).all()
+    spokes = np.nonzero(np.isin(structure.edges, structure.punctures).any(axis=1))[0]
+    assert np.isin(spokes, structure.seams).all()
+
+
+@everywhere
+def test_no_angle_is_distorted_in_the_stars(name):
+    structure = solved(name)
+    uv = structure.uv(structure.balanced_coefficients())
+    assert np.isfinite(uv).all()
+    quality = structure.quality(uv)
+    inside = star_triangles(structure)
+    assert np.abs(quality.angle[inside] - 1).max() < 1e-9
+    assert not quality.flipped[inside].any()
+
+
+@pytest.mark.parametrize("name", ["sphere, two far apart", "torus of triangles"])
+def test_residues_are_linear(name):
+    """With the residues z r the differential is z times that of r."""
+    structure = solved(name)
+    z = 0.3 - 1.7j
+    other = conformal_structure(structure.surface, punctures=structure.punctures, residues=z * structure.residues)
+    difference = other.holomorphic_forms[0] - z * structure.holomorphic_forms[0]
+    assert np.nanmax(np.abs(difference)) < SOLVER * np.nanmax(np.abs(other.holomorphic_forms[0]))
+
+
+@pytest.mark.parametrize("mesh", [SPHERE, CLOSED["torus of triangles"]])
+def test_punctures_add_up(mesh):
+    """Three punctures are two pairs together: outside the stars, the differentials add."""
+    surface = surface_of(mesh)
+    all_three = conformal_structure(surface, punctures=[3, 100, 400], residues=[1, 2, -3])
+    one = conformal_structure(surface, punctures=[3, 400], residues=[1, -1])
+    two = conformal_structure(surface, punctures=[100, 400], residues=[2, -2])
+    total = one.holomorphic_forms[0] + two.holomorphic_forms[0]
+    in_a_star = np.unique(surface.triangles[star_triangles(all_three)])
+    off = ~np.isin(surface.triangles, in_a_star).any(axis=1)
+
+    def steps(structure, form):
+        uv_forms = edge_forms(structure)
+        triangles = surface.triangles[off]
+        return uv_forms.along(form[None], triangles, np.roll(triangles, -1, axis=1))
+
+    assert (all_three.edges == one.edges).all()
+    # the classes may run through other faces: forms are compared around faces up to exact integers times residues
+    difference = steps(all_three, all_three.holomorphic_forms[0]) - steps(all_three, total)
+    assert np.abs(difference - np.rint(difference.real)).max() < SOLVER * np.nanmax(np.abs(total))
+
+
+@pytest.mark.parametrize("name", ["sphere, three", "torus of quads"])
+def test_solvers_agree_and_threads_do_not_matter(name):
+    mesh, options = CASES[name]
+    direct = conformal_structure(surface_of(mesh), solver="direct", **options)
+    multigrid = conformal_structure(surface_of(mesh), solver="multigrid", threads=1, **options)
+    again = conformal_structure(surface_of(mesh), solver="multigrid", threads=3, **options)
+    a, b, c = (s.holomorphic_forms for s in (direct, multigrid, again))
+    assert np.nanmax(np.abs(a - b)) < 1e-7 * np.nanmax(np.abs(a))
+    assert b.tobytes() == c.tobytes()
+
+
+def test_coefficients_are_checked():
+    with pytest.raises(ValueError, match="coefficients"):
+        solved("torus of triangles").uv([1])
+    with pytest.raises(ValueError, match="uv has the shape"):
+        solved("torus of triangles").quality(np.zeros((3, 2)))
+
+
+# ---- which punctures, which residues -----------------------------------------------------------------------------
+
+
+def test_two_far_apart_are_taken_by_themselves():
+    """The ends of a long ellipsoid."""
+    stretched = families.uniform(SPHERE.vertices * [1, 1, 3], SPHERE.corners.reshape(-1, 3))
+    structure = conformal_structure(surface_of(stretched))
+    assert len(structure.punctures) == 2
+    heights = structure.surface.vertices[structure.punctures, 2]
+    assert (np.abs(heights) > 2.9).all()
+    assert heights.prod() < 0
+    assert (structure.residues == [1, -1]).all()
+    assert "log map" in structure.description
+
+
+def test_the_loneliest_of_several_takes_the_rest():
+    points = SPHERE.vertices
+    near = [int(np.argmax(points @ direction)) for direction in ([0, 0, 1], [0, 0.8, 0.6], [0.8, 0, 0.6])]
+    far = int(np.argmin(points[:, 2]))
+    structure = conformal_structure(surface_of(SPHERE), punctures=[near[0], far, *near[1:]])
+    assert (structure.residues == [1, -3, 1, 1]).all()
+
+
+def test_isolated_vertices_keep_their_numbers():
+    shifted = families.uniform(
+        np.concatenate([[[9.0, 9, 9]], SPHERE.vertices]), SPHERE.corners.reshape(-1, 3) + 1, ((0, 0),)
+    )
+    structure = conformal_structure(surface_of(shifted), punctures=[4, 401])
+    assert (structure.punctures == [4, 401]).all()
+    assert np.isnan(structure.sphere_map()[0]).all()
+    with pytest.raises(TopologyError, match="puncture 0 is a vertex of no face"):
+        conformal_structure(surface_of(shifted), punctures=[0, 401])
+    with pytest.raises(TopologyError, match="punctures 4 and 4[0-9]* .*vertex|is given twice"):
+        conformal_structure(surface_of(shifted), punctures=[4, 4])
+
+
+def adjacent(mesh):
+    return [int(v) for v in mesh.corners[:2]]
+
+
+QUADS = CLOSED["torus of quads"]
+REFUSED = {
+    "one puncture": (SPHERE, {"punctures": [5]}, "5 is the only one"),
+    "repeated": (SPHERE, {"punctures": [5, 70, 5]}, "puncture 5 is given twice"),
+    "out of range": (SPHERE, {"punctures": [5, 492]}, "puncture 492 is no vertex: there are 492"),
+    "negative": (SPHERE, {"punctures": [-1, 5]}, "puncture -1 is no vertex"),
+    "no integers": (SPHERE, {"punctures": [0.5, 5]}, "list of vertex indices"),
+    "no list": (SPHERE, {"punctures": 7}, "list of vertex indices"),
+    "sum": (SPHERE, {"punctures": [5, 300], "residues": [1, -2]}, "residues sum to -1;.* must sum to 0"),
+    "complex sum": (SPHERE, {"punctures": [5, 300], "residues": [1, -1 + 2j]}, "residues sum to 0 \\+ 2i"),
+    "zero": (SPHERE, {"punctures": [5, 300, 200], "residues": [1, 0, -1]}, "residue 1 is 0"),
+    "infinite": (SPHERE, {"punctures": [5, 300], "residues": [np.inf, -np.inf]}, "residue 0 is inf"),
+    "too few": (SPHERE, {"punctures": [5, 300], "residues": [1]}, "1 residues for 2 punctures"),
+    "residues are no numbers": (SPHERE, {"punctures": [5, 300], "residues": [None, 1]}, "list of numbers"),
+    "residues alone": (QUADS, {"residues": [1, -1]}, "2 residues for 0 punctures"),
+    "neighbours": (SPHERE, {"punctures": adjacent(SPHERE)}, "corners of one face"),
+    "one quad": (QUADS, {"punctures": [int(QUADS.corners[0]), int(QUADS.corners[2])]}, "corners of one face"),
+    "stars share a vertex": (QUADS, {"punctures": [0, 36]}, "stars of the punctures 0 and 36 share vertex 18"),
+    "star meets itself": (families.torus(3, 2 + 1), {"punctures": [0, 4]}, "share vertex|corners of one face"),
+    "no room": (families.tetrahedron(), {}, "no two vertices can be punctures"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refusals(case):
+    mesh, options, message = REFUSED[case]
+    with pytest.raises(TopologyError, match=message) as caught:
+        conformal_structure(surface_of(mesh), **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_star_that_meets_itself():
+    flat = families.flat_torus(0.3 + 1.1j, 2)
+    with pytest.raises(TopologyError, match="star of puncture 0 meets itself at vertex"):
+        conformal_structure(surface_of(flat), punctures=[0, 3])
+
+
+def test_an_intrinsic_surface():
+    structure = conformal_structure(surface_of(families.flat_torus(0.3 + 1.1j, 12, jitter=0.2)), punctures=[0, 78])
+    uv = structure.uv(structure.balanced_coefficients())
+    assert np.isfinite(uv).all()
+    assert max(vars(structure.residuals).values()) < SOLVER
+
+
+def test_punctures_where_two_straight_edges_meet():
+    """A vertex with two faces: its star is two triangles, with the same base."""
+    ends = [vertex_at(RING, [2, 0.4, 0]), vertex_at(RING, [-3, 0.6, 1])]
+    structure = conformal_structure(surface_of(RING), punctures=ends)
+    quality = structure.quality(structure.uv([1, 0]))
+    assert star_triangles(structure).sum() == 4
+    assert np.abs(quality.angle[star_triangles(structure)] - 1).max() < 1e-6
+
+
+def test_no_punctures_is_none():
+    structure = conformal_structure(surface_of(QUADS), punctures=[], residues=[])
+    assert not hasattr(structure, "punctures")
+
+
+# ---- the exact log map -------------------------------------------------------------------------------------------
+
+
+def plane_of(points, origin, infinity):
+    """Stereographic coordinate of the sphere with 0 at `origin` and infinity at `infinity`, as seen from outside."""
+    axis = np.cross(infinity, np.eye(3)[np.argmin(np.abs(infinity))])
+    frame = np.stack([np.cross(infinity, axis), axis]) / np.linalg.norm(axis)
+    z = [(p @ frame.T) @ [1, 1j] / np.maximum(1 - p @ infinity, 1e-300) for p in (points, origin)]
+    return z[0] - z[1]
+
+
+def log_map_errors(n, seed=1):
+    """Largest errors of u and v of the log map on a jittered sphere, away from the punctures by the two-ring of the
+    coarsest mesh: near them the error depends on the edges there relative to the distance, at any resolution."""
+    mesh = families.geodesic_sphere(n, jitter=0.25, seed=seed)
+    points = mesh.vertices
+    p, q = (int(np.argmax(points @ direction)) for direction in ([0.3, 0.2, 0.9], [-0.8, 0.3, -0.4]))
+    structure = conformal_structure(surface_of(mesh), punctures=[p, q])
+    theta = structure.sphere_map()
+    computed = (theta @ [1, 1j, 0]) / (1 + theta[:, 2])  # stereographic, the first puncture at 0
+    away = np.linalg.norm(points[:, None] - points[[p, q]], axis=2).min(axis=1) > 0.35
+    ratio = np.log(computed[away] / plane_of(points[away], points[p], points[q]))
+    turn = np.angle(np.exp(1j * (ratio.imag - ratio.imag[0])))
+    spread = [(x.max() - x.min()) / 2 / TAU for x in (turn, ratio.real)]  # a constant is free
+    return np.array(spread)
+
+
+def test_log_map_of_a_jittered_sphere_converges():
+    """Geometric means over several jitters; the finest mesh has 31362 vertices."""
+    coarse, fine = (
+        np.exp(np.mean([np.log(log_map_errors(n, seed)) for seed in range(count)], axis=0))
+        for n, count in ((7, 8), (56, 2))
+    )
+    assert (np.log2(coarse / fine) / 3 >= 1.7).all(), (coarse, fine)
+    assert (fine < 1e-4).all(), fine
+
+
+def test_sphere_map_of_a_sphere_is_a_rotation():
+    """Punctures at opposite points: up to the discretisation the map is the identity, turned about the axis."""
+    mesh = families.geodesic_sphere(14, jitter=0.2)
+    points = mesh.vertices
+    north = int(np.argmax(points[:, 2]))
+    south = int(np.argmin(points @ points[north]))
+    structure = conformal_structure(surface_of(mesh), punctures=[north, south])
+    image = structure.sphere_map()
+    assert np.abs(np.linalg.norm(image, axis=1) - 1).max() < EXACT
+    assert (image[[north, south]] == [[0, 0, 1], [0, 0, -1]]).all()
+    left, _, right = np.linalg.svd(points.T @ image)
+    assert np.linalg.det(left @ right) > 0
+    assert np.linalg.norm(points @ (left @ right) - image, axis=1).max() < 0.03
+    triangles = structure.surface.triangles
+    corners = image[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    assert ((normal * corners.sum(axis=1)).sum(axis=1) > 0).all()
+
+
+def test_sphere_map_needs_a_sphere_with_two_punctures():
+    for name in ("torus of triangles", "sphere, three"):
+        with pytest.raises(TopologyError, match="map to the sphere"):
+            solved(name).sphere_map()
+
+
+# ---- real meshes and higher genus --------------------------------------------------------------------------------
+
+
+def mean_angle_off_the_stars(structure):
+    quality = structure.quality(structure.uv(structure.balanced_coefficients()))
+    triangles, _ = triangulation(structure)
+    p = structure.surface.vertices[triangles]
+    area = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+    off = ~star_triangles(structure)
+    return (quality.angle * area)[off].sum() / area[off].sum()
+
+
+@pytest.mark.parametrize(
+    ("name", "most"),
+    [("bunny_60k.obj", 1.028), ("nefertiti_70k.obj", 1.037), ("armadillo_29k.obj", 1.085), ("spot_quads.obj", 1.12)],
+)
+def test_log_maps_of_real_meshes(meshes, name, most):
+    """Two punctures far apart; the figures of the same punctures with their stars cut out are larger."""
+    (part,) = Surface.read(meshes / name).components
+    structure = conformal_structure(part)
+    assert mean_angle_off_the_stars(structure) <= most
+    assert max(vars(structure.residuals).values()) < SOLVER
+
+
+@pytest.mark.parametrize(
+    ("mesh", "punctures"),
+    [
+        (families.torus(96, 72, shape="triangles", jitter=0.2), [0, 96 * 72 // 2 + 36]),
+        (families.block_with_holes(2, refine=8, jitter=0.1), [0, 3000]),
+    ],
+    ids=["torus", "genus 2"],
+)
+def test_differentials_of_the_third_kind_are_conformal(mesh, punctures):
+    """Without its harmonic part u would not be the conjugate of v: mean s1/s2 12 instead of 1.1."""
+    structure = conformal_structure(surface_of(mesh), punctures=punctures)
+    assert mean_angle_off_the_stars(structure) < 1.15
