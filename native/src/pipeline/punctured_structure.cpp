@@ -157,7 +157,8 @@ PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures p
   result.handle_part = Eigen::VectorXcd::Zero(handles.form_count);
   result.periods = Eigen::MatrixXcd::Zero(handles.form_count, handles.form_count / 2);
   if (handles.form_count > 0) {
-    result.harmonic = forms::harmonic_basis(result.half_edges, weights, handles, *solver, solver::Condition::natural, progress);
+    result.harmonic =
+        forms::harmonic_basis(result.half_edges, weights, handles, *solver, solver::Condition::natural, progress);
     const Eigen::MatrixXd G = forms::gram_matrix(result.half_edges, weights, result.harmonic, progress);
     const auto canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, handles, progress));
     result.periods = conformal::holomorphic_basis(G, canonical).periods;
