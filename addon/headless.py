@@ -72,6 +72,9 @@ def parse(arguments):
     parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
     parser.add_argument("--resolution", type=int, default=800, help="pixels of the picture's sides")
     parser.add_argument("--samples", type=int, default=24, help="samples per pixel")
+    parser.add_argument("--levels", type=int, default=0, help="make so many levels of detail of each object")
+    parser.add_argument("--ratio", type=float, default=0.25, help="triangles of a level over those of the one before")
+    parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
     _add_choices(parser)
     options = parser.parse_args(arguments)
     for path in (options.output, options.render, options.report):
@@ -81,6 +84,8 @@ def parse(arguments):
         raise UsageError("--forms, --shown and --checker-scale cannot be negative, and --density must be positive")
     if not 0 <= options.margin < 1:
         raise UsageError("--margin must be at least 0 and less than 1")
+    if options.levels < 0 or not 0 < options.ratio < 1:
+        raise UsageError("--levels cannot be negative, and --ratio must be between 0 and 1")
     if options.puncture and options.rectangle:
         raise UsageError("--puncture and --rectangle exclude each other")
     if options.resolution < 1 or options.samples < 1:
@@ -136,6 +141,23 @@ def request(options, choices, run):
     return run.Request(use, vertices, residues, options.cut_at_seams, options.boundary, options.solver)
 
 
+def add_levels(options, load, outcome):
+    """Levels of detail of every object that got maps; they are added to the report's entries."""
+    if not options.levels:
+        return []
+    lod, levels = load(f"{PACKAGE}.lod"), load(f"{PACKAGE}.levels")
+    wanted, made = levels.LevelOptions(options.levels, options.ratio), []
+    for entry in outcome.entries:
+        if not entry["done"]:
+            continue
+        obj = bpy.data.objects[entry["object"]]
+        found, problem = lod.make_levels(bpy.context, obj, wanted, options.side_by_side)
+        entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
+        outcome.problems += [f"{obj.name}: no levels of detail: {problem}"] if problem else []
+        made += found
+    return made
+
+
 def process(options):
     """Does the job; returns the sentences about what was not done."""
     load = addon_package()
@@ -170,6 +192,7 @@ def process(options):
         maps.MapOptions(options.forms, options.density, options.rotation * Z_UP_FROM_Y_UP / 90, margin=options.margin),
         run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams),
     )
+    levels = add_levels(options, load, outcome)
     content = report.run_report(outcome.entries)
     content["seconds"] = time.perf_counter() - start
     if options.report is not None:
@@ -182,7 +205,7 @@ def process(options):
         bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
     if options.render is not None:
         studio = load(f"{PACKAGE}.studio")
-        shown = [o for o in objects if o.name in outcome.done]
+        shown = [o for o in objects if o.name in outcome.done] + levels
         studio.render(shown, str(options.render.resolve()), options.resolution, options.samples)
         if not options.render.is_file():
             raise UsageError(f"{options.render}: the picture could not be written")

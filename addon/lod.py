@@ -96,6 +96,20 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         return {"FINISHED"}
 
 
+def make_levels(context, obj, options, side_by_side=False):
+    """Here and now: the objects of the levels, and one sentence where there are none."""
+    source = Source(obj)
+    if source.target.refused:
+        return [], source.target.refused
+    work = source.work(options)
+    work.run()
+    problem = source.problem(work)
+    if problem:
+        return [], problem
+    source.write_map(context, work)
+    return source.write_levels(context, work, side_by_side), ""
+
+
 class Source:
     """The object whose levels are made, as it was when the operator began."""
 

@@ -140,6 +140,7 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
         (["--bogus"], "bogus"),
         (["ring.obj", "--density", "-1"], "density"),
         (["ring.obj", "--forms", "many"], "forms"),
+        (["ring.obj", "--levels", "2", "--ratio", "1.5"], "ratio"),
         (["ring.obj", "--output", "nowhere/out.blend"], "folder"),
     ],
 )
@@ -149,6 +150,17 @@ def test_usage_errors_are_one_sentence(arguments, word, torus_file, tmp_path):
     assert done.returncode == 1
     assert len(our_lines(done)) == 1 and word in our_lines(done)[0]
     assert "Traceback" not in done.stderr + done.stdout
+
+
+def test_levels_of_detail_in_the_file_and_in_the_report(torus_file, tmp_path):
+    blend, report = tmp_path / "out.blend", tmp_path / "report.json"
+    done = headless(torus_file, "--levels", 2, "--ratio", 0.5, "--side-by-side", "--output", blend, "--report", report)
+    assert done.returncode == 0, done.stderr
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert entry["levels"] == [{"object": "ring_LOD1", "triangles": 288}, {"object": "ring_LOD2", "triangles": 144}]
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    assert sorted(bpy.data.collections["ring LODs"].objects.keys()) == ["ring_LOD1", "ring_LOD2"]
+    assert bpy.data.objects["ring_LOD2"].data.uv_layers.active.name == "Holomorphic"
 
 
 def test_object_option(tmp_path):
