@@ -67,6 +67,7 @@ def parse(arguments):
     parser.add_argument("--margin", type=float, default=0.02, help="between parts, as a share of the UV square")
     parser.add_argument("--rotation", type=float, default=0.0, help="degrees by which all maps are turned")
     parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
+    parser.add_argument("--shape", action="store_true", help="store maps to the sphere and the disk as an attribute")
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
     parser.add_argument("--checker-scale", type=float, default=0.0, help="squares per UV unit; 0 chooses")
     parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
@@ -190,7 +191,7 @@ def process(options):
         targets,
         run.align(targets, job.results),
         maps.MapOptions(options.forms, options.density, options.rotation * Z_UP_FROM_Y_UP / 90, margin=options.margin),
-        run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams),
+        run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams, options.shape),
     )
     levels = add_levels(options, load, outcome)
     content = report.run_report(outcome.entries)

@@ -67,6 +67,31 @@ def map_values(solved, options):
         yield name, uv
 
 
+def shape_points(solved):
+    """(#V,3) conformal images of the parts that have one, zeros elsewhere; None if no part has one.
+
+    Spheres go to the unit sphere, disks to the unit disk in the plane z = 0.
+    """
+    points, found = np.zeros((len(solved.surface.vertices), 3)), False
+    for part in solved.done:
+        own = _shape(part)
+        if own is not None:
+            points[part.surface.vertex_index] = own[part.surface.vertex_index]
+            found = True
+    return points if found else None
+
+
+def _shape(part):
+    """(#V,3) of all vertices of the mesh, NaN at those of other parts; None for a part that has no such image."""
+    structure, is_planar = part.structure, part.surface.genus == 0
+    if is_planar and part.surface.boundary_count == 0 and len(structure.punctures) == 2:
+        return structure.sphere_map()
+    if is_planar and part.surface.boundary_count == 1 and hasattr(structure, "disk_map"):
+        disk = structure.disk_map()
+        return np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
+    return None
+
+
 def _parts(solved, index):
     return [c for c in solved.done if index == 0 or index <= c.form_count]
 

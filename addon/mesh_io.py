@@ -17,6 +17,7 @@ import numpy as np
 from . import compatibility
 
 MAIN_MAP = "Holomorphic"
+SHAPE = "Holomorphic Shape"  # vector attribute of vertices
 OUR_MAP = re.compile(rf"^{MAIN_MAP}( [1-9][0-9]*)?$")
 
 
@@ -96,7 +97,7 @@ def remove_maps(mesh):
     """Removes the maps of an earlier run, and no other."""
     for name in [layer.name for layer in mesh.uv_layers if OUR_MAP.match(layer.name)]:
         mesh.uv_layers.remove(mesh.uv_layers[name])
-    for name in [a.name for a in mesh.attributes if is_our_attribute(a)]:
+    for name in [a.name for a in mesh.attributes if is_our_attribute(a) or a.name == SHAPE]:
         mesh.attributes.remove(mesh.attributes[name])
 
 
@@ -116,6 +117,12 @@ def write_map(mesh, polygons, name, uv):
     attribute = mesh.attributes.new(name, "FLOAT2", "CORNER")
     attribute.data.foreach_set("vector", values.ravel())
     return WrittenMap(attribute.name, "attribute")
+
+
+def write_shape(mesh, points):
+    """Writes (#V,3) points as a vector attribute of the vertices."""
+    attribute = mesh.attributes.new(SHAPE, "FLOAT_VECTOR", "POINT")
+    attribute.data.foreach_set("vector", np.ascontiguousarray(points, np.float32).ravel())
 
 
 def read_map(mesh, name):

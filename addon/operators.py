@@ -47,7 +47,7 @@ SOLVERS = (
 
 DRAWN = (  # in groups
     ("density", "margin", "rotation", "forms", "shown"),
-    ("checker", "checker_scale", "seams"),
+    ("checker", "checker_scale", "seams", "shape"),
     ("use_selection", "residues", "cut_at_seams", "boundary", "solver"),
 )
 
@@ -144,6 +144,12 @@ class HOLOMORPH_OT_maps(WorkOperator, bpy.types.Operator):
         description="Mark the edges where the maps are cut as seams; existing seams are kept",
         default=False,
     )
+    shape: BoolProperty(
+        name="Store Shape",
+        description="Store the conformal map to the unit sphere (parts without handles and holes) or to the unit disk "
+        "as a vector attribute of the vertices, for Geometry Nodes",
+        default=False,
+    )
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     @classmethod
@@ -213,7 +219,7 @@ class HOLOMORPH_OT_maps(WorkOperator, bpy.types.Operator):
         map_options = maps.MapOptions(
             self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns), self.margin
         )
-        write_options = run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams)
+        write_options = run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams, self.shape)
         results = run.align(self._targets, work.results)
         outcome = run.write(context, self._targets, results, map_options, write_options, time_has_passed)
         self.form_count = outcome.forms

@@ -14,6 +14,7 @@ PROPERTY = "holomorph_report"
 SUMMARISED = 8  # parts that the panel shows
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
 MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
+COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
 LISTED = 20  # elements of a repair that the report names
 TEXT = "Holomorphic Report"
 
@@ -130,7 +131,8 @@ def _topology(part):
 def _result_lines(part):
     yield part["description"]
     angle = part["main_map"]["mean_angle"]  # none where it is infinite
-    yield "a UV triangle has collapsed" if angle is None else f"angle distortion {angle:.4f}"
+    collapsed = angle is None or angle > COLLAPSED
+    yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"
     if part.get("modulus") is not None:
         yield f"modulus {part['modulus']:.6g}"
     if "modulus_bounds" in part:

@@ -167,6 +167,7 @@ class WriteOptions:
     checker: bool = True
     checker_scale: float = 0.0  # squares per UV unit; 0 lets the first object decide
     seams: bool = False
+    shape: bool = False  # the conformal image in space
 
 
 def write(context, targets, results, map_options, write_options, time_has_passed=False):
@@ -228,6 +229,9 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     shown = written[min(options.shown, len(written) - 1)]
     mesh_io.show_map(mesh, shown.name)
     new_seams = mesh_io.add_seams(mesh, _seam_pairs(solved)) if options.seams else 0
+    shape = maps.shape_points(solved) if options.shape else None
+    if shape is not None:
+        mesh_io.write_shape(mesh, shape)
     if options.checker:
         _show_checker(outcome, obj, solved, shown, map_options, options)
     mesh.update()

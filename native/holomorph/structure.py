@@ -6,6 +6,7 @@ from .bounded import BoundedStructure
 from .closed import ConformalStructure
 from .punctured import PuncturedStructure
 from .results import check_options, only_component, own_vertices, result
+from .truncated import coarse_log_map
 
 
 def conformal_structure(surface, *, punctures=None, residues=None, solver="auto", threads=None, progress=None):
@@ -46,8 +47,14 @@ def conformal_structure(surface, *, punctures=None, residues=None, solver="auto"
     genus, boundaries = component.genus, component.boundary_count
     vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     chosen = vertices, _residues(residues), names
-    if any(map(len, chosen[:2])) or (genus == 0 and boundaries == 0):
-        native = _native.punctured_structure(component._native, *chosen, solver, threads, progress)
+    is_chosen = any(map(len, chosen[:2]))
+    if is_chosen or (genus == 0 and boundaries == 0):
+        try:
+            native = _native.punctured_structure(component._native, *chosen, solver, threads, progress)
+        except TopologyError:
+            if is_chosen or component.vertices is None:
+                raise
+            return coarse_log_map(surface, component, solver, threads, progress)  # the stars of any two vertices meet
         return result(PuncturedStructure, surface, component, native)
     if boundaries and 2 * genus + boundaries > 1:
         native = _native.bounded_structure(component._native, solver, threads, progress)

@@ -21,9 +21,10 @@ EXAMPLES = {
     "mixed": {"Ring and Pearl": [(1, 0), (0, 0)], "Bowl": [(0, 1)]},
     "hand": {"Hand": [(0, 6)]},
     "pipe": {"Pipe": [(0, 2)]},
+    "critter": {"Critter": [(0, 0)]},
 }
 # Mean s1/s2 on coarse faces with sharp edges is the error of linear interpolation inside triangles.
-COARSE = {"gear": 1.8, "lantern": 1.35}
+COARSE = {"gear": 1.8, "lantern": 1.35, "mixed": 1.25}
 FINE = 1.12
 
 
@@ -62,7 +63,7 @@ def test_example(name):
         entry = stored_report(obj)
         found = entry["components"]
         assert [(c["genus"], c["boundary_count"]) for c in found] == EXAMPLES[name][obj.name]
-        found = [c for c in found if c["done"]]
+        assert all(c["done"] and "not_followed" not in c for c in found)
         written = [m["name"] for m in entry["maps"]]
         count = max(c["forms"] for c in found)
         assert written == ["Holomorphic", *(f"Holomorphic {j + 1}" for j in range(min(count, 8)))]

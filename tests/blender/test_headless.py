@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import mesh_io, torus, torus_arrays
+from scenes import mesh_io, sphere_arrays, torus, torus_arrays
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
 SCRIPT = str(ROOT / "addon" / "headless.py")
@@ -83,10 +83,8 @@ def test_blend_file_in(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     objects = {o["object"]: o for o in json.loads(report.read_text())["objects"]}
-    assert [c["done"] for c in objects["Ring and Pearl"]["components"]] == [True, False]
-    assert not objects["Bowl"]["done"]
-    assert any("genus 0" in line for line in our_lines(done))
-    assert any("boundary" in line for line in our_lines(done))
+    assert [c["done"] for c in objects["Ring and Pearl"]["components"]] == [True, True]
+    assert any("Bowl" in line for line in our_lines(done)) != objects["Bowl"]["done"]
 
 
 def test_options_reach_the_maps(torus_file, tmp_path):
@@ -100,10 +98,9 @@ def test_options_reach_the_maps(torus_file, tmp_path):
     assert obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value == 8
 
 
-def sphere_file(folder):
-    vertices = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-    faces = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (1, 0, 5), (2, 1, 5), (3, 2, 5), (0, 3, 5)]
-    return write_obj(folder / "sphere.obj", vertices, faces)
+def two_sided_file(folder):
+    vertices, faces = torus_arrays()
+    return write_obj(folder / "fin.obj", [*vertices, (0, 0, 2)], [*faces, (faces[0][0], faces[0][1], len(vertices))])
 
 
 def broken_file(folder):
@@ -122,7 +119,7 @@ def unknown_format(folder):
     return path
 
 
-@pytest.mark.parametrize("make", [sphere_file, broken_file, directory, unknown_format])
+@pytest.mark.parametrize("make", [two_sided_file, broken_file, directory, unknown_format])
 def test_a_file_that_cannot_be_done(make, tmp_path):
     blend = tmp_path / "out.blend"
     done = headless(make(tmp_path), "--output", blend)
@@ -165,10 +162,8 @@ def test_levels_of_detail_in_the_file_and_in_the_report(torus_file, tmp_path):
 
 def test_object_option(tmp_path):
     blend = ROOT / "blend_examples" / "mixed.blend"
-    done = headless("--object", "Bowl", blend=blend)
-    assert done.returncode == 1 and "boundary" in our_lines(done)[0]
     done = headless("--object", "Ring and Pearl", blend=blend)
-    assert done.returncode == 0
+    assert done.returncode == 0 and "written to Ring and Pearl in" in done.stdout
     done = headless("--object", "Nobody", blend=blend)
     assert done.returncode == 1 and "Nobody" in our_lines(done)[0]
 
@@ -202,11 +197,54 @@ def test_a_blend_file_without_a_mesh(tmp_path):
     assert done.returncode == 1 and "no mesh object" in our_lines(done)[0]
 
 
-def ring_arrays(around=24, along=8):
-    """An open tube of uneven thickness."""
-    i, j = np.meshgrid(np.arange(around), np.arange(along), indexing="ij")
-    angle, radius = 2 * np.pi * i / around, 1 + 0.2 * np.cos(4 * np.pi * i / around) + 0.05 * j
-    vertices = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.4 * j], -1).reshape(-1, 3)
-    a = np.arange(around * along).reshape(around, along)
-    b = np.roll(a, -1, axis=0)
-    return vertices, np.stack([a[:, :-1], b[:, :-1], b[:, 1:], a[:, 1:]], -1).reshape(-1, 4)
+def grid_file(folder, count=12):
+    """A bent square sheet; vertex i (count + 1) + j is column i, row j."""
+    i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij")
+    vertices = np.stack([i, j, 0.05 * i * j], -1).reshape(-1, 3)
+    a = (i * (count + 1) + j)[:-1, :-1].ravel()
+    return write_obj(folder / "sheet.obj", vertices, np.stack([a, a + count + 1, a + count + 2, a + 1], -1))
+
+
+def sphere_file(folder):
+    return write_obj(folder / "sphere.obj", *sphere_arrays())
+
+
+def reported(path):
+    (entry,) = json.loads(path.read_text())["objects"][0]["components"]
+    return entry
+
+
+def test_punctures_and_residues(torus_file, tmp_path):
+    report = tmp_path / "report.json"
+    chosen = ("--puncture", 3, "--puncture", 150, "--residues", "2+1j -2-1j")
+    assert headless(torus_file, "--report", report, *chosen).returncode == 0
+    assert reported(report)["punctures"] == [3, 150]
+    assert reported(report)["residues"] == [[2, 1], [-2, -1]]
+
+
+def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
+    for path, options, word in (
+        (torus_file, ("--puncture", 3), "puncture 3"),
+        (torus_file, ("--puncture", 3, "--puncture", 100000), "100000"),
+        (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "1 1"), "residues"),
+        (torus_file, ("--puncture", 3, "--rectangle", 0, 1, 2, 3), "exclude"),
+        (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "a b"), "'a' is not a number"),
+    ):
+        done = headless(path, *options)
+        assert done.returncode == 1 and len(our_lines(done)) == 1 and word in our_lines(done)[0], our_lines(done)
+        assert "Traceback" not in done.stderr + done.stdout
+
+
+def test_choices_need_one_object(tmp_path):
+    done = headless("--puncture", 3, blend=ROOT / "blend_examples" / "mixed.blend")
+    assert done.returncode == 1 and "--object" in our_lines(done)[0]
+
+
+def test_the_shape_of_a_sphere(tmp_path):
+    blend = tmp_path / "out.blend"
+    assert headless(sphere_file(tmp_path), "--shape", "--output", blend).returncode == 0
+    bpy.ops.wm.open_mainfile(filepath=str(blend))
+    mesh = bpy.data.objects["sphere"].data
+    points = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.attributes["Holomorphic Shape"].data.foreach_get("vector", points)
+    assert np.abs(np.linalg.norm(points.reshape(-1, 3), axis=1) - 1).max() < 1e-5

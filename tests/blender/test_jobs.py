@@ -21,7 +21,7 @@ def test_a_worker_gives_what_the_main_thread_gives():
     job.start()
     job.wait()
     assert not job.is_running()
-    assert [r.form_count for r in job.results] == [1, 0]
+    assert [r.form_count for r in job.results] == [1, 1]
 
 
 def test_a_refused_mesh_is_a_result_and_the_next_is_solved():

@@ -245,16 +245,12 @@ def test_another_scale_of_a_shared_mesh_is_told(scale, told):
     assert ("the scale of First counts" in target.note) == told
 
 
-def test_parts_of_one_mesh_and_a_skipped_one():
+def test_parts_of_one_mesh_of_different_kinds():
     obj = two_parts("Mixed", torus_arrays(), sphere_arrays())
     assert run() == {"FINISHED"}
     entry = stored_report(obj)
-    assert [(c["genus"], c["done"]) for c in entry["components"]] == [(1, True), (0, False)]
-    assert "genus 0" in entry["components"][1]["skipped"]
-    values = uv(obj)
-    corners = 4 * len(torus_arrays()[1])
-    assert np.all(values[corners:] == 0)
-    assert fills_the_square(values[:corners])
+    assert [(c["genus"], c["done"], c["forms"]) for c in entry["components"]] == [(1, True, 1), (0, True, 1)]
+    assert fills_the_square(uv(obj))
 
 
 def test_parts_with_fewer_forms_are_zero_in_the_other_maps():

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import everything, mesh_object, run, select, sphere_arrays, torus, torus_arrays, two_parts
+from scenes import everything, mesh_object, run, select, torus, torus_arrays, two_parts
 
 
 def non_manifold():
@@ -72,10 +72,6 @@ def no_faces():
     return obj, "face"
 
 
-def sphere():
-    return mesh_object("Bad", *sphere_arrays()), "genus 0"
-
-
 BAD = [
     non_manifold,
     non_manifold_vertex,
@@ -87,7 +83,6 @@ BAD = [
     doubled_face,
     empty,
     no_faces,
-    sphere,
 ]
 
 

@@ -7,13 +7,18 @@ import pytest
 from conftest import module
 from scenes import (
     boundary_corners,
+    everything,
     mesh_object,
     parts_of,
+    pick,
     run,
     select,
+    sphere_arrays,
     stored_report,
     straightness,
+    torus,
     torus_arrays,
+    two_parts,
     uv,
 )
 
@@ -34,6 +39,12 @@ def tube_arrays(around=32, along=12):
 def torus_with_a_hole():
     vertices, faces = torus_arrays()
     return mesh_object("Holed", vertices, np.delete(faces, [5, 100], axis=0))
+
+
+def poles():
+    """The lowest and the highest vertex of the sphere."""
+    heights = np.array(sphere_arrays()[0])[:, 2]
+    return [int(heights.argmin()), int(heights.argmax())]
 
 
 def only_part(obj):
@@ -67,7 +78,67 @@ def test_all_maps_of_a_surface_with_handles_and_holes_have_straight_boundaries(n
     assert straightness(part, uv(obj, name)) < FLOAT32
 
 
-@pytest.mark.parametrize("solver", ["direct"])
+def test_a_sphere_gets_two_punctures_by_itself_or_those_that_are_picked():
+    obj = mesh_object("Sphere", *sphere_arrays())
+    assert run() == {"FINISHED"}
+    assert len(only_part(obj)["punctures"]) == 2
+    pick(obj, poles())
+    assert run() == {"FINISHED"}
+    assert sorted(only_part(obj)["punctures"]) == sorted(poles())
+    assert "log map" in only_part(obj)["description"]
+
+
+def test_punctures_with_residues_on_a_torus():
+    obj = torus(around=80, across=40)
+    pick(obj, [0, 840, 2000])
+    assert run(use_selection="PUNCTURES", residues="1 1 -2") == {"FINISHED"}
+    entry = only_part(obj)
+    assert entry["punctures"] == [0, 840, 2000]
+    assert entry["residues"] == [[1, 0], [1, 0], [-2, 0]]
+    assert entry["main_map"]["mean_angle"] < 1.3
+
+
+def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
+    obj = two_parts("Two", torus_arrays(), sphere_arrays())
+    picked = [len(torus_arrays()[0]) + pole for pole in poles()]
+    pick(obj, picked)
+    assert run() == {"FINISHED"}
+    closed, punctured = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
+    assert "punctures" not in closed
+    assert sorted(punctured["punctures"]) == sorted(picked)
+    assert all(str(vertex) in punctured["description"] for vertex in picked)
+
+
+@pytest.mark.parametrize(
+    ("picked", "options", "word"),
+    [
+        ([3], {"use_selection": "PUNCTURES"}, "puncture"),
+        (poles(), {"use_selection": "PUNCTURES", "residues": "1 1"}, "residue"),
+        (poles(), {"use_selection": "PUNCTURES", "residues": "1"}, "residue"),
+        (poles(), {"use_selection": "PUNCTURES", "residues": "one two"}, "'one' is not a number"),
+        ([3, 7, 20, 30], {"use_selection": "RECTANGLE"}, "rectangle"),
+    ],
+)
+def test_an_express_choice_that_does_not_fit_is_refused(picked, options, word):
+    obj = mesh_object("Sphere", *sphere_arrays())
+    pick(obj, picked)
+    before = everything(obj)
+    with pytest.raises(RuntimeError, match=word) as caught:
+        run(**options)
+    assert everything(obj) == before
+    assert "Traceback" not in str(caught.value)
+
+
+def test_an_automatic_choice_that_does_not_fit_is_left_out_and_told():
+    obj = mesh_object("Sphere", *sphere_arrays())
+    pick(obj, [3])
+    assert run() == {"FINISHED"}
+    entry = only_part(obj)
+    assert "puncture" in entry["not_followed"]
+    assert len(entry["punctures"]) == 2
+
+
+@pytest.mark.parametrize("solver", ["direct", "multigrid"])
 def test_the_solver_can_be_chosen(solver):
     obj = mesh_object("Tube", *tube_arrays(around=240, along=120))
     assert run(solver=solver) == {"FINISHED"}

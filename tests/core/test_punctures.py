@@ -271,7 +271,6 @@ REFUSED = {
     "one quad": (QUADS, {"punctures": [int(QUADS.corners[0]), int(QUADS.corners[2])]}, "corners of one face"),
     "stars share a vertex": (QUADS, {"punctures": [0, 36]}, "stars of the punctures 0 and 36 share vertex 18"),
     "star meets itself": (families.torus(3, 2 + 1), {"punctures": [0, 4]}, "share vertex|corners of one face"),
-    "no room": (families.tetrahedron(), {}, "no two vertices can be punctures"),
 }
 
 

@@ -1,0 +1,145 @@
+"""Log maps of meshes so coarse that the stars of any two vertices meet: cones, pyramids, tetrahedra."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from . import _native, arrays
+from .punctured import PuncturedStructure
+from .results import Quality, result
+from .surface import Surface
+
+CUT = 1 / 3  # of each edge at a puncture is cut off: less than half, as both its ends may be punctures
+SAME_UV = 1e-9  # of the UV size: across an edge that is no seam the UVs differ by rounding
+
+
+@dataclass(frozen=True)
+class Truncation:
+    """The mesh with the corners at some of its vertices cut off and covered by triangles: the same surface, its
+    polygons in their order, then one triangle for each corner that was cut off. Now these vertices have small stars."""
+
+    surface: Surface
+    first: np.ndarray  # (#C,) of each corner of the old mesh its corner in the new; two stand for one that was cut off
+    cut: np.ndarray  # (k,) corners that were cut off, in the order of the triangles
+    covers: np.ndarray  # (k, 3) their triangles' corners: towards the corner before, the vertex, towards the one after
+
+
+def truncated(surface, vertices):
+    """`Truncation` of a surface with positions at these vertices. O(#C)."""
+    corners, offsets = surface.corner_vertices.astype(np.int64), surface.face_offsets.astype(np.int64)
+    is_cut = np.isin(corners, vertices)
+    cut = np.flatnonzero(is_cut)
+    sizes = np.diff(offsets)
+    after = np.arange(1, len(corners) + 1)
+    after[offsets[1:] - 1] = offsets[:-1]
+    before = np.empty_like(after)
+    before[after] = np.arange(len(corners))
+    # One new vertex on each edge that leaves one of the vertices, named by (vertex, other end).
+    count = len(surface.vertices)
+    here, there = np.tile(corners[cut], 2), corners[np.concatenate([before[cut], after[cut]])]
+    names, place = np.unique(here * count + there, return_inverse=True)
+    start, end = names // count, names % count
+    positions = surface.vertices[start] + CUT * (surface.vertices[end] - surface.vertices[start])
+    towards_before, towards_after = count + place.reshape(2, -1)
+
+    first = np.cumsum(1 + is_cut) - (1 + is_cut)
+    new_corners = np.empty(len(corners) + len(cut), np.int64)
+    new_corners[first] = corners
+    new_corners[first[cut]] = towards_before
+    new_corners[first[cut] + 1] = towards_after
+    covers = len(new_corners) + np.arange(3 * len(cut)).reshape(-1, 3)
+    triangles = np.stack([towards_before, corners[cut], towards_after], axis=1)
+    new_sizes = sizes + np.add.reduceat(is_cut.astype(np.int64), offsets[:-1])
+    new_offsets = np.concatenate([[0], np.cumsum(np.concatenate([new_sizes, np.full(len(cut), 3)]))])
+    refined = Surface.from_polygons(
+        np.concatenate([surface.vertices, positions]), np.concatenate([new_corners, triangles.ravel()]), new_offsets
+    )
+    return Truncation(refined, first, cut, covers)
+
+
+def far_corners(vertices):
+    """The vertex farthest from the middle, and the one farthest from that; the first of equals."""
+    p = int(np.linalg.norm(vertices - vertices.mean(axis=0), axis=1).argmax())
+    return [p, int(np.linalg.norm(vertices - vertices[p], axis=1).argmax())]
+
+
+def coarse_log_map(surface, component, solver, threads, progress):
+    """`TruncatedStructure` of a closed surface of genus 0 with positions, its punctures two far corners."""
+    punctures = far_corners(component.vertices)
+    truncation = truncated(component, punctures)
+    (refined,) = truncation.surface.components
+    native = _native.punctured_structure(refined._native, punctures, [], [], solver, threads, progress)
+    solved = result(PuncturedStructure, truncation.surface, refined, native)
+    own = solved.solver, solved.residuals, solved.timings, native, component, truncation, solved
+    return TruncatedStructure(surface, *own)
+
+
+@dataclass(frozen=True, eq=False)
+class TruncatedStructure(PuncturedStructure):
+    """`PuncturedStructure` of a mesh whose punctures' stars meet. It was solved on its `Truncation`; UVs are those of
+    the remaining corners, and the corners that were cut off are put back by a similarity."""
+
+    _truncation: Truncation = field(repr=False)
+    _refined: PuncturedStructure = field(repr=False)
+
+    @cached_property
+    def edges(self):
+        """(#E, 2) vertices of the artist's triangulation, lower first."""
+        return self._of_surface(self._component._native.edges)
+
+    @cached_property
+    def holomorphic_forms(self):
+        """(1, #E) complex: theta_0, NaN on the edges that end at a puncture."""
+        z = self._complex_uv()
+        values = np.full(len(self.edges), np.nan + 0j)
+        tails, heads, keys = self._sides()
+        values[keys] = z[heads] - z[tails]
+        values[np.isin(self._component._native.edges, self._native.punctures()).any(axis=1)] = np.nan
+        return arrays.frozen(values[None])
+
+    @cached_property
+    def seams(self):
+        """(#S,) indices into `edges` where the UVs of the two sides differ."""
+        z = self._complex_uv()
+        tails, heads, keys = self._sides()
+        order = np.argsort(keys, kind="stable").reshape(-1, 2)
+        ends = z[np.stack([tails, heads])][:, order]
+        torn = np.abs(ends[..., 0] - ends[..., 1]).max(axis=0) > SAME_UV * np.abs(z - z[0]).max()
+        return arrays.frozen(keys[order[torn, 0]].astype(np.int32))
+
+    def _sides(self):
+        """(tail corner, head corner, edge) of each side of each triangle, from the lower vertex to the higher."""
+        triangles, corners = self._component.triangles, self._component.triangle_corners
+        start, end = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
+        tails, heads = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+        upwards = start < end
+        edges = self._component._native.edges.astype(np.int64)
+        count = edges.max() + 1
+        order = np.argsort(edges[:, 0] * count + edges[:, 1])
+        keys = np.minimum(start, end) * count + np.maximum(start, end)
+        found = order[np.searchsorted(edges[order, 0] * count + edges[order, 1], keys)]
+        return np.where(upwards, tails, heads), np.where(upwards, heads, tails), found
+
+    def _complex_uv(self):
+        return self.uv(self.balanced_coefficients()).view(np.complex128)[:, 0]
+
+    def uv(self, coefficients):
+        """(#C, 2) UVs of c_0 theta_0, from one complex coefficient."""
+        refined = self._refined.uv(coefficients)
+        z = np.ascontiguousarray(refined).view(np.complex128)[:, 0]
+        first, cut, covers = self._truncation.first, self._truncation.cut, self._truncation.covers
+        a, apex, b = z[covers].T
+        result = z[first]
+        start, end = z[first[cut]], z[first[cut] + 1]
+        result[cut] = start + (apex - a) / (b - a) * (end - start)
+        return result.view(np.float64).reshape(-1, 2)
+
+    def quality(self, uv):
+        """`Quality` of a (#C, 2) UV map on the surface's triangles."""
+        return Quality(*_native.quality(self._component._native, self._checked_uv(uv)))
+
+    def sphere_map(self):
+        """(#V, 3) points of the unit sphere; see `PuncturedStructure.sphere_map`."""
+        count = len(self._component.vertex_index)
+        return self._at_vertices(arrays.frozen(self._refined.sphere_map()[:count].copy()))

@@ -1,0 +1,101 @@
+"""Closed surfaces of genus 0 so coarse that the stars of any two vertices meet."""
+
+import holomorph
+import numpy as np
+import pytest
+from holomorph.truncated import TruncatedStructure, truncated
+
+SAME = 1e-9  # two solves, or rounding
+
+
+def pyramid(sides, height=2.0):
+    """A base polygon and triangles to an apex."""
+    angle = 2 * np.pi * np.arange(sides) / sides + 0.1 * np.sin(np.arange(sides))
+    vertices = np.vstack([np.column_stack([np.cos(angle), np.sin(angle), np.zeros(sides)]), [[0.2, 0.1, height]]])
+    return vertices, [list(range(sides))[::-1]] + [[i, (i + 1) % sides, sides] for i in range(sides)]
+
+
+def solved(sides):
+    surface = holomorph.Surface(*pyramid(sides))
+    return surface, holomorph.conformal_structure(surface)
+
+
+SIDES = [3, 4, 5, 8, 32]
+
+
+@pytest.mark.parametrize("sides", SIDES)
+def test_every_corner_has_a_uv_and_no_triangle_is_flipped(sides):
+    _, structure = solved(sides)
+    assert isinstance(structure, TruncatedStructure)
+    uv = structure.uv(structure.balanced_coefficients())
+    quality = structure.quality(uv)
+    assert np.isfinite(uv).all() and not quality.flipped.any()
+    assert quality.area.min() > 0
+    assert "log map" in structure.description and len(structure.punctures) == 2
+
+
+@pytest.mark.parametrize("sides", SIDES)
+def test_seams_shift_by_whole_periods(sides):
+    surface, structure = solved(sides)
+    uv = structure.uv(structure.balanced_coefficients())
+    tails, heads, edges = structure._sides()
+    order = np.argsort(edges, kind="stable").reshape(-1, 2)
+    jump = np.array([uv[c][order[:, 0]] - uv[c][order[:, 1]] for c in (tails, heads)])
+    is_seam = np.isin(np.arange(len(order)), structure.seams)
+    assert np.abs(jump[:, ~is_seam]).max() < SAME
+    spoke = np.isin(structure.edges, structure.punctures).any(axis=1)
+    shift = jump[:, is_seam & ~spoke]
+    assert np.abs(shift[0] - shift[1]).max(initial=0) < SAME
+    assert np.abs(shift - np.round(shift) * (1, 0)).max(initial=0) < SAME
+    forms = structure.holomorphic_forms
+    assert forms.shape == (1, len(structure.edges)) and np.array_equal(np.isnan(forms[0]), spoke)
+
+
+def test_the_truncated_mesh_is_the_same_surface():
+    vertices, faces = pyramid(5)
+    surface = holomorph.Surface(vertices, faces).components[0]
+    refined = truncated(surface, [0, 5]).surface
+    assert refined.genus == 0 and refined.boundary_count == 0
+
+    def area(s):
+        p, q, r = s.vertices[s.triangles].transpose(1, 0, 2)
+        return np.linalg.norm(np.cross(q - p, r - p), axis=1).sum() / 2
+
+    assert area(refined) == pytest.approx(area(surface), rel=1e-12)
+
+
+def test_size_and_place_of_the_mesh_do_not_matter():
+    vertices, faces = pyramid(6)
+    maps = []
+    for moved in (vertices, 1e6 * vertices, vertices[:, [1, 2, 0]] + 5):
+        structure = holomorph.conformal_structure(holomorph.Surface(moved, faces))
+        maps.append(structure.uv([1.0]))
+    assert np.abs(maps[1] - maps[0]).max() < SAME and np.abs(maps[2] - maps[0]).max() < SAME
+
+
+def test_the_sphere_map_of_a_tetrahedron():
+    surface, structure = solved(3)
+    points = structure.sphere_map()
+    assert points.shape == (4, 3)
+    assert np.linalg.norm(points, axis=1) == pytest.approx(1, rel=1e-9)
+
+
+def test_vertices_of_a_surface_with_loose_ones_keep_their_numbers():
+    vertices, faces = pyramid(4)
+    surface = holomorph.Surface(np.vstack([[[9, 9, 9]], vertices]), [[v + 1 for v in face] for face in faces])
+    structure = holomorph.conformal_structure(surface)
+    assert set(structure.punctures) <= set(range(1, 6))
+    assert structure.edges.min() == 1
+    assert np.isnan(structure.sphere_map()[0]).all()
+
+
+def test_punctures_that_are_asked_for_must_be_apart_all_the_same():
+    with pytest.raises(holomorph.TopologyError, match="meet|share|corners of one face"):
+        holomorph.conformal_structure(holomorph.Surface(*pyramid(4)), punctures=[0, 4])
+
+
+def test_without_positions_nothing_is_cut_off():
+    _, faces = pyramid(3)
+    surface = holomorph.Surface.from_edge_lengths(np.array(faces), np.ones((4, 3)))
+    with pytest.raises(holomorph.TopologyError, match="no two vertices can be punctures"):
+        holomorph.conformal_structure(surface)
