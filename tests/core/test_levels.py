@@ -161,6 +161,29 @@ def test_a_map_without_seams_stays_a_function_of_the_vertices(name):
         assert (level.uv == level.surface.vertices[level.surface.corner_vertices][:, :2]).all()
 
 
+OPEN = {
+    "genus 0, 2 loops": families.cylinder(24, 12),
+    "genus 1, 1 loop": families.punctured_torus(),
+    "genus 1, 3 loops": families.punched(families.torus(20, 15), 3),
+}
+
+
+@pytest.mark.parametrize("mesh", OPEN.values(), ids=OPEN.keys())
+def test_straight_boundaries_stay_straight(mesh):
+    """v is one number along each side of a boundary loop in the original, and so in every level."""
+    structure = conformal_structure(surface_of(mesh))
+    progressive = ProgressiveMesh(structure.surface)
+    uv = structure.uv(structure.balanced_coefficients())
+    for level in progressive.levels_of_detail(uv, counts(progressive)):
+        edges, values = edge_values(level)
+        assert largest_disagreement(level) < EXACT
+        _, start, end = vectors(level)
+        edge, _ = edges.index(start, end)
+        at_boundary = np.bincount(edge.ravel(), minlength=len(edges.edges)) == 1
+        assert at_boundary.any()
+        assert np.abs(values[1, at_boundary]).max() < EXACT
+
+
 def test_islands_of_other_maps_stay_where_they_are():
     """A cylinder unrolled with one turned seam: collapses along the rim and inside keep each vertex's own UVs."""
     surface = surface_of(families.cylinder(24, 12))
