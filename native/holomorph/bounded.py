@@ -8,7 +8,7 @@ import numpy as np
 from . import arrays
 from ._native import TopologyError
 from .report import complex_pairs
-from .results import Structure, checked_coefficients
+from .results import BoundedResiduals, Structure, checked_coefficients
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +20,8 @@ class BoundedStructure(Structure):
     along the boundary. The star exchanges them: theta_i = h^N_i + i sum_j C#_ij h^D_j is holomorphic, and the imaginary
     part of every real combination is constant along each boundary loop, which becomes a straight line.
     """
+
+    residuals_kind = BoundedResiduals
 
     @property
     def description(self):
@@ -85,6 +87,11 @@ class BoundedStructure(Structure):
     def period_matrix(self):
         """(n, n) complex, of the double: symmetric, Im Omega > 0; (i/2) `capacity_matrix` on planar surfaces."""
         return self._native.period_matrix()
+
+    @cached_property
+    def period_bounds(self):
+        """(lower, upper), (n, n) each: guaranteed bounds of Im Omega of the polyhedral double as quadratic forms."""
+        return self._native.period_bounds()
 
     @cached_property
     def collapsed_triangles(self):
@@ -176,6 +183,7 @@ class BoundedStructure(Structure):
         values = {
             "conventions": "Omega is the period matrix of the double, a_i.b_j = delta_ij; loop 0 is the longest",
             "period_matrix": complex_pairs(self.period_matrix),
+            "period_bounds": [bound.tolist() for bound in self.period_bounds],
             "collapsed_triangles": len(self.collapsed_triangles),
         }
         if surface.genus == 0:

@@ -37,6 +37,15 @@ class Residuals:
     periods: float
 
 
+@dataclass(frozen=True)
+class BoundedResiduals(Residuals):
+    """Those of both families; harmonicity at every vertex for the natural forms, at the inner ones for the Dirichlet
+    forms; periods of the natural forms. pairing: largest difference of the integral of h^N_i ^ h from what the integers
+    W say, for one h = sum of +-h^D_j."""
+
+    pairing: float
+
+
 @dataclass(frozen=True, eq=False)
 class Quality:
     """Distortion of a UV map per triangle, s1 >= s2 its singular values.
@@ -68,6 +77,8 @@ class Structure:
     description : one phrase that says what was made
     invariants() : the conformal invariants as plain data, for reports
     """
+
+    residuals_kind = Residuals
 
     surface: Surface
     solver: SolverReport
@@ -177,7 +188,9 @@ def result(kind, surface, component, native):
     """A `kind` of `Structure` made of what the native core computed."""
     seconds = dict(native.timings())
     seconds["total"] = sum(seconds.values())
-    return kind(surface, SolverReport(*native.solver()), Residuals(*native.residuals()), seconds, native, component)
+    return kind(
+        surface, SolverReport(*native.solver()), kind.residuals_kind(*native.residuals()), seconds, native, component
+    )
 
 
 def checked_coefficients(coefficients, count, kind):

@@ -30,6 +30,7 @@ FLAT = {
 }
 
 BOUNDED = {
+    "one layer of quads": families.cylinder(8, 2),
     "tube": families.cylinder(24, 9),
     "square minus square": families.square_minus_square(4, jitter=0.2),
     "punctured torus": families.punctured_torus(),

@@ -41,9 +41,14 @@ void bind_bounded_structure(py::module_& m) {
            })
       .def("coefficients", [](const Bounded& s) { return copy(s.value.holomorphic.coefficients); })
       .def("period_matrix", [](const Bounded& s) { return copy(s.value.holomorphic.period_matrix); })
+      .def("period_bounds",
+           [](const Bounded& s) {
+             return py::make_tuple(copy(s.value.holomorphic.bounds.lower), copy(s.value.holomorphic.bounds.upper));
+           })
       .def("collapsed_triangles", [](const Bounded& s) { return copy(s.value.collapsed_triangles); })
       .def("residuals", [](const Bounded& s) {
-        return py::make_tuple(s.value.residuals.closedness, s.value.residuals.harmonicity, s.value.period_residual);
+        return py::make_tuple(s.value.residuals.closedness, s.value.residuals.harmonicity, s.value.period_residual,
+                              s.value.pairing_residual);
       });
   m.def("bounded_structure", &compute);
 }

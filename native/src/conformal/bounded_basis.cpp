@@ -27,18 +27,18 @@ IntegerMatrix double_classes(Index n, Index handles) {
 }
 
 // The double carries the metric of both halves: its Gram matrix is (x G_N x^T + y G_D y^T) / 2, its wedge matrix
-// (x W y'^T - y W^T x'^T) / 2, integer and unimodular on the classes above.
-Eigen::MatrixXcd period_matrix_of_double(const ProjectedStar& projected, const IntegerMatrix& W, Index handles) {
+// (x W y'^T - y W^T x'^T) / 2, integer and unimodular on the classes above. Rows (x, y) of a canonical basis.
+MatrixXd canonical_classes_of_double(const IntegerMatrix& W, Index handles) {
   const Index n = W.rows();
   const IntegerMatrix basis = double_classes(n, handles);
-  const IntegerMatrix x = basis.leftCols(n), y = basis.rightCols(n), xWy = x * W * y.transpose();
-  const MatrixXd S = topology::symplectic_basis((xWy - xWy.transpose()) / 2).cast<double>();
-  const MatrixXd Sx = S * x.cast<double>(), Sy = S * y.cast<double>();
-  const MatrixXd G =
-      (Sx * projected.natural_gram * Sx.transpose() + Sy * projected.dirichlet_gram * Sy.transpose()) / 2;
-  const MatrixXd imaginary = symmetric(inverse(G.bottomRightCorner(n, n)));
-  const MatrixXd real = symmetric(-G.topRightCorner(n, n) * imaginary);
-  return real.cast<std::complex<double>>() + std::complex<double>(0, 1) * imaginary.cast<std::complex<double>>();
+  const IntegerMatrix xWy = basis.leftCols(n) * W * basis.rightCols(n).transpose();
+  return (topology::symplectic_basis((xWy - xWy.transpose()) / 2) * basis).cast<double>();
+}
+
+MatrixXd gram_of_double(const MatrixXd& classes, const MatrixXd& G_N, const MatrixXd& G_D) {
+  const Index n = G_N.rows();
+  const MatrixXd x = classes.leftCols(n), y = classes.rightCols(n);
+  return symmetric(x * G_N * x.transpose() + y * G_D * y.transpose()) / 2;
 }
 
 }  // namespace
@@ -51,7 +51,10 @@ BoundedBasis bounded_basis(const MatrixXd& G_N, const MatrixXd& G_D, const Integ
   result.coefficients.topRows(n).setIdentity();
   result.coefficients.bottomRows(n) =
       std::complex<double>(0, 1) * result.projected.star.transpose().cast<std::complex<double>>();
-  result.period_matrix = period_matrix_of_double(result.projected, W, 2 * genus);
+  const MatrixXd classes = canonical_classes_of_double(W, 2 * genus);
+  result.period_matrix =
+      period_matrix(gram_of_double(classes, result.projected.natural_gram, result.projected.dirichlet_gram));
+  result.bounds = period_bounds(gram_of_double(classes, G_N, G_D));
   return result;
 }
 

@@ -14,6 +14,7 @@ struct BoundedBasis {
   ProjectedStar projected;
   Eigen::MatrixXcd coefficients;   ///< 2n x n: column i is theta_i, written in h^N_1 .. h^N_n, h^D_1 .. h^D_n
   Eigen::MatrixXcd period_matrix;  ///< n x n, Omega of the double; (i/2) Cap# on planar surfaces
+  PeriodBounds bounds;             ///< of Im Omega of the polyhedral double
 };
 
 /// @param G_N,G_D n x n, of the natural and the Dirichlet forms: first those of the 2g handle classes, the same in both

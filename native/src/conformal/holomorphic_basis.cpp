@@ -14,16 +14,13 @@ HolomorphicBasis holomorphic_basis(const MatrixXd& G_zeta, const topology::Canon
   const MatrixXd projected = projected_star(G, G, J).natural_gram;
 
   HolomorphicBasis result;
-  const MatrixXd imaginary = symmetric(inverse(projected.bottomRightCorner(g, g)));
-  const MatrixXd real = symmetric(-projected.topRightCorner(g, g) * imaginary);
-  result.period_matrix =
-      real.cast<std::complex<double>>() + std::complex<double>(0, 1) * imaginary.cast<std::complex<double>>();
+  result.period_matrix = period_matrix(projected);
   Eigen::MatrixXcd canonical(2 * g, g);  // int_{a_i} theta_j = delta_ij, int_{b_i} theta_j = Omega_ij
   canonical << Eigen::MatrixXcd::Identity(g, g), result.period_matrix;
   result.periods = S.transpose() * canonical;  // zeta = R^-1 (a, b), and R^-1 = S^T
-  const MatrixXd G_ab = G.topRightCorner(g, g);
-  result.lower = symmetric(inverse(G.bottomRightCorner(g, g)));
-  result.upper = symmetric(G.topLeftCorner(g, g) - G_ab * result.lower * G_ab.transpose());
+  const PeriodBounds bounds = period_bounds(G);
+  result.lower = bounds.lower;
+  result.upper = bounds.upper;
   return result;
 }
 

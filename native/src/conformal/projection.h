@@ -32,4 +32,15 @@ struct ProjectedStar {
 /// @param G_N,G_D n x n Gram matrices. @param W n x n, |det| 1, entries integers. @throws SolverError
 ProjectedStar projected_star(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd& G_D, const Eigen::MatrixXd& W);
 
+/// Omega of a closed surface of genus g from the projected Gram matrix of a canonical basis alpha_1 .. beta_g, 2g x 2g:
+/// Im Omega = (G_bb)^-1, Re Omega = -G_ab (G_bb)^-1.
+Eigen::MatrixXcd period_matrix(const Eigen::MatrixXd& G);
+
+/// Bounds of Im Omega as quadratic forms from the Gram matrix G >= G_exact of admissible forms in a canonical basis:
+/// (G_bb)^-1 <= Im Omega <= G_aa - G_ab (G_bb)^-1 G_ba.
+struct PeriodBounds {
+  Eigen::MatrixXd lower, upper;
+};
+PeriodBounds period_bounds(const Eigen::MatrixXd& G);
+
 }  // namespace holomorph::conformal

@@ -1,4 +1,4 @@
-// gram_matrix, energies and residuals: sums and maxima over all edges, faces and vertices of all forms.
+// gram_matrix, energies, wedges and residuals: sums and maxima over all edges, faces and vertices of all forms.
 #include <algorithm>
 #include <array>
 
@@ -138,6 +138,24 @@ Eigen::VectorXd energies(const HalfEdges& mesh, const std::vector<double>& weigh
       },
       [&](int slot) { sum += slots[slot]; });
   return sum;
+}
+
+Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& w, Progress& progress) {
+  const auto n = forms.functions.cols();
+  std::array<Eigen::RowVectorXd, kBatch> slots;
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(n);
+  for_blocks(
+      mesh.n_faces(), progress, 0.0, 1.0,
+      [&](int slot, int begin, int end) {
+        slots[slot] = Eigen::RowVectorXd::Zero(n);
+        for (int f = begin; f < end; ++f) {
+          const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
+          add_along(mesh, forms, h0, 0.5 * sign(h1) * w[edge_of(h1)], slots[slot]);
+          add_along(mesh, forms, h1, -0.5 * sign(h0) * w[edge_of(h0)], slots[slot]);
+        }
+      },
+      [&](int slot) { sum += slots[slot]; });
+  return sum.transpose();
 }
 
 Residuals residuals(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,

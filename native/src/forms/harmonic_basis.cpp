@@ -95,6 +95,16 @@ RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int 
   return values;
 }
 
+Eigen::VectorXd combination(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& c) {
+  const Eigen::VectorXd f = forms.functions * c;
+  Eigen::VectorXd values(static_cast<Eigen::Index>(mesh.n_edges()));
+  for (int e = 0; e < static_cast<int>(values.size()); ++e) {
+    values[e] = f[to_vertex(mesh, HalfedgeHandle(2 * e))] - f[to_vertex(mesh, HalfedgeHandle(2 * e + 1))];
+    for (const auto& [i, value] : forms.classes.rows[e]) values[e] += c[i] * value;
+  }
+  return values;
+}
+
 Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms,
                         const std::vector<std::vector<HalfedgeHandle>>& loops) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loops.size()), forms.functions.cols());

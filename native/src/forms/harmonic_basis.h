@@ -53,6 +53,14 @@ struct Residuals {
 Residuals residuals(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const ClosedForms& forms,
                     Progress& progress, const std::vector<int>& held = {});
 
+/// Values of one combination sum_j c_j h_j on all edges, #E along half-edge 2e.
+Eigen::VectorXd combination(const mesh::HalfEdges& half_edges, const ClosedForms& forms, const Eigen::VectorXd& c);
+
+/// int h_i ^ w over the surface for all forms h_i and one form w, #E values along half-edge 2e; summed in a fixed
+/// order.
+Eigen::VectorXd wedges(const mesh::HalfEdges& half_edges, const ClosedForms& forms, const Eigen::VectorXd& w,
+                       Progress& progress);
+
 /// Integrals of the forms over closed loops of half-edges, #loops x #forms.
 Eigen::MatrixXd periods(const mesh::HalfEdges& half_edges, const ClosedForms& forms,
                         const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);

@@ -27,8 +27,9 @@ struct BoundedStructure {
   uv::CornerSheets sheets;               ///< of the 2n classes
   forms::Residuals residuals;            ///< on the intrinsic triangulation, both families
   double period_residual = 0;            ///< largest |int_{zeta_i} h^N_j - delta_ij|
-  double mollification = 0;              ///< added to every edge length
-  int flip_count = 0;                    ///< of the intrinsic Delaunay triangulation
+  double pairing_residual = 0;  ///< largest |int h^N_i ^ h - (W c)_i| of one h = sum_j c_j h^D_j, all c = 1, -1
+  double mollification = 0;     ///< added to every edge length
+  int flip_count = 0;           ///< of the intrinsic Delaunay triangulation
   SolverReport solver;
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage
 };
