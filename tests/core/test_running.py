@@ -149,7 +149,6 @@ def test_solver_is_reported():
 # ---- refusals -----------------------------------------------------------------------------------------------------
 
 REFUSED = {
-    "tetrahedron": (families.tetrahedron(), r"the stars of any two meet"),
     "two tori": (families.united(families.torus(5, 4), families.torus(6, 5)), r"2 connected components"),
 }
 
@@ -223,7 +222,6 @@ def test_command_prints_the_report_where_no_file_is_named(tmp_path):
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
-        ("tetrahedron.obj", obj(families.tetrahedron()), "subdivide"),
         ("broken.obj", b"v 0 0 zero\n", "line 1"),
         ("moebius.obj", obj(families.moebius()), "orient"),
         ("absent.obj", None, "no such file"),
