@@ -6,6 +6,7 @@ import sys
 
 from . import Error, Surface, __version__, conformal_structure
 from .report import component_report, skipped_report
+from .results import SOLVERS
 
 
 def main(arguments=None):
@@ -13,11 +14,12 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python -m holomorph", description="Conformal structure of a mesh file.")
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")
+    parser.add_argument("--solver", choices=SOLVERS, default="auto", help="as in holomorph.conformal_structure")
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
     parser.add_argument("--version", action="version", version=__version__)
     options = parser.parse_args(arguments)
     try:
-        report = mesh_report(options.mesh, options.threads)
+        report = mesh_report(options.mesh, options.threads, options.solver)
         text = json.dumps(report, indent=1, allow_nan=False)
         if options.report:
             with open(options.report, "w", encoding="utf-8") as file:
@@ -33,13 +35,13 @@ def main(arguments=None):
     return 1
 
 
-def mesh_report(path, threads=None):
+def mesh_report(path, threads=None, solver="auto"):
     """The report of all components of a mesh file, as plain data."""
     surface = Surface.read(path)
     parts = []
     for part in surface.components:
         try:
-            parts.append(component_report(conformal_structure(part, threads=threads)))
+            parts.append(component_report(conformal_structure(part, solver=solver, threads=threads)))
         except Error as error:
             parts.append(skipped_report(part, error))
     repairs = surface.repairs

@@ -10,18 +10,23 @@ from . import _native, arrays
 from ._native import TopologyError
 from .surface import Surface
 
-SOLVERS = ("auto", "direct", "multigrid")
+SOLVERS = ("auto", "direct", "multigrid", "paper")
 
 
 @dataclass(frozen=True)
 class SolverReport:
-    """Which solver was used and why; iterations (of multigrid, or steps of iterative refinement of the direct solver);
-    the largest relative residual of the linear systems."""
+    """Which solver was used and why; iterations (of multigrid or, by the paper's solver, on the surface itself; steps
+    of iterative refinement of the direct solver); the largest relative residual of the linear systems.
+
+    levels : (faces, iterations, seconds) of the paper's solver on each level of the progressive mesh, the base mesh
+        first and the surface last, where the seconds of a level include making its linear system; () for other solvers
+    """
 
     name: str
     reason: str
     iterations: int
     residual: float
+    levels: tuple = ()
 
 
 @dataclass(frozen=True)

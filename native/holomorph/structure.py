@@ -20,7 +20,10 @@ def conformal_structure(surface, *, punctures=None, residues=None, solver="auto"
     residues : list of complex numbers, one for each puncture, not 0 and summing to 0: the UVs change by it around the
         puncture. Default: 1 and -1 for two punctures; for more, 1 but at the one that is farthest from the others
     solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
-        by size and number of right-hand sides; the result's `solver` says what was taken and why
+        by size and number of right-hand sides; the result's `solver` says what was taken and why. "paper" is the
+        multiresolution algorithm of the paper (§ 9) for closed surfaces with positions, slower than the others and
+        never chosen by "auto": conjugate gradients on the levels of a progressive mesh, whose base mesh gives loops and
+        classes. It turns no edges, so its invariants are those of the artist's triangles
     threads : number of threads, None for one per core; the result has the same bits for any number
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 

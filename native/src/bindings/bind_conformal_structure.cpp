@@ -21,6 +21,9 @@ std::shared_ptr<Closed> compute_level(const progressive::ProgressiveMesh& mesh, 
                                       std::shared_ptr<Surface> surface, const std::string& solver, int threads,
                                       const py::object& progress) {
   return make_structure<ConformalStructure>(surface, {solver, threads}, progress, [&](const auto& options, auto& p) {
+    if (options.solver == "paper") {
+      return pipeline::conformal_structure(*surface, options, p, {}, pipeline::paper_levels(mesh, splits, *surface));
+    }
     return pipeline::conformal_structure(*surface, options, p, topology::carried_bases(mesh, splits, *surface));
   });
 }

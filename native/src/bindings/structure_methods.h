@@ -7,7 +7,9 @@
 namespace holomorph::bindings {
 
 inline py::tuple report(const pipeline::SolverReport& solver) {
-  return py::make_tuple(solver.name, solver.reason, solver.iterations, solver.residual);
+  py::list levels;
+  for (const auto& level : solver.levels) levels.append(py::make_tuple(level.faces, level.iterations, level.seconds));
+  return py::make_tuple(solver.name, solver.reason, solver.iterations, solver.residual, py::tuple(levels));
 }
 
 template <class Value>

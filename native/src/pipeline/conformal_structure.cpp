@@ -2,6 +2,7 @@
 
 #include "base/errors.h"
 #include "mesh/components.h"
+#include "pipeline/paper_forms.h"
 #include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
@@ -22,15 +23,21 @@ double largest_period_error(const Eigen::MatrixXd& periods) {
 }  // namespace
 
 ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress,
-                                       std::optional<topology::DualBases> given) {
+                                       std::optional<topology::DualBases> given, std::optional<PaperLevels> levels) {
   const ThreadCount threads(options.threads);
+  const bool paper = options.solver == "paper";
   ConformalStructure result;
 
   progress.stage("half-edges", 0.0, 0.05);
   result.half_edges = mesh::half_edges(surface, progress);
   check_topology(surface, result.half_edges);
+  if (paper) {
+    progress.stage("progressive mesh", 0.05, 0.1);
+    if (!levels) levels = paper_levels(surface, progress);
+    given = std::move(levels->bases);
+  }
 
-  progress.stage("homology", 0.05, 0.2);
+  progress.stage("homology", paper ? 0.1 : 0.05, 0.2);
   const auto domain = topology::fundamental_domain(surface, result.half_edges, progress);
   result.homology_basis = given ? std::move(given->loops) : topology::homology_basis(result.half_edges, domain);
   result.seams = topology::cut_graph(result.half_edges, domain);
@@ -42,7 +49,7 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
 
   progress.stage("intrinsic Delaunay", 0.25, 0.3);
   auto intrinsic = mesh::intrinsic_triangulation(surface, result.half_edges);
-  mesh::make_delaunay(intrinsic, progress);
+  if (!paper) mesh::make_delaunay(intrinsic, progress);
   auto intrinsic_classes = classes;
   topology::carry_through(intrinsic.flips, intrinsic_classes);
 
@@ -52,7 +59,8 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
 
   progress.stage("harmonic forms", 0.35, 0.85);
   const auto solved =
-      harmonic_forms(intrinsic.half_edges, weights, std::move(laplacian), intrinsic_classes, options, progress);
+      paper ? paper_forms(*levels, intrinsic.half_edges, weights, laplacian, intrinsic_classes, progress)
+            : harmonic_forms(intrinsic.half_edges, weights, std::move(laplacian), intrinsic_classes, options, progress);
   const forms::ClosedForms& harmonic = solved.forms;
   result.solver = solved.solver;
 

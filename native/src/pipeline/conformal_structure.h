@@ -7,6 +7,7 @@
 
 #include "conformal/holomorphic_basis.h"
 #include "pipeline/harmonic_forms.h"
+#include "pipeline/paper_levels.h"
 #include "topology/carried_classes.h"
 #include "uv/corner_sheets.h"
 
@@ -32,9 +33,13 @@ struct ConformalStructure {
 
 /// @param given the loops zeta and their dual classes, as carried from another level of a progressive mesh; by default
 /// they are found on the surface
+/// @param levels for the paper's solver, whose loops and classes are always those of the base mesh: a progressive mesh
+/// that there is already; by default it is made here. The paper's solver turns no edges: all that is computed belongs
+/// to the artist's triangulation
 /// @pre connected, no isolated vertices (mesh::component makes it so)
 /// @throws TopologyError for genus 0 or a boundary, naming both; SolverError; Cancelled
 ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress,
-                                       std::optional<topology::DualBases> given = {});
+                                       std::optional<topology::DualBases> given = {},
+                                       std::optional<PaperLevels> levels = {});
 
 }  // namespace holomorph::pipeline

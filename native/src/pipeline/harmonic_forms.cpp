@@ -4,7 +4,8 @@ namespace holomorph::pipeline {
 
 SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Choice& choice) {
   const std::string remark = solver.remark();
-  return {solver.name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver.iterations(), solver.residual()};
+  return {
+      solver.name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver.iterations(), solver.residual(), {}};
 }
 
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,

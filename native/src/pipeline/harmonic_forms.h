@@ -1,7 +1,9 @@
 // Which solver is used, and what it reports.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/progress.h"
 #include "forms/harmonic_basis.h"
@@ -9,14 +11,22 @@
 namespace holomorph::pipeline {
 
 struct Options {
-  std::string solver = "auto";  ///< "auto", "direct" or "multigrid"
+  std::string solver = "auto";  ///< "auto", "direct", "multigrid" or "paper"
   int threads = 0;              ///< 0: as many as the machine has cores; the result does not depend on it
+};
+
+/// Conjugate gradients on one level of a progressive mesh.
+struct LevelReport {
+  std::int64_t faces = 0;
+  int iterations = 0;
+  double seconds = 0;  ///< with the making of the linear system
 };
 
 struct SolverReport {
   std::string name, reason;
-  int iterations = 0;   ///< of multigrid; steps of iterative refinement of the direct solver
+  int iterations = 0;   ///< of multigrid, or the paper's on the surface; steps of refinement of the direct solver
   double residual = 0;  ///< largest relative residual of the linear systems
+  std::vector<LevelReport> levels = {};  ///< of the paper's solver, the base mesh first
 };
 
 /// What a solver reports after its last solve.

@@ -29,6 +29,10 @@ std::string system_of(Eigen::Index unknowns, Eigen::Index right_hand_sides) {
 Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Index right_hand_sides) {
   if (name == "direct") return {Method::direct, "asked for"};
   if (name == "multigrid") return {Method::multigrid, "asked for"};
+  if (name == "paper") {
+    throw TopologyError(
+        "the paper's solver is for closed surfaces of genus 1 or more; one of auto, direct, multigrid is needed here");
+  }
   if (name != "auto") throw Error("there is no solver '" + name + "'; one of auto, direct, multigrid is needed");
   const auto n = static_cast<double>(unknowns);
   const std::string system = system_of(unknowns, right_hand_sides);

@@ -74,13 +74,13 @@ class Loops {
   std::vector<int> starts_;  // one entry of each loop
 };
 
+}  // namespace
+
 int edge_between(const std::vector<mesh::Pair>& edges, int a, int b) {
   const mesh::Pair ends{std::min(a, b), std::max(a, b)};
   const auto found = std::lower_bound(edges.begin(), edges.end(), ends);
   return found != edges.end() && *found == ends ? static_cast<int>(found - edges.begin()) : -1;
 }
-
-}  // namespace
 
 std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map) {
   // The base has triangles only and no two edges with the same ends, and its edges are in lexicographic order.

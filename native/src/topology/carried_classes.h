@@ -18,6 +18,9 @@ namespace holomorph::topology {
 IntegerForms carry_classes(const mesh::Surface& base, const IntegerForms& forms, const mesh::Surface& surface,
                            const std::vector<int>& map);
 
+/// The edge between two vertices, -1 if there is none. @param edges lower end first, in lexicographic order
+int edge_between(const std::vector<mesh::Pair>& edges, int a, int b);
+
 /// #E of `surface` edge of `base` on which each of its edges comes to lie, as 2e or, against its direction, 2e + 1; -1
 /// where its ends come together. By it real forms are carried too.
 std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map);

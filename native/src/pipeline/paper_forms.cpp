@@ -1,0 +1,115 @@
+#include "pipeline/paper_forms.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace holomorph::pipeline {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+class PaperSolve {
+ public:
+  PaperSolve(const PaperLevels& levels, const PaperOptions& options, Progress& progress)
+      : levels_(levels), options_(options), progress_(progress) {}
+
+  PaperForms run(const solver::Laplacian& L, const Eigen::MatrixXd& B) {
+    const std::vector<int> splits = thresholds(levels_, options_);
+    work_ = faces(levels_.splits);
+    for (const int k : splits) work_ += faces(k);
+    std::vector<int> row(levels_.place.size()), own(row.size());
+    std::iota(own.begin(), own.end(), 0);
+    Eigen::MatrixXd X;
+    for (const int k : splits) {
+      const auto start = Clock::now();
+      LevelSystem system = level_system(levels_, k);
+      X = estimation(X, row, system.row_of_vertex, system.B);
+      improve(system.L, system.B, X, options_.level_residual, k, start);
+      row = std::move(system.row_of_vertex);
+    }
+    const auto start = Clock::now();
+    X = estimation(X, row, own, B);
+    const auto last = improve(L, B, X, options_.residual, levels_.splits, start);
+    if (!last.converged) fail(last, B.rows());
+    const std::string name = options_.scaling == solver::Scaling::none ? "plain" : "scaled";
+    return {std::move(X),
+            {"paper: " + name + " conjugate gradients, " + std::to_string(reports_.size()) + " levels", "asked for",
+             last.iterations, last.residual, reports_}};
+  }
+
+ private:
+  double faces(int splits) const { return static_cast<double>(levels_.mesh->base.triangles.size()) + 2.0 * splits; }
+
+  // Step 5(b) for all splits between two levels; on M0 nothing is known yet.
+  static Eigen::MatrixXd estimation(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
+                                    const Eigen::MatrixXd& B) {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+    for (Eigen::Index c = 0; c < X.cols(); ++c) {
+      for (std::size_t v = 0; v < from.size(); ++v) result(to[v], c) = X(from[v], c);
+    }
+    return result;
+  }
+
+  solver::GradientReport improve(const solver::Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
+                                 double residual, int splits, Clock::time_point start) {
+    solver::GradientOptions options;
+    options.scaling = options_.scaling;
+    options.residual = residual;
+    const double part = faces(splits) / work_;
+    progress_.report(done_);
+    const auto report = solver::conjugate_gradients(L, B, X, options, workers_, [&](double reached) {
+      progress_.report(done_ + part * std::clamp(std::log10(reached) / std::log10(residual), 0.0, 1.0));
+    });
+    done_ += part;
+    reports_.push_back({static_cast<std::int64_t>(faces(splits)), report.iterations, seconds_since(start)});
+    return report;
+  }
+
+  [[noreturn]] void fail(const solver::GradientReport& last, Eigen::Index unknowns) const {
+    std::ostringstream message;
+    message << "the paper's solver reached a relative residual of " << last.residual << " instead of "
+            << options_.residual << " after " << last.iterations << " iterations, on a system of " << unknowns
+            << " unknowns; take one of auto, direct, multigrid";
+    throw SolverError(message.str());
+  }
+
+  const PaperLevels& levels_;
+  const PaperOptions& options_;
+  Progress& progress_;
+  solver::Workers workers_;
+  std::vector<LevelReport> reports_;
+  double work_ = 0, done_ = 0;  // in faces of all levels, and what part of it is done
+};
+
+}  // namespace
+
+std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options) {
+  const auto base = static_cast<double>(levels.mesh->base.triangles.size());
+  std::vector<int> splits;
+  for (double faces = (base + 2.0 * levels.splits) / options.ratio;
+       faces >= static_cast<double>(options.least_faces) && faces > base; faces /= options.ratio) {
+    splits.push_back(static_cast<int>((faces - base) / 2));
+  }
+  if (levels.splits > 0) splits.push_back(0);
+  return {splits.rbegin(), splits.rend()};
+}
+
+PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
+                       const PaperOptions& options, Progress& progress) {
+  return PaperSolve(levels, options, progress).run(laplacian, B);
+}
+
+HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges,
+                          const std::vector<double>& weights, const solver::Laplacian& laplacian,
+                          const topology::IntegerForms& classes, Progress& progress) {
+  const auto B = forms::codifferentials(half_edges, weights, classes);
+  auto result = paper_forms(levels, laplacian, B, {}, progress);
+  return {{classes, std::move(result.functions)}, std::move(result.solver)};
+}
+
+}  // namespace holomorph::pipeline

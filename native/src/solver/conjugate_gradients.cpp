@@ -1,0 +1,189 @@
+#include "solver/conjugate_gradients.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/page_allocator.h"
+#include "solver/chunks.h"
+
+namespace holomorph::solver {
+namespace {
+
+// The residual that the iteration carries along drifts from the true one: it is computed anew at the end, and where it
+// is still too large the iteration begins again. A round that leaves more than this part of it was the last.
+constexpr double kLeastGain = 0.5;
+// What is asked of the carried residual, so that the true one is below the goal in the first round.
+constexpr double kSafety = 0.9;
+
+template <int K>
+using Values = Eigen::Array<double, K, 1>;
+
+// a / b where b > 0, else 0: a right-hand side that is solved exactly stays as it is.
+template <int K>
+Values<K> quotient(const Values<K>& a, const Values<K>& b) {
+  Values<K> result;
+  for (int d = 0; d < K; ++d) result[d] = b[d] > 0 ? a[d] / b[d] : 0.0;
+  return result;
+}
+
+template <int K>
+class Gradients {
+ public:
+  Gradients(const Laplacian& L, const GradientOptions& options, Workers& workers)
+      : L_(L),
+        options_(options),
+        workers_(workers),
+        n_(static_cast<int>(L.rows())),
+        inverse_(n_, 1.0),
+        x_(n_),
+        r_(n_),
+        p_(n_),
+        q_(n_) {
+    if (options.scaling == Scaling::none) return;
+    const Eigen::VectorXd diagonal = L.diagonal();
+    for (int i = 0; i < n_; ++i) inverse_[i] = diagonal[i] > 0 ? 1 / diagonal[i] : 1.0;
+  }
+
+  // Columns first .. first + width - 1.
+  GradientReport solve(const Eigen::MatrixXd& B, Eigen::MatrixXd& X, Eigen::Index first, int width,
+                       const std::function<void(double)>& report) {
+    const auto column = [&](const Eigen::MatrixXd& M, int i) {
+      Values<K> row = Values<K>::Zero();
+      for (int d = 0; d < width; ++d) row[d] = M(i, first + d);
+      return row;
+    };
+    Array<Values<K>> b(n_);
+    for (int i = 0; i < n_; ++i) {
+      b[i] = column(B, i);
+      x_[i] = column(X, i);
+    }
+    const Values<K> norm_b = norm_of(b);
+    const Relative relative{norm_b};
+    const Values<K> goal = options_.residual * norm_b;
+    GradientReport result;
+    Values<K> norm = residual(b), before;
+    do {
+      before = norm;
+      iterate(norm, kSafety * goal, result.iterations, [&](const Values<K>& now) { report(relative(now)); });
+      norm = residual(b);
+    } while (!(norm <= goal).all() && ((norm <= goal) || (norm < kLeastGain * before)).all());
+    result.residual = relative(norm);
+    result.converged = (norm <= goal).all();
+    for (int i = 0; i < n_; ++i) {
+      for (int d = 0; d < width; ++d) X(i, first + d) = x_[i][d];
+    }
+    return result;
+  }
+
+ private:
+  static Values<K> zero() { return Values<K>::Zero(); }
+
+  struct Relative {
+    Values<K> norm_b;
+    double operator()(const Values<K>& norm) const {
+      double worst = 0;
+      for (int d = 0; d < K; ++d) {
+        const double ratio = norm_b[d] > 0 ? norm[d] / norm_b[d] : norm[d];
+        if (!(ratio <= worst)) worst = ratio;  // std::max would drop a NaN
+      }
+      return worst;
+    }
+  };
+
+  Values<K> product(const Array<Values<K>>& v, int i) const {
+    Values<K> sum = Values<K>::Zero();
+    for (auto e = L_.outerIndexPtr()[i]; e < L_.outerIndexPtr()[i + 1]; ++e) {
+      sum += L_.valuePtr()[e] * v[L_.innerIndexPtr()[e]];
+    }
+    return sum;
+  }
+
+  Values<K> norm_of(const Array<Values<K>>& b) const {
+    return sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) { sum += b[i].square(); }).sqrt();
+  }
+
+  // r = b - L x without its mean; returns the norms.
+  Values<K> residual(const Array<Values<K>>& b) {
+    Values<K> mean = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
+      r_[i] = b[i] - product(x_, i);
+      sum += r_[i];
+    });
+    mean /= n_;
+    return sum_over_rows(workers_, n_, zero(),
+                         [&](int i, Values<K>& sum) {
+                           r_[i] -= mean;
+                           sum += r_[i].square();
+                         })
+        .sqrt();
+  }
+
+  template <class Report>
+  void iterate(Values<K> norm, const Values<K>& goal, int& iterations, const Report& report) {
+    using Both = Eigen::Array<double, 2 * K, 1>;
+    Values<K> rz = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
+      p_[i] = inverse_[i] * r_[i];
+      sum += r_[i] * p_[i];
+    });
+    for (; !(norm <= goal).all() && iterations < options_.most_iterations; ++iterations) {
+      report(norm);
+      const Values<K> pq = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
+        q_[i] = product(p_, i);
+        sum += p_[i] * q_[i];
+      });
+      // A right-hand side that has converged rests: its numbers would only get smaller, down to denormal ones.
+      const Values<K> alpha = (norm <= goal).select(zero(), quotient<K>(rz, pq));
+      const Both sums = sum_over_rows(workers_, n_, Both::Zero().eval(), [&](int i, Both& sum) {
+        x_[i] += alpha * p_[i];
+        r_[i] -= alpha * q_[i];
+        const Values<K> square = r_[i].square();
+        sum.template head<K>() += square;
+        sum.template tail<K>() += inverse_[i] * square;
+      });
+      norm = sums.template head<K>().sqrt();
+      const Values<K> beta = quotient<K>(sums.template tail<K>(), rz);
+      rz = sums.template tail<K>();
+      for_rows(workers_, n_, [&](int i) { p_[i] = inverse_[i] * r_[i] + beta * p_[i]; });
+    }
+  }
+
+  const Laplacian& L_;
+  const GradientOptions& options_;
+  Workers& workers_;
+  const int n_;
+  std::vector<double> inverse_;  // of the diagonal, or ones
+  Array<Values<K>> x_, r_, p_, q_;
+};
+
+template <int K>
+void solve_blocks(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X, Eigen::Index begin,
+                  Eigen::Index end, const GradientOptions& options, Workers& workers, GradientReport& total,
+                  const std::function<void(double)>& report) {
+  if (begin == end) return;
+  Gradients<K> gradients(L, options, workers);
+  for (Eigen::Index first = begin; first < end; first += K) {
+    const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
+    const GradientReport block = gradients.solve(B, X, first, width, report);
+    total.iterations = std::max(total.iterations, block.iterations);
+    total.residual = std::max(total.residual, block.residual);
+    total.converged = total.converged && block.converged;
+  }
+}
+
+}  // namespace
+
+GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
+                                   const GradientOptions& options, Workers& workers,
+                                   const std::function<void(double)>& report) {
+  // Blocks of 8, and at the end one of 4 or 2 where that is enough.
+  const Eigen::Index rest = B.cols() % 8, in_eights = B.cols() - (rest <= 4 ? rest : 0);
+  GradientReport total{0, 0, true};
+  solve_blocks<8>(L, B, X, 0, in_eights, options, workers, total, report);
+  if (rest <= 2) {
+    solve_blocks<2>(L, B, X, in_eights, B.cols(), options, workers, total, report);
+  } else {
+    solve_blocks<4>(L, B, X, in_eights, B.cols(), options, workers, total, report);
+  }
+  return total;
+}
+
+}  // namespace holomorph::solver

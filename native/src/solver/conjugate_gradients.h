@@ -1,0 +1,37 @@
+// Plain conjugate gradients for several right-hand sides side by side (Hestenes & Stiefel 1952).
+#pragma once
+
+#include <functional>
+
+#include "solver/laplace_solver.h"
+#include "solver/workers.h"
+
+namespace holomorph::solver {
+
+enum class Scaling {
+  none,     ///< the textbook's method, as the paper names it
+  diagonal  ///< of L to ones: Jacobi's preconditioner, about two thirds of the iterations on irregular meshes
+};
+
+struct GradientOptions {
+  Scaling scaling = Scaling::diagonal;
+  double residual = kResidual;  ///< |B - L X| <= residual |B| is asked for, for every right-hand side
+  int most_iterations = 100'000;
+};
+
+struct GradientReport {
+  int iterations = 0;
+  double residual = 0;  ///< largest |B - L X| / |B| reached, computed anew at the end
+  bool converged = false;
+};
+
+/// Improves X until the residual is reached, beginning with the values that it has. The constants, the kernel of L, are
+/// taken out of the residual, and X is determined up to them. Up to 8 right-hand sides go through one pass over the
+/// matrix, each with coefficients of its own; one that has converged rests.
+/// @param B,X #V x #rhs @param report called at every iteration with the largest relative residual; may throw
+/// Cost: three passes over the vertices per iteration; the bits do not depend on the number of threads.
+GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
+                                   const GradientOptions& options, Workers& workers,
+                                   const std::function<void(double)>& report);
+
+}  // namespace holomorph::solver
