@@ -166,6 +166,7 @@ class Source:
             made.append(level_object)
         context.view_layer.update()
         for index, level_object in enumerate(made, 1):
+            level_object.select_set(False)  # what is pressed next is meant for the object alone
             matrix = obj.matrix_world.copy()
             matrix.translation.x += index * step
             level_object.matrix_world = matrix

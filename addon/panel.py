@@ -28,7 +28,7 @@ class _HolomorphPanel:
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
-                layout.operator(HOLOMORPH_OT_levels.bl_idname, icon="MOD_DECIM")
+                layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, obj)
 
 

@@ -60,6 +60,7 @@ def test_levels_are_objects_in_a_collection_of_their_own():
     for level in levels_of("Torus"):
         assert np.allclose(level.matrix_world, obj.matrix_world)
         assert set(np.diff(polygon_arrays(level.data)[1])) == {3}
+        assert not level.select_get()
     assert bpy.context.view_layer.objects.active == obj and obj.select_get()
 
 

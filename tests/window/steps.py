@@ -270,8 +270,39 @@ def big_mesh():
     seen["redo of the modal run"] = maps("Big")
 
 
+def level_names():
+    return sorted(o.name for o in bpy.data.objects if "_LOD" in o.name)
+
+
+def levels_of_detail():
+    """Of the big mesh, with the worker thread: once cancelled, once to the end, undone in one step."""
+    view = area("VIEW_3D")
+    pick("Big")
+    with inside(view):
+        bpy.ops.ed.undo_push(message="Before the levels")
+        seen["levels begin"] = list(bpy.ops.object.holomorphic_levels("INVOKE_DEFAULT", levels=2))
+    hover(view)
+    tap("ESC")
+    yield 2
+    seen["levels after ESC"] = level_names()
+    with inside(view):
+        bpy.ops.object.holomorphic_levels("INVOKE_DEFAULT", levels=2, side_by_side=True)
+    start = time.monotonic()
+    while not level_names() and time.monotonic() - start < PATIENCE:
+        yield 0.1
+    yield 1
+    seen["levels"] = level_names()
+    seen["maps of a level"] = maps("Big_LOD2")
+    picture("levels.png")
+    hover(view)
+    yield 0.3
+    tap("Z", ctrl=True)
+    yield 2
+    seen["undo of the levels"] = level_names()
+
+
 def steps():
-    for part in (prepare, small_mesh, redo_panel, image_editor, edit_mode, big_mesh):
+    for part in (prepare, small_mesh, redo_panel, image_editor, edit_mode, big_mesh, levels_of_detail):
         yield from part()
 
 

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or shutil.which("blender")
 SECONDS = 280
 BOTH_MAPS = ["Holomorphic", "Holomorphic 1"]
-PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "running.png", "modal.png"]
+PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "running.png", "modal.png", "levels.png"]
 
 pytestmark = [
     pytest.mark.skipif(not BLENDER, reason="there is no Blender program"),
@@ -73,9 +73,18 @@ def test_maps_are_there_after(seen, step):
 
 
 @pytest.mark.parametrize(
-    "step", ["undo", "undo in edit mode", "no maps while it runs", "after ESC", "undo of the modal run"]
+    "step",
+    [
+        "undo",
+        "undo in edit mode",
+        "no maps while it runs",
+        "after ESC",
+        "undo of the modal run",
+        "levels after ESC",
+        "undo of the levels",
+    ],
 )
-def test_no_maps_after(seen, step):
+def test_no_maps_and_no_levels_after(seen, step):
     assert seen[step] == []
 
 
@@ -87,6 +96,12 @@ def test_the_redo_panel_solves_nothing_again(seen):
 
 def test_escape_answers_soon(seen):
     assert seen["seconds to cancel"] < 5  # a busy machine draws the window in software; the solve takes longer
+
+
+def test_levels_of_detail_are_made_in_the_background(seen):
+    assert seen["levels begin"] == ["RUNNING_MODAL"]
+    assert seen["levels"] == ["Big_LOD1", "Big_LOD2"]
+    assert seen["maps of a level"] == BOTH_MAPS
 
 
 def test_edit_mode_is_kept(seen):
