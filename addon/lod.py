@@ -166,7 +166,8 @@ class Source:
             made.append(level_object)
         context.view_layer.update()
         for index, level_object in enumerate(made, 1):
-            level_object.select_set(False)  # what is pressed next is meant for the object alone
+            if level_object.name in context.view_layer.objects:
+                level_object.select_set(False)  # what is pressed next is meant for the object alone
             matrix = obj.matrix_world.copy()
             matrix.translation.x += index * step
             level_object.matrix_world = matrix
@@ -201,9 +202,9 @@ def _remove_levels(name):
 
 
 def _collection(context, obj):
-    """The collection of the levels, beside the object."""
-    scene = context.scene.collection
-    beside = next((c for c in [scene, *scene.children_recursive] if obj.name in c.objects), scene)
+    """The collection of the levels, beside the object where that is shown and may be changed."""
+    shown = _shown_collections(context.view_layer.layer_collection)
+    beside = next((c for c in shown if obj.name in c.objects and c.library is None), context.scene.collection)
     for collection in beside.children:
         if collection.get(OF) == obj.name:
             return collection
@@ -211,6 +212,14 @@ def _collection(context, obj):
     collection[OF] = obj.name
     beside.children.link(collection)
     return collection
+
+
+def _shown_collections(layer):
+    """That of a layer and those below it, without the ones that are excluded from the view layer."""
+    if not layer.exclude:
+        yield layer.collection
+        for child in layer.children:
+            yield from _shown_collections(child)
 
 
 def _width(obj):

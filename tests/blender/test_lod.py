@@ -64,6 +64,24 @@ def test_levels_are_objects_in_a_collection_of_their_own():
     assert bpy.context.view_layer.objects.active == obj and obj.select_get()
 
 
+def test_levels_stand_beside_the_object_where_it_is_shown():
+    obj = torus(**FINE)
+    scene = bpy.context.scene.collection
+    for name in ("Excluded", "Shown"):
+        collection = bpy.data.collections.new(name)
+        scene.children.link(collection)
+        collection.objects.link(obj)
+    scene.objects.unlink(obj)
+    layers = bpy.context.view_layer.layer_collection.children
+    layers["Excluded"].exclude = True
+    select(obj)
+    make(levels=1)
+    assert bpy.data.collections["Shown"].children.keys() == ["Torus LODs"]
+    layers["Shown"].children["Torus LODs"].exclude = True
+    make(levels=2)  # what the artist has put away is replaced all the same
+    assert len(levels_of("Torus")) == len(bpy.data.collections["Torus LODs"].objects) == 2
+
+
 def test_the_number_of_levels_and_their_sizes():
     torus(**FINE)
     make(levels=2, ratio=0.5)
