@@ -49,6 +49,7 @@ MESHES = {
     "long tube": lambda: tube(24, 3000, height=40.0),
     "short tube": lambda: tube(3000, 12, height=0.2),
     "torus with 40 holes": lambda: pierced(families.torus(150, 100, shape="triangles", jitter=0.3), 40),
+    "random order": lambda: families.relabelled(sheet(240, 160, holes=40))[0],
     "genus 3 with 25 holes": lambda: pierced(
         families.uniform(
             (block := families.block_with_holes(3, refine=6, jitter=0.2)).vertices,

@@ -1,7 +1,5 @@
 #include "forms/harmonic_basis.h"
 
-#include <algorithm>
-
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::forms {
@@ -11,59 +9,10 @@ using mesh::edge_of;
 using mesh::HalfedgeHandle;
 using mesh::HalfEdges;
 using mesh::next;
-using mesh::opposite;
 using mesh::sign;
 using mesh::to_vertex;
 
-struct Neighbour {
-  int vertex;
-  double weight;
-};
-
-// The neighbours of v, ascending, weights of edges with the same ends added up.
-void neighbours(const HalfEdges& mesh, const std::vector<double>& weights, int v, std::vector<Neighbour>& ring) {
-  ring.clear();
-  const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
-  HalfedgeHandle h = start;
-  do {
-    if (to_vertex(mesh, h) != v) ring.push_back({to_vertex(mesh, h), weights[edge_of(h)]});
-    h = next(mesh, opposite(h));
-  } while (h != start);
-  std::stable_sort(ring.begin(), ring.end(),
-                   [](const Neighbour& a, const Neighbour& b) { return a.vertex < b.vertex; });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    if (kept > 0 && ring[kept - 1].vertex == ring[i].vertex) {
-      ring[kept - 1].weight += ring[i].weight;
-    } else {
-      ring[kept++] = ring[i];
-    }
-  }
-  ring.resize(kept);
-}
-
 }  // namespace
-
-solver::Laplacian laplacian(const HalfEdges& mesh, const std::vector<double>& weights, Progress& progress) {
-  const int n = static_cast<int>(mesh.n_vertices());
-  solver::Laplacian L(n, n);
-  L.reserve(2 * static_cast<Eigen::Index>(weights.size()) + n);
-  std::vector<Neighbour> ring;
-  for (int v = 0; v < n; ++v) {
-    progress.step(v, n);
-    neighbours(mesh, weights, v, ring);
-    double diagonal = 0;
-    for (const auto& entry : ring) diagonal += entry.weight;
-    L.startVec(v);
-    const auto middle =
-        std::partition_point(ring.begin(), ring.end(), [&](const Neighbour& e) { return e.vertex < v; });
-    for (auto e = ring.begin(); e != middle; ++e) L.insertBack(e->vertex, v) = -e->weight;
-    L.insertBack(v, v) = diagonal;
-    for (auto e = middle; e != ring.end(); ++e) L.insertBack(e->vertex, v) = -e->weight;
-  }
-  L.finalize();
-  return L;
-}
 
 Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
                                 const topology::IntegerForms& classes) {

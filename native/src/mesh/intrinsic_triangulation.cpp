@@ -4,10 +4,27 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/chunks.h"
+#include "base/page_allocator.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
 namespace {
+
+// The cotangent of the angle opposite each half-edge; those outside the surface are not set.
+Array<double> opposite_cotangents(const IntrinsicTriangulation& t, Workers& workers) {
+  Array<double> result(2 * t.lengths.size());
+  for_rows(workers, static_cast<int>(t.half_edges.n_faces()), [&](int f) {
+    const HalfedgeHandle h0 = t.half_edges.halfedge_handle(FaceHandle(f));
+    const HalfedgeHandle h1 = next(t.half_edges, h0), h2 = next(t.half_edges, h1);
+    const double a = t.lengths[edge_of(h0)], b = t.lengths[edge_of(h1)], c = t.lengths[edge_of(h2)];
+    const double area = triangle_area(a, b, c);
+    result[h0.idx()] = cotangent(a, b, c, area);
+    result[h1.idx()] = cotangent(b, c, a, area);
+    result[h2.idx()] = cotangent(c, a, b, area);
+  });
+  return result;
+}
 
 // Slack that mollification leaves each triangle, relative to the mean length.
 constexpr double kSlack = 1e-6;
@@ -19,22 +36,26 @@ constexpr int kMostFlipsOfAnEdge = 64;
 class Flipper {
  public:
   explicit Flipper(IntrinsicTriangulation& t)
-      : t_(t), mesh_(t.half_edges), queued_(t.lengths.size(), 1), flip_count_(t.lengths.size(), 0) {
-    stack_.reserve(t.lengths.size());
-    for (int e = static_cast<int>(t.lengths.size()) - 1; e >= 0; --e) stack_.push_back(e);  // lowest index first
+      : t_(t), mesh_(t.half_edges), queued_(t.lengths.size(), 0), flip_count_(t.lengths.size(), 0) {
+    Workers workers;
+    const Array<double> cotangents = opposite_cotangents(t, workers);
+    for_rows(workers, static_cast<int>(t.lengths.size()),
+             [&](int e) { queued_[e] = is_interior(e) && !is_delaunay(cotangents[2 * e], cotangents[2 * e + 1]); });
+    for (int e = static_cast<int>(t.lengths.size()) - 1; e >= 0; --e) {  // lowest index first
+      if (queued_[e] != 0) stack_.push_back(e);
+    }
   }
 
   void run(Progress& progress) {
-    const double total = static_cast<double>(stack_.size());
+    const double total = std::max(1.0, static_cast<double>(stack_.size()));
     for (std::size_t steps = 0; !stack_.empty(); ++steps) {
-      if (steps % 4096 == 0) progress.report(1.0 - static_cast<double>(stack_.size()) / total);
+      if (steps % 4096 == 0) progress.report(std::max(0.0, 1.0 - static_cast<double>(stack_.size()) / total));
       const int e = stack_.back();
       stack_.pop_back();
       queued_[e] = 0;
       const HalfedgeHandle a(2 * e), b(2 * e + 1);
-      const FaceHandle fa = mesh_.face_handle(a), fb = mesh_.face_handle(b);
-      if (!fa.is_valid() || !fb.is_valid() || fa == fb) continue;
-      if (is_delaunay(a, b) || ++flip_count_[e] > kMostFlipsOfAnEdge) continue;
+      if (!is_interior(e) || is_delaunay(opposite_cotangent(a), opposite_cotangent(b))) continue;
+      if (++flip_count_[e] > kMostFlipsOfAnEdge) continue;
       flip(e, a, b);
     }
   }
@@ -48,10 +69,14 @@ class Flipper {
     return cotangent(a, b, c, triangle_area(a, b, c));
   }
 
-  bool is_delaunay(HalfedgeHandle a, HalfedgeHandle b) const {
-    const double x = opposite_cotangent(a), y = opposite_cotangent(b);
-    return x + y >= -kDelaunayTolerance * (1 + std::abs(x) + std::abs(y));
+  // Between two different faces.
+  bool is_interior(int e) const {
+    const FaceHandle fa = mesh_.face_handle(HalfedgeHandle(2 * e)), fb = mesh_.face_handle(HalfedgeHandle(2 * e + 1));
+    return fa.is_valid() && fb.is_valid() && fa != fb;
   }
+
+  // By the cotangents opposite the edge.
+  static bool is_delaunay(double x, double y) { return x + y >= -kDelaunayTolerance * (1 + std::abs(x) + std::abs(y)); }
 
   // Length between the apices when both triangles are laid out in the plane with the edge on the x axis.
   double new_length(HalfedgeHandle a, HalfedgeHandle b) const {
@@ -110,17 +135,13 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, const Hal
 void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress) { Flipper(triangulation).run(progress); }
 
 std::vector<double> cotangent_weights(const IntrinsicTriangulation& t, Progress& progress) {
-  std::vector<double> weights(t.lengths.size(), 0.0);
-  for (int f = 0; f < static_cast<int>(t.half_edges.n_faces()); ++f) {
-    progress.step(f, t.half_edges.n_faces());
-    const HalfedgeHandle h0 = t.half_edges.halfedge_handle(FaceHandle(f));
-    const HalfedgeHandle h1 = next(t.half_edges, h0), h2 = next(t.half_edges, h1);
-    const int i = edge_of(h0), j = edge_of(h1), k = edge_of(h2);
-    const double a = t.lengths[i], b = t.lengths[j], c = t.lengths[k], area = triangle_area(a, b, c);
-    weights[i] += 0.5 * cotangent(a, b, c, area);
-    weights[j] += 0.5 * cotangent(b, c, a, area);
-    weights[k] += 0.5 * cotangent(c, a, b, area);
-  }
+  Workers workers;
+  const Array<double> cotangents = opposite_cotangents(t, workers);
+  progress.report(0.5);
+  const auto half = [&](int h) { return t.half_edges.is_boundary(HalfedgeHandle(h)) ? 0.0 : 0.5 * cotangents[h]; };
+  std::vector<double> weights(t.lengths.size());
+  for_rows(workers, static_cast<int>(weights.size()), [&](int e) { weights[e] = half(2 * e) + half(2 * e + 1); });
+  progress.report(1.0);
   return weights;
 }
 

@@ -81,7 +81,7 @@ class PaperSolve {
   const PaperLevels& levels_;
   const PaperOptions& options_;
   Progress& progress_;
-  solver::Workers workers_;
+  Workers workers_;
   std::vector<LevelReport> reports_;
   double work_ = 0, done_ = 0;  // in faces of all levels, and what part of it is done
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/chunks.h"
 #include "base/page_allocator.h"
-#include "solver/chunks.h"
 
 namespace holomorph::solver {
 namespace {

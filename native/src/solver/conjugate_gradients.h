@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "base/workers.h"
 #include "solver/laplace_solver.h"
-#include "solver/workers.h"
 
 namespace holomorph::solver {
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "solver/block_solve.h"
+#include "solver/renumbering.h"
 
 namespace holomorph::solver {
 namespace {
@@ -11,6 +12,7 @@ class MultigridSolver final : public LaplaceSolver {
   MultigridSolver(Laplacian&& L, std::vector<int> held, Progress& progress) : held_(std::move(held)) {
     L_.swap(L);
     L_.makeCompressed();
+    renumber(progress);
     try {
       hierarchy_ = make_hierarchy(L_, held_, workers_, progress);
     } catch (const SolverError& error) {
@@ -21,16 +23,10 @@ class MultigridSolver final : public LaplaceSolver {
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
                         Progress& progress) override {
-    if (!direct_) {
-      try {
-        return solve_by_multigrid(B, conditions, progress);
-      } catch (const SolverError& error) {
-        fall_back(error, progress);
-      }
-    }
-    Eigen::MatrixXd X = direct_->solve(B, conditions, progress);
-    residual_ = std::max(residual_, direct_->residual());
-    iterations_ = direct_->iterations();
+    if (order_.empty()) return solve_in_order(B, conditions, progress);
+    const Eigen::MatrixXd solution = solve_in_order(B(order_, Eigen::all), conditions, progress);
+    Eigen::MatrixXd X(B.rows(), B.cols());
+    X(order_, Eigen::all) = solution;
     return X;
   }
 
@@ -43,6 +39,33 @@ class MultigridSolver final : public LaplaceSolver {
 
  private:
   static constexpr double kSetUp = 0.3;  // of the whole work, for the progress function
+
+  // From here on vertices have the numbers of the solver's own order, where the given one is bad.
+  void renumber(Progress& progress) {
+    if (!is_scattered(L_, workers_)) return;
+    order_ = breadth_first_order(L_, progress);
+    Laplacian in_order = renumbered(L_, order_);
+    L_.swap(in_order);
+    std::vector<int> number(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) number[order_[i]] = static_cast<int>(i);
+    for (int& v : held_) v = number[v];
+    std::sort(held_.begin(), held_.end());
+  }
+
+  Eigen::MatrixXd solve_in_order(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                                 Progress& progress) {
+    if (!direct_) {
+      try {
+        return solve_by_multigrid(B, conditions, progress);
+      } catch (const SolverError& error) {
+        fall_back(error, progress);
+      }
+    }
+    Eigen::MatrixXd X = direct_->solve(B, conditions, progress);
+    residual_ = std::max(residual_, direct_->residual());
+    iterations_ = direct_->iterations();
+    return X;
+  }
 
   void fall_back(const SolverError& error, Progress& progress) {
     remark_ = std::string("the direct solver took over: ") + error.what();
@@ -89,8 +112,9 @@ class MultigridSolver final : public LaplaceSolver {
     }
   }
 
-  Laplacian L_;  // moved on to the direct solver, where that takes over
-  std::vector<int> held_;
+  Laplacian L_;             // moved on to the direct solver, where that takes over
+  std::vector<int> order_;  // the given number of each of the solver's, empty where these are the same
+  std::vector<int> held_;   // in the solver's order
   Workers workers_;
   Hierarchy hierarchy_;
   std::unique_ptr<LaplaceSolver> direct_;

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <exception>
 
+#include "base/chunks.h"
 #include "base/page_allocator.h"
 #include "base/progress.h"
-#include "solver/chunks.h"
 
 namespace holomorph::solver {
 

@@ -1,4 +1,4 @@
-#include "solver/workers.h"
+#include "base/workers.h"
 
 #include <system_error>
 
@@ -9,7 +9,7 @@
 #include <immintrin.h>
 #endif
 
-namespace holomorph::solver {
+namespace holomorph {
 namespace {
 
 constexpr int kCountBits = 24;
@@ -88,4 +88,4 @@ void Workers::work(int thread) {
   }
 }
 
-}  // namespace holomorph::solver
+}  // namespace holomorph

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace holomorph::solver {
+namespace holomorph {
 
 /// A cycle of multigrid is some thirty short loops. OpenMP's threads meet at the end of each, and where the machine has
 /// other work, every meeting waits for whichever of them is not running: six times slower with two threads than with
@@ -57,4 +57,4 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace holomorph::solver
+}  // namespace holomorph

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "solver/workers.h"
+#include "base/workers.h"
 
-namespace holomorph::solver {
+namespace holomorph {
 
 /// Rows of a chunk: enough work to be worth handing out, few enough to share out the rows of a coarse level.
 inline constexpr int kChunk = 4096;
@@ -35,4 +35,4 @@ Sum sum_over_rows(Workers& workers, int rows, const Sum& zero, const Body& body)
   return total;
 }
 
-}  // namespace holomorph::solver
+}  // namespace holomorph

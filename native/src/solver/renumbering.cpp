@@ -1,0 +1,88 @@
+#include "solver/renumbering.h"
+
+#include <cstdint>
+
+namespace holomorph::solver {
+namespace {
+
+// Up to here a block of 8 right-hand sides is 1 MB.
+constexpr int kCached = 32'768;
+// An entry is far from a row where it is further than this from all entries of the row: another page of memory.
+constexpr int kFar = 256;
+// Of all entries of a matrix. A random order has nearly all, an order along a curve or by slices a tenth at most.
+constexpr double kMostFar = 0.5;
+
+// Entries of row i further than kFar from every entry of row i-1.
+int far_entries(const Laplacian& L, int i) {
+  const int* const start = L.outerIndexPtr();
+  const int* const column = L.innerIndexPtr();
+  int count = 0;
+  int before = start[i - 1];
+  for (int e = start[i]; e < start[i + 1]; ++e) {
+    // columns ascend: of the row before, the last entry that is not beyond this one and the first that is
+    while (before < start[i] && column[before] <= column[e]) ++before;
+    const bool near_last = before > start[i - 1] && column[e] - column[before - 1] <= kFar;
+    const bool near_first = before < start[i] && column[before] - column[e] <= kFar;
+    count += !near_last && !near_first;
+  }
+  return count;
+}
+
+}  // namespace
+
+bool is_scattered(const Laplacian& L, Workers& workers) {
+  const int n = static_cast<int>(L.rows());
+  if (n <= kCached) return false;
+  const auto far = sum_over_rows(workers, n, std::int64_t{0}, [&](int i, std::int64_t& sum) {
+    if (i > 0) sum += far_entries(L, i);
+  });
+  return static_cast<double>(far) > kMostFar * static_cast<double>(L.nonZeros());
+}
+
+std::vector<int> breadth_first_order(const Laplacian& L, Progress& progress) {
+  const int n = static_cast<int>(L.rows());
+  std::vector<int> order;
+  order.reserve(n);
+  std::vector<char> seen(n, 0);
+  for (int first = 0; first < n; ++first) {
+    if (seen[first] != 0) continue;
+    seen[first] = 1;
+    order.push_back(first);
+    for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
+      if (next % kChunk == 0) progress.report(0);
+      const int i = order[next];
+      for (int e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) {
+        const int j = L.innerIndexPtr()[e];
+        if (seen[j] == 0) order.push_back(j);
+        seen[j] = 1;
+      }
+    }
+  }
+  return order;
+}
+
+// Row by row of the given matrix in the new order, each entry is appended to the row of the other end: ascending
+// without sorting, as the matrix is symmetric.
+Laplacian renumbered(const Laplacian& L, const std::vector<int>& order) {
+  const int n = static_cast<int>(L.rows());
+  std::vector<int> number(n), end(n);
+  for (int i = 0; i < n; ++i) number[order[i]] = i;
+  Laplacian result(n, n);
+  result.resizeNonZeros(L.nonZeros());
+  int* const start = result.outerIndexPtr();
+  start[0] = 0;
+  for (int i = 0; i < n; ++i) {
+    end[i] = start[i];
+    start[i + 1] = start[i] + L.outerIndexPtr()[order[i] + 1] - L.outerIndexPtr()[order[i]];
+  }
+  for (int j = 0; j < n; ++j) {
+    for (Laplacian::InnerIterator it(L, order[j]); it; ++it) {
+      const int place = end[number[it.row()]]++;
+      result.innerIndexPtr()[place] = j;
+      result.valuePtr()[place] = it.value();
+    }
+  }
+  return result;
+}
+
+}  // namespace holomorph::solver
