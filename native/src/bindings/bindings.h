@@ -11,5 +11,6 @@ void bind_bounded_structure(pybind11::module_& m);
 void bind_progressive_mesh(pybind11::module_& m);
 void bind_laplace_problem(pybind11::module_& m);
 void bind_punctured_structure(pybind11::module_& m);
+void bind_rectangle(pybind11::module_& m);
 
 }  // namespace holomorph::bindings

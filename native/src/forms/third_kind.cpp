@@ -39,9 +39,9 @@ Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Singularities& s) 
   return B;
 }
 
-// Largest |B - L X| at a vertex over the largest sum of the terms; `free` selects the vertices of each column.
+// Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at held vertices are no equations.
 double relative_residual(const HalfEdges& mesh, const std::vector<double>& weights, const Eigen::MatrixXd& B,
-                         const Eigen::MatrixXd& X, const std::vector<char>& held, Eigen::Index first_held_column) {
+                         const Eigen::MatrixXd& X, const std::vector<int>& held) {
   Eigen::MatrixXd rest = B, size = B.cwiseAbs();
   for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
     const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
@@ -51,36 +51,20 @@ double relative_residual(const HalfEdges& mesh, const std::vector<double>& weigh
     size.row(head) += flux.cwiseAbs();
     size.row(tail) += flux.cwiseAbs();
   }
-  for (std::size_t v = 0; v < held.size(); ++v) {
-    if (held[v]) rest.row(static_cast<Eigen::Index>(v)).tail(rest.cols() - first_held_column).setZero();
-  }
+  for (const int v : held) rest.row(v).tail(rest.cols() / 2).setZero();
   return (rest.cwiseAbs().colwise().maxCoeff().array() / size.colwise().maxCoeff().array()).maxCoeff();
-}
-
-std::vector<char> boundary(const HalfEdges& mesh) {
-  std::vector<char> held(mesh.n_vertices(), 0);
-  for (int i = 0; i < static_cast<int>(mesh.n_halfedges()); ++i) {
-    if (!mesh.face_handle(HalfedgeHandle(i)).is_valid()) held[to_vertex(mesh, HalfedgeHandle(i))] = 1;
-  }
-  return held;
 }
 
 }  // namespace
 
 ThirdKind third_kind(const HalfEdges& mesh, const std::vector<double>& weights, const Singularities& s,
-                     solver::LaplaceSolver& solver, solver::Condition condition, Progress& progress) {
+                     solver::LaplaceSolver& solver, const std::vector<int>& held, Progress& progress) {
   const auto m = s.residues.cols();
   const Eigen::MatrixXd B = right_hand_sides(mesh, s);
-  Eigen::MatrixXd X(B.rows(), B.cols());
-  if (condition == solver::Condition::natural) {
-    X = solver.solve(B, condition, progress);
-  } else {
-    X.leftCols(m) = solver.solve(B.leftCols(m), solver::Condition::natural, progress);
-    X.rightCols(m) = solver.solve(B.rightCols(m), condition, progress);
-  }
-  const bool holds = condition == solver::Condition::dirichlet;
-  const std::vector<char> held = holds ? boundary(mesh) : std::vector<char>();
-  return {s.part.u + X.leftCols(m), s.part.v + X.rightCols(m), relative_residual(mesh, weights, B, X, held, m)};
+  std::vector<solver::Condition> conditions(2 * m, solver::Condition::natural);
+  if (!held.empty()) std::fill(conditions.begin() + m, conditions.end(), solver::Condition::dirichlet);
+  const Eigen::MatrixXd X = solver.solve(B, conditions, progress);
+  return {s.part.u + X.leftCols(m), s.part.v + X.rightCols(m), relative_residual(mesh, weights, B, X, held)};
 }
 
 Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Singularities& s, const std::vector<mesh::Star>& stars,

@@ -26,16 +26,17 @@ struct ThirdKind {
 };
 
 /// @param weights #E, of the triangulation that `solver` solves on
-/// @param condition of v at the vertices held by the solver: dirichlet makes v = 0 there; u is natural
+/// @param held the vertices that the solver can hold: all of the boundary, where v = 0 and u is natural; none on a
+/// closed surface
 /// @return pairs whose u has the periods of the classes: where there are harmonic forms not yet conjugate, see
 /// harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
 ThirdKind third_kind(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
-                     const Singularities& singularities, solver::LaplaceSolver& solver, solver::Condition condition,
+                     const Singularities& singularities, solver::LaplaceSolver& solver, const std::vector<int>& held,
                      Progress& progress);
 
 /// C, #forms x m: u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v is.
 /// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the puncture).
-/// @param harmonic,gram_matrix on the same triangulation
+/// @param harmonic,gram_matrix on the same triangulation; with boundary the natural forms, of all classes
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const Singularities& singularities,
                               const std::vector<mesh::Star>& stars, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);

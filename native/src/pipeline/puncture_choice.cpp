@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/errors.h"
+#include "mesh/boundary_loops.h"
 #include "mesh/graph_distances.h"
 #include "mesh/stars.h"
 
@@ -62,6 +63,15 @@ std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& 
   if (best.empty())
     throw TopologyError("no two vertices can be punctures: the stars of any two meet; subdivide the mesh");
   return best;
+}
+
+int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
+  const std::vector<int> boundary = mesh::boundary_vertices(mesh::boundary_loops(surface, half_edges));
+  const std::vector<double> distance = mesh::graph_distances(half_edges, surface.edge_lengths, boundary);
+  const int deepest = farthest(surface, half_edges, distance, std::vector<char>(surface.vertex_count, 0));
+  if (deepest < 0)
+    throw TopologyError("every vertex is next to the boundary: none can be a puncture; subdivide the mesh");
+  return deepest;
 }
 
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,

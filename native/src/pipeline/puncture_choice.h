@@ -20,6 +20,10 @@ struct Punctures {
 /// @throws TopologyError if no two stars are apart
 std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
 
+/// The vertex farthest from the boundary along the edges whose star does not touch it.
+/// @throws TopologyError if there is none
+int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
+
 /// The residues meant by none: 1 and -1 for two punctures of a closed surface; for more of them 1 everywhere but at the
 /// one with the largest sum of distances to the others, which takes the rest. With a boundary, which takes the rest, 1.
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "base/errors.h"
-#include "mesh/components.h"
 #include "pipeline/threads.h"
 #include "topology/puncture_classes.h"
 
@@ -35,12 +34,18 @@ Eigen::VectorXcd joined(const Eigen::MatrixXd& columns) {
   return result;
 }
 
-void check_boundary(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
-  const int boundaries = mesh::boundary_count(half_edges);
-  if (boundaries == 0) return;
-  const int genus = mesh::genus(mesh::euler_characteristic(surface), boundaries);
-  throw TopologyError("the surface has genus " + std::to_string(genus) + " and " + std::to_string(boundaries) +
-                      " boundary loops; punctures need a closed surface or a disk");
+// Fills in what was not chosen.
+Punctures completed(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Punctures punctures, bool closed) {
+  if (punctures.vertices.empty() && punctures.residues.empty()) {
+    if (closed)
+      punctures.vertices = far_apart(surface, half_edges);
+    else
+      punctures.vertices = {deepest_vertex(surface, half_edges)};
+  }
+  check_punctures(punctures, surface.vertex_count, closed);
+  if (punctures.residues.empty())
+    punctures.residues = default_residues(surface, half_edges, punctures.vertices, closed);
+  return punctures;
 }
 
 std::vector<int> seams(const mesh::HalfEdges& half_edges, const topology::FundamentalDomain& domain,
@@ -113,55 +118,55 @@ PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures p
 
   progress.stage("punctures", 0.0, 0.1);
   result.half_edges = mesh::half_edges(surface, progress);
-  check_boundary(surface, result.half_edges);
-  if (punctures.vertices.empty() && punctures.residues.empty())
-    punctures.vertices = far_apart(surface, result.half_edges);
-  check_punctures(punctures, surface.vertex_count, true);
-  if (punctures.residues.empty())
-    punctures.residues = default_residues(surface, result.half_edges, punctures.vertices, true);
-  mesh::turn_diagonals_away(result.surface, punctures.vertices, punctures.names);
+  result.closed = mesh::boundary_count(result.half_edges) == 0;
+  result.punctures = completed(surface, result.half_edges, std::move(punctures), result.closed);
+  mesh::turn_diagonals_away(result.surface, result.punctures.vertices, result.punctures.names);
   result.half_edges = mesh::half_edges(result.surface, progress);
   const auto triangulation = mesh::intrinsic_triangulation(result.surface, result.half_edges);
   result.mollification = triangulation.mollification;
-  result.stars = mesh::stars(result.half_edges, triangulation.lengths, punctures.vertices, punctures.names);
-  result.punctures = std::move(punctures);
+  result.stars =
+      mesh::stars(result.half_edges, triangulation.lengths, result.punctures.vertices, result.punctures.names);
 
   progress.stage("homology", 0.1, 0.25);
   const auto domain = topology::fundamental_domain(result.surface, result.half_edges, progress, result.stars);
   result.seams = seams(result.half_edges, domain, result.punctures, result.stars);
-  const auto handles = topology::cohomology_basis(result.half_edges, domain);
+  auto classes = topology::cohomology_basis(result.half_edges, domain);
+  if (!result.closed) topology::add_paths_between_loops(result.half_edges, domain, classes);
   forms::Singularities singularities;
   singularities.classes = topology::puncture_classes(result.half_edges, domain, result.stars);
-  result.classes = topology::beside(handles, singularities.classes);
+  result.classes = topology::beside(classes, singularities.classes);
   result.sheets = uv::corner_sheets(result.surface, result.half_edges, domain, result.classes, progress);
 
   progress.stage("Laplacian", 0.25, 0.35);
   const auto weights = mesh::cotangent_weights(triangulation, progress);
+  const auto& lengths = triangulation.lengths;
   singularities.residues = real_columns(result.punctures.residues);
-  singularities.part =
-      forms::singular_part(result.half_edges, triangulation.lengths, result.stars, singularities.residues);
-  singularities.outer_weights = forms::outer_weights(result.half_edges, triangulation.lengths, weights, result.stars);
+  singularities.part = forms::singular_part(result.half_edges, lengths, result.stars, singularities.residues);
+  singularities.outer_weights = forms::outer_weights(result.half_edges, lengths, weights, result.stars);
   auto laplacian = forms::laplacian(result.half_edges, weights, progress);
 
   progress.stage("differential of the third kind", 0.35, 0.6);
-  const auto columns = singularities.residues.cols();
-  const auto choice = solver::choose_method(options.solver, laplacian.rows(), handles.form_count + 2 * columns);
-  const auto solver = solver::make_solver(choice.method, std::move(laplacian), {}, progress);
-  const auto pair =
-      forms::third_kind(result.half_edges, weights, singularities, *solver, solver::Condition::natural, progress);
+  const auto held = mesh::boundary_vertices(domain.boundary);
+  const auto choice =
+      solver::choose_method(options.solver, laplacian.rows(), classes.form_count + 2 * singularities.residues.cols());
+  const auto solver = solver::make_solver(choice.method, std::move(laplacian), held, progress);
+  const auto pair = forms::third_kind(result.half_edges, weights, singularities, *solver, held, progress);
   result.residuals.harmonicity = pair.harmonicity;
   result.at_vertex = joined(pair.u) + Complex(0, 1) * joined(pair.v);
 
   progress.stage("harmonic forms", 0.6, 0.9);
-  result.harmonic = {handles, forms::RowMajorMatrix(surface.vertex_count, 0)};
-  result.handle_part = Eigen::VectorXcd::Zero(handles.form_count);
-  result.periods = Eigen::MatrixXcd::Zero(handles.form_count, handles.form_count / 2);
-  if (handles.form_count > 0) {
+  const int n = classes.form_count;
+  result.harmonic = {classes, forms::RowMajorMatrix(surface.vertex_count, 0)};
+  result.handle_part = Eigen::VectorXcd::Zero(n);
+  result.periods = Eigen::MatrixXcd::Zero(n, 0);
+  if (n > 0) {
     result.harmonic =
-        forms::harmonic_basis(result.half_edges, weights, handles, *solver, solver::Condition::natural, progress);
+        forms::harmonic_basis(result.half_edges, weights, classes, *solver, solver::Condition::natural, progress);
     const Eigen::MatrixXd G = forms::gram_matrix(result.half_edges, weights, result.harmonic, progress);
-    const auto canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, handles, progress));
-    result.periods = conformal::holomorphic_basis(G, canonical).periods;
+    if (result.closed) {
+      const auto canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, progress));
+      result.periods = conformal::holomorphic_basis(G, canonical).periods;
+    }
     result.handle_part =
         -joined(forms::harmonic_part(result.half_edges, singularities, result.stars, result.harmonic, G));
     result.residuals.harmonicity =
@@ -181,7 +186,7 @@ PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures p
 uv::UvArray uv_map(const PuncturedStructure& s, const Eigen::VectorXcd& c) {
   const auto handles = s.handle_part.size();
   const auto holomorphic = c.tail(c.size() - 1);
-  Eigen::VectorXcd p(handles + static_cast<Eigen::Index>(s.punctures.residues.size()) - 1);
+  Eigen::VectorXcd p(s.classes.form_count);
   p.head(handles) = s.periods * holomorphic + c[0] * s.handle_part;
   for (Eigen::Index i = handles; i < p.size(); ++i) p[i] = c[0] * s.punctures.residues[i - handles];
   const Eigen::VectorXcd at_vertex = c[0] * s.at_vertex + s.harmonic.functions.cast<Complex>() * p.head(handles);
@@ -205,6 +210,12 @@ Eigen::MatrixXcd edge_values(const PuncturedStructure& s) {
       values(0, edge_of(mesh::next(s.half_edges, h))) = std::numeric_limits<double>::quiet_NaN();
   }
   return values;
+}
+
+Eigen::VectorXcd disk_map(const PuncturedStructure& s) {
+  Eigen::VectorXcd z = (Complex(0, 2 * std::numbers::pi) * s.at_vertex.array()).exp();
+  z[s.stars[0].vertex] = 0;
+  return z;
 }
 
 }  // namespace holomorph::pipeline

@@ -33,10 +33,8 @@ double balancing_shift(const Eigen::VectorXd& x, const Eigen::VectorXd& areas) {
 }  // namespace
 
 PointArray sphere_map(const PuncturedStructure& s) {
-  if (s.handle_part.size() > 0 || s.stars.size() != 2) {
-    throw TopologyError("a surface of genus " + std::to_string(s.handle_part.size() / 2) + " with " +
-                        std::to_string(s.stars.size()) +
-                        " punctures has no map to the sphere; genus 0 and 2 are needed");
+  if (!s.closed || s.handle_part.size() > 0 || s.stars.size() != 2) {
+    throw TopologyError("only a closed surface of genus 0 with two punctures has a map to the sphere here");
   }
   // -log |z| = 2 pi v, and the height (1 - |z|^2) / (1 + |z|^2) is its hyperbolic tangent.
   const Eigen::VectorXcd angle = 2 * std::numbers::pi / s.punctures.residues[0] * s.at_vertex;

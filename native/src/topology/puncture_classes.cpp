@@ -9,11 +9,13 @@ using mesh::sign;
 
 IntegerForms puncture_classes(const HalfEdges& mesh, const FundamentalDomain& domain,
                               const std::vector<mesh::Star>& stars) {
+  const bool closed = domain.gaps.empty();
+  const HalfedgeHandle out = closed ? stars.back().link[0] : opposite(domain.gaps[0]);
   IntegerForms forms;
-  forms.form_count = static_cast<int>(stars.size()) - 1;
+  forms.form_count = static_cast<int>(stars.size()) - (closed ? 1 : 0);
   forms.rows.resize(mesh.n_edges());
   for (int i = 0; i < forms.form_count; ++i) {
-    int here = face_of(mesh, stars[i].link[0]), there = face_of(mesh, stars.back().link[0]);
+    int here = face_of(mesh, stars[i].link[0]), there = face_of(mesh, out);
     while (here != there) {
       const bool leaving = domain.face_depth[here] >= domain.face_depth[there];
       int& face = leaving ? here : there;
@@ -21,6 +23,7 @@ IntegerForms puncture_classes(const HalfEdges& mesh, const FundamentalDomain& do
       forms.rows[edge_of(h)].emplace_back(i, leaving ? sign(h) : -sign(h));
       face = face_of(mesh, opposite(h));
     }
+    if (!closed) forms.rows[edge_of(out)].emplace_back(i, sign(out));
   }
   return forms;
 }

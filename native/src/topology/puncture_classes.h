@@ -6,10 +6,11 @@
 
 namespace holomorph::topology {
 
-/// One class for each star but the last: +1 counter-clockwise around its star, -1 around the last one, 0 around the
-/// others. It counts the signed crossings of the dual path through D from the face of the star's link[0] to that of the
-/// last star's; closed on every face outside the stars, 0 on all spokes, and on the link edges but link[0].
-/// @param domain made with these stars, of a closed surface
+/// The signed crossings of dual paths through D, each from the face of a star's link[0]: +1 counter-clockwise around
+/// that star. Closed on every face outside the stars; 0 on all spokes and on the link edges but link[0]. Closed
+/// surface: one class for each star but the last, -1 around the last, where its path ends. With boundary: one for each
+/// star, its path leaves through the gap of boundary loop 0.
+/// @param domain made with these stars
 IntegerForms puncture_classes(const HalfEdges& half_edges, const FundamentalDomain& domain,
                               const std::vector<mesh::Star>& stars);
 

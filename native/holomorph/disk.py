@@ -1,0 +1,132 @@
+"""Disks: the Riemann map to the unit disk, the map to a rectangle, and which of them is taken without a choice."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import _native, arrays
+from .report import finite_or_none
+from .results import Structure, checked_coefficients
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneMap(Structure):
+    """Base of the results for disks: one fixed map to the plane without a seam, with no forms to mix."""
+
+    @cached_property
+    def seams(self):
+        """(0,): the map is continuous."""
+        return arrays.frozen(np.empty(0, dtype=np.int32))
+
+    @cached_property
+    def holomorphic_forms(self):
+        """(0, #E): there are no forms on a disk, and none to mix."""
+        return arrays.frozen(np.empty((0, len(self.edges)), dtype=np.complex128))
+
+    def prepare_uv(self, progress=None):
+        """Nothing is left to do: the map is that of the artist's triangles."""
+
+    @property
+    def uv_solver(self):
+        """The same as `solver`."""
+        return self.solver
+
+    def balanced_coefficients(self):
+        """(0,): the map is fixed."""
+        return arrays.frozen(np.empty(0, dtype=np.complex128))
+
+    def uv(self, coefficients=()):
+        """(#C, 2) UVs, continuous everywhere; there are no coefficients."""
+        checked_coefficients(coefficients, 0, np.complex128)
+        z = self._plane[self._component.corner_vertices]
+        return arrays.frozen(np.stack([z.real, z.imag], axis=1))
+
+
+@dataclass(frozen=True, eq=False)
+class DiskMap(PlaneMap):
+    """Result of `conformal_structure` for a disk with a puncture: its Riemann map z = exp(2 pi i (u + iv)) to the unit
+    disk, where u + iv has the residue 1 at the puncture. z is 0 there and |z| = 1 on the boundary; a rotation is free."""
+
+    @property
+    def description(self):
+        """What was made, in one phrase."""
+        return f"disk map, centre at vertex {self.punctures[0]}"
+
+    @cached_property
+    def punctures(self):
+        """(1,): the vertex that goes to 0."""
+        return self._of_surface(self._native.punctures())
+
+    @cached_property
+    def residues(self):
+        """(1,): 1."""
+        return self._native.residues()
+
+    @cached_property
+    def _plane(self):
+        return arrays.frozen(self._native.disk_map().ravel())
+
+    def disk_map(self):
+        """(#V,) complex: |z| < 1 inside, |z| = 1 on the boundary, NaN at isolated vertices."""
+        return self._at_vertices(self._plane)
+
+    def invariants(self):
+        """The centre, as plain data: all disks are alike."""
+        return {"punctures": self.punctures.tolist()}
+
+
+@dataclass(frozen=True, eq=False)
+class RectangleMap(PlaneMap):
+    """Result of `conformal_structure` for a disk with four corners on its boundary: the conformal map to a rectangle.
+
+    UVs have the width 1 and the height `modulus`, corner 0 at the origin, corner 1 at (1, 0); each of the four sides is
+    straight, exactly."""
+
+    @property
+    def description(self):
+        """What was made, in one phrase."""
+        names = [str(corner) for corner in self.corners]
+        text = f"rectangle with corners {', '.join(names[:-1])} and {names[-1]}"
+        count = len(self.collapsed_triangles)
+        if count == 0:
+            return text
+        return f"{text}; {count} triangle{'s' if count > 1 else ''} along one side collapsed"
+
+    @cached_property
+    def corners(self):
+        """(4,) vertices, in the order of the boundary, the surface on its left."""
+        return self._of_surface(self._native.corners())
+
+    @property
+    def modulus(self):
+        """Height over width, between `modulus_bounds`: a conformal invariant of the surface with its four corners."""
+        return self._native.modulus()[0]
+
+    @property
+    def modulus_bounds(self):
+        """(lower, upper): guaranteed bounds of the modulus of the polyhedral surface."""
+        return self._native.modulus()[1:]
+
+    @cached_property
+    def collapsed_triangles(self):
+        """(#,) triangles all of whose corners lie on one side: a map that makes the side straight collapses them."""
+        return self._native.collapsed_triangles()
+
+    @cached_property
+    def _plane(self):
+        return arrays.frozen((self._native.u() + 1j * self.modulus * self._native.v()).ravel())
+
+    def invariants(self):
+        """The corners, and the modulus with its bounds, as plain data."""
+        return {
+            "rectangle_corners": self.corners.tolist(),
+            "modulus": finite_or_none(self.modulus),
+            "modulus_bounds": list(self.modulus_bounds),
+        }
+
+
+def automatic_corners(component):
+    """The corners of a disk that is a rectangle at first sight: its boundary turns by more than 45 degrees at exactly
+    four vertices, inwards at all of them. None for other disks, which go to the unit disk."""
+    return _native.clear_corners(component._native)

@@ -1,0 +1,180 @@
+#include "pipeline/rectangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/errors.h"
+#include "mesh/components.h"
+#include "mesh/triangle_geometry.h"
+#include "pipeline/threads.h"
+
+namespace holomorph::pipeline {
+namespace {
+
+using mesh::HalfedgeHandle;
+using Sides = std::array<std::vector<int>, 4>;  // from corner i to the next, both included
+
+// From this change of direction on, in radians, a boundary vertex is a corner.
+constexpr double kCorner = std::numbers::pi / 4;
+
+// The vertices of the boundary, the surface on its left, from the lowest.
+std::vector<int> around(const mesh::HalfEdges& half_edges, const mesh::BoundaryLoops& boundary) {
+  std::vector<int> vertices;
+  for (const HalfedgeHandle h : boundary.loops[0]) vertices.push_back(mesh::from_vertex(half_edges, h));
+  std::reverse(vertices.begin() + 1, vertices.end());
+  return vertices;
+}
+
+mesh::BoundaryLoops checked_boundary(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
+  auto boundary = mesh::boundary_loops(surface, half_edges);
+  const int genus = mesh::genus(mesh::euler_characteristic(surface), boundary.count());
+  if (genus == 0 && boundary.count() == 1) return boundary;
+  throw TopologyError("the surface has genus " + std::to_string(genus) + " and " + std::to_string(boundary.count()) +
+                      " boundary loops; rectangle corners need a disk");
+}
+
+Sides sides(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
+            const std::vector<int>& names) {
+  const auto name = [&](int v) { return std::to_string(names.empty() ? v : names[v]); };
+  if (corners.size() != 4)
+    throw TopologyError("there are " + std::to_string(corners.size()) + " rectangle corners; four are needed");
+  const int n = static_cast<int>(loop.size());
+  std::vector<int> place(vertex_count, -1);
+  for (int i = 0; i < n; ++i) place[loop[i]] = i;
+  std::array<int, 4> steps{};  // from corner 0
+  for (int i = 0; i < 4; ++i) {
+    const int v = corners[i];
+    if (v < 0 || v >= vertex_count)
+      throw TopologyError("rectangle corner " + std::to_string(v) + " is no vertex: there are " +
+                          std::to_string(vertex_count));
+    if (std::count(corners.begin(), corners.end(), v) > 1)
+      throw TopologyError("rectangle corner " + name(v) + " is given twice");
+    if (place[v] < 0) throw TopologyError("rectangle corner " + name(v) + " does not lie on the boundary");
+    steps[i] = (place[v] - place[corners[0]] + n) % n;
+  }
+  if (!std::is_sorted(steps.begin(), steps.end())) {
+    std::vector<int> order(corners);
+    std::sort(order.begin() + 1, order.end(), [&](int a, int b) {
+      return (place[a] - place[corners[0]] + n) % n < (place[b] - place[corners[0]] + n) % n;
+    });
+    std::string wanted;
+    for (const int v : order) wanted += (wanted.empty() ? "" : ", ") + name(v);
+    throw TopologyError(
+        "the rectangle corners are not in the order of the boundary, the surface on its left: that is " + wanted);
+  }
+  Sides result;
+  for (int i = 0; i < 4; ++i) {
+    const int end = i < 3 ? steps[i + 1] : n;
+    for (int s = steps[i]; s <= end; ++s) result[i].push_back(loop[(place[corners[0]] + s) % n]);
+  }
+  return result;
+}
+
+// u and v as columns, their energies, and what the solvers report.
+struct Solved {
+  Eigen::MatrixXd functions;
+  double energy[2] = {0, 0};
+  double harmonicity = 0;
+  SolverReport solver;
+};
+
+Solved solve(const mesh::IntrinsicTriangulation& triangulation, const Sides& sides, const Options& options, double from,
+             double to, Progress& progress) {
+  const auto weights = mesh::cotangent_weights(triangulation, progress);
+  const auto L = forms::laplacian(triangulation.half_edges, weights, progress);
+  Solved result{Eigen::MatrixXd(L.rows(), 2), {0, 0}, 0, {}};
+  for (int axis = 0; axis < 2; ++axis) {
+    progress.stage(axis == 0 ? "width" : "height", from + (to - from) * axis / 2, from + (to - from) * (axis + 1) / 2);
+    // u: 0 on side 3, 1 on side 1; v: 0 on side 0, 1 on side 2
+    const auto &zero = sides[axis == 0 ? 3 : 0], &one = sides[axis == 0 ? 1 : 2];
+    std::vector<int> held = zero;
+    held.insert(held.end(), one.begin(), one.end());
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(L.rows());
+    for (const int v : one) f[v] = 1;
+    auto matrix = L;
+    const auto choice = solver::choose_method(options.solver, L.rows(), 1);
+    const auto solver = solver::make_solver(choice.method, std::move(matrix), held, progress);
+    f += solver->solve(-(L * f), solver::Condition::dirichlet, progress).col(0);
+    Eigen::VectorXd flux = L * f;
+    const double largest = (L.cwiseAbs() * f.cwiseAbs()).maxCoeff();
+    result.energy[axis] = f.dot(flux);
+    for (const int v : held) flux[v] = 0;
+    result.harmonicity = std::max(result.harmonicity, flux.cwiseAbs().maxCoeff() / largest);
+    result.functions.col(axis) = f;
+    const auto report = solver_report(*solver, choice);
+    if (axis == 0 || report.residual > result.solver.residual) result.solver = report;
+  }
+  return result;
+}
+
+std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides) {
+  std::vector<int> on(surface.vertex_count, 0);  // a bit for each side
+  for (int i = 0; i < 4; ++i) {
+    for (const int v : sides[i]) on[v] |= 1 << i;
+  }
+  std::vector<int> result;
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    if (on[a] & on[b] & on[c]) result.push_back(t);
+  }
+  return result;
+}
+
+}  // namespace
+
+RectangleMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& names,
+                           const Options& options, Progress& progress) {
+  const ThreadCount threads(options.threads);
+  RectangleMap result;
+  progress.stage("half-edges", 0.0, 0.1);
+  result.half_edges = mesh::half_edges(surface, progress);
+  const auto boundary = checked_boundary(surface, result.half_edges);
+  const Sides four = sides(around(result.half_edges, boundary), corners, surface.vertex_count, names);
+  std::copy(corners.begin(), corners.end(), result.corners.begin());
+  result.collapsed_triangles = collapsed_triangles(surface, four);
+
+  progress.stage("intrinsic Delaunay", 0.1, 0.2);
+  const auto plain = mesh::intrinsic_triangulation(surface, result.half_edges);
+  auto delaunay = plain;
+  mesh::make_delaunay(delaunay, progress);
+  result.flip_count = static_cast<int>(delaunay.flips.size());
+  result.mollification = plain.mollification;
+  const Solved sharp = solve(delaunay, four, options, 0.2, result.flip_count > 0 ? 0.6 : 1.0, progress);
+  result.upper = sharp.energy[0];
+  result.lower = 1 / sharp.energy[1];
+  result.modulus = std::sqrt(result.upper * result.lower);
+
+  const Solved drawn = result.flip_count > 0 ? solve(plain, four, options, 0.6, 1.0, progress) : sharp;
+  result.u = drawn.functions.col(0);
+  result.v = drawn.functions.col(1);
+  result.harmonicity = std::max(sharp.harmonicity, drawn.harmonicity);
+  result.solver = sharp.solver;
+  progress.finish();
+  result.seconds = progress.seconds();
+  return result;
+}
+
+std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface) {
+  Progress silent;
+  const auto half_edges = mesh::half_edges(surface, silent);
+  const auto boundary = mesh::boundary_loops(surface, half_edges);
+  std::vector<double> turn(surface.vertex_count, std::numbers::pi);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const auto length = [&](int side) { return surface.edge_lengths[surface.triangle_edges[t][(i + side) % 3]]; };
+      const double a = length(1), b = length(2), c = length(0);  // a opposite corner i
+      turn[surface.triangles[t][i]] -= std::atan2(4 * mesh::triangle_area(a, b, c), (b - a) * (b + a) + c * c);
+    }
+  }
+  std::vector<int> corners;
+  for (const int v : around(half_edges, boundary)) {
+    if (std::abs(turn[v]) <= kCorner) continue;
+    if (turn[v] < 0 || corners.size() == 4) return {};
+    corners.push_back(v);
+  }
+  if (corners.size() != 4) return {};
+  return corners;
+}
+
+}  // namespace holomorph::pipeline
