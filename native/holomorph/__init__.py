@@ -15,6 +15,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
+from .disk import DiskMap, RectangleMap
 from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
@@ -26,12 +27,14 @@ __all__ = [
     "BoundedStructure",
     "Cancelled",
     "ConformalStructure",
+    "DiskMap",
     "Error",
     "InvalidMesh",
     "LevelOfDetail",
     "ProgressiveMesh",
     "PuncturedStructure",
     "Quality",
+    "RectangleMap",
     "Repairs",
     "Residuals",
     "SolverError",

@@ -6,8 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from . import _native, arrays
+from ._native import TopologyError
 from .report import finite_or_none
-from .results import Structure, checked_coefficients
+from .results import Structure, checked_coefficients, own_vertices, result
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +47,8 @@ class PlaneMap(Structure):
 @dataclass(frozen=True, eq=False)
 class DiskMap(PlaneMap):
     """Result of `conformal_structure` for a disk with a puncture: its Riemann map z = exp(2 pi i (u + iv)) to the unit
-    disk, where u + iv has the residue 1 at the puncture. z is 0 there and |z| = 1 on the boundary; a rotation is free."""
+    disk, where u + iv has the residue 1 at the puncture. z is 0 there and |z| = 1 on the boundary; a rotation is
+    free."""
 
     @property
     def description(self):
@@ -126,7 +128,34 @@ class RectangleMap(PlaneMap):
         }
 
 
-def automatic_corners(component):
-    """The corners of a disk that is a rectangle at first sight: its boundary turns by more than 45 degrees at exactly
-    four vertices, inwards at all of them. None for other disks, which go to the unit disk."""
-    return _native.clear_corners(component._native)
+def automatic_map(surface, component, solver, threads, progress):
+    """The map of a disk for which nothing was chosen.
+
+    Where its boundary turns by more than 45 degrees at exactly four vertices, inwards at all of them, the rectangle
+    with these corners; else the map to the unit disk centred at the vertex farthest from the boundary along the edges;
+    where every vertex is next to the boundary, the rectangle with corners at the quarters of the boundary.
+    """
+    corners = _native.clear_corners(component._native)
+    if corners is None:
+        try:
+            native = _native.punctured_structure(component._native, [], [], [], solver, threads, progress)
+            return result(DiskMap, surface, component, native)
+        except TopologyError:
+            corners = _native.quarter_corners(component._native)
+    return result(RectangleMap, surface, component, _rectangle(component, corners, [], solver, threads, progress))
+
+
+def _rectangle(component, corners, names, solver, threads, progress):
+    return _native.rectangle_map(component._native, corners, names, solver, threads, progress)
+
+
+def rectangle(surface, component, chosen, solver, threads, progress):
+    """`RectangleMap` of a disk with the chosen corners."""
+    corners, names = own_vertices(surface, component, chosen, "rectangle corner")
+    return result(RectangleMap, surface, component, _rectangle(component, corners, names, solver, threads, progress))
+
+
+def disk(surface, component, punctures, names, solver, threads, progress):
+    """`DiskMap` of a disk with its one puncture."""
+    native = _native.punctured_structure(component._native, punctures, [], names, solver, threads, progress)
+    return result(DiskMap, surface, component, native)

@@ -12,12 +12,15 @@ from .results import Quality, Structure, checked_coefficients
 
 @dataclass(frozen=True, eq=False)
 class PuncturedStructure(Structure):
-    """Result of `conformal_structure` for a closed surface of genus g with punctures p_i.
+    """Result of `conformal_structure` for a surface of genus g with punctures p_i.
 
     The first form, theta_0, is a differential of the third kind: around p_i the UVs change by the residue r_i (that is,
     theta_0 has the residue r_i / (2 pi i) there); for real residues all its periods are real, so v is single-valued.
-    After it come g holomorphic forms, as without punctures. Every face is kept: in the star of a puncture, which lies
-    at infinity, each triangle has an apex of its own, placed by the similarity that fits its outer side.
+    Every face is kept: in the star of a puncture, which lies at infinity, each triangle has an apex of its own, placed
+    by the similarity that fits its outer side.
+
+    On a closed surface the residues sum to 0, and g holomorphic forms come after theta_0. With a boundary there is
+    theta_0 alone, and for real residues v = 0 on the whole boundary: each loop is a straight line.
 
     All of it belongs to the artist's own triangles; in a polygon at a puncture the diagonals are turned away from it.
     """
@@ -26,11 +29,15 @@ class PuncturedStructure(Structure):
     def description(self):
         """What was made, in one phrase."""
         names = [str(p) for p in self.punctures]
-        ends = f"{', '.join(names[:-1])} and {names[-1]}"
-        if not np.array_equal(self.residues, [1, -1]):
+        ends = (
+            f"punctures at {', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else f"a puncture at {names[0]}"
+        )
+        usual = [1, -1] if self._component.boundary_count == 0 else np.ones(len(names))
+        if not np.array_equal(self.residues, usual):
             ends += f", residues {', '.join(_text(r) for r in self.residues)}"
-        kind = "log map" if self._genus == 0 else f"differential and {self._genus} holomorphic forms"
-        return f"{kind} with punctures at {ends}"
+        forms = self._form_count - 1
+        more = "" if forms == 0 else f" and {forms} holomorphic form{'s' if forms > 1 else ''}"
+        return f"{'differential' if self._component.genus else 'log map'}{more} with {ends}"
 
     @cached_property
     def punctures(self):
@@ -39,7 +46,7 @@ class PuncturedStructure(Structure):
 
     @cached_property
     def residues(self):
-        """(k,) complex residues, summing to 0: by how much the UVs change around each puncture, counter-clockwise."""
+        """(k,) complex residues: by how much the UVs change around each puncture, counter-clockwise."""
         return self._native.residues()
 
     @cached_property
@@ -49,12 +56,13 @@ class PuncturedStructure(Structure):
 
     @cached_property
     def holomorphic_forms(self):
-        """(1 + g, #E) complex: theta_0, NaN on the edges that end at a puncture, and the g holomorphic forms."""
+        """(1 + g, #E) complex, with a boundary (1, #E): theta_0, NaN on the edges that end at a puncture, and the g
+        holomorphic forms."""
         return self._native.edge_values()
 
     @cached_property
-    def _genus(self):
-        return self._native.genus()
+    def _form_count(self):
+        return self._native.form_count()
 
     @cached_property
     def _triangulation(self):
@@ -69,19 +77,23 @@ class PuncturedStructure(Structure):
         return self.solver
 
     def uv(self, coefficients):
-        """(#C, 2) UVs of the form sum_j c_j theta_j, from 1 + g complex coefficients c. No solve: one small product.
+        """(#C, 2) UVs of the form sum_j c_j theta_j, one complex coefficient c_j for each. No solve: one small product.
 
         Seams are the cut graph, which ends at the punctures, and the edges at the punctures. Across the former the UVs
         jump by a constant translation: with the coefficient 1 of theta_0 alone, on genus 0, by a residue."""
-        return self._native.uv(checked_coefficients(coefficients, 1 + self._genus, np.complex128))
+        return self._native.uv(checked_coefficients(coefficients, self._form_count, np.complex128))
 
     def balanced_coefficients(self):
-        """(1 + g,) complex coefficients of theta_0 alone: its residues are kept as they were asked for."""
-        return arrays.frozen(np.eye(1, 1 + self._genus, dtype=np.complex128)[0])
+        """(1 + g,), with a boundary (1,), complex coefficients of theta_0 alone: its residues stay as asked for."""
+        return arrays.frozen(np.eye(1, self._form_count, dtype=np.complex128)[0])
 
     def quality(self, uv):
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
         return Quality(*_native.quality(self._triangulation, self._checked_uv(uv)))
+
+    def averaged_star(self, form):
+        """As for other results, on the triangles of `edges`."""
+        return _native.averaged_star(self._triangulation, self._checked_form(form))
 
     def sphere_map(self):
         """(#V, 3) points of the unit sphere: the conformal map of a surface of genus 0 with two punctures, the first at

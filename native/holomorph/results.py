@@ -127,10 +127,13 @@ class Structure:
     def averaged_star(self, form):
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
         edge. It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
+        return _native.averaged_star(self._component._native, self._checked_form(form))
+
+    def _checked_form(self, form):
         form = np.ascontiguousarray(form, dtype=np.float64)
         if form.shape != (len(self.edges),):
             raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
-        return self._native.averaged_star(form)
+        return form
 
     def _checked_uv(self, uv):
         uv = np.ascontiguousarray(uv, dtype=np.float64)

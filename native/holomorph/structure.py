@@ -4,21 +4,30 @@ from . import _native
 from ._native import TopologyError
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
+from .disk import automatic_map, disk, rectangle
 from .punctured import PuncturedStructure
 from .results import check_options, only_component, own_vertices, result
 from .truncated import coarse_log_map
 
 
-def conformal_structure(surface, *, punctures=None, residues=None, solver="auto", threads=None, progress=None):
+def conformal_structure(
+    surface, *, punctures=None, residues=None, rectangle_corners=None, solver="auto", threads=None, progress=None
+):
     """Conformal structure of one connected surface: harmonic and holomorphic one-forms and conformal invariants; with
     punctures, and on genus 0, a differential of the third kind.
 
     Parameters
     ----------
     surface : Surface, connected; isolated vertices are ignored
-    punctures : list of vertices whose stars are apart from each other; without any, two far apart are taken on genus 0
-    residues : list of complex numbers, one for each puncture, not 0 and summing to 0: the UVs change by it around the
-        puncture. Default: 1 and -1 for two punctures; for more, 1 but at the one that is farthest from the others
+    punctures : list of vertices whose stars are apart from each other and from the boundary; without any, two far apart
+        are taken on a closed surface of genus 0. One puncture of a disk, without residues, makes its map to the unit
+        disk
+    residues : list of complex numbers other than 0, one for each puncture: the UVs change by it around the puncture. On
+        a closed surface they sum to 0. Default: 1 and -1 for two punctures; for more, 1 but at the one that is farthest
+        from the others; with a boundary 1 everywhere
+    rectangle_corners : list of four boundary vertices of a disk in the order of the boundary, the surface on its left:
+        makes its map to a rectangle. A disk without any choice becomes a rectangle where its boundary turns by more
+        than 45 degrees at exactly four vertices, inwards; else the unit disk, its centre at the vertex deepest inside
     solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
         by size and number of right-hand sides; the result's `solver` says what was taken and why. "paper" is the
         multiresolution algorithm of the paper (§ 9) for closed surfaces with positions, slower than the others and
@@ -30,12 +39,12 @@ def conformal_structure(surface, *, punctures=None, residues=None, solver="auto"
     Returns
     -------
     ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of
-    one with punctures
+    one with punctures, DiskMap or RectangleMap of a disk
 
     Raises
     ------
     TopologyError
-        several components; a disk (names genus and boundary count); punctures or residues that do not fit
+        several components; punctures, residues or corners that do not fit
     SolverError
         if neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out
     Cancelled
@@ -51,24 +60,28 @@ def conformal_structure(surface, *, punctures=None, residues=None, solver="auto"
     vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     chosen = vertices, _residues(residues), names
     is_chosen = any(map(len, chosen[:2]))
+    options = solver, threads, progress
+    if rectangle_corners is not None and len(rectangle_corners):
+        if is_chosen:
+            raise TopologyError("a rectangle has no punctures; choose either")
+        return rectangle(surface, component, rectangle_corners, *options)
+    if genus == 0 and boundaries == 1 and len(vertices) <= 1 and not chosen[1]:
+        if is_chosen:
+            return disk(surface, component, vertices, names, *options)
+        return automatic_map(surface, component, *options)
     if is_chosen or (genus == 0 and boundaries == 0):
         try:
-            native = _native.punctured_structure(component._native, *chosen, solver, threads, progress)
+            native = _native.punctured_structure(component._native, *chosen, *options)
         except TopologyError:
             if is_chosen or component.vertices is None:
                 raise
-            return coarse_log_map(surface, component, solver, threads, progress)  # the stars of any two vertices meet
+            return coarse_log_map(surface, component, *options)  # the stars of any two vertices meet
         return result(PuncturedStructure, surface, component, native)
-    if boundaries and 2 * genus + boundaries > 1:
-        native = _native.bounded_structure(component._native, solver, threads, progress)
+    if boundaries:
+        native = _native.bounded_structure(component._native, *options)
         return result(BoundedStructure, surface, component, native)
-    if genus >= 1:
-        native = _native.conformal_structure(component._native, solver, threads, progress)
-        return result(ConformalStructure, surface, component, native)
-    raise TopologyError(
-        f"the surface has genus {genus} and {boundaries} boundary loops; "
-        "a closed surface of genus 1 or more, or one with a boundary that is no disk, is needed"
-    )
+    native = _native.conformal_structure(component._native, *options)
+    return result(ConformalStructure, surface, component, native)
 
 
 def _residues(residues):

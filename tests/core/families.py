@@ -323,7 +323,7 @@ def hexagonal_disk(n, jitter=0.0, seed=0):
     number[q[order] + n, r[order] + n] = np.arange(len(order))
     q, r, ring = q[order] + n, r[order] + n, ring[order]
     up = np.stack([number[q, r], number[q + 1, r], number[q, r + 1]], axis=1)
-    down = np.stack([number[q + 1, r], number[q + 1, r + 1], number[q, r + 1]], axis=1)
+    down = np.stack([number[q, r], number[q, r + 1], number[q - 1, r + 1]], axis=1)
     faces = np.concatenate([up, down])
     lattice = (q - n) + (r - n) * np.exp(1j * np.pi / 3)
     z = ring / n * np.exp(1j * np.angle(lattice))

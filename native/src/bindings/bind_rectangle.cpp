@@ -21,6 +21,12 @@ std::shared_ptr<RectangleMap> compute(const mesh::Surface& surface, const std::v
   return std::make_shared<RectangleMap>(pipeline::rectangle_map(surface, corners, names, {solver, threads}, progress));
 }
 
+// Of a form on the edges of any surface.
+py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
+  Progress silent;
+  return copy(forms::averaged_star(mesh::half_edges(surface, silent), surface.edge_lengths, values(form)));
+}
+
 }  // namespace
 
 void bind_rectangle(py::module_& m) {
@@ -38,6 +44,8 @@ void bind_rectangle(py::module_& m) {
       .def("intrinsic", [](const RectangleMap& r) { return py::make_tuple(r.flip_count, r.mollification); })
       .def("timings", [](const RectangleMap& r) { return r.seconds; });
   m.def("rectangle_map", &compute);
+  m.def("averaged_star", &averaged_star);
+  m.def("quarter_corners", &pipeline::quarter_corners, py::call_guard<py::gil_scoped_release>());
   m.def("clear_corners", &pipeline::clear_corners, py::call_guard<py::gil_scoped_release>());
 }
 

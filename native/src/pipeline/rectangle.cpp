@@ -177,4 +177,25 @@ std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface) {
   return corners;
 }
 
+std::vector<int> quarter_corners(const mesh::Surface& surface) {
+  Progress silent;
+  const auto half_edges = mesh::half_edges(surface, silent);
+  const auto boundary = mesh::boundary_loops(surface, half_edges);
+  const auto& loop = boundary.loops[0];  // the hole on its left: turned round at the end
+  const int n = static_cast<int>(loop.size());
+  if (n < 4)
+    throw TopologyError("the disk has no room for a centre, and three edges on its boundary; subdivide the mesh");
+  std::vector<double> until(n, 0.0);  // length from the first vertex to each
+  for (int i = 1; i < n; ++i) until[i] = until[i - 1] + surface.edge_lengths[mesh::edge_of(loop[i - 1])];
+  const double total = until.back() + surface.edge_lengths[mesh::edge_of(loop.back())];
+  std::vector<int> corners;
+  for (int k = 0, at = 0; k < 4; ++k, ++at) {
+    // the corners that are still to come need a vertex each
+    while (at < n - (4 - k) && std::abs(until[at + 1] - k * total / 4) < std::abs(until[at] - k * total / 4)) ++at;
+    corners.push_back(mesh::from_vertex(half_edges, loop[at]));
+  }
+  std::reverse(corners.begin() + 1, corners.end());
+  return corners;
+}
+
 }  // namespace holomorph::pipeline

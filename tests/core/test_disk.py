@@ -1,0 +1,195 @@
+"""Riemann maps of disks, and punctures on surfaces with boundary: exact boundaries, discretisation errors, refusals."""
+
+import families
+import numpy as np
+import pytest
+from forms import edge_forms
+from holomorph import DiskMap, RectangleMap, Surface, TopologyError, conformal_structure
+from solved import surface_of
+from test_punctures import mean_angle_off_the_stars, neighbours, vertex_at
+
+EXACT = 1e-12
+SOLVER = 1e-8
+
+
+def boundary_mask(surface):
+    """(#V,) bool, by counting the faces at each side."""
+    triangles = surface.triangles
+    sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
+    rows, count = np.unique(sides, axis=0, return_counts=True)
+    mask = np.zeros(len(surface.vertices), dtype=bool)
+    mask[rows[count == 1]] = True
+    return mask
+
+
+def flat(n, jitter=0.2):
+    """The unit disk in the plane."""
+    points, faces = families.hexagonal_disk(n, jitter)
+    return families.uniform(np.column_stack([points, np.zeros(len(points))]), faces, ((0, 1),))
+
+
+def ring(n):
+    """`flat` without its inner half: two boundary loops."""
+    mesh = flat(n, 0)
+    faces = mesh.corners.reshape(-1, 3)
+    kept = faces[np.linalg.norm(mesh.vertices[faces], axis=2).min(axis=1) > 0.5 - 1e-9]
+    used, faces = np.unique(kept, return_inverse=True)
+    return families.uniform(mesh.vertices[used], faces.reshape(-1, 3), ((0, 2),))
+
+
+# ---- the Riemann map ---------------------------------------------------------------------------------------------
+
+
+def test_the_boundary_goes_to_the_circle_and_the_puncture_to_the_centre():
+    surface = surface_of(families.hemisphere(12, jitter=0.2))
+    structure = conformal_structure(surface, punctures=[20])
+    assert isinstance(structure, DiskMap)
+    z = structure.disk_map()
+    on_boundary = boundary_mask(surface)
+    assert np.abs(np.abs(z[on_boundary]) - 1).max() < EXACT
+    assert z[20] == 0
+    assert (np.abs(z[~on_boundary]) < 1).all()
+    uv = structure.uv([])
+    assert np.abs(uv @ [1, 1j] - z[surface.corner_vertices]).max() == 0
+    assert not structure.quality(uv).flipped.any()
+    assert len(structure.seams) == len(structure.balanced_coefficients()) == len(structure.holomorphic_forms) == 0
+    assert structure.description == "disk map, centre at vertex 20"
+    assert max(vars(structure.residuals).values()) < SOLVER
+
+
+def test_the_boundary_is_passed_once_counter_clockwise():
+    surface = surface_of(flat(10))
+    z = conformal_structure(surface, punctures=[0]).disk_map()
+    start = np.nonzero(boundary_mask(surface))[0]
+    start = start[np.argsort(np.arctan2(*surface.vertices[start, 1::-1].T))]  # counter-clockwise in the plane
+    turn = np.angle(np.roll(z[start], -1) / z[start])
+    assert (turn > 0).all()
+    assert abs(turn.sum() - 2 * np.pi) < EXACT
+
+
+def riemann_map_error(n, seed):
+    """Largest distance from the stereographic projection, which takes the hemisphere to the unit disk, followed by the
+    disk's automorphism that takes the puncture to 0; a rotation is free. Off the puncture: nearer to it than 0.3 the
+    error depends on the edges there relative to the distance, and z is the distance: it falls like the step."""
+    mesh = families.hemisphere(n, jitter=0.25, seed=seed)
+    exact = (mesh.vertices @ [1, 1j, 0]) / (1 + mesh.vertices[:, 2])
+    puncture = int(np.argmin(np.abs(exact - (0.3 + 0.2j))))
+    z = conformal_structure(surface_of(mesh), punctures=[puncture]).disk_map()
+    a = exact[puncture]
+    exact = (exact - a) / (1 - np.conj(a) * exact)
+    rotation = np.vdot(z, exact)
+    return np.abs(z * rotation / abs(rotation) - exact)[np.abs(exact) > 0.3].max()
+
+
+def test_riemann_map_of_a_jittered_hemisphere_converges():
+    """Geometric means over several jitters; the finest mesh has 32137 vertices."""
+    coarse, fine = (
+        np.exp(np.mean([np.log(riemann_map_error(n, seed)) for seed in range(count)]))
+        for n, count in ((13, 6), (103, 1))
+    )
+    assert np.log2(coarse / fine) / np.log2(103 / 13) >= 1.7, (coarse, fine)
+    assert fine < 4e-4, fine
+
+
+@pytest.mark.parametrize(("name", "most"), [("face_34k_b1.obj", 1.1), ("hand_lowres_b1.obj", 1.6)])
+def test_real_disks(meshes, name, most):
+    """Without a choice: the unit disk around the vertex deepest inside."""
+    (part,) = Surface.read(meshes / name).components
+    structure = conformal_structure(part)
+    assert isinstance(structure, DiskMap)
+    assert np.abs(np.abs(structure.disk_map()[boundary_mask(part)]) - 1).max() < EXACT
+    assert structure.quality(structure.uv([])).mean_angle < most
+
+
+# ---- without a choice --------------------------------------------------------------------------------------------
+
+
+def test_a_round_disk_is_centred_deepest_inside():
+    structure = conformal_structure(surface_of(flat(8, jitter=0)))
+    assert isinstance(structure, DiskMap)
+    assert (structure.punctures == [0]).all()
+
+
+def test_a_patch_with_four_corners_becomes_a_rectangle():
+    grid = families.grid_quads(9, 6).reshape(9, 6, 4)[:-1, :-1].reshape(-1, 4)
+    i, j = np.divmod(np.arange(54), 6)
+    structure = conformal_structure(Surface(np.column_stack([i, j, 0.3 * np.sin(i)]), grid))
+    assert isinstance(structure, RectangleMap)
+    assert sorted(structure.corners) == [0, 5, 48, 53]
+
+
+def test_no_room_for_a_centre():
+    """A fan of triangles around nothing: all vertices on the boundary."""
+    angle = 2 * np.pi * np.arange(12) / 12
+    points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    structure = conformal_structure(Surface(points, [list(range(12))]))
+    assert isinstance(structure, RectangleMap)
+    uv = structure.uv([])
+    assert np.ptp(uv, axis=0).min() > 0.5
+    with pytest.raises(TopologyError, match="three edges on its boundary; subdivide"):
+        conformal_structure(Surface(points[::4], [[0, 1, 2]]))
+
+
+# ---- other surfaces with boundary --------------------------------------------------------------------------------
+
+BOUNDED = {
+    "disk with residues": (flat(10), {"punctures": [0, 100], "residues": [1, 2]}),
+    "disk, one residue": (flat(10), {"punctures": [5], "residues": [1]}),
+    "ring": (ring(24), {"punctures": [vertex_at(ring(24), [0.75, 0, 0])]}),
+    "punctured torus": (families.punctured_torus(32, 24), {"punctures": [200, 500]}),
+}
+
+
+@pytest.mark.parametrize("name", BOUNDED)
+def test_punctures_on_surfaces_with_boundary(name):
+    mesh, options = BOUNDED[name]
+    surface = surface_of(mesh)
+    structure = conformal_structure(surface, **options)
+    assert max(vars(structure.residuals).values()) < SOLVER
+    forms = structure.holomorphic_forms
+    for puncture, residue in zip(structure.punctures, structure.residues, strict=True):
+        integral = edge_forms(structure).integrals(forms, [neighbours(structure, puncture)])
+        assert np.abs(integral - residue).max() < EXACT * abs(residue)
+    on_boundary = boundary_mask(surface)
+    uv = structure.uv([1])
+    assert np.abs(uv[on_boundary[surface.corner_vertices], 1]).max() == 0
+    assert np.isfinite(uv).all()
+    assert not structure.quality(uv).flipped.all()
+    for puncture in structure.punctures:
+        assert str(puncture) in structure.description
+
+
+@pytest.mark.parametrize(
+    ("mesh", "punctures"), [(ring(48), [5]), (families.punctured_torus(64, 48), [800, 2000])], ids=["ring", "torus"]
+)
+def test_they_are_conformal(mesh, punctures):
+    """u is made orthogonal to the natural forms of all loops."""
+    surface = surface_of(mesh)
+    if len(punctures) == 1:
+        punctures = [int(np.argmin(np.linalg.norm(surface.vertices - [0.75, 0, 0], axis=1)))]
+    assert mean_angle_off_the_stars(conformal_structure(surface, punctures=punctures)) < 1.15
+
+
+DISK = flat(6)
+REFUSED = {
+    "on the boundary": (DISK, {"punctures": [126]}, "puncture 126 lies on the boundary"),
+    "beside the boundary": (DISK, {"punctures": [80]}, "star of puncture 80 touches the boundary at vertex"),
+    "out of range": (DISK, {"punctures": [127]}, "puncture 127 is no vertex: there are 127"),
+    "repeated": (DISK, {"punctures": [3, 3]}, "given twice"),
+    "stars": (DISK, {"punctures": [0, 10]}, "share vertex|corners of one face"),
+    "zero": (DISK, {"punctures": [0], "residues": [0]}, "residue 0 is 0"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_refusals(case):
+    mesh, options, message = REFUSED[case]
+    with pytest.raises(TopologyError, match=message) as caught:
+        conformal_structure(surface_of(mesh), **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_coefficients_are_refused():
+    structure = conformal_structure(surface_of(DISK))
+    with pytest.raises(ValueError, match="coefficients"):
+        structure.uv([1])
