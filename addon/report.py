@@ -135,7 +135,6 @@ def _result_lines(part):
     yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"
     if part.get("modulus") is not None:
         yield f"modulus {part['modulus']:.6g}"
-    if "modulus_bounds" in part:
         yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
     if part["genus"] == 1 and part["boundary_count"] == 0 and "period_matrix" in part:
         real, imaginary = part["period_matrix"][0][0]

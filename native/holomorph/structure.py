@@ -4,6 +4,7 @@ from . import _native
 from ._native import TopologyError
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
+from .cut import cut_along
 from .disk import automatic_map, disk, rectangle
 from .punctured import PuncturedStructure
 from .results import check_options, only_component, own_vertices, result
@@ -11,7 +12,15 @@ from .truncated import coarse_log_map
 
 
 def conformal_structure(
-    surface, *, punctures=None, residues=None, rectangle_corners=None, solver="auto", threads=None, progress=None
+    surface,
+    *,
+    punctures=None,
+    residues=None,
+    rectangle_corners=None,
+    cut_edges=None,
+    solver="auto",
+    threads=None,
+    progress=None,
 ):
     """Conformal structure of one connected surface: harmonic and holomorphic one-forms and conformal invariants; with
     punctures, and on genus 0, a differential of the third kind.
@@ -28,6 +37,8 @@ def conformal_structure(
     rectangle_corners : list of four boundary vertices of a disk in the order of the boundary, the surface on its left:
         makes its map to a rectangle. A disk without any choice becomes a rectangle where its boundary turns by more
         than 45 degrees at exactly four vertices, inwards; else the unit disk, its centre at the vertex deepest inside
+    cut_edges : (#S, 2) vertices of the edges along which UVs are cut, such as an artist's seams, not along a cut of our
+        own; the map must be single-valued on the rest, as it is on disks
     solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
         by size and number of right-hand sides; the result's `solver` says what was taken and why. "paper" is the
         multiresolution algorithm of the paper (§ 9) for closed surfaces with positions, slower than the others and
@@ -54,13 +65,19 @@ def conformal_structure(
     factorisation or the set-up of multigrid; 2 n #V numbers of memory.
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
-    threads = check_options(solver, threads)
+    options = solver, check_options(solver, threads), progress
     component = only_component(surface)
+    made = _structure(surface, component, punctures, residues, rectangle_corners, options)
+    if cut_edges is None or not len(cut_edges):
+        return made
+    return cut_along(made, surface, component, cut_edges)
+
+
+def _structure(surface, component, punctures, residues, rectangle_corners, options):
     genus, boundaries = component.genus, component.boundary_count
     vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     chosen = vertices, _residues(residues), names
     is_chosen = any(map(len, chosen[:2]))
-    options = solver, threads, progress
     if rectangle_corners is not None and len(rectangle_corners):
         if is_chosen:
             raise TopologyError("a rectangle has no punctures; choose either")

@@ -84,7 +84,8 @@ def test_blend_file_in(tmp_path):
     assert done.returncode == 0, done.stderr
     objects = {o["object"]: o for o in json.loads(report.read_text())["objects"]}
     assert [c["done"] for c in objects["Ring and Pearl"]["components"]] == [True, True]
-    assert any("Bowl" in line for line in our_lines(done)) != objects["Bowl"]["done"]
+    assert [c["done"] for c in objects["Bowl"]["components"]] == [True]
+    assert not our_lines(done)
 
 
 def test_options_reach_the_maps(torus_file, tmp_path):
@@ -162,8 +163,8 @@ def test_levels_of_detail_in_the_file_and_in_the_report(torus_file, tmp_path):
 
 def test_object_option(tmp_path):
     blend = ROOT / "blend_examples" / "mixed.blend"
-    done = headless("--object", "Ring and Pearl", blend=blend)
-    assert done.returncode == 0 and "written to Ring and Pearl in" in done.stdout
+    done = headless("--object", "Bowl", blend=blend)
+    assert done.returncode == 0 and "written to Bowl in" in done.stdout
     done = headless("--object", "Nobody", blend=blend)
     assert done.returncode == 1 and "Nobody" in our_lines(done)[0]
 
@@ -229,6 +230,7 @@ def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
         (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "1 1"), "residues"),
         (torus_file, ("--puncture", 3, "--rectangle", 0, 1, 2, 3), "exclude"),
         (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "a b"), "'a' is not a number"),
+        (grid_file(tmp_path), ("--rectangle", 0, 168, 156, 84), "84"),
     ):
         done = headless(path, *options)
         assert done.returncode == 1 and len(our_lines(done)) == 1 and word in our_lines(done)[0], our_lines(done)
@@ -248,3 +250,20 @@ def test_the_shape_of_a_sphere(tmp_path):
     points = np.empty(3 * len(mesh.vertices), np.float32)
     mesh.attributes["Holomorphic Shape"].data.foreach_get("vector", points)
     assert np.abs(np.linalg.norm(points.reshape(-1, 3), axis=1) - 1).max() < 1e-5
+
+
+def test_rectangle_and_disk(tmp_path):
+    report, path = tmp_path / "report.json", grid_file(tmp_path)
+    assert headless(path, "--report", report, "--rectangle", 0, 168, 156, 12).returncode == 0
+    assert reported(report)["description"].startswith("rectangle")
+    assert headless(path, "--report", report, "--puncture", 84).returncode == 0
+    assert reported(report)["description"].startswith("disk")
+
+
+def test_selection_and_seams_of_a_blend_file(tmp_path):
+    report = tmp_path / "report.json"
+    blend = ROOT / "blend_examples" / "mask.blend"
+    assert headless("--report", report, "--selection", "automatic", blend=blend).returncode == 0
+    objects = {o["object"]: o["components"][0] for o in json.loads(report.read_text())["objects"]}
+    assert objects["Mask as Disk"]["description"].startswith("disk")
+    assert objects["Mask as Rectangle"]["description"].startswith("rectangle")

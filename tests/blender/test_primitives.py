@@ -8,7 +8,10 @@ from scenes import parts_of, run, stored_report, straightness, uv
 add = bpy.ops.mesh
 # name: maker, (genus, boundary loops) of its parts
 PRIMITIVES = {
+    "plane": (add.primitive_plane_add, {}, [(0, 1)]),
     "cube": (add.primitive_cube_add, {}, [(0, 0)]),
+    "circle": (add.primitive_circle_add, {"fill_type": "NGON"}, [(0, 1)]),
+    "fan": (add.primitive_circle_add, {"fill_type": "TRIFAN"}, [(0, 1)]),
     "sphere": (add.primitive_uv_sphere_add, {}, [(0, 0)]),
     "icosphere": (add.primitive_ico_sphere_add, {}, [(0, 0)]),
     "icosahedron": (add.primitive_ico_sphere_add, {"subdivisions": 1}, [(0, 0)]),
@@ -16,10 +19,13 @@ PRIMITIVES = {
     "fan-capped cylinder": (add.primitive_cylinder_add, {"end_fill_type": "TRIFAN"}, [(0, 0)]),
     "pipe": (add.primitive_cylinder_add, {"end_fill_type": "NOTHING"}, [(0, 2)]),
     "cone": (add.primitive_cone_add, {}, [(0, 0)]),
+    "open cone": (add.primitive_cone_add, {"end_fill_type": "NOTHING"}, [(0, 1)]),
     "cut cone": (add.primitive_cone_add, {"radius2": 0.5, "end_fill_type": "NOTHING"}, [(0, 2)]),
     "pyramid": (add.primitive_cone_add, {"vertices": 4}, [(0, 0)]),
     "tetrahedron": (add.primitive_cone_add, {"vertices": 3}, [(0, 0)]),
     "torus": (add.primitive_torus_add, {}, [(1, 0)]),
+    "grid": (add.primitive_grid_add, {}, [(0, 1)]),
+    "monkey": (add.primitive_monkey_add, {}, [(0, 1), (0, 1), (0, 2)]),
 }
 
 

@@ -35,6 +35,19 @@ py::array uv(const PuncturedStructure& s, const Eigen::VectorXcd& c) {
   return give(std::move(result), {corners, 2});
 }
 
+// Takes the sheets of the caller's cut instead of our own; the spokes of the punctures are cut in any case.
+void cut_along(PuncturedStructure& s, std::vector<int> edges, const std::vector<int>& names) {
+  const py::gil_scoped_release unlocked;
+  for (const mesh::Star& star : s.stars) {
+    for (const auto h : star.link) edges.push_back(mesh::edge_of(mesh::next(s.half_edges, h)));
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  Progress silent;
+  s.sheets = uv::corner_sheets(s.surface, s.half_edges, edges, s.classes, silent, names);
+  s.seams = std::move(edges);
+}
+
 py::array edge_values(const PuncturedStructure& s) {
   Eigen::MatrixXcd values;
   {
@@ -59,6 +72,7 @@ py::array sphere_map(const PuncturedStructure& s) {
 void bind_punctured_structure(py::module_& m) {
   py::class_<PuncturedStructure, std::shared_ptr<PuncturedStructure>>(m, "PuncturedStructure")
       .def("uv", &uv)
+      .def("cut_along", &cut_along)
       .def("edge_values", &edge_values)
       .def("sphere_map", &sphere_map)
       .def("disk_map", [](const PuncturedStructure& s) { return copy(pipeline::disk_map(s)); })

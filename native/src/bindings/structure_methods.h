@@ -70,6 +70,15 @@ Eigen::VectorXcd balanced_coefficients(Structure<Value>& s, const Eigen::MatrixX
   return uv::balanced_coefficients(*s.surface, s.value.half_edges, s.forms_for_uv(), basis, area_form, kind);
 }
 
+/// Takes the sheets of the caller's cut instead of our own.
+template <class Value>
+void cut_along(Structure<Value>& s, const std::vector<int>& edges, const std::vector<int>& names) {
+  const py::gil_scoped_release unlocked;
+  Progress silent;
+  s.value.sheets = uv::corner_sheets(*s.surface, s.value.half_edges, edges, s.value.harmonic.classes, silent, names);
+  s.value.seams = edges;
+}
+
 /// Everything that needs no more than the members named above.
 template <class Value>
 py::class_<Structure<Value>, std::shared_ptr<Structure<Value>>> bind_structure(py::module_& m, const char* name) {
@@ -79,6 +88,7 @@ py::class_<Structure<Value>, std::shared_ptr<Structure<Value>>> bind_structure(p
       .def("harmonic_forms", &harmonic_forms<Value>)
       .def("uv", &uv<Value>)
       .def("uv_solver", &uv_solver<Value>)
+      .def("cut_along", &cut_along<Value>)
       .def("averaged_star",
            [](const S& s, const Contiguous<double>& form) {
              return copy(forms::averaged_star(s.value.half_edges, s.surface->edge_lengths, values(form)));

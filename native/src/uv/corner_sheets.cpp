@@ -1,6 +1,9 @@
 #include "uv/corner_sheets.h"
 
+#include <string>
 #include <unordered_map>
+
+#include "base/errors.h"
 
 namespace holomorph::uv {
 namespace {
@@ -45,16 +48,44 @@ class SheetTable {
   std::unordered_map<IntegerForms::Row, int, RowHash> numbers_;
 };
 
-}  // namespace
+// Faces in an order in which each comes after its parent, behind the half-edge to_parent of its own (invalid at roots).
+struct Walk {
+  std::vector<int> order;
+  std::vector<HalfedgeHandle> to_parent;
+};
 
-CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh,
-                           const topology::FundamentalDomain& domain, const IntegerForms& classes, Progress& progress) {
-  SheetTable table(classes);
-  std::vector<int> at_start(mesh.n_halfedges(), 0);  // sheet of the corner at which a half-edge starts, in its face
-  for (std::size_t i = 0; i < domain.face_order.size(); ++i) {
-    progress.step(i, domain.face_order.size(), 0.5, 1.0);
-    const int f = domain.face_order[i];
-    HalfedgeHandle h = domain.to_parent_face[f];
+// Breadth first from the first face of each piece.
+Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
+  const int faces = static_cast<int>(mesh.n_faces());
+  Walk walk{{}, std::vector<HalfedgeHandle>(faces)};
+  std::vector<char> met(faces, 0);
+  for (int root = 0; root < faces; ++root) {
+    if (met[root]) continue;
+    met[root] = 1;
+    walk.order.push_back(root);
+    for (std::size_t i = walk.order.size() - 1; i < walk.order.size(); ++i) {
+      HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(walk.order[i]));
+      for (int side = 0; side < 3; ++side, h = next(mesh, h)) {
+        const HalfedgeHandle o = opposite(h);
+        if (is_cut[edge_of(h)] || !mesh.face_handle(o).is_valid()) continue;
+        const int behind = mesh::face_of(mesh, o);
+        if (std::exchange(met[behind], 1)) continue;
+        walk.to_parent[behind] = o;
+        walk.order.push_back(behind);
+      }
+    }
+  }
+  return walk;
+}
+
+// The sheet of the corner at which each half-edge starts, in its face.
+std::vector<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table,
+                                  Progress& progress) {
+  std::vector<int> at_start(mesh.n_halfedges(), 0);
+  for (std::size_t i = 0; i < walk.order.size(); ++i) {
+    progress.step(i, walk.order.size(), 0.5, 1.0);
+    const int f = walk.order[i];
+    HalfedgeHandle h = walk.to_parent[f];
     if (h.is_valid()) {  // both ends are on the sheets that they are on in the parent
       at_start[h.idx()] = at_start[next(mesh, opposite(h)).idx()];
       at_start[next(mesh, h).idx()] = at_start[opposite(h).idx()];
@@ -65,6 +96,11 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
     const HalfedgeHandle h1 = next(mesh, h);
     at_start[next(mesh, h1).idx()] = table.after(at_start[h1.idx()], h1);
   }
+  return at_start;
+}
+
+CornerSheets of_corners(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<int>& at_start,
+                        SheetTable&& table) {
   CornerSheets result;
   result.corner_sheet.assign(surface.polygons.corner_vertices.size(), 0);
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
@@ -74,6 +110,34 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
   }
   result.sheets = std::move(table.sheets);
   return result;
+}
+
+}  // namespace
+
+CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh,
+                           const topology::FundamentalDomain& domain, const IntegerForms& classes, Progress& progress) {
+  SheetTable table(classes);
+  const auto at_start = sheets_at_starts(mesh, {domain.face_order, domain.to_parent_face}, table, progress);
+  return of_corners(surface, mesh, at_start, std::move(table));
+}
+
+CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<int>& cut,
+                           const IntegerForms& classes, Progress& progress, const std::vector<int>& names) {
+  std::vector<char> is_cut(surface.edges.size(), 0);
+  for (const int e : cut) is_cut[e] = 1;
+  SheetTable table(classes);
+  const auto at_start = sheets_at_starts(mesh, walk_around(mesh, is_cut), table, progress);
+  for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
+    const HalfedgeHandle h(2 * e), o = opposite(h);
+    if (is_cut[e] || !mesh.face_handle(h).is_valid() || !mesh.face_handle(o).is_valid()) continue;
+    if (at_start[h.idx()] == at_start[next(mesh, o).idx()] && at_start[o.idx()] == at_start[next(mesh, h).idx()])
+      continue;
+    const auto [a, b] = surface.edges[e];
+    throw TopologyError("the cut does not leave disks: between the vertices " +
+                        std::to_string(names.empty() ? a : names[a]) + " and " +
+                        std::to_string(names.empty() ? b : names[b]) + ", where it does not run, the map still jumps");
+  }
+  return of_corners(surface, mesh, at_start, std::move(table));
 }
 
 }  // namespace holomorph::uv

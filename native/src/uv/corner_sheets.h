@@ -21,4 +21,13 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
                            const topology::FundamentalDomain& domain, const topology::IntegerForms& classes,
                            Progress& progress);
 
+/// The same for the caller's own cut: potentials on the pieces that are left when the surface is cut along the edges of
+/// `cut`, each with the sheet 0 at its first corner.
+/// @param cut polygon edges; boundary edges do not matter
+/// @param names what a vertex is called in messages; empty: its index
+/// @throws TopologyError if a class has a period in a piece, naming an edge where its potential jumps
+CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& cut,
+                           const topology::IntegerForms& classes, Progress& progress,
+                           const std::vector<int>& names = {});
+
 }  // namespace holomorph::uv
