@@ -14,7 +14,7 @@ from forms import (
     energy_matrix,
     on_triangle_sides,
 )
-from holomorph import BoundedStructure, TopologyError, conformal_structure
+from holomorph import BoundedStructure, Cancelled, TopologyError, conformal_structure
 from solved import BOUNDED, BOUNDED_FLAT, solved_bounded, surface_of
 
 SOLVER = 1e-8
@@ -376,6 +376,19 @@ def test_diagonals_end_inside():
         assert len(structure.collapsed_triangles) == 0
 
 
+@pytest.mark.parametrize("corners", [5, 12, 70])
+def test_polygons_at_the_boundary_are_cut_towards_the_inside(corners):
+    """A fan of two polygons around an inner vertex, all their other corners on the boundary of a disk: every triangle
+    but the fewest possible has the inner vertex. Above 64 corners the ears are cut off one by one."""
+    angle = np.pi * np.arange(2 * corners) / corners
+    points = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(len(angle))])
+    points = np.concatenate([points, [[0.0, 0.0, 0.0]]])
+    ring, centre = np.arange(2 * corners), 2 * corners
+    faces = [[*ring[: corners + 1], centre], [*ring[corners:], 0, centre]]
+    surface = surface_of(families.polygons(points, faces, ((0, 1),)))
+    assert (surface.triangles == centre).any(axis=1).all()
+
+
 # ---- the same surface in another guise -----------------------------------------------------------
 
 
@@ -437,6 +450,20 @@ def test_same_bits_at_any_number_of_threads():
     assert (one.balanced_coefficients() == three.balanced_coefficients()).all()
     c = some_coefficients(one)
     assert (one.uv(c) == three.uv(c)).all()
+
+
+def test_progress_rises_from_0_to_1_and_cancels_at_every_stage():
+    surface = surface_of(families.punched(families.torus(150, 100, shape="triangles"), 2))
+    seen = []
+    conformal_structure(surface, progress=lambda fraction, stage: seen.append((fraction, stage)))
+    fractions = [fraction for fraction, _ in seen]
+    assert fractions == sorted(fractions)
+    assert (fractions[0], fractions[-1]) == (0, 1)
+    stages = dict.fromkeys(stage for _, stage in seen)
+    assert len(stages) >= 8
+    for wanted in stages:
+        with pytest.raises(Cancelled):
+            conformal_structure(surface, progress=lambda fraction, stage, wanted=wanted: stage != wanted)
 
 
 def test_isolated_vertices_are_ignored():

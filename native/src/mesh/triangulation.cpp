@@ -40,6 +40,11 @@ class Polygon {
     return squares / area + (on_one_loop(i, j, k) ? kOnOneLoop : 0.0);
   }
 
+  // An inner corner cut off between two corners of one loop is lost for the diagonals of the others.
+  bool is_last_inside(int before, int tip, int after) const {
+    return !loops_.empty() && loops_[tip] < 0 && loops_[before] >= 0 && loops_[before] == loops_[after];
+  }
+
  private:
   bool on_one_loop(int i, int j, int k) const {
     return !loops_.empty() && loops_[i] >= 0 && loops_[i] == loops_[j] && loops_[i] == loops_[k];
@@ -88,7 +93,8 @@ Triangles best_ears(const Polygon& polygon) {
   for (int i = 0; i < n; ++i) before[i] = (i + n - 1) % n, after[i] = (i + 1) % n;
   std::priority_queue<Ear, std::vector<Ear>, std::greater<>> queue;
   const auto push = [&](int tip) {
-    queue.push({polygon.cost(before[tip], tip, after[tip]), before[tip], tip, after[tip]});
+    const double later = polygon.is_last_inside(before[tip], tip, after[tip]) ? kOnOneLoop / 2 : 0.0;
+    queue.push({polygon.cost(before[tip], tip, after[tip]) + later, before[tip], tip, after[tip]});
   };
   for (int i = 0; i < n; ++i) push(i);
   Triangles triangles;
