@@ -4,6 +4,7 @@ from . import _native
 from ._native import TopologyError
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
+from .coarse_disk import coarse_disk
 from .cut import cut_along
 from .disk import automatic_map, disk, rectangle
 from .punctured import PuncturedStructure
@@ -85,7 +86,10 @@ def _structure(surface, component, punctures, residues, rectangle_corners, optio
     if genus == 0 and boundaries == 1 and len(vertices) <= 1 and not chosen[1]:
         if is_chosen:
             return disk(surface, component, vertices, names, *options)
-        return automatic_map(surface, component, *options)
+        try:
+            return automatic_map(surface, component, *options)
+        except TopologyError:
+            return coarse_disk(surface, component, *options)  # three edges on its boundary, and no room for a centre
     if is_chosen or (genus == 0 and boundaries == 0):
         try:
             native = _native.punctured_structure(component._native, *chosen, *options)

@@ -63,7 +63,7 @@ SHARED = {
     "spot_quads.obj": (0, 0, 1),
     "suzanne_blender.obj": (0, 2, 3),
     "sword_quads.obj": (0, 0, 1),
-    "teapot_bff.obj": (0, 2, 5),
+    "teapot_bff.obj": (0, 1, 5),
     "torus_ddg.obj": (1, 0, 1),
     "torus_stein.obj": (1, 0, 1),
     "tray_g23.stl": (23, 0, 1),
