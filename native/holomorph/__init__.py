@@ -15,7 +15,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
-from .disk import DiskMap, RectangleMap
+from .disk import DiskMap, RectangleMap, TriangleMap
 from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
@@ -41,6 +41,7 @@ __all__ = [
     "SolverReport",
     "Surface",
     "TopologyError",
+    "TriangleMap",
     "__version__",
     "conformal_structure",
 ]

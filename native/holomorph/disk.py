@@ -7,8 +7,11 @@ import numpy as np
 
 from . import _native, arrays
 from ._native import TopologyError
+from .punctured import PuncturedStructure
 from .report import finite_or_none
 from .results import Structure, checked_coefficients, own_vertices, result
+
+UNEVEN = 100.0  # density ratio of a disk map, ten in length, above which others are tried
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,31 +131,65 @@ class RectangleMap(PlaneMap):
         }
 
 
+@dataclass(frozen=True, eq=False)
+class TriangleMap(PlaneMap):
+    """Result of `conformal_structure` for a disk with three boundary edges and no room for a centre, such as a single
+    triangle: the harmonic map to the triangle with these edges, its longest side 1."""
+
+    @property
+    def description(self):
+        """What was made, in one phrase."""
+        return "triangle with the sides of the boundary"
+
+    @cached_property
+    def _plane(self):
+        return arrays.frozen(self._native.points().ravel())
+
+    def invariants(self):
+        """Nothing: all disks are alike."""
+        return {}
+
+
 def automatic_map(surface, component, solver, threads, progress):
     """The map of a disk for which nothing was chosen.
 
     Where its boundary turns by more than 45 degrees at exactly four vertices, inwards at all of them, the rectangle
-    with these corners; else the map to the unit disk centred at the vertex farthest from the boundary along the edges;
-    where every vertex is next to the boundary, the rectangle with corners at the quarters of the boundary.
+    with these corners. Else the map to the unit disk centred at the vertex farthest from the boundary along the edges.
+    Where its density ratio is above `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with
+    the same puncture and the rectangle with corners at the quarters of the boundary. Where every vertex is next to the
+    boundary, that rectangle; with three boundary edges a triangle.
     """
+    options = solver, threads, progress
     corners = _native.clear_corners(component._native)
-    if corners is None:
-        try:
-            native = _native.punctured_structure(component._native, [], [], [], solver, threads, progress)
-            return result(DiskMap, surface, component, native)
-        except TopologyError:
-            corners = _native.quarter_corners(component._native)
-    return result(RectangleMap, surface, component, _rectangle(component, corners, [], solver, threads, progress))
+    if corners is not None:
+        return _rectangle(surface, component, corners, [], *options)
+    try:
+        round_map = disk(surface, component, [], [], *options)
+    except TopologyError:
+        if _native.boundary_length(component._native) == 3:
+            return result(TriangleMap, surface, component, _native.triangle_map(component._native, *options))
+        return _rectangle(surface, component, _native.quarter_corners(component._native), [], *options)
+    if _density_ratio(round_map) <= UNEVEN:
+        return round_map
+    maps = [round_map, result(PuncturedStructure, surface, component, round_map._native)]
+    if _native.boundary_length(component._native) > 3:
+        maps.append(_rectangle(surface, component, _native.quarter_corners(component._native), [], *options))
+    return min(maps, key=_density_ratio)
 
 
-def _rectangle(component, corners, names, solver, threads, progress):
-    return _native.rectangle_map(component._native, corners, names, solver, threads, progress)
+def _density_ratio(structure):
+    return structure.quality(structure.uv(structure.balanced_coefficients())).density_ratio
+
+
+def _rectangle(surface, component, corners, names, solver, threads, progress):
+    native = _native.rectangle_map(component._native, corners, names, solver, threads, progress)
+    return result(RectangleMap, surface, component, native)
 
 
 def rectangle(surface, component, chosen, solver, threads, progress):
     """`RectangleMap` of a disk with the chosen corners."""
     corners, names = own_vertices(surface, component, chosen, "rectangle corner")
-    return result(RectangleMap, surface, component, _rectangle(component, corners, names, solver, threads, progress))
+    return _rectangle(surface, component, corners, names, solver, threads, progress)
 
 
 def disk(surface, component, punctures, names, solver, threads, progress):

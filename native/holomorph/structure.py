@@ -4,7 +4,6 @@ from . import _native
 from ._native import TopologyError
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
-from .coarse_disk import coarse_disk
 from .cut import cut_along
 from .disk import automatic_map, disk, rectangle
 from .punctured import PuncturedStructure
@@ -37,7 +36,8 @@ def conformal_structure(
         from the others; with a boundary 1 everywhere
     rectangle_corners : list of four boundary vertices of a disk in the order of the boundary, the surface on its left:
         makes its map to a rectangle. A disk without any choice becomes a rectangle where its boundary turns by more
-        than 45 degrees at exactly four vertices, inwards; else the unit disk, its centre at the vertex deepest inside
+        than 45 degrees at exactly four vertices, inwards; else the unit disk, its centre at the vertex deepest inside;
+        where that is very uneven, a log map or a rectangle: `description` tells
     cut_edges : (#S, 2) vertices of the edges along which UVs are cut, such as an artist's seams, not along a cut of our
         own; the map must be single-valued on the rest, as it is on disks
     solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
@@ -51,7 +51,7 @@ def conformal_structure(
     Returns
     -------
     ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of
-    one with punctures, DiskMap or RectangleMap of a disk
+    one with punctures, DiskMap or RectangleMap (for three boundary edges TriangleMap) of a disk
 
     Raises
     ------
@@ -86,10 +86,7 @@ def _structure(surface, component, punctures, residues, rectangle_corners, optio
     if genus == 0 and boundaries == 1 and len(vertices) <= 1 and not chosen[1]:
         if is_chosen:
             return disk(surface, component, vertices, names, *options)
-        try:
-            return automatic_map(surface, component, *options)
-        except TopologyError:
-            return coarse_disk(surface, component, *options)  # three edges on its boundary, and no room for a centre
+        return automatic_map(surface, component, *options)
     if is_chosen or (genus == 0 and boundaries == 0):
         try:
             native = _native.punctured_structure(component._native, *chosen, *options)

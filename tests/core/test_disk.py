@@ -4,7 +4,15 @@ import families
 import numpy as np
 import pytest
 from forms import edge_forms
-from holomorph import DiskMap, RectangleMap, Surface, TopologyError, conformal_structure
+from holomorph import (
+    DiskMap,
+    PuncturedStructure,
+    RectangleMap,
+    Surface,
+    TopologyError,
+    TriangleMap,
+    conformal_structure,
+)
 from solved import surface_of
 from test_punctures import mean_angle_off_the_stars, neighbours, vertex_at
 
@@ -91,7 +99,9 @@ def test_riemann_map_of_a_jittered_hemisphere_converges():
     assert fine < 4e-4, fine
 
 
-@pytest.mark.parametrize(("name", "most"), [("face_34k_b1.obj", 1.1), ("hand_lowres_b1.obj", 1.6)])
+@pytest.mark.parametrize(
+    ("name", "most"), [("face_34k_b1.obj", 1.05), ("disk_b1.obj", 1.01), ("hemisphere_b1.obj", 1.03)]
+)
 def test_real_disks(meshes, name, most):
     """Without a choice: the unit disk around the vertex deepest inside."""
     (part,) = Surface.read(meshes / name).components
@@ -126,6 +136,48 @@ def test_no_room_for_a_centre():
     assert isinstance(structure, RectangleMap)
     uv = structure.uv([])
     assert np.ptp(uv, axis=0).min() > 0.5
+
+
+NESTED = [[3, 4, 5], [0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4], [2, 0, 5], [0, 3, 5]]
+
+
+@pytest.mark.parametrize(
+    "faces", [[[0, 1, 2]], [[0, 1, 3], [1, 2, 3], [2, 0, 3]], NESTED], ids=["one triangle", "with a middle", "nested"]
+)
+def test_three_boundary_edges_without_room(faces):
+    points = np.array([[0, 0, 0], [6, 0, 1], [2, 5, 0], [2.2, 1, 0.4], [3.5, 1.4, 0.3], [2.4, 2.6, 0.5]])
+    structure = conformal_structure(Surface(points[: 1 + max(map(max, faces))], faces))
+    assert isinstance(structure, TriangleMap)
+    uv = np.empty((len(structure.surface.vertices), 2))
+    uv[structure.surface.corner_vertices] = structure.uv([])
+    expected, sides = (np.linalg.norm(p[[0, 1, 2]] - p[[1, 2, 0]], axis=1) for p in (points, uv))
+    assert np.abs(sides - expected / expected.max()).max() < EXACT
+    quality = structure.quality(structure.uv([]))
+    assert not quality.flipped.any()
+    assert quality.mean_angle < (1 + 1e-9 if len(faces) == 1 else 2)
+    assert max(vars(structure.residuals).values()) < SOLVER
+
+
+def test_a_triangle_without_positions():
+    structure = conformal_structure(Surface.from_edge_lengths(np.array([[0, 1, 2]]), np.array([[3.0, 4.0, 5.0]])))
+    uv = structure.uv([])
+    assert np.abs(np.linalg.norm(np.roll(uv, -1, axis=0) - np.roll(uv, 1, axis=0), axis=1) * 5 - [3, 4, 5]).max() < 1e-9
+
+
+def test_a_long_disk_becomes_a_log_map():
+    """A tube with one end closed: a map to the disk shrinks that end like exp(-length / radius)."""
+    theta, height = np.meshgrid(2 * np.pi * np.arange(12) / 12, np.arange(60) / 2)
+    tube = np.stack([np.cos(theta), np.sin(theta), height], axis=2).reshape(-1, 3)
+    quads = families.grid_quads(60, 12).reshape(60, 12, 4)[:-1].reshape(-1, 4)
+    end = [[(k + 1) % 12, k, 60 * 12] for k in range(12)]
+    surface = Surface(np.concatenate([tube, [[0, 0, -0.3]]]), [*quads.tolist(), *end])
+    structure = conformal_structure(surface)
+    assert isinstance(structure, PuncturedStructure)
+    assert structure.punctures.tolist() == [60 * 12]
+    assert structure.description == "log map with a puncture at 720"
+    quality = structure.quality(structure.uv([1]))
+    assert quality.density_ratio < 3
+    assert not quality.flipped.any()
 
 
 # ---- other surfaces with boundary --------------------------------------------------------------------------------

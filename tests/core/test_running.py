@@ -148,9 +148,7 @@ def test_solver_is_reported():
 
 # ---- refusals -----------------------------------------------------------------------------------------------------
 
-TRIANGLE = families.uniform([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], ((0, 1),))
 REFUSED = {
-    "one triangle": (TRIANGLE, r"three edges on its boundary"),
     "two tori": (families.united(families.torus(5, 4), families.torus(6, 5)), r"2 connected components"),
 }
 
@@ -224,7 +222,6 @@ def test_command_prints_the_report_where_no_file_is_named(tmp_path):
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
-        ("triangle.obj", obj(TRIANGLE), "subdivide"),
         ("broken.obj", b"v 0 0 zero\n", "line 1"),
         ("moebius.obj", obj(families.moebius()), "orient"),
         ("absent.obj", None, "no such file"),

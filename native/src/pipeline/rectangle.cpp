@@ -177,14 +177,18 @@ std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface) {
   return corners;
 }
 
+int boundary_length(const mesh::Surface& surface) {
+  Progress silent;
+  return static_cast<int>(mesh::boundary_loops(surface, mesh::half_edges(surface, silent)).loops[0].size());
+}
+
 std::vector<int> quarter_corners(const mesh::Surface& surface) {
   Progress silent;
   const auto half_edges = mesh::half_edges(surface, silent);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
   const auto& loop = boundary.loops[0];  // the hole on its left: turned round at the end
   const int n = static_cast<int>(loop.size());
-  if (n < 4)
-    throw TopologyError("the disk has no room for a centre, and three edges on its boundary; subdivide the mesh");
+  if (n < 4) throw TopologyError("the boundary has three edges; four are needed for four corners");
   std::vector<double> until(n, 0.0);  // length from the first vertex to each
   for (int i = 1; i < n; ++i) until[i] = until[i - 1] + surface.edge_lengths[mesh::edge_of(loop[i - 1])];
   const double total = until.back() + surface.edge_lengths[mesh::edge_of(loop.back())];

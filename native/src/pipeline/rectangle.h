@@ -44,6 +44,9 @@ RectangleMap rectangle_map(const mesh::Surface& surface, const std::vector<int>&
 /// of them inwards, in its order from the lowest; nothing for other disks.
 std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface);
 
+/// Number of edges of the longest boundary loop.
+int boundary_length(const mesh::Surface& surface);
+
 /// Four corners of a disk that has no clear ones: from the lowest boundary vertex on, those nearest to the quarters of
 /// the boundary's length.
 /// @throws TopologyError for a boundary of three edges

@@ -1,0 +1,60 @@
+#include "pipeline/triangle_map.h"
+
+#include <algorithm>
+#include <complex>
+
+#include "base/errors.h"
+#include "mesh/boundary_loops.h"
+#include "mesh/triangle_geometry.h"
+#include "pipeline/threads.h"
+
+namespace holomorph::pipeline {
+
+TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, Progress& progress) {
+  const ThreadCount threads(options.threads);
+  TriangleMap result;
+  progress.stage("boundary", 0.0, 0.3);
+  const auto half_edges = mesh::half_edges(surface, progress);
+  const auto boundary = mesh::boundary_loops(surface, half_edges);
+  const auto& loop = boundary.loops[0];  // the hole on its left: the surface has it the other way round
+  if (loop.size() != 3)
+    throw TopologyError("the boundary has " + std::to_string(loop.size()) + " edges; three are needed");
+  const auto triangulation = mesh::intrinsic_triangulation(surface, half_edges);
+  result.mollification = triangulation.mollification;
+  const auto vertex = [&](int i) { return mesh::from_vertex(half_edges, loop[i]); };
+  const auto length = [&](int i) { return triangulation.lengths[mesh::edge_of(loop[i])]; };
+  // vertices 0, 2, 1 are counter-clockwise; a runs from 0 to 2, b from 2 to 1, c from 1 to 0
+  const double a = length(2), b = length(1), c = length(0), scale = 1 / std::max({a, b, c});
+  Eigen::MatrixXd z = Eigen::MatrixXd::Zero(surface.vertex_count, 2);
+  z(vertex(2), 0) = a * scale;
+  z(vertex(1), 0) = ((c - b) * (c + b) + a * a) / (2 * a) * scale;
+  // a boundary that is no triangle, which a curved disk may have, is made an isosceles one
+  const double area = mesh::triangle_area(a, b, c);
+  z(vertex(1), 1) = mesh::is_degenerate(a, b, c) ? a * scale / 2 : 2 * area / a * scale;
+
+  progress.stage("harmonic map", 0.3, 1.0);
+  const auto weights = mesh::cotangent_weights(triangulation, progress);
+  auto L = forms::laplacian(half_edges, weights, progress);
+  const std::vector<int> held{vertex(0), vertex(1), vertex(2)};
+  if (surface.vertex_count > 3) {
+    const Eigen::MatrixXd B = -(L * z);
+    const double largest = (L.cwiseAbs() * z.cwiseAbs()).maxCoeff();
+    auto matrix = L;
+    const auto choice = solver::choose_method(options.solver, L.rows(), 2);
+    const auto solver = solver::make_solver(choice.method, std::move(matrix), held, progress);
+    z += solver->solve(B, solver::Condition::dirichlet, progress);
+    Eigen::MatrixXd rest = L * z;
+    for (const int v : held) rest.row(v).setZero();
+    result.harmonicity = rest.cwiseAbs().maxCoeff() / largest;
+    result.solver = solver_report(*solver, choice);
+  } else {
+    result.solver.name = "none";
+    result.solver.reason = "a single triangle";
+  }
+  result.points = z.col(0).cast<std::complex<double>>() + std::complex<double>(0, 1) * z.col(1);
+  progress.finish();
+  result.seconds = progress.seconds();
+  return result;
+}
+
+}  // namespace holomorph::pipeline
