@@ -1,5 +1,6 @@
 #include "base/workers.h"
 
+#include <algorithm>
 #include <system_error>
 
 #ifdef _OPENMP
@@ -37,15 +38,8 @@ void wait_for_change(const std::atomic<T>& value, T old) {
 
 Workers::Workers() {
 #ifdef _OPENMP
-  const int wanted = omp_get_max_threads();
-#else
-  const int wanted = 1;
+  count_ = std::max(1, omp_get_max_threads());
 #endif
-  try {
-    for (int thread = 1; thread < wanted; ++thread) threads_.emplace_back(&Workers::work, this, thread);
-  } catch (const std::system_error&) {
-    // no more threads: those that there are do the work
-  }
 }
 
 Workers::~Workers() {
@@ -55,7 +49,16 @@ Workers::~Workers() {
   for (std::thread& thread : threads_) thread.join();
 }
 
+void Workers::start() {
+  try {
+    for (int thread = 1; thread < count_; ++thread) threads_.emplace_back(&Workers::work, this, thread);
+  } catch (const std::system_error&) {
+    count_ = static_cast<int>(threads_.size()) + 1;  // no more threads: those that there are do the work
+  }
+}
+
 void Workers::share(int chunks, Call call) {
+  if (threads_.empty() && count_ > 1) start();
   call_ = call;
   chunks_ = chunks;
   done_.store(0, std::memory_order_relaxed);

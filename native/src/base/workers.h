@@ -14,20 +14,21 @@ namespace holomorph {
 /// a thread which comes late costs nothing.
 class Workers {
  public:
-  /// As many threads as OpenMP would take, the calling one included; fewer where the system has no more.
+  /// As many threads as OpenMP would take, the calling one included; fewer where the system has no more. They are made
+  /// when the first loop is long enough to be shared.
   Workers();
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
   /// Number of the threads; the calling one is number 0.
-  int count() const { return static_cast<int>(threads_.size()) + 1; }
+  int count() const { return count_; }
 
   /// task(thread, chunk) for each of `chunks` chunks, once, on any thread and in any order; returns when all are done.
   /// Only from the thread that made this. @pre task does not throw; chunks < 2^24
   template <class Task>
   void run(int chunks, const Task& task) {
-    if (threads_.empty() || chunks <= kTooFew) {
+    if (count_ == 1 || chunks <= kTooFew) {
       for (int c = 0; c < chunks; ++c) task(0, c);
     } else {
       share(chunks,
@@ -42,6 +43,7 @@ class Workers {
     const void* task = nullptr;
   };
 
+  void start();
   void share(int chunks, Call call);
   bool take(int thread);
   void work(int thread);
@@ -54,6 +56,7 @@ class Workers {
   int chunks_ = 0;
   std::atomic<int> done_{0};
   std::atomic<bool> end_{false};
+  int count_ = 1;
   std::vector<std::thread> threads_;
 };
 

@@ -64,8 +64,8 @@ Lower part(const Lower& lower, const std::vector<Eigen::Index>& places) {
 #ifdef HOLOMORPH_WITH_CHOLMOD
 
 // Held unknowns become a dense block at the end of the factor where what is left of the surface connects them. Beyond
-// this many times n^1.5 operations two factorisations are faster than that one; in the order AMD would take, 3 to 30.
-constexpr double kMostOperations = 100;
+// this many times n^1.5 operations two factorisations are faster than that one; in the order AMD would take, 3 to 50.
+constexpr double kMostOperations = 300;
 
 struct SparseCholesky::Factor {
   Factor() {
