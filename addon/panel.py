@@ -64,7 +64,8 @@ def _draw_result(layout, obj):
     if stored:
         column = layout.column(align=True)
         for line in report.summary(stored):
-            column.label(text=line)
+            for piece in textwrap.wrap(line, LINE_WIDTH, subsequent_indent="        "):
+                column.label(text=piece)
 
 
 def _draw_menu_entry(self, _context):
