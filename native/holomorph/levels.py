@@ -45,8 +45,8 @@ def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", thread
     ----------
     uv : (#C, 2) of the original's polygon corners, or (#C, m, 2) for several maps
     n_faces : numbers of triangles, as in `level`; one level each
-    harmonic : whether to solve on each level; for one closed surface of genus 1 or more, and maps that are
-        translated across seams
+    harmonic : whether to solve on each level; for one surface with handles or two boundary loops, and maps that are
+        translated across seams and have straight boundaries: v constant along each
     solver, threads, progress : as in `holomorph.conformal_structure`, for `harmonic`
 
     Returns
@@ -56,7 +56,8 @@ def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", thread
     Raises
     ------
     InvalidMesh
-        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a turn or a stretch
+        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a turn or a stretch, or
+        a boundary that is not straight
     TopologyError
         if `harmonic` is asked for another topology
 

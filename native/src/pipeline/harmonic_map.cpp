@@ -1,8 +1,10 @@
 #include "pipeline/harmonic_map.h"
 
+#include <cmath>
 #include <string>
 
 #include "base/errors.h"
+#include "mesh/boundary_loops.h"
 #include "mesh/components.h"
 #include "mesh/triangle_geometry.h"
 #include "pipeline/threads.h"
@@ -17,12 +19,26 @@ constexpr double kSameVector = 1e-6;
 void check_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
   const int boundaries = mesh::boundary_count(half_edges);
   const int genus = mesh::genus(mesh::euler_characteristic(surface), boundaries);
-  if (surface.component_count == 1 && genus > 0 && boundaries == 0) return;
+  if (surface.component_count == 1 && (genus > 0 || boundaries > 1)) return;
   const std::string found = surface.component_count == 1 ? "genus " + std::to_string(genus) + " and " +
                                                                std::to_string(boundaries) + " boundary loops"
                                                          : std::to_string(surface.component_count) + " components";
   throw TopologyError("the surface has " + found +
-                      "; a harmonic map of the same periods needs one closed surface of genus 1 or more");
+                      "; a harmonic map of the same periods needs one surface with handles or two boundary loops");
+}
+
+// The columns of v must not change along the boundary.
+void check_boundary(const mesh::Surface& surface, const forms::RowMajorMatrix& edge_values, double tolerance) {
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    if (surface.edge_face_count[e] > 1) continue;
+    for (Eigen::Index k = 1; k < edge_values.cols(); k += 2) {
+      if (std::abs(edge_values(static_cast<Eigen::Index>(e), k)) <= tolerance) continue;
+      throw InvalidMesh("v changes along the boundary edge between vertices " + std::to_string(surface.edges[e][0]) +
+                        " and " + std::to_string(surface.edges[e][1]) +
+                        " of the level; only maps with straight boundaries, along which v is constant, have a "
+                        "harmonic one of the same periods");
+    }
+  }
 }
 
 // #V x 2m the values at the first corner of each vertex.
@@ -35,10 +51,9 @@ forms::RowMajorMatrix first_values(const mesh::Surface& surface, const forms::Ro
 }
 
 // #E x 2m the differences of the corner values along half-edges 2e, the same in both triangles of an edge.
-forms::RowMajorMatrix differences(const mesh::Surface& surface, const forms::RowMajorMatrix& values) {
+forms::RowMajorMatrix differences(const mesh::Surface& surface, const forms::RowMajorMatrix& values, double tolerance) {
   forms::RowMajorMatrix edge_values(static_cast<Eigen::Index>(surface.edges.size()), values.cols());
   std::vector<char> seen(surface.edges.size(), 0);
-  const double tolerance = kSameVector * values.cwiseAbs().maxCoeff();
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const int e = surface.triangle_edges[t][i], from = surface.triangle_corners[t][i],
@@ -81,6 +96,16 @@ Eigen::VectorXd vertex_areas(const mesh::Surface& surface, const std::vector<dou
   return areas;
 }
 
+// All columns with the natural condition, or with a boundary those of v, the odd ones, with v held there.
+Eigen::MatrixXd solved(solver::LaplaceSolver& solver, const Eigen::MatrixXd& B, bool bounded, Progress& progress) {
+  if (!bounded) return solver.solve(B, solver::Condition::natural, progress);
+  Eigen::MatrixXd x(B.rows(), B.cols());
+  const auto u = Eigen::seq(0, Eigen::last, 2), v = Eigen::seq(1, Eigen::last, 2);
+  x(Eigen::all, u) = solver.solve(B(Eigen::all, u), solver::Condition::natural, progress);
+  x(Eigen::all, v) = solver.solve(B(Eigen::all, v), solver::Condition::dirichlet, progress);
+  return x;
+}
+
 }  // namespace
 
 HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatrix& corner_values,
@@ -89,10 +114,15 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
   progress.stage("level of detail", 0.0, 0.2);
   const auto half_edges = mesh::half_edges(surface, progress);
   check_topology(surface, half_edges);
+  const auto held = mesh::boundary_vertices(mesh::boundary_loops(surface, half_edges));
+  const double tolerance = kSameVector * corner_values.cwiseAbs().maxCoeff();
+  forms::RowMajorMatrix edge_values = differences(surface, corner_values, tolerance);
+  check_boundary(surface, edge_values, tolerance);
   // The map is a function of the vertices and a form that is 0 away from the seams. Starting from that form, the
   // right-hand sides are large even if the map is harmonic already, and residuals relative to them mean something.
-  const auto start = first_values(surface, corner_values);
-  forms::RowMajorMatrix edge_values = differences(surface, corner_values);
+  // The values of v at the boundary stay part of the form: the function is 0 there.
+  forms::RowMajorMatrix start = first_values(surface, corner_values);
+  for (const int v : held) start(v, Eigen::seq(1, Eigen::last, 2)).setZero();
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
     edge_values.row(static_cast<Eigen::Index>(e)) -= start.row(surface.edges[e][1]) - start.row(surface.edges[e][0]);
   }
@@ -101,12 +131,14 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
 
   progress.stage("harmonic map of the level", 0.2, 1.0);
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
-  const auto solver = solver::make_solver(choice.method, forms::laplacian(half_edges, weights, progress), {}, progress);
+  const auto solver =
+      solver::make_solver(choice.method, forms::laplacian(half_edges, weights, progress), held, progress);
   HarmonicMap result;
-  const auto B = codifferential(surface, weights, edge_values);
-  result.moves = solver->solve(B, solver::Condition::natural, progress) - start;
+  result.moves = solved(*solver, codifferential(surface, weights, edge_values), !held.empty(), progress) - start;
   const Eigen::VectorXd areas = vertex_areas(surface, plain.lengths);
-  result.moves.rowwise() -= (areas.transpose() * result.moves / areas.sum()).eval();
+  Eigen::RowVectorXd mean = areas.transpose() * result.moves / areas.sum();
+  if (!held.empty()) mean(Eigen::seq(1, Eigen::last, 2)).setZero();
+  result.moves.rowwise() -= mean;
   result.solver = solver_report(*solver, choice);
   progress.finish();
   return result;
