@@ -47,10 +47,16 @@ def attempts(part, choices):
     wanted = [base]
     if cut:
         wanted.insert(0, base | cut)
-    if not selection:
-        return wanted
-    with_selection = [keywords | selection for keywords in wanted]
-    return with_selection if choices.is_express else with_selection + wanted
+    if selection:
+        with_selection = [keywords | selection for keywords in wanted]
+        wanted = with_selection if choices.is_express else with_selection + wanted
+    return [_with_fitting_solver(part, keywords) for keywords in wanted]
+
+
+def _with_fitting_solver(part, keywords):
+    """The paper's solver is for closed parts with handles; the others of a mesh are solved as usual."""
+    is_fitting = part.genus and not part.boundary_count and "punctures" not in keywords
+    return keywords if keywords["solver"] != "paper" or is_fitting else keywords | {"solver": "auto"}
 
 
 def name_vertices(keywords):

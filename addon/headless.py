@@ -48,7 +48,7 @@ def _add_choices(parser):
     group.add_argument("--selection", choices=("automatic", "punctures", "rectangle", "none"), default="none")
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
     group.add_argument("--boundary", choices=("natural", "double_cover"), default="natural")
-    group.add_argument("--solver", choices=("auto", "direct", "multigrid"), default="auto")
+    group.add_argument("--solver", choices=("auto", "direct", "multigrid", "paper"), default="auto")
 
 
 def parse(arguments):

@@ -42,6 +42,7 @@ SOLVERS = (
     ("auto", "Automatic", "By size and number of forms"),
     ("direct", "Direct", "Sparse Cholesky factorisation"),
     ("multigrid", "Multigrid", "Linear time and memory"),
+    ("paper", "Paper", "The published multiresolution method, on closed parts with handles: for comparison"),
 )
 
 

@@ -145,6 +145,14 @@ def test_the_solver_can_be_chosen(solver):
     assert only_part(obj)["solver"]["name"].startswith(solver)
 
 
+def test_the_papers_solver_is_for_the_parts_that_it_fits():
+    obj = two_parts("Two", torus_arrays(), sphere_arrays())
+    assert run(solver="paper") == {"FINISHED"}
+    closed, punctured = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
+    assert closed["solver"]["name"].startswith("paper")
+    assert punctured["done"] and not punctured["solver"]["name"].startswith("paper")
+
+
 def test_a_modifier_that_may_close_the_surface_is_told():
     obj = mesh_object("Tube", *tube_arrays())
     obj.modifiers.new("My Mirror", "MIRROR")
