@@ -16,6 +16,8 @@ from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, 
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
 from .disk import DiskMap, RectangleMap, TriangleMap
+from .disk import DiskMap, RectangleMap
+from .double import double_cover
 from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
@@ -44,4 +46,5 @@ __all__ = [
     "TriangleMap",
     "__version__",
     "conformal_structure",
+    "double_cover",
 ]

@@ -10,10 +10,13 @@ from .punctured import PuncturedStructure
 from .results import check_options, only_component, own_vertices, result
 from .truncated import coarse_log_map
 
+BOUNDARIES = ("natural", "double_cover")
+
 
 def conformal_structure(
     surface,
     *,
+    boundary="natural",
     punctures=None,
     residues=None,
     rectangle_corners=None,
@@ -28,6 +31,8 @@ def conformal_structure(
     Parameters
     ----------
     surface : Surface, connected; isolated vertices are ignored
+    boundary : how forms of a surface with boundary are found: "natural" on the surface itself, "double_cover" on its
+        double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy
     punctures : list of vertices whose stars are apart from each other and from the boundary; without any, two far apart
         are taken on a closed surface of genus 0. One puncture of a disk, without residues, makes its map to the unit
         disk
@@ -67,18 +72,24 @@ def conformal_structure(
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
     options = solver, check_options(solver, threads), progress
+    if boundary not in BOUNDARIES:
+        raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
     component = only_component(surface)
-    made = _structure(surface, component, punctures, residues, rectangle_corners, options)
+    made = _structure(surface, component, boundary, punctures, residues, rectangle_corners, options)
     if cut_edges is None or not len(cut_edges):
         return made
     return cut_along(made, surface, component, cut_edges)
 
 
-def _structure(surface, component, punctures, residues, rectangle_corners, options):
+def _structure(surface, component, boundary, punctures, residues, rectangle_corners, options):
     genus, boundaries = component.genus, component.boundary_count
     vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     chosen = vertices, _residues(residues), names
     is_chosen = any(map(len, chosen[:2]))
+    if boundary == "double_cover" and (is_chosen or rectangle_corners is not None or (genus, boundaries) == (0, 1)):
+        raise TopologyError(
+            "the way over the double is for forms of surfaces with boundary, without punctures or corners"
+        )
     if rectangle_corners is not None and len(rectangle_corners):
         if is_chosen:
             raise TopologyError("a rectangle has no punctures; choose either")
@@ -96,7 +107,7 @@ def _structure(surface, component, punctures, residues, rectangle_corners, optio
             return coarse_log_map(surface, component, *options)  # the stars of any two vertices meet
         return result(PuncturedStructure, surface, component, native)
     if boundaries:
-        native = _native.bounded_structure(component._native, *options)
+        native = _native.bounded_structure(component._native, boundary, *options)
         return result(BoundedStructure, surface, component, native)
     native = _native.conformal_structure(component._native, *options)
     return result(ConformalStructure, surface, component, native)

@@ -169,6 +169,10 @@ class Surface:
     def _index(given, count):
         return arrays.frozen(np.arange(count, dtype=np.int32)) if given is None else given
 
+    dual_vertex = None
+    """(#V,) of a `double_cover`: the same vertex in the other copy, itself on the boundary between them. None of other
+    surfaces."""
+
     @property
     def components(self):
         """Tuple of the connected components, ordered by their first face, without isolated vertices."""

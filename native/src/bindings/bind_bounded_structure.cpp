@@ -7,9 +7,11 @@ namespace {
 using pipeline::BoundedStructure;
 using Bounded = Structure<BoundedStructure>;
 
-std::shared_ptr<Bounded> compute(std::shared_ptr<mesh::Surface> surface, const std::string& solver, int threads,
-                                 const py::object& progress) {
-  return make_structure<BoundedStructure>(surface, {solver, threads}, progress, [&](const auto& options, auto& p) {
+std::shared_ptr<Bounded> compute(std::shared_ptr<mesh::Surface> surface, const std::string& boundary,
+                                 const std::string& solver, int threads, const py::object& progress) {
+  pipeline::Options chosen{solver, threads};
+  chosen.boundary = boundary;
+  return make_structure<BoundedStructure>(surface, chosen, progress, [&](const auto& options, auto& p) {
     return pipeline::bounded_structure(*surface, options, p);
   });
 }

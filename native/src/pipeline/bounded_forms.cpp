@@ -1,5 +1,6 @@
 #include "pipeline/bounded_forms.h"
 
+#include "pipeline/double_cover_forms.h"
 #include "topology/homology.h"
 
 namespace holomorph::pipeline {
@@ -20,14 +21,13 @@ Eigen::MatrixXd solve_both(const mesh::HalfEdges& half_edges, const std::vector<
   return solver.solve(B, conditions, progress);
 }
 
-// 1 on each loop >= 1 in the column of its form.
+}  // namespace
+
 void add_indicators(const mesh::BoundaryLoops& boundary, int handles, forms::RowMajorMatrix& functions) {
   for (int v = 0; v < static_cast<int>(boundary.loop_of_vertex.size()); ++v) {
     if (const int k = boundary.loop_of_vertex[v]; k > 0) functions(v, handles + k - 1) += 1;
   }
 }
-
-}  // namespace
 
 forms::RowMajorMatrix side_by_side(const BoundedForms& forms) {
   forms::RowMajorMatrix both(forms.natural.functions.rows(),
@@ -39,6 +39,8 @@ forms::RowMajorMatrix side_by_side(const BoundedForms& forms) {
 BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                            solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                            const mesh::BoundaryLoops& boundary, const Options& options, Progress& progress) {
+  if (options.boundary == "double_cover")
+    return double_cover_forms(half_edges, weights, classes, boundary, options, progress);
   const int n = classes.form_count, handles = n - (boundary.count() - 1);
   const auto choice = solver::choose_method(options.solver, laplacian.rows(), 2 * n);
   const auto solver =

@@ -15,10 +15,14 @@ struct BoundedForms {
   SolverReport solver;
 };
 
+/// Adds 1 on each boundary loop k >= 1 to the function of its form, column handles + k - 1.
+void add_indicators(const mesh::BoundaryLoops& boundary, int handles, forms::RowMajorMatrix& functions);
+
 /// #V x 2n: the natural functions, then the Dirichlet ones.
 forms::RowMajorMatrix side_by_side(const BoundedForms& forms);
 
 /// @param classes n natural classes: those of the 2g handles, zero along the boundary, and then those of the loops
+/// @param options boundary "double_cover" takes the way over the double instead
 /// @throws SolverError, Cancelled
 BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                            solver::Laplacian&& laplacian, const topology::IntegerForms& classes,

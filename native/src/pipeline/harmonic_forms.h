@@ -11,8 +11,9 @@
 namespace holomorph::pipeline {
 
 struct Options {
-  std::string solver = "auto";  ///< "auto", "direct", "multigrid" or "paper"
-  int threads = 0;              ///< 0: as many as the machine has cores; the result does not depend on it
+  std::string solver = "auto";       ///< "auto", "direct", "multigrid" or "paper"
+  int threads = 0;                   ///< 0: as many as the machine has cores; the result does not depend on it
+  std::string boundary = "natural";  ///< "natural", or "double_cover": over the double of a surface with boundary
 };
 
 /// Conjugate gradients on one level of a progressive mesh.

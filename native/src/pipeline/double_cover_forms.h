@@ -1,0 +1,17 @@
+// The forms of a surface with boundary by way of its double: the paper's own path (§ 8), the reference for the other.
+#pragma once
+
+#include "pipeline/bounded_forms.h"
+
+namespace holomorph::pipeline {
+
+/// As bounded_forms, but every form is solved for on the closed double: the symmetric extension of each natural class
+/// and the antisymmetric one of each Dirichlet class. The solutions are symmetrised (Eq. 12), f(v) + f(v*) and f(v) -
+/// f(v*), v* the dual vertex, and restricted to the surface. They are those of bounded_forms to solver accuracy, at
+/// twice the size. The double has the edge weights of the surface: edges of the boundary count twice.
+/// @throws SolverError, Cancelled
+BoundedForms double_cover_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                                const topology::IntegerForms& classes, const mesh::BoundaryLoops& boundary,
+                                const Options& options, Progress& progress);
+
+}  // namespace holomorph::pipeline

@@ -1,0 +1,101 @@
+"""The double cover as a surface, and the forms found on it: the reference for those found on the surface itself."""
+
+import families
+import numpy as np
+import pytest
+from equivalence import distance
+from holomorph import Surface, TopologyError, conformal_structure, double_cover
+from solved import BOUNDED, BOUNDED_FLAT, solved_bounded, surface_of
+from test_read import REAL, real_file
+
+SAME = 1e-10  # of the largest entry: both ways solve the same equations
+everywhere = pytest.mark.parametrize("name", [*BOUNDED, *BOUNDED_FLAT])
+embedded = pytest.mark.parametrize("name", BOUNDED)
+
+
+def size(matrix):
+    return np.abs(matrix).max()
+
+
+# ---- the surface ---------------------------------------------------------------------------------
+
+
+@everywhere
+def test_double_is_closed_of_genus_n(name):
+    surface = solved_bounded(name).surface
+    double = double_cover(surface)
+    assert double.boundary_count == 0
+    assert double.genus == 2 * surface.genus + surface.boundary_count - 1
+    assert len(double.triangles) == 2 * len(surface.triangles)
+    assert (double.triangles[: len(surface.triangles)] == surface.triangles).all()
+
+
+@embedded
+def test_dual_vertices(name):
+    """An involution that keeps the boundary and nothing else; it takes each triangle to the one over it, reversed."""
+    structure = solved_bounded(name)
+    double = double_cover(structure.surface)
+    dual = double.dual_vertex
+    assert (dual[dual] == np.arange(len(dual))).all()
+    fixed = np.flatnonzero(dual == np.arange(len(dual)))
+    assert (fixed == np.sort(np.concatenate(structure.boundary_loops))).all()
+    first, second = np.split(double.triangles, 2)
+    assert (dual[first][:, [0, 2, 1]] == second).all()
+
+
+def test_double_of_a_closed_surface_is_refused():
+    with pytest.raises(TopologyError, match="no boundary"):
+        double_cover(surface_of(families.torus(6, 5)))
+
+
+def test_surfaces_have_no_dual_vertices():
+    assert surface_of(families.torus(6, 5)).dual_vertex is None
+
+
+@pytest.mark.parametrize("name", ["tube", "punctured torus", "square minus square"])
+def test_closed_structure_of_the_double(name):
+    """The closed method on the double, which turns other edges: the same period matrix up to Sp(2n, Z) and the mesh."""
+    structure = solved_bounded(name)
+    double = conformal_structure(double_cover(structure.surface))
+    assert distance(structure.period_matrix, double.period_matrix) < 1e-3 * size(structure.period_matrix)
+
+
+# ---- forms by way of the double ------------------------------------------------------------------
+
+
+def assert_same(fast, reference):
+    for mine, theirs in (
+        (fast.natural_forms, reference.natural_forms),
+        (fast.dirichlet_forms, reference.dirichlet_forms),
+        (fast.holomorphic_forms, reference.holomorphic_forms),
+        (fast.period_matrix, reference.period_matrix),
+        *zip(fast.projected_gram_matrices, reference.projected_gram_matrices, strict=True),
+        *zip(fast.gram_matrices, reference.gram_matrices, strict=True),
+    ):
+        assert size(mine - theirs) < SAME * size(theirs)
+    assert (fast.pairing == reference.pairing).all()
+
+
+@everywhere
+def test_forms_are_those_of_the_double_cover(name):
+    reference = conformal_structure(surface_of((BOUNDED | BOUNDED_FLAT)[name]), boundary="double_cover")
+    assert_same(solved_bounded(name), reference)
+    assert max(vars(reference.residuals).values()) < 1e-8
+
+
+@pytest.mark.skipif(not REAL, reason="no folder ../shared/meshes")
+@pytest.mark.parametrize(
+    "name", ["beetle_59k_b11.obj", "plane_b27.obj", "lionstatue_g3_b1.obj", "bunny_stanford_raw.ply", "teapot_bff.obj"]
+)
+def test_real_forms_are_those_of_the_double_cover(name, tmp_path):
+    """Two of them with chords."""
+    parts = Surface.read(real_file(name, tmp_path)).components
+    part = next(part for part in parts if part.boundary_count and 2 * part.genus + part.boundary_count > 1)
+    assert_same(conformal_structure(part), conformal_structure(part, boundary="double_cover"))
+
+
+def test_boundary_option():
+    with pytest.raises(ValueError, match="boundary is 'free'"):
+        conformal_structure(surface_of(BOUNDED["tube"]), boundary="free")
+    with pytest.raises(TopologyError, match="double"):
+        conformal_structure(surface_of(families.hexagonal_disk(3)), boundary="double_cover")
