@@ -16,7 +16,6 @@ from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, 
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
 from .disk import DiskMap, RectangleMap, TriangleMap
-from .disk import DiskMap, RectangleMap
 from .double import double_cover
 from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh

@@ -8,8 +8,8 @@ from .surface import Surface
 
 
 def double_cover(surface):
-    """Two copies of a surface, the second one with the other orientation, glued along all boundary loops: closed, and of
-    genus 2g + b - 1 where the surface is connected.
+    """Two copies of a surface, the second one with the other orientation, glued along all boundary loops: closed, and
+    of genus 2g + b - 1 where the surface is connected.
 
     Edges are matched by index, so that a chord, an inner edge with both ends on the boundary, gives two edges with the
     same ends. Hence the result is an intrinsic surface, of triangles and edge lengths without positions. Its first #V

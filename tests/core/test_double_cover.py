@@ -98,4 +98,4 @@ def test_boundary_option():
     with pytest.raises(ValueError, match="boundary is 'free'"):
         conformal_structure(surface_of(BOUNDED["tube"]), boundary="free")
     with pytest.raises(TopologyError, match="double"):
-        conformal_structure(surface_of(families.hexagonal_disk(3)), boundary="double_cover")
+        conformal_structure(surface_of(families.hemisphere(3)), boundary="double_cover")
