@@ -18,6 +18,7 @@ SAMPLED = 50_000  # triangles, for a median
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
 CENTRE = 0.5 + 0.5j  # of the UV square
+CHUNK = 1 << 15  # entries worked on at a time: temporary arrays stay in the processor's cache
 
 
 @dataclass(frozen=True)
@@ -63,8 +64,12 @@ def map_values(solved, options):
         parts = _parts(solved, index)
         raw = [_raw(part, index, options) for part in parts]
         for part, z, place in zip(parts, raw, _places(parts, index, options, raw)):
-            uv[part.surface.corner_index] = _placed(z, place)
+            _write_placed(z, place, uv, part.surface.corner_index)
         yield name, uv
+
+
+def _chunks(count):
+    return (slice(start, start + CHUNK) for start in range(0, count, CHUNK))
 
 
 def shape_points(solved):
@@ -121,8 +126,22 @@ def _raw(component, index, options):
 
 def uv_area(z, triangle_corners):
     """The sum of the triangles' areas in UV, whichever way they lie; z = u + i v at the corners."""
-    p, q, r = z[triangle_corners].T
-    return 0.5 * float(np.abs(((q - p).conj() * (r - p)).imag).sum())
+    area = 0.0
+    for chunk in _chunks(len(triangle_corners)):
+        p, q, r = z[triangle_corners[chunk]].T
+        area += float(np.abs(((q - p).conj() * (r - p)).imag).sum())
+    return area / 2
+
+
+def _bounding_box(z, rotation):
+    """Lower left and upper right corner of the points, turned by the angle."""
+    turn = cmath.exp(1j * rotation)
+    boxes = []
+    for chunk in _chunks(len(z)):
+        u, v = (turn * z[chunk]).view(np.float64).reshape(-1, 2).T.copy()
+        boxes.append((u.min(), v.min(), -u.max(), -v.max()))
+    left, low, right, high = np.min(boxes, axis=0)
+    return complex(left, low), complex(-right, -high)
 
 
 def _frame(component, index, options, z=None):
@@ -131,10 +150,8 @@ def _frame(component, index, options, z=None):
     key = (index, options.rotation, dials)
     if key not in component.frames:
         z = _raw(component, index, options) if z is None else z
-        turned = z * cmath.exp(1j * options.rotation) if options.rotation else z
-        u, v = turned.real, turned.imag
-        area = uv_area(z - z[0], component.surface.triangle_corners)
-        component.frames[key] = Frame(complex(u.min(), v.min()), complex(u.max(), v.max()), area)
+        area = uv_area(z, component.surface.triangle_corners)
+        component.frames[key] = Frame(*_bounding_box(z, options.rotation), area)
     return component.frames[key]
 
 
@@ -156,13 +173,14 @@ def _places(parts, index, options, raw=None):
     ]
 
 
-def _placed(z, place):
-    """(#C,2) float64. Moved to the middle first and rounded to float32 last: the two copies of a seam edge stay equal
-    to the last bits, and so does v along a straight boundary."""
-    z = z - place.origin
-    z *= place.factor
-    z += place.target
-    return z.view(np.float64).reshape(-1, 2)
+def _write_placed(z, place, uv, corner_index):
+    """Writes the part's corners into the (#C,2) float32 map of the object. Moved to the middle first and rounded last:
+    the two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary."""
+    for chunk in _chunks(len(z)):
+        moved = z[chunk] - place.origin
+        moved *= place.factor
+        moved += place.target
+        uv[corner_index[chunk]] = moved.view(np.float64).reshape(-1, 2)
 
 
 @dataclass(frozen=True)

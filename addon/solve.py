@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From polygons to conformal structures, component by component. No bpy here: it runs in a worker thread."""
 
-import functools
 import inspect
 import time
 from dataclasses import dataclass, field, replace
-
-import numpy as np
 
 from . import choices, native
 
@@ -48,11 +45,10 @@ class SolvedComponent:
         """How many forms an artist can mix."""
         return 0 if self.balanced is None else len(self.balanced)
 
-    @functools.cached_property
+    @property
     def area(self):
         """Of the surface."""
-        p, q, r = self.surface.vertices[self.surface.triangles].transpose(1, 0, 2)
-        return 0.5 * float(np.linalg.norm(np.cross(q - p, r - p), axis=1).sum())
+        return self.surface.area
 
 
 @dataclass(frozen=True)

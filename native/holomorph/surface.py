@@ -207,6 +207,11 @@ class Surface:
         """Number of boundary loops."""
         return self._topology[1]
 
+    @cached_property
+    def area(self):
+        """Sum of the triangles' areas, in the square of the positions' unit."""
+        return self._native.area()
+
     @property
     def genus(self):
         """Number of handles."""

@@ -93,6 +93,13 @@ def test_genus_and_boundaries(name):
     assert surface.euler_characteristic == len(mesh.vertices) - len(edges) + mesh.face_count
 
 
+def test_area():
+    side = np.ptp(families.cube().vertices[:, 0])
+    assert surface_of(families.cube()).area == pytest.approx(6 * side**2, rel=1e-14)
+    right_triangles = Surface.from_edge_lengths([[0, 1, 2], [0, 2, 1]], [[5, 4, 3], [5, 3, 4]])
+    assert right_triangles.area == pytest.approx(12, rel=1e-14)
+
+
 @pytest.mark.parametrize("name", MESHES)
 def test_components(name):
     mesh = MESHES[name]

@@ -70,6 +70,7 @@ void bind_surface(py::module_& m) {
       .def_static("read", &read)
       .def("component", &component)
       .def("topology", &topology)
+      .def("area", &mesh::area)
       .def("mollification", [](const Surface& s) { return mesh::smallest_increment(s); })
       .def_readonly("component_count", &Surface::component_count)
       .def_readonly("vertex_count", &Surface::vertex_count)

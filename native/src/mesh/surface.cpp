@@ -110,4 +110,13 @@ Surface make_surface(Polygons polygons) {
   return surface;
 }
 
+double area(const Surface& surface) {
+  double sum = 0;
+  for (const auto& [a, b, c] : surface.triangle_edges) {
+    const auto& l = surface.edge_lengths;
+    sum += triangle_area(l[a], l[b], l[c]);
+  }
+  return sum;
+}
+
 }  // namespace holomorph::mesh

@@ -55,4 +55,7 @@ Surface make_intrinsic_surface(int vertex_count, const std::vector<std::array<st
                                const std::vector<std::array<double, 3>>& lengths,
                                const std::vector<std::array<std::int64_t, 3>>& face_edges);
 
+/// Sum of the areas of the triangles.
+double area(const Surface& surface);
+
 }  // namespace holomorph::mesh
