@@ -38,9 +38,7 @@ class Choices:
 def attempts(part, choices):
     """Keywords for a connected part, the most wanted first; the later ones leave out what was only found. Vertices are
     those of the whole mesh."""
-    base = {"solver": choices.solver}
-    if part.boundary_count and choices.boundary != "natural":
-        base["boundary"] = choices.boundary
+    base = {"solver": choices.solver, "boundary": choices.boundary}
     selection = _selection(part, choices)
     seams = choices.seams[np.isin(choices.seams, part.vertex_index).all(axis=1)]
     cut = {"cut_edges": seams} if len(seams) else {}
@@ -50,13 +48,20 @@ def attempts(part, choices):
     if selection:
         with_selection = [keywords | selection for keywords in wanted]
         wanted = with_selection if choices.is_express else with_selection + wanted
-    return [_with_fitting_solver(part, keywords) for keywords in wanted]
+    return [_with_fitting_method(part, keywords) for keywords in wanted]
 
 
-def _with_fitting_solver(part, keywords):
-    """The paper's solver is for closed parts with handles; the others of a mesh are solved as usual."""
-    is_fitting = part.genus and not part.boundary_count and "punctures" not in keywords
-    return keywords if keywords["solver"] != "paper" or is_fitting else keywords | {"solver": "auto"}
+def _with_fitting_method(part, keywords):
+    """The double is for the forms of surfaces with boundary, the paper's solver for closed parts with handles: other
+    parts of a mesh are solved as usual."""
+    is_chosen = not keywords.keys().isdisjoint({"punctures", "rectangle_corners"})
+    is_open = part.boundary_count > 0
+    has_forms = not is_chosen and 2 * part.genus + part.boundary_count - is_open > 0
+    if not (is_open and has_forms):
+        keywords = keywords | {"boundary": "natural"}
+    if keywords["solver"] == "paper" and (is_open or not has_forms):
+        keywords = keywords | {"solver": "auto"}
+    return keywords
 
 
 def name_vertices(keywords):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From polygons to conformal structures, component by component. No bpy here: it runs in a worker thread."""
 
-import inspect
 import time
 from dataclasses import dataclass, field, replace
 
@@ -122,9 +121,6 @@ def _solve_component(holomorph, surface, part, chosen, progress):
 
 
 def _make(holomorph, surface, part, keywords, note, progress):
-    unknown = set(keywords) - set(inspect.signature(holomorph.conformal_structure).parameters)
-    if unknown:
-        raise holomorph.TopologyError(f"this version of the library has no {', '.join(sorted(unknown))}")
     target = part
     if choices.name_vertices(keywords):
         # The part's faces with all of the mesh's vertices: then the library speaks of them by the artist's numbers.

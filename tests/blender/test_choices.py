@@ -56,10 +56,22 @@ def test_what_was_only_found_is_left_out_in_the_end():
     found = choices.Choices(choices.AUTOMATIC, (24,), seams=seams, boundary="double_cover")
     wanted = choices.attempts(part, found)
     assert [("punctures" in w, "cut_edges" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
-    assert all(w["boundary"] == "double_cover" for w in wanted)
+    assert all(w["boundary"] == "natural" for w in wanted)  # a disk has no forms
     express = choices.Choices(choices.PUNCTURES, (24,), seams=seams)
     assert [("punctures" in w, "cut_edges" in w) for w in choices.attempts(part, express)] == [(1, 1), (1, 0)]
-    assert choices.attempts(part, choices.Choices(choices.NONE, (24,))) == [{"solver": "auto"}]
+    assert choices.attempts(part, choices.Choices(choices.NONE, (24,))) == [{"solver": "auto", "boundary": "natural"}]
+
+
+def test_methods_are_taken_where_they_fit():
+    vertices, faces = grid_arrays()
+    ring, torus_part = part_of(vertices, np.delete(faces, 14, axis=0)), part_of(*torus_arrays())
+    sphere = part_of(*sphere_arrays())
+    chosen = choices.Choices(boundary="double_cover", solver="paper")
+    found = [choices.attempts(part, chosen)[0] for part in (ring, torus_part, sphere)]
+    assert [k["boundary"] for k in found] == ["double_cover", "natural", "natural"]
+    assert [k["solver"] for k in found] == ["auto", "paper", "auto"]
+    punctured = choices.Choices(choices.PUNCTURES, (3, 150), solver="paper")
+    assert choices.attempts(torus_part, punctured)[0]["solver"] == "auto"
 
 
 def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop():
