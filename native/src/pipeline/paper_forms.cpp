@@ -16,39 +16,46 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class PaperSolve {
  public:
   PaperSolve(const PaperLevels& levels, const PaperOptions& options, Progress& progress)
-      : levels_(levels), options_(options), progress_(progress) {}
+      : levels_(levels), options_(options), progress_(progress), work_(faces(levels.splits)) {
+    for (const int k : thresholds(levels, options)) work_ += faces(k);
+  }
 
-  PaperForms run(const solver::Laplacian& L, const Eigen::MatrixXd& B) {
-    const std::vector<int> splits = thresholds(levels_, options_);
-    work_ = faces(levels_.splits);
-    for (const int k : splits) work_ += faces(k);
+  // Steps 4 and 5.
+  Eigen::MatrixXd estimate() {
     std::vector<int> row(levels_.place.size()), own(row.size());
     std::iota(own.begin(), own.end(), 0);
     Eigen::MatrixXd X;
-    for (const int k : splits) {
+    for (const int k : thresholds(levels_, options_)) {
       const auto start = Clock::now();
       LevelSystem system = level_system(levels_, k);
-      X = estimation(X, row, system.row_of_vertex, system.B);
+      X = carried(X, row, system.row_of_vertex, system.B.rows(), system.B.cols());
       improve(system.L, system.B, X, options_.level_residual, k, start);
       row = std::move(system.row_of_vertex);
     }
+    return carried(X, row, own, static_cast<Eigen::Index>(own.size()), levels_.base_classes.form_count);
+  }
+
+  // Step 6.
+  solver::GradientReport improve_surface(const solver::Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X) {
     const auto start = Clock::now();
-    X = estimation(X, row, own, B);
     const auto last = improve(L, B, X, options_.residual, levels_.splits, start);
     if (!last.converged) fail(last, B.rows());
+    return last;
+  }
+
+  SolverReport report(const solver::GradientReport& last) const {
     const std::string name = options_.scaling == solver::Scaling::none ? "plain" : "scaled";
-    return {std::move(X),
-            {"paper: " + name + " conjugate gradients, " + std::to_string(reports_.size()) + " levels", "asked for",
-             last.iterations, last.residual, reports_}};
+    return {"paper: " + name + " conjugate gradients, " + std::to_string(reports_.size()) + " levels", "asked for",
+            last.iterations, last.residual, reports_};
   }
 
  private:
   double faces(int splits) const { return static_cast<double>(levels_.mesh->base.triangles.size()) + 2.0 * splits; }
 
   // Step 5(b) for all splits between two levels; on M0 nothing is known yet.
-  static Eigen::MatrixXd estimation(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
-                                    const Eigen::MatrixXd& B) {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+  static Eigen::MatrixXd carried(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
+                                 Eigen::Index rows, Eigen::Index columns) {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns);
     for (Eigen::Index c = 0; c < X.cols(); ++c) {
       for (std::size_t v = 0; v < from.size(); ++v) result(to[v], c) = X(from[v], c);
     }
@@ -83,7 +90,8 @@ class PaperSolve {
   Progress& progress_;
   Workers workers_;
   std::vector<LevelReport> reports_;
-  double work_ = 0, done_ = 0;  // in faces of all levels, and what part of it is done
+  double work_ = 0;  // in faces of all levels
+  double done_ = 0;  // part of it
 };
 
 }  // namespace
@@ -99,9 +107,19 @@ std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& optio
   return {splits.rbegin(), splits.rend()};
 }
 
+PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Progress& progress) {
+  PaperSolve solve(levels, options, progress);
+  PaperForms result{solve.estimate(), {}};
+  result.solver = solve.report({});
+  return result;
+}
+
 PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
                        const PaperOptions& options, Progress& progress) {
-  return PaperSolve(levels, options, progress).run(laplacian, B);
+  PaperSolve solve(levels, options, progress);
+  PaperForms result{solve.estimate(), {}};
+  result.solver = solve.report(solve.improve_surface(laplacian, B, result.functions));
+  return result;
 }
 
 HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges,

@@ -27,17 +27,20 @@ struct PaperOptions {
   solver::Scaling scaling = solver::Scaling::diagonal;
 };
 
+/// Numbers of splits of M0 and the thresholds, ascending; that of M itself is not among them.
+std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options);
+
 struct PaperForms {
   Eigen::MatrixXd functions;  ///< #V x #forms
   SolverReport solver;
 };
 
-/// Numbers of splits of M0 and the thresholds, ascending; that of M itself is not among them.
-std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options);
+/// Steps 4 and 5: the estimation on M that the levels give; its report has all levels but M.
+/// A threshold's residual need not be small: what it gives differs from the finer level's solution by what simplifying
+/// has changed of the surface, some thousandths.
+PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Progress& progress);
 
 /// Steps 4 to 6: functions f of the harmonic forms eta + df, eta the classes of `levels.bases`.
-/// A threshold's residual need not be small: the estimation that it gives differs from the finer level's solution by
-/// what simplifying has changed of the surface, some thousandths.
 /// @param laplacian,B of the surface, in its own numbering: L f = B
 /// @throws SolverError if the residual is not reached; Cancelled
 PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,

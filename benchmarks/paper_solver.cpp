@@ -1,0 +1,107 @@
+// paper_solver MESH: the paper's multiresolution algorithm against conjugate gradients begun at zero, on the same
+// linear system: one connected closed surface, as many right-hand sides as it has classes. Prints one line of JSON:
+// seconds of processor time, and iterations, to each relative residual. To be run with one thread.
+#include <ctime>
+#include <iostream>
+
+#include "mesh/components.h"
+#include "mesh/io/read.h"
+#include "pipeline/paper_forms.h"
+
+namespace {
+
+using namespace holomorph;
+
+constexpr double kResiduals[] = {1e-4, 1e-6, 1e-8, 1e-10};
+// Plain conjugate gradients are not followed further: minutes, and no news.
+constexpr int kMostIterations = 40'000;
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+template <class Work>
+auto timed(double& seconds, Work work) {
+  const double start = processor_seconds();
+  auto result = work();
+  seconds = processor_seconds() - start;
+  return result;
+}
+
+struct System {
+  solver::Laplacian L;
+  Eigen::MatrixXd B;
+};
+
+// Conjugate gradients from X; prints [iterations, seconds] to each residual, [] where it was not reached.
+void print_run(const System& system, Eigen::MatrixXd X, solver::Scaling scaling) {
+  solver::GradientOptions options;
+  options.scaling = scaling;
+  options.residual = kResiduals[3];
+  options.most_iterations = kMostIterations;
+  solver::Workers workers;
+  const double start = processor_seconds();
+  std::size_t next = 0;
+  int iterations = 0;
+  const auto note = [&](double residual) {
+    for (; next < std::size(kResiduals) && residual <= kResiduals[next]; ++next) {
+      std::cout << (next > 0 ? ", " : "") << '[' << iterations << ", " << processor_seconds() - start << ']';
+    }
+    ++iterations;
+  };
+  std::cout << '[';
+  const auto report = solver::conjugate_gradients(system.L, system.B, X, options, workers, note);
+  iterations = report.iterations;
+  note(report.residual);
+  for (; next < std::size(kResiduals); ++next) std::cout << (next > 0 ? ", []" : "[]");
+  std::cout << ']';
+}
+
+void print_paper(const System& system, const pipeline::PaperLevels& levels, solver::Scaling scaling) {
+  pipeline::PaperOptions options;
+  options.scaling = scaling;
+  Progress silent;
+  double seconds = 0;
+  const auto start = timed(seconds, [&] { return pipeline::paper_estimation(levels, options, silent); });
+  std::cout << "{\"levels_seconds\": " << seconds << ", \"levels\": [";
+  const char* separator = "";
+  for (const auto& level : start.solver.levels) {
+    std::cout << separator << '[' << level.faces << ", " << level.iterations << ']';
+    separator = ", ";
+  }
+  std::cout << "], \"surface\": ";
+  print_run(system, start.functions, scaling);
+  std::cout << '}';
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
+  const auto surface = mesh::component(mesh::make_surface(mesh::read(arguments[1])), 0).surface;
+  Progress silent;
+  const auto half_edges = mesh::half_edges(surface, silent);
+  const auto triangulation = mesh::intrinsic_triangulation(surface, half_edges);
+  const auto weights = mesh::cotangent_weights(triangulation, silent);
+  double collapsing = 0, levels_made = 0, homology = 0;
+  timed(homology, [&] {
+    const auto domain = topology::fundamental_domain(surface, half_edges, silent);
+    topology::homology_basis(half_edges, domain);
+    return topology::cohomology_basis(half_edges, domain);
+  });
+  timed(collapsing, [&] { return progressive::progressive_mesh(surface, progressive::Order::quadric, silent); });
+  const auto levels = timed(levels_made, [&] { return pipeline::paper_levels(surface, silent); });
+  const System system{forms::laplacian(half_edges, weights, silent),
+                      forms::codifferentials(half_edges, weights, levels.bases.classes)};
+  std::cout << "{\"faces\": " << surface.triangles.size() << ", \"right_hand_sides\": " << system.B.cols()
+            << ", \"homology_of_surface\": " << homology << ", \"progressive_mesh\": " << collapsing
+            << ", \"homology_of_base\": " << levels_made - collapsing << ", \"plain\": ";
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(system.B.rows(), system.B.cols());
+  print_run(system, zero, solver::Scaling::none);
+  std::cout << ", \"scaled\": ";
+  print_run(system, zero, solver::Scaling::diagonal);
+  std::cout << ", \"paper_plain\": ";
+  print_paper(system, levels, solver::Scaling::none);
+  std::cout << ", \"paper\": ";
+  print_paper(system, levels, solver::Scaling::diagonal);
+  std::cout << "}\n";
+  return 0;
+}
