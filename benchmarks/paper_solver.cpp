@@ -37,7 +37,7 @@ void print_run(const System& system, Eigen::MatrixXd X, solver::Scaling scaling)
   options.scaling = scaling;
   options.residual = kResiduals[3];
   options.most_iterations = kMostIterations;
-  solver::Workers workers;
+  Workers workers;
   const double start = processor_seconds();
   std::size_t next = 0;
   int iterations = 0;
