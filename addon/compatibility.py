@@ -79,3 +79,9 @@ def copy_auto_smooth(source, target):
     if hasattr(source, "use_auto_smooth"):
         target.use_auto_smooth = source.use_auto_smooth
         target.auto_smooth_angle = source.auto_smooth_angle
+
+
+def is_auto_smooth(modifier):
+    """Whether it is the modifier that Blender 4.1 and later put in the place of the mesh's own auto smooth."""
+    group = modifier.node_group if modifier.type == "NODES" else None
+    return group is not None and group.name.startswith(("Auto Smooth", "Smooth by Angle"))

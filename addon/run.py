@@ -212,7 +212,7 @@ def _problems(obj, solved):
 
 
 def _modifier_notes(obj, solved):
-    closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS]
+    closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
     if closing and any(c.surface.boundary_count for c in solved.components):
         yield f"{obj.name}: modifiers are not looked at: apply {closing[0]!r} if it closes the surface"
 
