@@ -20,7 +20,7 @@ from .double import double_cover
 from .levels import LevelOfDetail
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
-from .results import Quality, Residuals, SolverReport
+from .results import MemoryPlan, Quality, Residuals, SolverReport
 from .structure import conformal_structure
 from .surface import Repairs, Surface
 
@@ -32,6 +32,7 @@ __all__ = [
     "Error",
     "InvalidMesh",
     "LevelOfDetail",
+    "MemoryPlan",
     "ProgressiveMesh",
     "PuncturedStructure",
     "Quality",

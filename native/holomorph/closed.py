@@ -7,18 +7,25 @@ import numpy as np
 
 from . import arrays
 from .report import complex_pairs
-from .results import Structure, checked_coefficients
+from .results import ClosedResiduals, MemoryPlan, Structure, checked_coefficients
 
 
 @dataclass(frozen=True, eq=False)
 class ConformalStructure(Structure):
     """Result of `conformal_structure` for a closed surface of genus g >= 1."""
 
+    residuals_kind = ClosedResiduals
+
     @property
     def description(self):
         """What was made, in one phrase."""
         g = self._periods.shape[1]
         return f"{g} holomorphic form{'s' if g > 1 else ''}"
+
+    @cached_property
+    def memory(self):
+        """`MemoryPlan`: whether all forms are kept, and the memory that was reckoned with."""
+        return MemoryPlan(*self._native.memory())
 
     @cached_property
     def homology_basis(self):
@@ -37,12 +44,16 @@ class ConformalStructure(Structure):
 
     @cached_property
     def harmonic_forms(self):
-        """(2g, #E), dual to zeta: the integral of form i over zeta_j is delta_ij (paper § 6); see `prepare_uv`."""
+        """(2g, #E), dual to zeta: the integral of form i over zeta_j is delta_ij (paper § 6); see `prepare_uv`.
+        Raises `SolverError` where they would take more than `memory_limit`, before they are made."""
         return self._native.harmonic_forms()
 
     @cached_property
     def holomorphic_forms(self):
         """(g, #E) complex: theta_j has the period 1 over a_j and 0 over the other a (paper § 7)."""
+        g, edges = self._periods.shape[1], len(self.edges)
+        # of the harmonic forms, and of two matrices of the size of the result
+        self._native.require_memory(f"the {g} holomorphic forms on {edges} edges", 3 * 16 * g * edges)
         return arrays.frozen(self._periods.T @ self.harmonic_forms)
 
     @cached_property
@@ -66,7 +77,8 @@ class ConformalStructure(Structure):
         return self._native.periods()
 
     def uv(self, coefficients):
-        """(#C, 2) UVs of the form sum_j c_j theta_j, from g complex coefficients c. No solve: one small product.
+        """(#C, 2) UVs of the form sum_j c_j theta_j, from g complex coefficients c. No solve: one small product;
+        where the forms were not kept (`memory`), a solve for this map alone.
 
         Across every seam the UVs jump by a constant translation, without rotation or change of scale."""
         c = checked_coefficients(coefficients, self._periods.shape[1], np.complex128)

@@ -10,7 +10,7 @@ import numpy as np
 from . import _native, arrays, levels
 from ._native import InvalidMesh, TopologyError
 from .closed import ConformalStructure
-from .results import check_options, result
+from .results import check_memory_limit, check_options, result
 from .surface import Surface
 
 ORDERS = ("quadric", "independent")
@@ -203,7 +203,7 @@ class ProgressiveMesh:
         corners, bit for bit."""
         return Surface._of(self._native.restored())
 
-    def conformal_structure(self, n_faces, *, solver="auto", threads=None, progress=None):
+    def conformal_structure(self, n_faces, *, solver="auto", threads=None, memory_limit=None, progress=None):
         """The conformal structure of ``level(n_faces)``, with the same homology classes at every level (paper section
         9): the loops are those of the base, carried through the splits, and so are the classes dual to them. The
         intersection matrix and the canonical basis are equal at all levels, so period matrices and forms can be
@@ -216,7 +216,7 @@ class ProgressiveMesh:
         ConformalStructure
             Its `surface` is ``level(n_faces)``.
         """
-        threads = check_options(solver, threads)
+        threads, memory_limit = check_options(solver, threads), check_memory_limit(memory_limit)
         genus, boundaries = self.base.genus, self.base.boundary_count
         if genus == 0 or boundaries:
             raise TopologyError(
@@ -225,7 +225,9 @@ class ProgressiveMesh:
             )
         splits = self._split_count(n_faces)
         surface = self._level(splits)
-        native = _native.conformal_structure_of_level(self._native, splits, surface._native, solver, threads, progress)
+        native = _native.conformal_structure_of_level(
+            self._native, splits, surface._native, solver, threads, memory_limit, progress
+        )
         return result(ConformalStructure, surface, surface, native)
 
     def vertex_map(self, n_faces):

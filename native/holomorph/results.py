@@ -43,6 +43,25 @@ class Residuals:
 
 
 @dataclass(frozen=True)
+class ClosedResiduals(Residuals):
+    """And asymmetry: largest difference between the Gram matrix and its transpose, before it was made symmetric, over
+    its largest entry, where the forms were not kept; else 0."""
+
+    asymmetry: float
+
+
+@dataclass(frozen=True)
+class MemoryPlan:
+    """What `memory_limit` led to. keeps_forms: all harmonic functions stay in memory, else each block of forms goes
+    when it was measured; block: right-hand sides solved for at a time; bytes: estimate of the most memory in use at
+    once, beside the surface itself."""
+
+    keeps_forms: bool
+    block: int
+    bytes: int
+
+
+@dataclass(frozen=True)
 class BoundedResiduals(Residuals):
     """Those of both families; harmonicity at every vertex for the natural forms, at the inner ones for the Dirichlet
     forms; periods of the natural forms. pairing: largest difference of the integral of h^N_i ^ h from what the integers
@@ -161,6 +180,15 @@ def check_options(solver, threads):
     if threads is not None and (threads != int(threads) or threads < 1):
         raise ValueError(f"threads is {threads!r}; a positive integer or None is needed")
     return int(threads or os.cpu_count() or 1)
+
+
+def check_memory_limit(memory_limit):
+    """The limit in bytes, 0 for none. @throws ValueError"""
+    if memory_limit is None:
+        return 0
+    if isinstance(memory_limit, bool) or not 1 <= memory_limit < 2**63:
+        raise ValueError(f"memory_limit is {memory_limit!r}; a positive number of bytes or None is needed")
+    return int(memory_limit)
 
 
 def only_component(surface):

@@ -7,7 +7,7 @@ from .closed import ConformalStructure
 from .cut import cut_along
 from .disk import automatic_map, disk, rectangle
 from .punctured import PuncturedStructure
-from .results import check_options, only_component, own_vertices, result
+from .results import check_memory_limit, check_options, only_component, own_vertices, result
 from .truncated import coarse_log_map
 
 BOUNDARIES = ("natural", "double_cover")
@@ -23,6 +23,7 @@ def conformal_structure(
     cut_edges=None,
     solver="auto",
     threads=None,
+    memory_limit=None,
     progress=None,
 ):
     """Conformal structure of one connected surface: harmonic and holomorphic one-forms and conformal invariants; with
@@ -51,6 +52,10 @@ def conformal_structure(
         never chosen by "auto": conjugate gradients on the levels of a progressive mesh, whose base mesh gives loops and
         classes. It turns no edges, so its invariants are those of the artist's triangles
     threads : number of threads, None for one per core; the result has the same bits for any number
+    memory_limit : bytes that may be in use at once, beside the surface itself. Where the harmonic forms do not all fit,
+        they are solved for in blocks that do; the results are the same up to the solver's accuracy, but each call of
+        `uv` then solves for its own map. With punctures it is not looked at; on surfaces
+        with boundary all forms must fit. None: nothing is refused, and forms are kept up to 2 GB
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Returns
@@ -63,25 +68,28 @@ def conformal_structure(
     TopologyError
         several components; punctures, residues or corners that do not fit
     SolverError
-        if neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out
+        if neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out; if
+        `memory_limit` does not hold two right-hand sides (names the bytes that would), before they are taken
     Cancelled
         if `progress` returned False
 
     Cost: 2n solves of the Laplacian for n complex forms (n = g closed, 2g + b - 1 with boundary), after one
-    factorisation or the set-up of multigrid; 2 n #V numbers of memory.
+    factorisation or the set-up of multigrid; 2 n #V numbers of memory,
+    fewer on closed surfaces with `memory_limit`.
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
     options = solver, check_options(solver, threads), progress
     if boundary not in BOUNDARIES:
         raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
+    memory_limit = check_memory_limit(memory_limit)
     component = only_component(surface)
-    made = _structure(surface, component, boundary, punctures, residues, rectangle_corners, options)
+    made = _structure(surface, component, boundary, punctures, residues, rectangle_corners, options, memory_limit)
     if cut_edges is None or not len(cut_edges):
         return made
     return cut_along(made, surface, component, cut_edges)
 
 
-def _structure(surface, component, boundary, punctures, residues, rectangle_corners, options):
+def _structure(surface, component, boundary, punctures, residues, rectangle_corners, options, memory_limit):
     genus, boundaries = component.genus, component.boundary_count
     vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     chosen = vertices, _residues(residues), names
@@ -106,10 +114,11 @@ def _structure(surface, component, boundary, punctures, residues, rectangle_corn
                 raise
             return coarse_log_map(surface, component, *options)  # the stars of any two vertices meet
         return result(PuncturedStructure, surface, component, native)
+    limited = *options[:2], memory_limit, options[2]
     if boundaries:
-        native = _native.bounded_structure(component._native, boundary, *options)
+        native = _native.bounded_structure(component._native, boundary, *limited)
         return result(BoundedStructure, surface, component, native)
-    native = _native.conformal_structure(component._native, *options)
+    native = _native.conformal_structure(component._native, *limited)
     return result(ConformalStructure, surface, component, native)
 
 

@@ -9,6 +9,7 @@ void Progress::stage(const std::string& name, double begin, double end) {
   name_ = name;
   begin_ = begin;
   end_ = end;
+  part(0, 1);
   stage_start_ = Clock::now();
   if (callback_) call(begin);
 }

@@ -23,9 +23,16 @@ class Progress {
   /// Begins the stage that covers the fractions [begin, end] of the whole work, and ends the one before.
   void stage(const std::string& name, double begin, double end);
 
+  /// Until the next stage or part, what is reported is of the part [from, to] of the current stage.
+  void part(double from, double to) {
+    part_begin_ = from;
+    part_end_ = to;
+  }
+
   /// Says that `done` in [0, 1] of the current stage is done. Cheap enough to be called every few thousand elements.
   void report(double done) {
-    if (callback_ && Clock::now() - last_call_ > kInterval) call(begin_ + (end_ - begin_) * done);
+    if (callback_ && Clock::now() - last_call_ > kInterval)
+      call(begin_ + (end_ - begin_) * (part_begin_ + (part_end_ - part_begin_) * done));
   }
 
   /// In a loop: reports every 4096th of `count` steps, which together are the part [from, to] of the current stage.
@@ -48,7 +55,7 @@ class Progress {
 
   Callback callback_;
   std::string name_;
-  double begin_ = 0, end_ = 0, reported_ = 0;
+  double begin_ = 0, end_ = 0, part_begin_ = 0, part_end_ = 1, reported_ = 0;
   Clock::time_point stage_start_{}, last_call_{};
   std::vector<std::pair<std::string, double>> seconds_;
 };

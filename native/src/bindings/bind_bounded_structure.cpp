@@ -8,9 +8,9 @@ using pipeline::BoundedStructure;
 using Bounded = Structure<BoundedStructure>;
 
 std::shared_ptr<Bounded> compute(std::shared_ptr<mesh::Surface> surface, const std::string& boundary,
-                                 const std::string& solver, int threads, const py::object& progress) {
-  pipeline::Options chosen{solver, threads};
-  chosen.boundary = boundary;
+                                 const std::string& solver, int threads, std::int64_t memory_limit,
+                                 const py::object& progress) {
+  const pipeline::Options chosen{solver, threads, memory_limit, boundary};
   return make_structure<BoundedStructure>(surface, chosen, progress, [&](const auto& options, auto& p) {
     return pipeline::bounded_structure(*surface, options, p);
   });

@@ -10,22 +10,24 @@ using pipeline::ConformalStructure;
 using Closed = Structure<ConformalStructure>;
 
 std::shared_ptr<Closed> compute(std::shared_ptr<Surface> surface, const std::string& solver, int threads,
-                                const py::object& progress) {
-  return make_structure<ConformalStructure>(surface, {solver, threads}, progress, [&](const auto& options, auto& p) {
-    return pipeline::conformal_structure(*surface, options, p);
-  });
+                                std::int64_t memory_limit, const py::object& progress) {
+  return make_structure<ConformalStructure>(
+      surface, {solver, threads, memory_limit}, progress,
+      [&](const auto& options, auto& p) { return pipeline::conformal_structure(*surface, options, p); });
 }
 
 // Of a level of a progressive mesh, in the classes of its base; `surface` is the surface of that level.
 std::shared_ptr<Closed> compute_level(const progressive::ProgressiveMesh& mesh, int splits,
                                       std::shared_ptr<Surface> surface, const std::string& solver, int threads,
-                                      const py::object& progress) {
-  return make_structure<ConformalStructure>(surface, {solver, threads}, progress, [&](const auto& options, auto& p) {
-    if (options.solver == "paper") {
-      return pipeline::conformal_structure(*surface, options, p, {}, pipeline::paper_levels(mesh, splits, *surface));
-    }
-    return pipeline::conformal_structure(*surface, options, p, topology::carried_bases(mesh, splits, *surface));
-  });
+                                      std::int64_t memory_limit, const py::object& progress) {
+  return make_structure<ConformalStructure>(
+      surface, {solver, threads, memory_limit}, progress, [&](const auto& options, auto& p) {
+        if (options.solver == "paper") {
+          return pipeline::conformal_structure(*surface, options, p, {},
+                                               pipeline::paper_levels(mesh, splits, *surface));
+        }
+        return pipeline::conformal_structure(*surface, options, p, topology::carried_bases(mesh, splits, *surface));
+      });
 }
 
 py::array balanced(Closed& s) {
@@ -76,8 +78,13 @@ void bind_conformal_structure(py::module_& m) {
              return py::make_tuple(copy(s.value.holomorphic.lower), copy(s.value.holomorphic.upper));
            })
       .def("periods", [](const Closed& s) { return copy(s.value.holomorphic.periods); })
+      .def("memory",
+           [](const Closed& s) {
+             return py::make_tuple(s.value.memory.keep_forms, s.value.memory.block, s.value.memory.bytes);
+           })
       .def("residuals", [](const Closed& s) {
-        return py::make_tuple(s.value.residuals.closedness, s.value.residuals.harmonicity, s.value.period_residual);
+        return py::make_tuple(s.value.residuals.closedness, s.value.residuals.harmonicity, s.value.period_residual,
+                              s.value.asymmetry);
       });
   m.def("conformal_structure", &compute);
   m.def("conformal_structure_of_level", &compute_level);

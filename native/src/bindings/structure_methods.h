@@ -14,18 +14,17 @@ inline py::tuple report(const pipeline::SolverReport& solver) {
 
 template <class Value>
 py::tuple uv_solver(Structure<Value>& s) {
-  {
-    const py::gil_scoped_release unlocked;
-    s.forms_for_uv();
-  }
-  return report(s.artist_forms->solver);
+  pipeline::SolverReport solver;
+  s.with_forms([&](auto& forms, Progress& progress) {
+    forms.prepare(progress);
+    solver = forms.solver();
+  });
+  return report(solver);
 }
 
 template <class Value>
 void prepare_uv(Structure<Value>& s, const py::object& progress_function) {
-  Progress progress(callback(progress_function));
-  const py::gil_scoped_release unlocked;
-  s.forms_for_uv(progress);
+  s.with_forms([](auto& forms, Progress& progress) { forms.prepare(progress); }, Progress(callback(progress_function)));
 }
 
 inline py::list loops_of_vertices(const mesh::HalfEdges& half_edges,
@@ -39,26 +38,31 @@ inline py::list loops_of_vertices(const mesh::HalfEdges& half_edges,
   return result;
 }
 
+/// @throws SolverError where `what` takes more than the structure's limit of memory
+template <class Value>
+void require_memory(const Structure<Value>& s, const std::string& what, std::int64_t bytes) {
+  pipeline::require_memory(what, bytes, s.options.memory_limit);
+}
+
 /// #forms x #E
 template <class Value>
 py::array harmonic_forms(Structure<Value>& s) {
-  const int edges = static_cast<int>(s.surface->edges.size());
-  forms::RowMajorMatrix values;
-  {
-    const py::gil_scoped_release unlocked;
-    values = forms::edge_values(s.value.half_edges, s.forms_for_uv(), 0, edges).transpose();
-  }
-  const py::ssize_t rows = values.rows(), columns = values.cols();
-  return give(std::move(values), {rows, columns});
+  const auto count = static_cast<py::ssize_t>(s.value.harmonic.classes.form_count),
+             edges = static_cast<py::ssize_t>(s.surface->edges.size());
+  require_memory(s, "the " + std::to_string(count) + " harmonic forms on " + std::to_string(edges) + " edges",
+                 8 * count * edges);
+  py::array_t<double> values({count, edges});
+  double* data = values.mutable_data();
+  s.with_forms([&](auto& forms, Progress& progress) { forms.edge_values(data, progress); });
+  return read_only(std::move(values));
 }
 
 template <class Value>
 py::array uv(Structure<Value>& s, const Eigen::VectorXcd& coefficients) {
   uv::UvArray result;
-  {
-    const py::gil_scoped_release unlocked;
-    result = uv::uv_map(*s.surface, s.value.sheets, s.forms_for_uv().functions, coefficients);
-  }
+  s.with_forms([&](auto& forms, Progress& progress) {
+    result = uv::uv_map(*s.surface, s.value.sheets, forms.function(coefficients, progress), coefficients);
+  });
   const py::ssize_t corners = result.rows();
   return give(std::move(result), {corners, 2});
 }
@@ -66,8 +70,11 @@ py::array uv(Structure<Value>& s, const Eigen::VectorXcd& coefficients) {
 template <class Value>
 Eigen::VectorXcd balanced_coefficients(Structure<Value>& s, const Eigen::MatrixXcd& basis,
                                        const Eigen::MatrixXd& area_form, uv::Coefficients kind) {
-  const py::gil_scoped_release unlocked;
-  return uv::balanced_coefficients(*s.surface, s.value.half_edges, s.forms_for_uv(), basis, area_form, kind);
+  Eigen::VectorXcd c;
+  s.with_forms([&](auto& forms, Progress& progress) {
+    c = uv::balanced_coefficients(*s.surface, forms.samples(progress), basis, area_form, kind);
+  });
+  return c;
 }
 
 /// Takes the sheets of the caller's cut instead of our own.
@@ -85,6 +92,7 @@ py::class_<Structure<Value>, std::shared_ptr<Structure<Value>>> bind_structure(p
   using S = Structure<Value>;
   return py::class_<S, std::shared_ptr<S>>(m, name)
       .def("prepare_uv", &prepare_uv<Value>)
+      .def("require_memory", &require_memory<Value>)
       .def("harmonic_forms", &harmonic_forms<Value>)
       .def("uv", &uv<Value>)
       .def("uv_solver", &uv_solver<Value>)

@@ -17,26 +17,36 @@
 
 namespace holomorph::bindings {
 
+/// The forms for UVs of a `Value`: all of them are kept, except where a closed surface has too many for its memory.
+template <class Value>
+struct FormsForUv {
+  using Type = pipeline::KeptForms<Value>;
+};
+template <>
+struct FormsForUv<pipeline::ConformalStructure> {
+  using Type = pipeline::ArtistForms;
+};
+
 /// A result of the pipeline together with the surface that it belongs to, and the forms for UVs once they were asked
 /// for. `Value` has half_edges, harmonic, sheets, seams, solver, flip_count, mollification and seconds, and an overload
 /// of pipeline::artist_forms.
 template <class Value>
 struct Structure {
+  using Forms = typename FormsForUv<Value>::Type;
+
   std::shared_ptr<const mesh::Surface> surface;
   Value value;
   pipeline::Options options;
   std::mutex mutex;
-  std::optional<pipeline::HarmonicForms> artist_forms;
+  std::optional<Forms> forms;
 
-  // Called without the interpreter's lock.
-  const forms::ClosedForms& forms_for_uv(Progress& progress) {
+  /// `use(forms, progress)` without the interpreter's lock, one call at a time.
+  template <class Use>
+  void with_forms(Use use, Progress progress = Progress()) {
+    const py::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> one_at_a_time(mutex);
-    if (!artist_forms) artist_forms = pipeline::artist_forms(*surface, value, options, progress);
-    return artist_forms->forms;
-  }
-  const forms::ClosedForms& forms_for_uv() {
-    Progress silent;
-    return forms_for_uv(silent);
+    if (!forms) forms.emplace(*surface, value, options);
+    use(*forms, progress);
   }
 };
 

@@ -44,7 +44,9 @@ void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h
                Eigen::RowVectorXd& sum) {
   const int head = to_vertex(mesh, h), tail = mesh::from_vertex(mesh, h);
   sum += factor * (forms.functions.row(head) - forms.functions.row(tail));
-  for (const auto& [i, value] : forms.classes.rows[edge_of(h)]) sum[i] += factor * sign(h) * value;
+  const int first = forms.first, count = static_cast<int>(sum.size());
+  for (const auto& [i, value] : topology::forms_between(forms.classes.rows[edge_of(h)], first, first + count))
+    sum[i - first] += factor * sign(h) * value;
 }
 
 using Maxima = std::array<Eigen::RowVectorXd, 2>;  // of |sum| and of the scale it is measured by, per form

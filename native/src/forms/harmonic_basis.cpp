@@ -11,18 +11,38 @@ using mesh::HalfEdges;
 using mesh::next;
 using mesh::sign;
 using mesh::to_vertex;
+using topology::forms_between;
 
 }  // namespace
 
 Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
                                 const topology::IntegerForms& classes) {
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), classes.form_count);
+  return codifferentials(mesh, weights, classes, 0, classes.form_count);
+}
+
+Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
+                                const topology::IntegerForms& classes, int first, int count) {
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), count);
   for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
     const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
-    for (const auto& [i, value] : classes.rows[e]) {
-      B(head, i) -= weights[e] * value;
-      B(tail, i) += weights[e] * value;
+    for (const auto& [i, value] : forms_between(classes.rows[e], first, first + count)) {
+      B(head, i - first) -= weights[e] * value;
+      B(tail, i - first) += weights[e] * value;
     }
+  }
+  return B;
+}
+
+Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
+                                const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations) {
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), combinations.cols());
+  Eigen::RowVectorXd flux(combinations.cols());
+  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
+    if (classes.rows[e].empty()) continue;
+    flux.setZero();
+    for (const auto& [i, value] : classes.rows[e]) flux += weights[e] * value * combinations.row(i);
+    B.row(to_vertex(mesh, HalfedgeHandle(2 * e))) -= flux;
+    B.row(to_vertex(mesh, HalfedgeHandle(2 * e + 1))) += flux;
   }
   return B;
 }
@@ -34,12 +54,14 @@ ClosedForms harmonic_basis(const HalfEdges& mesh, const std::vector<double>& wei
 }
 
 RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end) {
-  RowMajorMatrix values(end - begin, forms.functions.cols());
+  const int count = static_cast<int>(forms.functions.cols());
+  RowMajorMatrix values(end - begin, count);
   for (int e = begin; e < end; ++e) {
     const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
     auto row = values.row(e - begin);
     row = forms.functions.row(head) - forms.functions.row(tail);
-    for (const auto& [i, value] : forms.classes.rows[e]) row[i] += value;
+    for (const auto& [i, value] : forms_between(forms.classes.rows[e], forms.first, forms.first + count))
+      row[i - forms.first] += value;
   }
   return values;
 }
@@ -52,6 +74,16 @@ Eigen::VectorXd combination(const HalfEdges& mesh, const ClosedForms& forms, con
     for (const auto& [i, value] : forms.classes.rows[e]) values[e] += c[i] * value;
   }
   return values;
+}
+
+Eigen::MatrixXd class_products(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms) {
+  RowMajorMatrix products = RowMajorMatrix::Zero(forms.classes.form_count, forms.functions.cols());
+  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
+    if (forms.classes.rows[e].empty()) continue;
+    const Eigen::RowVectorXd flux = weights[e] * edge_values(mesh, forms, e, e + 1).row(0);
+    for (const auto& [i, value] : forms.classes.rows[e]) products.row(i) += value * flux;
+  }
+  return products;
 }
 
 Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms,

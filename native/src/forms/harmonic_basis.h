@@ -13,10 +13,11 @@ namespace holomorph::forms {
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// A family of closed forms eta_i + d f_i, kept as classes and functions: #forms numbers per vertex instead of per
-/// edge.
+/// edge. Where memory is short, only some of the functions are there at a time, and #forms below counts those.
 struct ClosedForms {
   topology::IntegerForms classes;
-  RowMajorMatrix functions;  ///< #V x #forms
+  RowMajorMatrix functions;  ///< #V x #forms, of the classes first, first + 1, ...
+  int first = 0;
 };
 
 /// L = d^T k d for edge weights k; edges with the same ends add up, loops carry no energy of functions.
@@ -25,6 +26,14 @@ solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, const std::vector
 /// -d* eta_i = -d^T (k eta_i), #V x #forms: the right-hand sides of Eq. 8.
 Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                                 const topology::IntegerForms& classes);
+
+/// The same for the classes first .. first + count - 1 alone, #V x count.
+Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                                const topology::IntegerForms& classes, int first, int count);
+
+/// The same for real combinations of the classes: column j for sum_i combinations(i, j) eta_i, #V x #combinations.
+Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                                const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations);
 
 /// The harmonic form of each class: L f_i = -d* eta_i, all right-hand sides in one block. With the Dirichlet condition
 /// f_i = 0 at the solver's held vertices, and d* h_i need not vanish there.
@@ -43,6 +52,12 @@ Eigen::MatrixXd gram_matrix(const mesh::HalfEdges& half_edges, const std::vector
 /// The diagonal of gram_matrix: cost #E x #forms.
 Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                          const ClosedForms& forms, Progress& progress);
+
+/// <eta_i, h_j> = sum_e k_e eta_i(e) h_j(e), #classes x #forms: the columns of the Gram matrix that belong to these
+/// forms. Where d* h_j = 0, <df_i, h_j> = 0 and so <h_i, h_j> = <eta_i, h_j>: one form h_j at a time is enough.
+/// With the residual r_j = L f_j + d* eta_j of its system it is <h_i, h_j> + f_i . r_j.
+Eigen::MatrixXd class_products(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                               const ClosedForms& forms);
 
 /// Relative maxima over all forms: |sum of a form around a face| over its largest value; |d* h| at a vertex over the
 /// largest sum of |k h| at a vertex.

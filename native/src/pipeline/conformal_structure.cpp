@@ -3,21 +3,46 @@
 #include "base/errors.h"
 #include "mesh/components.h"
 #include "pipeline/paper_forms.h"
+#include "pipeline/streamed_forms.h"
 #include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 namespace {
 
-void check_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
+int checked_genus(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
   const int boundaries = mesh::boundary_count(half_edges);
   const int genus = mesh::genus(mesh::euler_characteristic(surface), boundaries);
-  if (genus > 0 && boundaries == 0) return;
+  if (genus > 0 && boundaries == 0) return genus;
   throw TopologyError("the surface has genus " + std::to_string(genus) + " and " + std::to_string(boundaries) +
                       " boundary loops; a closed surface of genus 1 or more is needed");
 }
 
-double largest_period_error(const Eigen::MatrixXd& periods) {
-  return (periods - Eigen::MatrixXd::Identity(periods.rows(), periods.cols())).cwiseAbs().maxCoeff();
+// All forms at once: the Gram matrix is the full energy <h_i, h_j>, the residuals those of all of them.
+void keep(const mesh::IntrinsicTriangulation& intrinsic, const std::vector<double>& weights, HarmonicForms&& solved,
+          ConformalStructure& result, Progress& progress) {
+  const auto& mesh = intrinsic.half_edges;
+  result.solver = std::move(solved.solver);
+  progress.stage("certificates", 0.85, 0.95);
+  result.gram_matrix = forms::gram_matrix(mesh, weights, solved.forms, progress);
+  result.residuals = forms::residuals(mesh, weights, solved.forms, progress);
+  result.harmonic.functions.swap(solved.forms.functions);
+  result.period_residual = period_residual(result.half_edges, result.harmonic, result.homology_basis);
+}
+
+// A few forms at a time, of which nothing is left but what is asked of them.
+void measure(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& intrinsic,
+             const std::vector<double>& weights, solver::Laplacian&& laplacian, topology::IntegerForms&& classes,
+             ConformalStructure& result, Progress& progress) {
+  forms::ClosedForms on_intrinsic{std::move(classes), {}};
+  auto streamed =
+      streamed_forms(surface, result.half_edges, result.homology_basis, result.harmonic, intrinsic.half_edges, weights,
+                     std::move(laplacian), on_intrinsic, result.memory, progress);
+  result.solver = std::move(streamed.solver);
+  result.gram_matrix = std::move(streamed.gram_matrix);
+  result.asymmetry = streamed.asymmetry;
+  result.residuals = streamed.residuals;
+  result.period_residual = streamed.period_residual;
+  result.samples = std::move(streamed.samples);
 }
 
 }  // namespace
@@ -30,7 +55,9 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
 
   progress.stage("half-edges", 0.0, 0.05);
   result.half_edges = mesh::half_edges(surface, progress);
-  check_topology(surface, result.half_edges);
+  const int genus = checked_genus(surface, result.half_edges);
+  result.memory = plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), 2 * genus},
+                              options.solver, options.memory_limit);
   if (paper) {
     progress.stage("progressive mesh", 0.05, 0.1);
     if (!levels) levels = paper_levels(surface, progress);
@@ -58,21 +85,20 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
 
   progress.stage("harmonic forms", 0.35, 0.85);
-  const auto solved =
-      paper ? paper_forms(*levels, intrinsic.half_edges, weights, laplacian, intrinsic_classes, progress)
-            : harmonic_forms(intrinsic.half_edges, weights, std::move(laplacian), intrinsic_classes, options, progress);
-  const forms::ClosedForms& harmonic = solved.forms;
-  result.solver = solved.solver;
+  result.harmonic.classes = std::move(classes);
+  if (paper) {
+    keep(intrinsic, weights,
+         paper_forms(*levels, intrinsic.half_edges, weights, laplacian, intrinsic_classes, progress), result, progress);
+  } else if (result.memory.keep_forms) {
+    keep(intrinsic, weights,
+         harmonic_forms(intrinsic.half_edges, weights, std::move(laplacian), intrinsic_classes, options, progress),
+         result, progress);
+  } else {
+    measure(surface, intrinsic, weights, std::move(laplacian), std::move(intrinsic_classes), result, progress);
+  }
 
-  progress.stage("holomorphic forms", 0.85, 0.92);
-  result.gram_matrix = forms::gram_matrix(intrinsic.half_edges, weights, harmonic, progress);
+  progress.stage("holomorphic forms", 0.95, 1.0);
   result.holomorphic = conformal::holomorphic_basis(result.gram_matrix, result.canonical);
-
-  progress.stage("certificates", 0.92, 1.0);
-  result.residuals = forms::residuals(intrinsic.half_edges, weights, harmonic, progress);
-  result.harmonic = {std::move(classes), harmonic.functions};
-  result.period_residual =
-      largest_period_error(forms::periods(result.half_edges, result.harmonic, result.homology_basis));
   result.mollification = intrinsic.mollification;
   result.flip_count = static_cast<int>(intrinsic.flips.size());
   progress.finish();

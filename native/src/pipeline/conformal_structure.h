@@ -10,6 +10,7 @@
 #include "pipeline/paper_levels.h"
 #include "topology/carried_classes.h"
 #include "uv/corner_sheets.h"
+#include "uv/uv_map.h"
 
 namespace holomorph::pipeline {
 
@@ -18,15 +19,18 @@ struct ConformalStructure {
   mesh::HalfEdges half_edges;                                     ///< the artist's triangulation
   std::vector<std::vector<mesh::HalfedgeHandle>> homology_basis;  ///< 2g loops zeta_i
   topology::CanonicalBasis canonical;
-  forms::ClosedForms harmonic;  ///< dual to zeta: classes on the artist's edges, functions as solved
+  forms::ClosedForms harmonic;  ///< dual to zeta: classes on the artist's edges, functions as solved; none if streamed
   Eigen::MatrixXd gram_matrix;
   conformal::HolomorphicBasis holomorphic;
   std::vector<int> seams;  ///< edges of the cut graph
   uv::CornerSheets sheets;
   forms::Residuals residuals;  ///< on the intrinsic triangulation
   double period_residual = 0;  ///< largest |int_{zeta_i} h_j - delta_ij|
-  double mollification = 0;    ///< added to every edge length
-  int flip_count = 0;          ///< of the intrinsic Delaunay triangulation
+  double asymmetry = 0;        ///< of the Gram matrix of streamed forms before it was made symmetric, relative
+  MemoryPlan memory;
+  uv::FormSamples samples;   ///< of streamed forms
+  double mollification = 0;  ///< added to every edge length
+  int flip_count = 0;        ///< of the intrinsic Delaunay triangulation
   SolverReport solver;
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage
 };

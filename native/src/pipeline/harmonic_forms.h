@@ -1,18 +1,21 @@
-// Which solver is used, and what it reports.
+// Which solver is used, what it reports, and the harmonic forms that it finds, block by block.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
 #include "forms/harmonic_basis.h"
+#include "pipeline/memory_plan.h"
 
 namespace holomorph::pipeline {
 
 struct Options {
   std::string solver = "auto";       ///< "auto", "direct", "multigrid" or "paper"
   int threads = 0;                   ///< 0: as many as the machine has cores; the result does not depend on it
+  std::int64_t memory_limit = 0;     ///< bytes, 0: none; see plan_memory
   std::string boundary = "natural";  ///< "natural", or "double_cover": over the double of a surface with boundary
 };
 
@@ -33,12 +36,22 @@ struct SolverReport {
 /// What a solver reports after its last solve.
 SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Choice& choice);
 
+/// Is given the functions of the forms first, first + 1, ..., #V x #block.
+using TakeFunctions = std::function<void(int first, const Eigen::MatrixXd& functions)>;
+
+/// Solves for plan.block forms at a time, in order, and hands each block on.
+/// @throws SolverError, Cancelled
+SolverReport solve_in_blocks(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                             solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
+                             const MemoryPlan& plan, Progress& progress, const TakeFunctions& take);
+
 struct HarmonicForms {
   forms::ClosedForms forms;
   SolverReport solver;
 };
 
-/// The harmonic form of each class, with the solver that `options` asks for; its memory is free again at the end.
+/// The harmonic form of each class, all of them kept, with the solver that `options` asks for; its memory is free again
+/// at the end.
 /// @throws SolverError, Cancelled
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,

@@ -12,6 +12,8 @@ namespace {
 // Numbers in the right-hand sides of one back-substitution, about 0.05 s of work: the progress function is asked
 // between.
 constexpr Eigen::Index kBlockEntries = 500'000;
+// On large systems no fewer than this: with one at a time the factor is read for each of them.
+constexpr Eigen::Index kLeastBlock = 4;
 // Refinement goes on to this residual while it helps; the promise is kResidual.
 constexpr double kGoal = 1e-13;
 constexpr int kMostRefinements = 4;
@@ -53,7 +55,7 @@ class DirectSolver final : public LaplaceSolver {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
                         Progress& progress) override {
     Eigen::MatrixXd X(B.rows(), B.cols());
-    const auto block = std::max<Eigen::Index>(1, kBlockEntries / B.rows());
+    const auto block = std::max<Eigen::Index>(kLeastBlock, kBlockEntries / B.rows());
     for (Eigen::Index first = 0, width = 1; first < B.cols(); first += width) {
       condition_ = conditions[first];
       assert(condition_ == Condition::natural || !held_.empty());

@@ -82,6 +82,9 @@ struct Choice {
 /// depend on the machine
 Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Index right_hand_sides);
 
+/// Estimate of the memory of the direct solver's factor.
+double factor_bytes(double unknowns);
+
 /// @param held vertices in any order; out of range: our bug
 std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress);
 

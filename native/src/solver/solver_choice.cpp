@@ -40,10 +40,11 @@ Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Inde
   if (!SparseCholesky::supernodal()) return {Method::multigrid, "built without CHOLMOD: " + system};
   const double many = kMany * std::cbrt(n / kLarge);
   if (static_cast<double>(right_hand_sides) < many) return {Method::multigrid, "few right-hand sides: " + system};
-  if (kFactorBytes * n * std::log2(n) > kMostBytes)
-    return {Method::multigrid, "the factor would take too much memory: " + system};
+  if (factor_bytes(n) > kMostBytes) return {Method::multigrid, "the factor would take too much memory: " + system};
   return {Method::direct, "many right-hand sides: " + system};
 }
+
+double factor_bytes(double unknowns) { return kFactorBytes * unknowns * std::log2(std::max(unknowns, 2.0)); }
 
 std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress) {
   std::sort(held.begin(), held.end());

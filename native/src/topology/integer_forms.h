@@ -1,6 +1,7 @@
 // Closed one-forms with integer values, sparse: most edges have the value 0 in every form.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,18 @@ struct IntegerForms {
   int form_count = 0;
   std::vector<Row> rows;  ///< #E
 };
+
+/// The part of a row that belongs to the forms begin .. end - 1, for a loop over its entries.
+struct RowPart {
+  IntegerForms::Row::const_iterator first, last;
+  auto begin() const { return first; }
+  auto end() const { return last; }
+};
+inline RowPart forms_between(const IntegerForms::Row& row, int begin, int end) {
+  const auto before = [](const std::pair<int, int>& entry, int form) { return entry.first < form; };
+  return {std::lower_bound(row.begin(), row.end(), begin, before),
+          std::lower_bound(row.begin(), row.end(), end, before)};
+}
 
 /// a + factor * b
 IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, int factor);

@@ -19,10 +19,14 @@ constexpr int kSamples = 3000;  // faces that the density is sampled on, spaced 
 // The floor under the density is lowered step by step: from fixed pseudo-random starts on every kThinning-th sample
 // first, then from the best few of their ends on all samples.
 constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSteps = 100;
+// From this many forms on fewer starts are made, in inverse proportion: the work of each grows faster than they.
+constexpr int kManyForms = 64;
 constexpr double kDistortion = 3;  // weight of the distortion against the variance
 constexpr double kRoughFloors[] = {1.0, 0.1}, kFineFloors[] = {0.01, 1e-3, 1e-4};
 
-// Triangles met at kSamples equal steps through the total area; all of them on a small surface.
+}  // namespace
+
+// Triangles met at kSamples equal steps through the total area.
 std::vector<int> sample_triangles(const mesh::Surface& surface) {
   const std::size_t count = surface.triangles.size();
   std::vector<double> until(count);
@@ -41,6 +45,20 @@ std::vector<int> sample_triangles(const mesh::Surface& surface) {
   return samples;
 }
 
+forms::RowMajorMatrix values_on_sides(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+                                      const std::vector<int>& triangles) {
+  forms::RowMajorMatrix values(2 * static_cast<Eigen::Index>(triangles.size()), forms.functions.cols());
+  Eigen::Index row = 0;
+  for (const int t : triangles) {
+    mesh::HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(t));
+    for (int i = 0; i < 2; ++i, h = mesh::next(half_edges, h))
+      values.row(row++) = mesh::sign(h) * forms::edge_values(half_edges, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
+  }
+  return values;
+}
+
+namespace {
+
 // A form is A dz + B conj(dz) on each triangle, with A = M c and B = N c on the samples.
 struct Parts {
   Eigen::MatrixXcd M, N;  // #samples x g
@@ -56,19 +74,12 @@ VectorXcd as_complex(const VectorXd& x, Coefficients kind) {
 }
 
 // For a harmonic form h, A = (h_x - i h_y) / 2 up to a common phase, and B = conj(A).
-Parts sampled_parts(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
-                    const Eigen::MatrixXcd& basis, const std::vector<int>& samples) {
-  Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples.size()), forms.functions.cols());
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    mesh::HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(samples[s]));
-    forms::RowMajorMatrix value(2, forms.functions.cols());
-    double length[3];
-    for (int i = 0; i < 3; ++i, h = mesh::next(half_edges, h)) {
-      length[i] = surface.edge_lengths[mesh::edge_of(h)];
-      if (i < 2)
-        value.row(i) = mesh::sign(h) * forms::edge_values(half_edges, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
-    }
-    const auto [a, b, c] = length;
+Parts sampled_parts(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis) {
+  Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples.triangles.size()), samples.on_sides.cols());
+  for (std::size_t s = 0; s < samples.triangles.size(); ++s) {
+    const auto value = samples.on_sides.middleRows(2 * static_cast<Eigen::Index>(s), 2);
+    const auto [side0, side1, side2] = surface.triangle_edges[samples.triangles[s]];
+    const double a = surface.edge_lengths[side0], b = surface.edge_lengths[side1], c = surface.edge_lengths[side2];
     const double area = mesh::triangle_area(a, b, c);
     const double x = (a * a + (c - b) * (c + b)) / (2 * a), y = 2 * area / a;
     // corner 0 at 0, corner 1 at a, corner 2 at x + i y: h(e0) = a h_x and h(e0) + h(e1) = x h_x + y h_y
@@ -136,31 +147,34 @@ VectorXcd lowest_variance(const Parts& parts, Coefficients kind) {
   const Parts thinned{parts.M(every, Eigen::all), parts.N(every, Eigen::all)};
   std::mt19937_64 numbers(1);  // fixed: the same surface gives the same coefficients
   const auto unknowns = (kind == Coefficients::real ? 1 : 2) * parts.M.cols();
-  std::vector<Candidate> candidates(kStarts, {INFINITY, VectorXd(unknowns)});
+  const auto fewer = [&](int count, int least) {
+    return std::max(least, count * kManyForms / std::max(kManyForms, static_cast<int>(parts.M.cols())));
+  };
+  const int starts = fewer(kStarts, 2), kept = fewer(kKept, 1);
+  std::vector<Candidate> candidates(starts, {INFINITY, VectorXd(unknowns)});
   for (auto& candidate : candidates) {
     // One number in [-1, 1) from each draw: the standard's distributions differ between libraries.
     for (auto& value : candidate.x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
   }
   // Each descent is on its own, so the number of threads changes nothing.
 #pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < kStarts; ++i)
+  for (int i = 0; i < starts; ++i)
     candidates[i] = descend(thinned, kind, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
   std::stable_sort(candidates.begin(), candidates.end(), lower);
-  candidates.resize(kKept);
+  candidates.resize(kept);
 #pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < kKept; ++i)
+  for (int i = 0; i < kept; ++i)
     candidates[i] = descend(parts, kind, std::move(candidates[i].x), kFineFloors, kFineSteps);
   return as_complex(std::min_element(candidates.begin(), candidates.end(), lower)->x, kind);
 }
 
 }  // namespace
 
-VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                const forms::ClosedForms& forms, const Eigen::MatrixXcd& basis,
+VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis,
                                 const Eigen::MatrixXd& area_form, Coefficients kind) {
   VectorXcd c = VectorXcd::Ones(basis.cols());
   if (basis.cols() > 1) {
-    c = lowest_variance(sampled_parts(surface, half_edges, forms, basis, sample_triangles(surface)), kind);
+    c = lowest_variance(sampled_parts(surface, samples, basis), kind);
     Eigen::Index largest;
     c.cwiseAbs().maxCoeff(&largest);
     const Complex phase = std::conj(c[largest]) / std::abs(c[largest]);

@@ -32,6 +32,15 @@ struct Quality {
 
 Quality quality(const mesh::Surface& surface, const UvArray& uv);
 
+/// What the balance below needs to know of the forms: their values on two sides of a few thousand triangles.
+struct FormSamples {
+  std::vector<int> triangles;      ///< evenly spaced by area; all of them on a small surface, some more than once
+  forms::RowMajorMatrix on_sides;  ///< (2 #triangles) x #forms, along sides 0 and 1 of each
+};
+std::vector<int> sample_triangles(const mesh::Surface& surface);
+forms::RowMajorMatrix values_on_sides(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+                                      const std::vector<int>& triangles);
+
 enum class Coefficients { complex, real };
 
 /// Coefficients c, g numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most
@@ -41,8 +50,8 @@ enum class Coefficients { complex, real };
 /// @param basis #forms x g, the theta_j in the forms. @param area_form g x g: the UV area of theta is c^* area_form c,
 /// on closed surfaces Im Omega, on bounded ones G_N#
 /// @param kind real on bounded surfaces, so that boundaries stay straight
-Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                       const forms::ClosedForms& forms, const Eigen::MatrixXcd& basis,
-                                       const Eigen::MatrixXd& area_form, Coefficients kind);
+Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples,
+                                       const Eigen::MatrixXcd& basis, const Eigen::MatrixXd& area_form,
+                                       Coefficients kind);
 
 }  // namespace holomorph::uv
