@@ -328,9 +328,10 @@ def log_map_errors(n, seed=1):
     p, q = (int(np.argmax(points @ direction)) for direction in ([0.3, 0.2, 0.9], [-0.8, 0.3, -0.4]))
     structure = conformal_structure(surface_of(mesh), punctures=[p, q])
     theta = structure.sphere_map()
-    computed = (theta @ [1, 1j, 0]) / (1 + theta[:, 2])  # stereographic, the first puncture at 0
     away = np.linalg.norm(points[:, None] - points[[p, q]], axis=2).min(axis=1) > 0.35
-    ratio = np.log(computed[away] / plane_of(points[away], points[p], points[q]))
+    theta = theta[away]  # the second puncture, at infinity, is not among them
+    computed = (theta @ [1, 1j, 0]) / (1 + theta[:, 2])  # stereographic, the first puncture at 0
+    ratio = np.log(computed / plane_of(points[away], points[p], points[q]))
     turn = np.angle(np.exp(1j * (ratio.imag - ratio.imag[0])))
     spread = [(x.max() - x.min()) / 2 / TAU for x in (turn, ratio.real)]  # a constant is free
     return np.array(spread)
