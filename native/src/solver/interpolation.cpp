@@ -65,7 +65,7 @@ struct Mean {
   }
 };
 
-// One step of the mean: the staying neighbours of a vertex that goes, with weights of sum 1; a staying vertex itself.
+// One step of the mean: the staying neighbours of a vertex that goes; a staying vertex itself.
 // No row is empty: a vertex goes because of a staying neighbour.
 SparseRows staying_neighbours(const SparseRows& A, const Array<char>& held, const Array<int>& coarse, Workers& workers,
                               Progress& progress) {
@@ -76,16 +76,12 @@ SparseRows staying_neighbours(const SparseRows& A, const Array<char>& held, cons
       part.weight.push_back(1);
       return;
     }
-    const auto first = part.weight.size();
-    float sum = 0;
     for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
       const int j = A.column[e], c = coarse[j];
       if (c < 0 || A.weight[e] <= 0 || (is_held(held, i) && !is_held(held, j))) continue;
       part.column.push_back(c);
       part.weight.push_back(A.weight[e]);
-      sum += A.weight[e];
     }
-    for (auto e = first; e < part.weight.size(); ++e) part.weight[e] /= sum;
   });
 }
 
@@ -127,9 +123,10 @@ SparseRows interpolation(const SparseRows& A, const Array<char>& held, const Arr
       if (A.weight[e] <= kWeak * largest) continue;
       const int j = A.column[e];
       if (is_held(held, i) && !is_held(held, j)) continue;
-      for (int s = one_step.start[j]; s < one_step.start[j + 1]; ++s) {
-        mean.add(one_step.column[s], static_cast<double>(A.weight[e]) * one_step.weight[s]);
-      }
+      const int begin = one_step.start[j], end = one_step.start[j + 1];
+      double total = coarse[j] < 0 ? A.weight[e] : 0;
+      for (int s = begin; s < end; ++s) total += one_step.weight[s];
+      for (int s = begin; s < end; ++s) mean.add(one_step.column[s], A.weight[e] / total * one_step.weight[s]);
     }
     mean.keep(most);
     mean.append_to(part);

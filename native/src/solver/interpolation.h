@@ -13,8 +13,10 @@ namespace holomorph::solver {
 /// @return #V: the number of the vertex on the coarse level, in the same order, or -1 for a vertex that goes
 Array<int> coarse_vertices(const SparseRows& A, const Array<char>& held, Workers& workers, Progress& progress);
 
-/// P, #V x #coarse: the value at a vertex that goes is a mean over its neighbours, in each of which that goes as well a
-/// mean over that one's staying neighbours; positive weights alone, and of those means the `most` largest entries.
+/// P, #V x #coarse: the value at a vertex i that goes is a mean over its neighbours, in each of which that goes as well
+/// a mean over that one's staying neighbours and i itself, for whose value the sum is solved (extended+i interpolation,
+/// De Sterck, Falgout, Nolting & Yang 2008, doi:10.1002/nla.559; without i a sixth more iterations). Positive weights
+/// alone, and of the result the `most` largest entries.
 ///
 /// Every row sums to 1 exactly: all weights but the largest are multiples of 2^-20. Then constants are carried exactly,
 /// and the rounding of a large weight of a sliver does not become a coupling on the coarse level.

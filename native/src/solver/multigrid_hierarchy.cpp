@@ -17,7 +17,7 @@ constexpr int kLargestDense = 2000;
 // Entries of a row of P, finest level and below: the fewest that keep the number of iterations.
 constexpr int kFinestMeans = 2, kCoarseMeans = 3;
 // Jacobi's step is kStep / sum_j |a_ij| with the diagonal: below 2 the smoother is convergent for weights of any signs.
-constexpr double kStep = 1.4;
+constexpr double kStep = 1.6;
 
 SparseRows finest_weights(const Laplacian& L, Workers& workers) {
   const int n = static_cast<int>(L.rows());
