@@ -44,8 +44,7 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 Matrix assembled(const mesh::Surface& surface, bool delaunay) {
   Progress silent;
-  const auto half_edges = mesh::half_edges(surface, silent);
-  auto triangulation = mesh::intrinsic_triangulation(surface, half_edges);
+  auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent));
   if (delaunay) mesh::make_delaunay(triangulation, silent);
   return forms::laplacian(triangulation.half_edges, mesh::cotangent_weights(triangulation, silent), silent);
 }

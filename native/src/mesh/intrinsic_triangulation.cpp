@@ -126,8 +126,8 @@ double smallest_increment(const Surface& surface) {
   return degenerate ? increment : 0.0;
 }
 
-IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, const HalfEdges& half_edges) {
-  IntrinsicTriangulation result{half_edges, surface.edge_lengths, {}, smallest_increment(surface)};
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges) {
+  IntrinsicTriangulation result{std::move(half_edges), surface.edge_lengths, {}, smallest_increment(surface)};
   for (double& l : result.lengths) l += result.mollification;
   return result;
 }

@@ -29,7 +29,7 @@ double smallest_increment(const Surface& surface);
 /// common amount that leaves every triangle a slack of 1e-6 times the mean length (Sharp & Crane 2020,
 /// doi:10.1111/cgf.14069, section 4.5).
 /// @param half_edges of the surface
-IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, const HalfEdges& half_edges);
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges);
 
 /// Flips edges until every interior edge is Delaunay, cot + cot >= 0 up to rounding (Fisher et al. 2007,
 /// doi:10.1007/s00607-007-0249-8). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every

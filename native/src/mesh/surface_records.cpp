@@ -59,7 +59,7 @@ void finish_records(Surface& surface) {
   record_isolated_vertices(surface);
   record_zero_areas(surface);
   Progress silent;
-  (void)half_edges(surface, silent);  // refuses non-manifold vertices
+  refuse_pinched_vertices(half_edges(surface, silent));
 }
 
 }  // namespace holomorph::mesh
