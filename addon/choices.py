@@ -40,7 +40,9 @@ def attempts(part, choices):
     those of the whole mesh."""
     base = {"solver": choices.solver, "boundary": choices.boundary}
     selection = _selection(part, choices)
-    seams = choices.seams[np.isin(choices.seams, part.vertex_index).all(axis=1)]
+    seams = choices.seams
+    if len(seams):
+        seams = seams[np.isin(seams, part.vertex_index).all(axis=1)]
     cut = {"cut_edges": seams} if len(seams) else {}
     wanted = [base]
     if cut:
@@ -91,6 +93,8 @@ def numbers(text):
 def stray_vertex(surface, choices):
     """The first expressly chosen vertex that no face has, or None."""
     chosen = np.asarray(choices.selected if choices.is_express else (), np.int64)
+    if len(chosen) == 0:
+        return None
     stray = chosen[~np.isin(chosen, surface.corner_vertices)]
     return int(stray[0]) if len(stray) else None
 

@@ -11,14 +11,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import layout
+from . import layout, native
 from .mesh_io import MAIN_MAP
 
-SAMPLED = 50_000  # triangles, for a median
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
 CENTRE = 0.5 + 0.5j  # of the UV square
-CHUNK = 1 << 15  # entries worked on at a time: temporary arrays stay in the processor's cache
 
 
 @dataclass(frozen=True)
@@ -31,15 +29,6 @@ class MapOptions:
     amounts: tuple = ()  # factor of each form's share in the main map; none means 1
     turns: tuple = ()  # radians, phase of each form's share in the main map
     margin: float = 0.02  # least distance between parts, in sides of the UV square
-
-
-@dataclass(frozen=True)
-class Frame:
-    """Of the map of one part, turned but not scaled: the bounding box in the complex plane, and the area."""
-
-    low: complex
-    high: complex
-    area: float
 
 
 @dataclass(frozen=True)
@@ -59,17 +48,18 @@ def map_names(solved, options):
 
 def map_values(solved, options):
     """Yields (name, (#C,2) float32) for every map; components that lack the form are zero there."""
+    write = native.load().place
     for index, name in enumerate(map_names(solved, options)):
-        uv = np.zeros((len(solved.surface.corner_vertices), 2), np.float32)
+        placed = np.zeros((len(solved.surface.corner_vertices), 2), np.float32)
         parts = _parts(solved, index)
         raw = [_raw(part, index, options) for part in parts]
-        for part, z, place in zip(parts, raw, _places(parts, index, options, raw)):
-            _write_placed(z, place, uv, part.surface.corner_index)
-        yield name, uv
-
-
-def _chunks(count):
-    return (slice(start, start + CHUNK) for start in range(0, count, CHUNK))
+        for part, uv, place in zip(parts, raw, _places(parts, index, options, raw)):
+            if index == 0:
+                main_quality(part, options, uv)
+            # The two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary.
+            rows = None if part.surface is solved.surface else part.surface.corner_index
+            write(uv, place.factor, place.origin, place.target, placed, rows)
+        yield name, placed
 
 
 def shape_points(solved):
@@ -119,45 +109,23 @@ def coefficients(component, index, options):
 
 
 def _raw(component, index, options):
-    """(#C of the component,) complex u + i v as the library gives them."""
-    uv = component.structure.uv(coefficients(component, index, options))
-    return np.ascontiguousarray(uv, np.float64).view(np.complex128)[:, 0]
+    """(#C of the component, 2) UVs as the library gives them."""
+    return component.structure.uv(coefficients(component, index, options))
 
 
-def uv_area(z, triangle_corners):
-    """The sum of the triangles' areas in UV, whichever way they lie; z = u + i v at the corners."""
-    area = 0.0
-    for chunk in _chunks(len(triangle_corners)):
-        p, q, r = z[triangle_corners[chunk]].T
-        area += float(np.abs(((q - p).conj() * (r - p)).imag).sum())
-    return area / 2
-
-
-def _bounding_box(z, rotation):
-    """Lower left and upper right corner of the points, turned by the angle."""
-    turn = cmath.exp(1j * rotation)
-    boxes = []
-    for chunk in _chunks(len(z)):
-        u, v = (turn * z[chunk]).view(np.float64).reshape(-1, 2).T.copy()
-        boxes.append((u.min(), v.min(), -u.max(), -v.max()))
-    left, low, right, high = np.min(boxes, axis=0)
-    return complex(left, low), complex(-right, -high)
-
-
-def _frame(component, index, options, z=None):
-    """The frame, kept: it costs more than everything else here."""
+def _frame(component, index, options, uv=None):
+    """The frame of a map of one part, turned but not scaled; kept."""
     dials = (options.amounts, options.turns) if index == 0 else ()
     key = (index, options.rotation, dials)
     if key not in component.frames:
-        z = _raw(component, index, options) if z is None else z
-        area = uv_area(z, component.surface.triangle_corners)
-        component.frames[key] = Frame(*_bounding_box(z, options.rotation), area)
+        uv = _raw(component, index, options) if uv is None else uv
+        component.frames[key] = native.load().frame(component.surface, uv, options.rotation)
     return component.frames[key]
 
 
 def _places(parts, index, options, raw=None):
     """A `Place` for each part. Where a map has no area, as with all dials at zero, the part shrinks to a point."""
-    frames = [_frame(part, index, options, z) for part, z in zip(parts, raw or [None] * len(parts))]
+    frames = [_frame(part, index, options, uv) for part, uv in zip(parts, raw or [None] * len(parts))]
     scales = [math.sqrt(part.area / frame.area) if frame.area > 0 else 0.0 for part, frame in zip(parts, frames)]
     sizes = [[s * (f.high - f.low).real, s * (f.high - f.low).imag] for s, f in zip(scales, frames)]
     corners, side = layout.pack(sizes, options.margin)
@@ -173,16 +141,6 @@ def _places(parts, index, options, raw=None):
     ]
 
 
-def _write_placed(z, place, uv, corner_index):
-    """Writes the part's corners into the (#C,2) float32 map of the object. Moved to the middle first and rounded last:
-    the two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary."""
-    for chunk in _chunks(len(z)):
-        moved = z[chunk] - place.origin
-        moved *= place.factor
-        moved += place.target
-        uv[corner_index[chunk]] = moved.view(np.float64).reshape(-1, 2)
-
-
 @dataclass(frozen=True)
 class MainQuality:
     """Distortion of the main map; scale and rotation do not matter."""
@@ -193,36 +151,30 @@ class MainQuality:
     length_ratio: float  # UV length per length on the surface, the median by area, as the library gives the map
 
 
-def main_quality(component, options):
+def main_quality(component, options, uv=None):
     """The quality of the main map, kept for each setting of its dials."""
     dials = (options.amounts, options.turns)
     if dials not in component.qualities:
-        uv = component.structure.uv(coefficients(component, 0, options))
+        uv = _raw(component, 0, options) if uv is None else uv
         quality = component.structure.quality(uv)
         component.qualities[dials] = MainQuality(
             float(quality.mean_angle),
             float(quality.density_ratio),
             int(np.count_nonzero(quality.flipped)),
-            math.sqrt(_median_by_area(component.surface, quality.area)),
+            math.sqrt(quality.median_density),
         )
     return component.qualities[dials]
 
 
-def _median_by_area(surface, values):
-    """The median of a value of each triangle, weighted by surface area, over a regular sample of the triangles."""
-    step = -(-len(values) // SAMPLED)
-    sample = values[::step]
-    p, q, r = surface.vertices[surface.triangles[::step]].transpose(1, 0, 2)
-    weights = np.linalg.norm(np.cross(q - p, r - p), axis=1)
-    order = np.argsort(sample, kind="stable")
-    below = np.cumsum(weights[order])
-    return float(sample[order][np.searchsorted(below, below[-1] / 2)])
-
-
 def squares_that_fit(solved, options):
     """Checker squares per UV unit so that about `SQUARES_ACROSS` of them span the largest part that has a map."""
-    sizes = [float(np.linalg.norm(np.ptp(c.surface.vertices, axis=0))) for c in solved.done]
+    sizes = [_diagonal(c.surface.vertices) for c in solved.done]
     largest = int(np.argmax(sizes))
     part, place = solved.done[largest], _places(solved.done, 0, options)[largest]
     density = abs(place.factor) * main_quality(part, options).length_ratio * sizes[largest]
     return min(max(2 * round(SQUARES_ACROSS / density / 2), 2), SQUARES_LIMIT) if density > 0 else SQUARES_ACROSS
+
+
+def _diagonal(points):
+    """Of the bounding box; column by column, which NumPy does much faster than all three at once."""
+    return math.hypot(*(float(np.ptp(column)) for column in points.T))

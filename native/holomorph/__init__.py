@@ -18,6 +18,7 @@ from .closed import ConformalStructure
 from .disk import DiskMap, RectangleMap, TriangleMap
 from .double import double_cover
 from .levels import LevelOfDetail
+from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
 from .results import MemoryPlan, Quality, Residuals, SolverReport
@@ -30,6 +31,7 @@ __all__ = [
     "ConformalStructure",
     "DiskMap",
     "Error",
+    "Frame",
     "InvalidMesh",
     "LevelOfDetail",
     "MemoryPlan",
@@ -47,4 +49,6 @@ __all__ = [
     "__version__",
     "conformal_structure",
     "double_cover",
+    "frame",
+    "place",
 ]

@@ -76,7 +76,7 @@ class Quality:
 
     angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed); area: (#T,) s1 s2, UV area
     per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the triangles that have not
-    collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area.
+    collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 % quantile.
     """
 
     angle: np.ndarray
@@ -84,6 +84,7 @@ class Quality:
     flipped: np.ndarray
     mean_angle: float
     density_ratio: float
+    median_density: float
 
     @property
     def collapsed(self):

@@ -1,6 +1,7 @@
 """UV maps: exact jumps across seams, areas and periods (solver accuracy), quality recomputed from its definition."""
 
 import families
+import holomorph
 import numpy as np
 import pytest
 from forms import edge_forms, wedge_matrix
@@ -232,6 +233,17 @@ def test_density_ratio(name):
     assert least * (1 - 1e-9) <= quality.density_ratio <= most * (1 + 1e-9)
 
 
+@embedded
+def test_median_density(name):
+    structure = solved(name)
+    uv = structure.uv(some_coefficients(structure))
+    quality = structure.quality(uv)
+    _, area = singular_values(structure.surface, uv)
+    below = (quality.area < quality.median_density * (1 - 1e-9)) @ area
+    above = (quality.area > quality.median_density * (1 + 1e-9)) @ area
+    assert max(below, above) < (0.5 + 1e-9) * area.sum()
+
+
 def test_quality_of_the_reversed_map():
     structure = solved("even torus")
     uv = structure.uv([1])
@@ -249,6 +261,56 @@ def test_distortion_of_a_smooth_torus_falls_like_the_step():
         excess.append(structure.quality(structure.uv([1])).mean_angle - 1)
     order = np.log2(np.array(excess[:-1]) / excess[1:])
     assert (order > 0.9).all(), order
+
+
+# ---- frames and places ---------------------------------------------------------------------------
+
+
+@everywhere
+@pytest.mark.parametrize("rotation", [0.0, 0.7])
+def test_frame(name, rotation):
+    structure = solved(name)
+    uv = structure.uv(some_coefficients(structure))
+    turned = np.exp(1j * rotation) * (uv @ [1, 1j])
+    frame = holomorph.frame(structure.surface, uv, rotation)
+    size = np.abs(turned).max()
+    assert abs(frame.low - complex(turned.real.min(), turned.imag.min())) < 1e-12 * size
+    assert abs(frame.high - complex(turned.real.max(), turned.imag.max())) < 1e-12 * size
+    areas = np.abs(triangle_areas(structure.surface, uv))
+    assert abs(frame.area - areas.sum()) < 1e-12 * areas.sum()
+
+
+def test_placed_map():
+    uv = np.random.default_rng(3).normal(size=(10_000, 2))
+    rows = np.random.default_rng(4).permutation(12_000)[:10_000]
+    factor, origin, target = 0.3 - 2j, 5 + 1j, 0.5 + 0.5j
+    placed = np.full((12_000, 2), 7.0, np.float32)
+    holomorph.place(uv, factor, origin, target, placed, rows)
+    expected = np.full(12_000, 7 + 7j)
+    expected[rows] = factor * (uv @ [1, 1j] - origin) + target
+    assert np.abs(placed @ [1, 1j] - expected).max() < 1e-6 * np.abs(expected).max()
+    own = np.zeros((10_000, 2), np.float32)
+    holomorph.place(uv, factor, origin, target, own)
+    assert (own == placed[rows]).all()
+
+
+def test_wrong_places():
+    uv, placed = np.zeros((3, 2)), np.zeros((4, 2), np.float32)
+    readable = placed.copy()
+    readable.setflags(write=False)
+    for arguments, message in [
+        ((uv, 1, 0, 0, placed), "uv has the shape"),
+        ((uv, 1, 0, 0, placed, [0, 1]), "uv has the shape"),
+        ((uv, 1, 0, 0, placed, [0, 1, 4]), "outside of 0 to 3"),
+        ((uv, 1, 0, 0, placed, [0, -1, 2]), "outside of 0 to 3"),
+        ((uv, 1, 0, 0, placed.astype(float)), "float32"),
+        ((uv, 1, 0, 0, readable), "writable"),
+        ((uv, 1, 0, 0, placed.ravel()), "placed has the shape"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            holomorph.place(*arguments)
+    with pytest.raises(ValueError, match="uv has the shape"):
+        holomorph.frame(solved("even torus").surface, uv)
 
 
 # ---- balance -------------------------------------------------------------------------------------

@@ -71,6 +71,13 @@ py::array give(std::vector<T>&& values) {
   return give(std::move(values), {size});
 }
 
+/// The same for a matrix, its shape as it is.
+template <class Matrix>
+py::array give_matrix(Matrix&& matrix) {
+  const py::ssize_t rows = matrix.rows(), columns = matrix.cols();
+  return give(std::forward<Matrix>(matrix), {rows, columns});
+}
+
 /// Rows of N values; the facade has checked the shape.
 template <class T, std::size_t N>
 std::vector<std::array<T, N>> rows(const Contiguous<T>& array) {

@@ -51,17 +51,6 @@ py::tuple harmonic_map(const Surface& surface, const Contiguous<double>& corner_
   return py::make_tuple(copy(map.moves), report(map.solver));
 }
 
-py::tuple quality(const Surface& surface, const Contiguous<double>& uv_array) {
-  const uv::UvArray uv = Eigen::Map<const uv::UvArray>(uv_array.data(), uv_array.shape(0), 2);
-  uv::Quality q;
-  {
-    const py::gil_scoped_release unlocked;
-    q = uv::quality(surface, uv);
-  }
-  const py::array flipped = give(std::move(q.flipped)).attr("view")("bool");
-  return py::make_tuple(give(std::move(q.angle)), give(std::move(q.area)), flipped, q.mean_angle, q.density_ratio);
-}
-
 }  // namespace
 
 void bind_conformal_structure(py::module_& m) {
@@ -88,7 +77,6 @@ void bind_conformal_structure(py::module_& m) {
       });
   m.def("conformal_structure", &compute);
   m.def("conformal_structure_of_level", &compute_level);
-  m.def("quality", &quality);
   m.def("harmonic_map", &harmonic_map);
 }
 

@@ -31,8 +31,7 @@ py::array uv(const PuncturedStructure& s, const Eigen::VectorXcd& c) {
     const py::gil_scoped_release unlocked;
     result = pipeline::uv_map(s, c);
   }
-  const py::ssize_t corners = result.rows();
-  return give(std::move(result), {corners, 2});
+  return give_matrix(std::move(result));
 }
 
 // Takes the sheets of the caller's cut instead of our own; the spokes of the punctures are cut in any case.
@@ -63,8 +62,7 @@ py::array sphere_map(const PuncturedStructure& s) {
     const py::gil_scoped_release unlocked;
     points = pipeline::sphere_map(s);
   }
-  const py::ssize_t rows = points.rows();
-  return give(std::move(points), {rows, 3});
+  return give_matrix(std::move(points));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One function per class that Python sees.
+// One function per class that Python sees, and one for UV maps.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,5 +12,6 @@ void bind_progressive_mesh(pybind11::module_& m);
 void bind_laplace_problem(pybind11::module_& m);
 void bind_punctured_structure(pybind11::module_& m);
 void bind_rectangle(pybind11::module_& m);
+void bind_uv_maps(pybind11::module_& m);
 
 }  // namespace holomorph::bindings

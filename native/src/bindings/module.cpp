@@ -37,4 +37,5 @@ PYBIND11_MODULE(_native, m) {
   bindings::bind_laplace_problem(m);
   bindings::bind_punctured_structure(m);
   bindings::bind_rectangle(m);
+  bindings::bind_uv_maps(m);
 }

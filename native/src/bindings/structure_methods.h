@@ -63,8 +63,7 @@ py::array uv(Structure<Value>& s, const Eigen::VectorXcd& coefficients) {
   s.with_forms([&](auto& forms, Progress& progress) {
     result = uv::uv_map(*s.surface, s.value.sheets, forms.function(coefficients, progress), coefficients);
   });
-  const py::ssize_t corners = result.rows();
-  return give(std::move(result), {corners, 2});
+  return give_matrix(std::move(result));
 }
 
 template <class Value>
@@ -72,7 +71,8 @@ Eigen::VectorXcd balanced_coefficients(Structure<Value>& s, const Eigen::MatrixX
                                        const Eigen::MatrixXd& area_form, uv::Coefficients kind) {
   Eigen::VectorXcd c;
   s.with_forms([&](auto& forms, Progress& progress) {
-    c = uv::balanced_coefficients(*s.surface, forms.samples(progress), basis, area_form, kind);
+    const auto samples = basis.cols() > 1 ? forms.samples(progress) : uv::FormSamples();
+    c = uv::balanced_coefficients(*s.surface, samples, basis, area_form, kind);
   });
   return c;
 }

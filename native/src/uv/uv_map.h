@@ -1,4 +1,4 @@
-// UVs from potentials, and their quality.
+// UVs from potentials, and the combination of forms that is shown first.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,17 +21,6 @@ UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const f
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                const Eigen::VectorXcd& p);
 
-struct Quality {
-  /// #T s1 / s2 >= 1, the singular values of the map; 1 where the triangle has no area, infinite where it has collapsed
-  std::vector<double> angle;
-  std::vector<double> area;   ///< #T s1 s2, UV area per surface area; 0 where the triangle has no area
-  std::vector<char> flipped;  ///< #T 1 where the map turns the triangle over
-  double mean_angle = 0;      ///< s1 / s2, mean over the area of the triangles that have not collapsed
-  double density_ratio = 0;   ///< 95 % over 5 % quantile of s1 s2, by the surface's area
-};
-
-Quality quality(const mesh::Surface& surface, const UvArray& uv);
-
 /// What the balance below needs to know of the forms: their values on two sides of a few thousand triangles.
 struct FormSamples {
   std::vector<int> triangles;      ///< evenly spaced by area; all of them on a small surface, some more than once
@@ -47,6 +36,7 @@ enum class Coefficients { complex, real };
 /// even: least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against distortion
 /// (balance.cpp), scaled so that the UV area is 1. The minimum is local, the best from several fixed starts; the same
 /// input gives the same bits.
+/// @param samples not looked at where g = 1
 /// @param basis #forms x g, the theta_j in the forms. @param area_form g x g: the UV area of theta is c^* area_form c,
 /// on closed surfaces Im Omega, on bounded ones G_N#
 /// @param kind real on bounded surfaces, so that boundaries stay straight

@@ -1,0 +1,53 @@
+"""Where a UV map lies in the plane, and the map moved elsewhere, as applications store it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _native
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Of a map in the complex plane u + i v: the lower left and upper right corner of its bounding box, and the sum of
+    the areas of its triangles, whichever way they lie."""
+
+    low: complex
+    high: complex
+    area: float
+
+
+def frame(surface, uv, rotation=0.0):
+    """The `Frame` of a (#C, 2) map of the surface's polygon corners, turned by `rotation` (radians, counter-clockwise)
+    about 0."""
+    return Frame(*_native.frame(surface._native, _corners(uv, len(surface.corner_vertices)), float(rotation)))
+
+
+def place(uv, factor, origin, target, placed, rows=None):
+    """Writes ``factor * (z - origin) + target`` for every z = u + i v of a map into `placed`, rounded once, at the end:
+    corners with the same u or v keep them the same where `factor` is real.
+
+    Parameters
+    ----------
+    uv : (#C, 2) reals
+    factor, origin, target : complex numbers
+    placed : (n, 2) float32, C-contiguous: changed
+    rows : (#C,) integers below n, all different: the row of `placed` of each corner; None where it is the corner's own
+    """
+    if not (isinstance(placed, np.ndarray) and placed.dtype == np.float32 and placed.flags.carray):
+        raise ValueError("placed must be a writable C-contiguous array of float32")
+    if placed.ndim != 2 or placed.shape[1] != 2:
+        raise ValueError(f"placed has the shape {placed.shape}; (rows, 2) is needed")
+    uv = _corners(uv, len(placed) if rows is None else len(rows))
+    rows = np.empty(0, np.int32) if rows is None else np.ascontiguousarray(rows, np.int32)
+    if rows.size and (rows.min() < 0 or rows.max() >= len(placed)):
+        raise ValueError(f"rows has an entry outside of 0 to {len(placed) - 1}")
+    if len(uv):
+        _native.place(uv, complex(factor), complex(origin), complex(target), rows, placed)
+
+
+def _corners(uv, count):
+    uv = np.ascontiguousarray(uv, dtype=np.float64)
+    if uv.shape != (count, 2):
+        raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) is needed")
+    return uv

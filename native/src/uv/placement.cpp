@@ -1,0 +1,62 @@
+#include "uv/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/chunks.h"
+
+namespace holomorph::uv {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Extent {
+  double low[2] = {kInfinity, kInfinity}, high[2] = {-kInfinity, -kInfinity}, area = 0;
+
+  Extent& operator+=(const Extent& other) {
+    for (int i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], other.low[i]);
+      high[i] = std::max(high[i], other.high[i]);
+    }
+    area += other.area;
+    return *this;
+  }
+};
+
+}  // namespace
+
+Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation) {
+  const double cosine = std::cos(rotation), sine = std::sin(rotation);
+  const auto add_triangle = [&](int t, Extent& extent) {
+    double at[3][2];
+    for (int i = 0; i < 3; ++i) {
+      const int corner = surface.triangle_corners[t][i];
+      const double u = uv(corner, 0), v = uv(corner, 1);
+      at[i][0] = cosine * u - sine * v;
+      at[i][1] = sine * u + cosine * v;
+      for (int k = 0; k < 2; ++k) {
+        extent.low[k] = std::min(extent.low[k], at[i][k]);
+        extent.high[k] = std::max(extent.high[k], at[i][k]);
+      }
+    }
+    extent.area +=
+        0.5 * std::abs((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]));
+  };
+  Workers workers;
+  const Extent extent = sum_over_rows(workers, static_cast<int>(surface.triangles.size()), Extent(), add_triangle);
+  return {{extent.low[0], extent.low[1]}, {extent.high[0], extent.high[1]}, extent.area};
+}
+
+void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed) {
+  const auto [factor, origin, target] = placement;
+  Workers workers;
+  for_rows(workers, static_cast<int>(uv.rows()), [&, factor = factor, origin = origin, target = target](int c) {
+    const double x = uv(c, 0) - origin.real(), y = uv(c, 1) - origin.imag();
+    float* row = placed + 2 * static_cast<std::ptrdiff_t>(rows ? rows[c] : c);
+    row[0] = static_cast<float>(factor.real() * x - factor.imag() * y + target.real());
+    row[1] = static_cast<float>(factor.real() * y + factor.imag() * x + target.imag());
+  });
+}
+
+}  // namespace holomorph::uv

@@ -1,0 +1,30 @@
+// Where a UV map lies in the plane, and the map moved elsewhere, as applications store it.
+#pragma once
+
+#include <complex>
+
+#include "uv/uv_map.h"
+
+namespace holomorph::uv {
+
+struct Frame {
+  std::complex<double> low, high;  ///< corners of the bounding box, u + i v
+  double area = 0;                 ///< sum of the areas of the triangles, whichever way they lie
+};
+
+/// The frame of the map turned by an angle about 0. @param uv #C x 2. @param rotation radians, counter-clockwise
+/// The area is summed in a fixed order. Cost: O(#T).
+Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation);
+
+/// z goes to factor (z - origin) + target: moved to the middle first and rounded last, so that corners whose u or v
+/// are the same keep them so.
+struct Placement {
+  std::complex<double> factor, origin, target;
+};
+
+/// Writes the placed map, rounded to single precision, into a larger array of corners.
+/// @param uv #C x 2. @param rows #C row of `placed` of each corner, all different; null: row c of corner c
+/// @param placed two numbers in each row
+void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed);
+
+}  // namespace holomorph::uv

@@ -1,0 +1,145 @@
+#include "uv/quality.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+
+#include "base/chunks.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::uv {
+namespace {
+
+using Complex = std::complex<double>;
+
+// A triangle has collapsed where s2 is below this fraction of s1: what is left of it is rounding.
+constexpr double kCollapsed = 1e-12;
+
+struct Weighted {
+  double value, weight;
+};
+
+// The value below which the weight `wanted` lies, by halving the range in which it is: linear time.
+double weighted_quantile(std::vector<Weighted>& items, double wanted) {
+  auto begin = items.begin(), end = items.end();
+  while (end - begin > 1) {
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+    double below = 0;
+    for (auto item = begin; item != middle; ++item) below += item->weight;
+    if (below >= wanted) {
+      end = middle;
+    } else {
+      wanted -= below;
+      begin = middle;
+    }
+  }
+  return begin->value;
+}
+
+// Weights of values >= 0 by the leading bits of the values, of which there are 16 classes in each octave: they are in
+// the order of the values. Only the items of the class in which a quantile lies are looked at again.
+class Distribution {
+ public:
+  Distribution(const std::vector<double>& values, const std::vector<double>& weights, Workers& workers)
+      : values_(values), weights_(weights), classes_(kClasses, 0.0) {
+    const std::size_t count = values.size();
+    std::vector<std::vector<double>> parts(kParts, std::vector<double>(kClasses, 0.0));
+    workers.run(kParts, [&](int, int part) {
+      for (std::size_t i = count * part / kParts; i < count * (part + 1) / kParts; ++i)
+        parts[part][class_of(values[i])] += weights[i];
+    });
+    for (const auto& part : parts) {
+      for (int k = 0; k < kClasses; ++k) classes_[k] += part[k];
+    }
+    for (const double weight : classes_) total_ += weight;
+  }
+
+  /// The value below which this fraction of the total weight lies.
+  double quantile(double fraction) const {
+    double wanted = fraction * total_;
+    int k = 0;
+    for (; k + 1 < kClasses && !(classes_[k] >= wanted && classes_[k] > 0); ++k) wanted -= classes_[k];
+    std::vector<Weighted> items;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      if (class_of(values_[i]) == k) items.push_back({values_[i], weights_[i]});
+    }
+    return items.empty() ? 0.0 : weighted_quantile(items, wanted);
+  }
+
+ private:
+  static constexpr int kClasses = 1 << 15, kParts = 8;
+  static int class_of(double value) { return static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 48) % kClasses; }
+
+  const std::vector<double>& values_;
+  const std::vector<double>& weights_;
+  std::vector<double> classes_;
+  double total_ = 0;
+};
+
+// The map of a triangle is A z + B conj(z).
+struct Derivatives {
+  Complex A, B;
+};
+
+// @param at the three corners in the plane of the map; @param area > 0
+Derivatives derivatives(const std::array<Complex, 3>& at, double a, double b, double c, double area) {
+  // The triangle laid out with side 0 on the real axis and corner 2 at x + i y.
+  const double x = (a * a + (c - b) * (c + b)) / (2 * a), y = 2 * area / a;
+  const Complex along = (at[1] - at[0]) / a;       // A + B
+  const Complex rest = at[2] - at[0] - x * along;  // i y (A - B)
+  const Complex across(rest.imag() / y, -rest.real() / y);
+  return {0.5 * (along + across), 0.5 * (along - across)};
+}
+
+struct AngleSum {
+  double area = 0, angle = 0;
+  AngleSum& operator+=(const AngleSum& other) {
+    area += other.area;
+    angle += other.angle;
+    return *this;
+  }
+};
+
+}  // namespace
+
+Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv) {
+  const std::size_t count = surface.triangles.size();
+  Quality result{std::vector<double>(count, 1.0), std::vector<double>(count, 0.0), std::vector<char>(count, 0)};
+  std::vector<double> areas(count, 0.0);
+  Workers workers;
+  const auto measure = [&](int t, AngleSum& sum) {
+    const auto& sides = surface.triangle_edges[t];
+    const double a = surface.edge_lengths[sides[0]], b = surface.edge_lengths[sides[1]],
+                 c = surface.edge_lengths[sides[2]];
+    if (mesh::is_degenerate(a, b, c)) return;
+    areas[t] = mesh::triangle_area(a, b, c);
+    std::array<Complex, 3> at;
+    for (int i = 0; i < 3; ++i) {
+      const int corner = surface.triangle_corners[t][i];
+      at[i] = {uv(corner, 0), uv(corner, 1)};
+    }
+    const auto [A, B] = derivatives(at, a, b, c, areas[t]);
+    const double size_A = std::sqrt(std::norm(A)), size_B = std::sqrt(std::norm(B));
+    const double larger = size_A + size_B, smaller = std::abs(size_A - size_B);
+    result.area[t] = larger * smaller;
+    if (larger > 0 && !(smaller > kCollapsed * larger)) {
+      result.angle[t] = std::numeric_limits<double>::infinity();
+      return;
+    }
+    result.flipped[t] = size_B > size_A;
+    result.angle[t] = larger > 0 ? larger / smaller : 1.0;
+    sum += {areas[t], areas[t] * result.angle[t]};
+  };
+  const AngleSum sum = sum_over_rows(workers, static_cast<int>(count), AngleSum(), measure);
+  result.mean_angle = sum.area > 0 ? sum.angle / sum.area : std::numeric_limits<double>::infinity();
+  const Distribution densities(result.area, areas, workers);
+  result.density_ratio = densities.quantile(0.95) / densities.quantile(0.05);
+  result.median_density = densities.quantile(0.5);
+  return result;
+}
+
+}  // namespace holomorph::uv
