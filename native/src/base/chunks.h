@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <exception>
 
 #include "base/workers.h"
 
@@ -12,6 +13,23 @@ namespace holomorph {
 inline constexpr int kChunk = 4096;
 
 inline int chunk_count(int rows) { return (rows + kChunk - 1) / kChunk; }
+
+/// task(chunk) for each of `chunks` chunks, in parallel, where it may throw: what the first of them threw is thrown
+/// when all are done.
+template <class Task>
+void run_throwing(Workers& workers, int chunks, const Task& task) {
+  std::vector<std::exception_ptr> failures(chunks);
+  workers.run(chunks, [&](int, int chunk) {
+    try {
+      task(chunk);
+    } catch (...) {
+      failures[chunk] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
 
 /// body(row) for every row, in parallel. @pre body does not throw
 template <class Body>

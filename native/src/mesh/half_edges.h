@@ -88,6 +88,11 @@ inline int to_vertex(const HalfEdges& mesh, HalfedgeHandle h) { return mesh.to_v
 inline int face_of(const HalfEdges& mesh, HalfedgeHandle h) { return mesh.face_handle(h).idx(); }
 /// The next half-edge around the face, and the one after it, which is the one before.
 inline HalfedgeHandle next(const HalfEdges& mesh, HalfedgeHandle h) { return mesh.next_halfedge_handle(h); }
+/// Whether `h`, which has a face, is the one of lowest number there: every face has one such.
+inline bool is_first_of_face(const HalfEdges& mesh, HalfedgeHandle h) {
+  const HalfedgeHandle after = next(mesh, h);
+  return h < after && h < next(mesh, after);
+}
 
 /// Turns edge e inside the quadrilateral of its two triangles, links only. @pre two different faces at e.
 /// Threads may turn edges of different faces.

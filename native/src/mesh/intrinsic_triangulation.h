@@ -18,6 +18,7 @@ struct Flip {
 struct IntrinsicTriangulation {
   HalfEdges half_edges;
   std::vector<double> lengths;  ///< #E
+  Array<double> cotangents;     ///< of the angle opposite each half-edge; 0 outside the surface
   std::vector<Flip> flips;      ///< in order, from the artist's triangulation to this one
   double mollification = 0;     ///< added to every length, in their unit
 };
@@ -35,7 +36,12 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges
 /// doi:10.1007/s00607-007-0249-8). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
 /// function (Rippa 1990), so no triangulation comes twice; in rounded arithmetic because no edge is turned without
 /// limit.
+/// Cost: linear in the number of flips, which is about a fifth of the edges of irregular meshes; in parallel where
+/// faces with near numbers are near each other, with the same result at any number of threads.
 void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress);
+
+/// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are.
+void set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
 
 /// #E weights k = (cot a + cot b) / 2 (paper Eq. 3).
 std::vector<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Progress& progress);

@@ -23,10 +23,12 @@ inline bool is_degenerate(double a, double b, double c) {
 
 /// Heron's formula in Kahan's stable order; 0 where the triangle inequality fails.
 inline double triangle_area(double a, double b, double c) {
-  if (a < b) std::swap(a, b);
-  if (a < c) std::swap(a, c);
-  if (b < c) std::swap(b, c);
-  const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  // sorted without branches: which side is longest is unforeseeable
+  const double higher = std::max(a, b), lower = std::min(a, b);
+  const double longest = std::max(higher, c), other = std::min(higher, c);
+  const double middle = std::max(lower, other), shortest = std::min(lower, other);
+  const double product = (longest + (middle + shortest)) * (shortest - (longest - middle)) *
+                         (shortest + (longest - middle)) * (longest + (middle - shortest));
   return product > 0 ? 0.25 * std::sqrt(product) : 0.0;
 }
 

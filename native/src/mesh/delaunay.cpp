@@ -1,0 +1,191 @@
+// make_delaunay. Each face is in one region, and a region's edges are turned by one thread: those between two of its
+// faces, which they stay, as a flip gives the half-edges of two faces to the same two. What lies between regions
+// follows when all are done. No result depends on which thread takes which region.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/chunks.h"
+#include "mesh/intrinsic_triangulation.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::mesh {
+namespace {
+
+// An edge is turned only where cot + cot is clearly negative, relative to the cotangents ...
+constexpr double kDelaunayTolerance = 1e-9;
+// ... and never more often than this, so that rounding among slivers cannot turn it back and forth for ever.
+constexpr unsigned kMostFlipsOfAnEdge = 60;
+// Many regions share out the work, large ones (in edges) leave little between them.
+constexpr int kRegions = 16, kLeastRegion = 8192;
+
+// What is known of each edge, one byte.
+class EdgeMarks {
+ public:
+  explicit EdgeMarks(std::size_t edges) : bits_(edges) {}
+
+  void set(int e, bool between, bool queued) { bits_[e] = (between ? kBetween : 0U) | (queued ? kQueued : 0U); }
+  bool is_between(int e) const { return (bits_[e] & kBetween) != 0; }
+  /// @return whether it was not in a queue before
+  bool enqueue(int e) {
+    const bool was_queued = (bits_[e] & kQueued) != 0;
+    bits_[e] |= kQueued;
+    return !was_queued;
+  }
+  void dequeue(int e) { bits_[e] &= ~kQueued; }
+  /// @return whether it may be turned once more
+  bool count_flip(int e) {
+    if ((bits_[e] & kCount) >= kMostFlipsOfAnEdge) return false;
+    ++bits_[e];
+    return true;
+  }
+
+ private:
+  static constexpr unsigned char kQueued = 0x80, kBetween = 0x40, kCount = 0x3f;
+  Array<unsigned char> bits_;
+};
+
+// Between two different faces.
+bool is_interior(const HalfEdges& mesh, int e) {
+  const FaceHandle fa = mesh.face_handle(HalfedgeHandle(2 * e)), fb = mesh.face_handle(HalfedgeHandle(2 * e + 1));
+  return fa.is_valid() && fb.is_valid() && fa != fb;
+}
+
+bool is_delaunay(const IntrinsicTriangulation& t, int e) {
+  const double x = t.cotangents[2 * e], y = t.cotangents[2 * e + 1];
+  return x + y >= -kDelaunayTolerance * (1 + std::abs(x) + std::abs(y));
+}
+
+// Turns the edges of one region, or what is left of all.
+class Flipper {
+ public:
+  Flipper(IntrinsicTriangulation& t, EdgeMarks& marks, bool in_region)
+      : t_(t), mesh_(t.half_edges), marks_(marks), in_region_(in_region) {}
+
+  std::vector<int> stack;    // edges to look at, queued
+  std::vector<int> between;  // edges to look at when the regions are done
+  std::vector<Flip> flips;
+
+  template <class Report>
+  void run(const Report& report) {
+    for (std::size_t steps = 0; !stack.empty(); ++steps) {
+      if (steps % 4096 == 0) report(stack.size());
+      const int e = stack.back();
+      stack.pop_back();
+      marks_.dequeue(e);
+      if (is_interior(mesh_, e) && !is_delaunay(t_, e) && marks_.count_flip(e)) flip(e);
+    }
+  }
+
+ private:
+  double length(HalfedgeHandle h) const { return t_.lengths[edge_of(h)]; }
+
+  // Length between the apices when both triangles are laid out in the plane with the edge on the x axis.
+  double new_length(HalfedgeHandle a, HalfedgeHandle b) const {
+    const double base = length(a);
+    const auto apex = [&](HalfedgeHandle h) {  // seen from the start of h: abscissa, height
+      const HalfedgeHandle h1 = next(mesh_, h), h2 = next(mesh_, h1);
+      const double from_end = length(h1), from_start = length(h2);
+      const double x = (base * base + (from_start - from_end) * (from_start + from_end)) / (2 * base);
+      return std::array<double, 2>{x, 2 * triangle_area(base, from_end, from_start) / base};
+    };
+    const auto [xa, ya] = apex(a);
+    const auto [xb, yb] = apex(b);
+    return std::hypot(xa - (base - xb), ya + yb);
+  }
+
+  void flip(int e) {
+    const HalfedgeHandle a(2 * e), b(2 * e + 1);
+    const double turned = new_length(a, b);
+    const HalfedgeHandle a1 = next(mesh_, a), a2 = next(mesh_, a1), b1 = next(mesh_, b), b2 = next(mesh_, b1);
+    flip_links(mesh_, EdgeHandle(e));
+    t_.lengths[e] = turned;
+    set_cotangents(t_, a);
+    set_cotangents(t_, b);
+    flips.push_back({e, a2, b1});
+    for (const HalfedgeHandle h : {a1, a2, b1, b2}) {
+      const int rim = edge_of(h);
+      if (in_region_ && marks_.is_between(rim)) {
+        between.push_back(rim);
+      } else if (marks_.enqueue(rim)) {
+        stack.push_back(rim);
+      }
+    }
+  }
+
+  IntrinsicTriangulation& t_;
+  HalfEdges& mesh_;
+  EdgeMarks& marks_;
+  bool in_region_;
+};
+
+// The region of a face is that of its edge of lowest number: edges with near numbers have near vertices.
+class Regions {
+ public:
+  Regions(const HalfEdges& mesh, Workers& workers)
+      : size_(std::max(kLeastRegion, (static_cast<int>(mesh.n_edges()) + kRegions - 1) / kRegions)),
+        region_(mesh.n_faces()) {
+    for_rows(workers, static_cast<int>(mesh.n_halfedges()), [&](int i) {
+      const HalfedgeHandle h(i);
+      if (!mesh.is_boundary(h) && is_first_of_face(mesh, h))
+        region_[face_of(mesh, h)] = static_cast<unsigned char>(edge_of(h) / size_);
+    });
+  }
+
+  int of(const HalfEdges& mesh, HalfedgeHandle h) const { return region_[face_of(mesh, h)]; }
+
+ private:
+  int size_;
+  Array<unsigned char> region_;
+};
+
+// What is to be done: the edges to turn, lowest on top of each stack.
+struct Work {
+  std::vector<Flipper> regions;
+  Flipper rest;
+};
+
+Work work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
+  const HalfEdges& mesh = t.half_edges;
+  const Regions regions(mesh, workers);
+  const int edge_count = static_cast<int>(mesh.n_edges());
+  std::vector<std::vector<int>> bad(chunk_count(edge_count));
+  run_throwing(workers, chunk_count(edge_count), [&](int chunk) {
+    for (int e = chunk * kChunk, end = std::min(e + kChunk, edge_count); e < end; ++e) {
+      const bool interior = is_interior(mesh, e), turn = interior && !is_delaunay(t, e);
+      const HalfedgeHandle a(2 * e), b(2 * e + 1);
+      marks.set(e, interior && regions.of(mesh, a) != regions.of(mesh, b), turn);
+      if (turn) bad[chunk].push_back(e);
+    }
+  });
+  Work result{std::vector<Flipper>(kRegions, Flipper(t, marks, true)), Flipper(t, marks, false)};
+  for (auto list = bad.rbegin(); list != bad.rend(); ++list) {
+    for (auto e = list->rbegin(); e != list->rend(); ++e) {
+      Flipper& flipper = marks.is_between(*e) ? result.rest : result.regions[regions.of(mesh, HalfedgeHandle(2 * *e))];
+      flipper.stack.push_back(*e);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void make_delaunay(IntrinsicTriangulation& t, Progress& progress) {
+  Workers workers;
+  EdgeMarks marks(t.half_edges.n_edges());
+  auto [regions, rest] = work(t, marks, workers);
+  progress.report(0.2);
+  run_throwing(workers, kRegions, [&regions = regions](int i) { regions[i].run([](std::size_t) {}); });
+  progress.report(0.7);
+  for (const Flipper& region : regions) {
+    t.flips.insert(t.flips.end(), region.flips.begin(), region.flips.end());
+    for (const int e : region.between) {
+      if (marks.enqueue(e)) rest.stack.push_back(e);
+    }
+  }
+  const double total = std::max(1.0, static_cast<double>(rest.stack.size()));
+  rest.run([&](std::size_t left) { progress.report(std::max(0.7, 1.0 - 0.3 * static_cast<double>(left) / total)); });
+  t.flips.insert(t.flips.end(), rest.flips.begin(), rest.flips.end());
+}
+
+}  // namespace holomorph::mesh
