@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <utility>
 #include <vector>
@@ -12,8 +13,20 @@
 
 namespace holomorph {
 
-/// Allocates large arrays on pages of 2 MB where the system has them (a third fewer misses of the address cache), and
-/// leaves new elements as they are: filling with zeros would be a pass over memory of its own.
+inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
+
+/// Asks for pages of 2 MB where whole ones lie in the memory: a third fewer misses of the address cache, and 512 times
+/// fewer faults when it is first written. Advice only: refused, it lies on small pages.
+inline void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory), first = (begin + kLargePage - 1) & ~(kLargePage - 1);
+  const auto end = (begin + bytes) & ~(kLargePage - 1);
+  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+#endif
+}
+
+/// Allocates large arrays on pages of 2 MB where the system has them, and leaves new elements as they are: filling with
+/// zeros would be a pass over memory of its own.
 template <class T>
 struct PageAllocator {
   using value_type = T;
@@ -24,10 +37,7 @@ struct PageAllocator {
 
   T* allocate(std::size_t count) {
     void* memory = ::operator new(count * sizeof(T), alignment(count));
-#ifdef __linux__
-    // Advice only: refused, the array lies on small pages.
-    if (large(count)) madvise(memory, count * sizeof(T), MADV_HUGEPAGE);
-#endif
+    if (large(count)) advise_large_pages(memory, count * sizeof(T));
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count)); }
@@ -44,9 +54,8 @@ struct PageAllocator {
   bool operator==(const PageAllocator&) const { return true; }
 
  private:
-  static constexpr std::size_t kPage = std::size_t{1} << 21;
-  static bool large(std::size_t count) { return count * sizeof(T) >= 2 * kPage; }
-  static std::align_val_t alignment(std::size_t count) { return std::align_val_t(large(count) ? kPage : 64); }
+  static bool large(std::size_t count) { return count * sizeof(T) >= 2 * kLargePage; }
+  static std::align_val_t alignment(std::size_t count) { return std::align_val_t(large(count) ? kLargePage : 64); }
 };
 
 template <class T>

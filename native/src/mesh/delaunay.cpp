@@ -119,50 +119,38 @@ class Flipper {
   bool in_region_;
 };
 
-// The region of a face is that of its edge of lowest number: edges with near numbers have near vertices.
-class Regions {
- public:
-  Regions(const HalfEdges& mesh, Workers& workers)
-      : size_(std::max(kLeastRegion, (static_cast<int>(mesh.n_edges()) + kRegions - 1) / kRegions)),
-        region_(mesh.n_faces()) {
-    for_rows(workers, static_cast<int>(mesh.n_halfedges()), [&](int i) {
-      const HalfedgeHandle h(i);
-      if (!mesh.is_boundary(h) && is_first_of_face(mesh, h))
-        region_[face_of(mesh, h)] = static_cast<unsigned char>(edge_of(h) / size_);
-    });
-  }
-
-  int of(const HalfEdges& mesh, HalfedgeHandle h) const { return region_[face_of(mesh, h)]; }
-
- private:
-  int size_;
-  Array<unsigned char> region_;
-};
-
 // What is to be done: the edges to turn, lowest on top of each stack.
 struct Work {
   std::vector<Flipper> regions;
   Flipper rest;
 };
 
-Work work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
+// A face is in the region of its edge of lowest number: edges with near numbers have near vertices.
+Work find_work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
   const HalfEdges& mesh = t.half_edges;
-  const Regions regions(mesh, workers);
   const int edge_count = static_cast<int>(mesh.n_edges());
-  std::vector<std::vector<int>> bad(chunk_count(edge_count));
+  const int region_size = std::max(kLeastRegion, (edge_count + kRegions - 1) / kRegions);
+  const auto region = [&](HalfedgeHandle h) {
+    const HalfedgeHandle after = next(mesh, h);
+    return std::min({edge_of(h), edge_of(after), edge_of(next(mesh, after))}) / region_size;
+  };
+  struct Bad {
+    int edge, region;
+  };
+  std::vector<std::vector<Bad>> bad(chunk_count(edge_count));
   run_throwing(workers, chunk_count(edge_count), [&](int chunk) {
     for (int e = chunk * kChunk, end = std::min(e + kChunk, edge_count); e < end; ++e) {
       const bool interior = is_interior(mesh, e), turn = interior && !is_delaunay(t, e);
-      const HalfedgeHandle a(2 * e), b(2 * e + 1);
-      marks.set(e, interior && regions.of(mesh, a) != regions.of(mesh, b), turn);
-      if (turn) bad[chunk].push_back(e);
+      const int a = interior ? region(HalfedgeHandle(2 * e)) : 0, b = interior ? region(HalfedgeHandle(2 * e + 1)) : 0;
+      marks.set(e, a != b, turn);
+      if (turn) bad[chunk].push_back({e, a});
     }
   });
   Work result{std::vector<Flipper>(kRegions, Flipper(t, marks, true)), Flipper(t, marks, false)};
   for (auto list = bad.rbegin(); list != bad.rend(); ++list) {
     for (auto e = list->rbegin(); e != list->rend(); ++e) {
-      Flipper& flipper = marks.is_between(*e) ? result.rest : result.regions[regions.of(mesh, HalfedgeHandle(2 * *e))];
-      flipper.stack.push_back(*e);
+      Flipper& flipper = marks.is_between(e->edge) ? result.rest : result.regions[e->region];
+      flipper.stack.push_back(e->edge);
     }
   }
   return result;
@@ -173,7 +161,7 @@ Work work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
 void make_delaunay(IntrinsicTriangulation& t, Progress& progress) {
   Workers workers;
   EdgeMarks marks(t.half_edges.n_edges());
-  auto [regions, rest] = work(t, marks, workers);
+  auto [regions, rest] = find_work(t, marks, workers);
   progress.report(0.2);
   run_throwing(workers, kRegions, [&regions = regions](int i) { regions[i].run([](std::size_t) {}); });
   progress.report(0.7);
