@@ -1,6 +1,6 @@
 #include "solver/interpolation.h"
 
-#include <cmath>
+#include <bit>
 
 namespace holomorph::solver {
 namespace {
@@ -8,88 +8,88 @@ namespace {
 // A vertex goes only along a weight of at least this part of its largest: across a stretched mesh the error is smooth
 // only along its strong edges. Between 0.1 and 0.35 the time is the same.
 constexpr float kStrong = 0.2F;
-// Neighbours below this part of the largest weight say nothing about the value at a vertex.
-constexpr float kWeak = 0.05F;
+// Neighbours of at most this part of the largest weight say nothing about the value at a vertex.
+constexpr float kWeak = 0.1F;
 // Weights of P but the largest are multiples of this; half of single precision is left for sums of them.
-constexpr double kWeightStep = 1.0 / (1 << 20);
+constexpr int kWeightSteps = 1 << 20;
+// Of the staying neighbours of a vertex that goes, so many of largest weight count for the vertices around it.
+constexpr int kStaying = 4;
 
 bool is_held(const Array<char>& held, int i) { return !held.empty() && held[i] != 0; }
 
-Array<float> largest_weights(const SparseRows& A, Workers& workers) {
-  Array<float> largest(A.size());
-  for_rows(workers, A.size(), [&](int i) {
-    float most = 0;
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) most = std::max(most, A.weight[e]);
-    largest[i] = most;
-  });
-  return largest;
-}
-
-// A mean over the coarse vertices; the weights of one vertex are gathered in `sum` (#coarse, else 0).
-struct Mean {
-  std::vector<double> sum;
-  std::vector<int> vertices;
-
-  void add(int coarse, double weight) {
-    if (sum[coarse] == 0) vertices.push_back(coarse);
-    sum[coarse] += weight;
-  }
-  // Among equal weights the lower index, whatever the order in which they came.
-  void keep(int most) {
-    const auto larger = [&](int a, int b) { return sum[a] > sum[b] || (sum[a] == sum[b] && a < b); };
-    const auto kept = std::min<std::size_t>(most, vertices.size());
-    std::partial_sort(vertices.begin(), vertices.begin() + kept, vertices.end(), larger);
-    for (std::size_t i = kept; i < vertices.size(); ++i) sum[vertices[i]] = 0;
-    vertices.resize(kept);
-  }
-  // Appends the weights divided by their sum, made exact, and empties the mean. @pre the largest comes first
-  template <class Part>
-  void append_to(Part& part) {
-    double total = 0, rest = 1;
-    for (const int c : vertices) total += sum[c];
-    for (std::size_t i = 1; i < vertices.size(); ++i) {
-      double& weight = sum[vertices[i]];
-      weight = kWeightStep * std::floor(weight / total / kWeightStep + 0.5);
-      rest -= weight;
+// The largest of weights >= 0 and their vertices, the lower vertex among equals whatever the order in which they come.
+// One number stands for both, so that sorting is without branches: the bits of a weight in the order of the weights,
+// and below them the vertex, from the last on.
+template <int N>
+class Largest {
+ public:
+  void add(int vertex, float weight) {
+    auto key = std::uint64_t{std::bit_cast<std::uint32_t>(weight)} << 32 | (kLast - static_cast<std::uint32_t>(vertex));
+    for (std::uint64_t& place : keys_) {
+      const std::uint64_t lower = std::min(place, key);
+      place = std::max(place, key);
+      key = lower;
     }
-    if (!vertices.empty()) sum[vertices[0]] = rest;
-    std::sort(vertices.begin(), vertices.end());
-    for (const int c : vertices) {
-      if (sum[c] != 0) {
-        part.column.push_back(c);
-        part.weight.push_back(static_cast<float>(sum[c]));
-      }
-      sum[c] = 0;
-    }
-    vertices.clear();
   }
+  // The k-th, from 0; of weight 0 beyond the last.
+  int vertex(int k) const { return static_cast<int>(kLast - static_cast<std::uint32_t>(keys_[k])); }
+  float weight(int k) const { return std::bit_cast<float>(static_cast<std::uint32_t>(keys_[k] >> 32)); }
+
+ private:
+  static constexpr std::uint32_t kLast = 0x7FFFFFFF;
+  std::array<std::uint64_t, N> keys_{};
 };
 
-// One step of the mean: the staying neighbours of a vertex that goes; a staying vertex itself.
-// No row is empty: a vertex goes because of a staying neighbour.
-SparseRows staying_neighbours(const SparseRows& A, const Array<char>& held, const Array<int>& coarse, Workers& workers,
-                              Progress& progress) {
-  const auto no_scratch = [] { return 0; };
-  return build_rows(A.size(), 3 * coarse.size(), workers, progress, no_scratch, [&](int, int i, auto& part) {
-    if (coarse[i] >= 0) {
-      part.column.push_back(coarse[i]);
-      part.weight.push_back(1);
-      return;
-    }
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-      const int j = A.column[e], c = coarse[j];
-      if (c < 0 || A.weight[e] <= 0 || (is_held(held, i) && !is_held(held, j))) continue;
-      part.column.push_back(c);
-      part.weight.push_back(A.weight[e]);
+// The staying neighbours of a vertex that goes: half a cache line, whatever their number. A missing one has weight 0.
+struct Staying {
+  std::array<int, kStaying> vertex;
+  std::array<float, kStaying> weight;
+};
+
+// For the vertices that go; the others are left unwritten. None is without a staying neighbour: it goes because of one.
+Array<Staying> staying_neighbours(const SparseRows& A, const Array<char>& held, const Array<int>& coarse,
+                                  Workers& workers, Progress& progress) {
+  Array<Staying> result(A.size());
+  for_set_up_chunks(workers, A.size(), progress, [&](int, int, int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      if (coarse[i] >= 0) continue;
+      Largest<kStaying> largest;
+      for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
+        const int j = A.column[e], c = coarse[j];
+        const bool counts = c >= 0 && A.weight[e] > 0 && !(is_held(held, i) && !is_held(held, j));
+        largest.add(counts ? c : 0, counts ? A.weight[e] : 0.0F);
+      }
+      for (int k = 0; k < kStaying; ++k) {
+        result[i].weight[k] = largest.weight(k);
+        result[i].vertex[k] = largest.weight(k) > 0 ? largest.vertex(k) : largest.vertex(0);
+      }
     }
   });
+  return result;
+}
+
+// The sums divided by their total, made exact.
+Mean exact_mean(const Largest<kMostMeans>& sums, int most) {
+  Mean mean{};
+  mean.vertex.fill(sums.vertex(0));
+  double total = 0;
+  for (int k = 0; k < most; ++k) total += sums.weight(k);
+  int rest = kWeightSteps;
+  for (int k = 1; k < most; ++k) {
+    const int steps = static_cast<int>(sums.weight(k) / total * kWeightSteps + 0.5);
+    if (steps > 0) mean.vertex[k] = sums.vertex(k);
+    mean.weight[k] = static_cast<float>(steps) / kWeightSteps;
+    rest -= steps;
+  }
+  mean.weight[0] = static_cast<float>(rest) / kWeightSteps;
+  return mean;
 }
 
 }  // namespace
 
-Array<int> coarse_vertices(const SparseRows& A, const Array<char>& held, Workers& workers, Progress& progress) {
+Array<int> coarse_vertices(const SparseRows& A, const Array<float>& largest, const Array<char>& held,
+                           Progress& progress) {
   constexpr int kUndecided = -2, kGoes = -1;
-  const Array<float> largest = largest_weights(A, workers);
   Array<int> coarse(A.size());
   std::fill(coarse.begin(), coarse.end(), kUndecided);
   int count = 0;
@@ -106,50 +106,70 @@ Array<int> coarse_vertices(const SparseRows& A, const Array<char>& held, Workers
   return coarse;
 }
 
-SparseRows interpolation(const SparseRows& A, const Array<char>& held, const Array<int>& coarse, int coarse_count,
-                         int most, Workers& workers, Progress& progress) {
-  const SparseRows one_step = staying_neighbours(A, held, coarse, workers, progress);
-  const auto scratch = [&] { return Mean{std::vector<double>(coarse_count), {}}; };
-  const auto expected = most * (coarse.size() - coarse_count) + coarse_count;
-  return build_rows(A.size(), expected, workers, progress, scratch, [&](Mean& mean, int i, auto& part) {
-    if (coarse[i] >= 0) {
-      part.column.push_back(coarse[i]);
-      part.weight.push_back(1);
-      return;
-    }
-    float largest = 0;
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) largest = std::max(largest, A.weight[e]);
+Array<Mean> interpolation(const SparseRows& A, const Array<float>& largest, const Array<char>& held,
+                          const Array<int>& coarse, int most, std::vector<RowSums>& scratch, Workers& workers,
+                          Progress& progress) {
+  const Array<Staying> staying = staying_neighbours(A, held, coarse, workers, progress);
+  const auto sum_up = [&](int i, RowSums::Row& sums) {
+    const float weak = kWeak * largest[i];
     for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-      if (A.weight[e] <= kWeak * largest) continue;
-      const int j = A.column[e];
-      if (is_held(held, i) && !is_held(held, j)) continue;
-      const int begin = one_step.start[j], end = one_step.start[j + 1];
-      double total = coarse[j] < 0 ? A.weight[e] : 0;
-      for (int s = begin; s < end; ++s) total += one_step.weight[s];
-      for (int s = begin; s < end; ++s) mean.add(one_step.column[s], A.weight[e] / total * one_step.weight[s]);
+      const float w = A.weight[e];
+      const int j = A.column[e], c = coarse[j];
+      if (w <= weak || (is_held(held, i) && !is_held(held, j))) continue;
+      if (c >= 0) {
+        sums.add(c, w);
+        continue;
+      }
+      const Staying& next = staying[j];
+      const float part = w / (w + ((next.weight[0] + next.weight[1]) + (next.weight[2] + next.weight[3])));
+      for (int k = 0; k < kStaying; ++k) sums.add(next.vertex[k], part * next.weight[k]);
     }
-    mean.keep(most);
-    mean.append_to(part);
+  };
+  Array<Mean> result(A.size());
+  for_set_up_chunks(workers, A.size(), progress, [&](int thread, int, int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      if (coarse[i] >= 0) {
+        result[i] = {{coarse[i], coarse[i], coarse[i]}, {1, 0, 0}};
+        continue;
+      }
+      RowSums::Row sums = scratch[thread].next();
+      sum_up(i, sums);
+      Largest<kMostMeans> kept;
+      for (int k = 0; k < sums.size(); ++k) kept.add(sums.column(k), static_cast<float>(sums.sum(k)));
+      result[i] = exact_mean(kept, most);
+    }
   });
+  return result;
 }
 
-SparseRows transposed(const SparseRows& P, int columns, Progress& progress) {
-  SparseRows R;
-  R.start.assign(columns + 1, 0);
-  for (const int c : P.column) ++R.start[c + 1];
-  for (int c = 0; c < columns; ++c) R.start[c + 1] += R.start[c];
-  R.column.resize(P.column.size());
-  R.weight.resize(P.column.size());
-  Array<int> next(R.start.begin(), R.start.end() - 1);
-  for (int i = 0; i < P.size(); ++i) {
-    if (i % kChunk == 0) progress.report(0);
-    for (int e = P.start[i]; e < P.start[i + 1]; ++e) {
-      const int place = next[P.column[e]]++;
-      R.column[place] = i;
-      R.weight[place] = P.weight[e];
+SparseRows sparse(const Array<Mean>& P, Workers& workers, Progress& progress) {
+  const int n = static_cast<int>(P.size());
+  std::vector<int> place(set_up_chunks(n) + 1, 0);
+  for_set_up_chunks(workers, n, progress, [&](int, int chunk, int begin, int end) {
+    int entries = 0;
+    for (int i = begin; i < end; ++i) {
+      for (const float weight : P[i].weight) entries += weight != 0;
     }
-  }
-  return R;
+    place[chunk + 1] = entries;
+  });
+  for (std::size_t c = 1; c < place.size(); ++c) place[c] += place[c - 1];
+  SparseRows rows;
+  rows.start.resize(n + std::size_t{1});
+  rows.start[0] = 0;
+  rows.column.resize(place.back());
+  rows.weight.resize(place.back());
+  for_set_up_chunks(workers, n, progress, [&](int, int chunk, int begin, int end) {
+    int next = place[chunk];
+    for (int i = begin; i < end; ++i) {
+      for (int k = 0; k < kMostMeans; ++k) {
+        if (P[i].weight[k] == 0) continue;
+        rows.column[next] = P[i].vertex[k];
+        rows.weight[next++] = P[i].weight[k];
+      }
+      rows.start[i + 1] = next;
+    }
+  });
+  return rows;
 }
 
 }  // namespace holomorph::solver

@@ -1,9 +1,8 @@
 #include "solver/multigrid_hierarchy.h"
 
 #include <Eigen/Cholesky>
-#include <cmath>
 
-#include "solver/interpolation.h"
+#include "solver/level_operators.h"
 
 namespace holomorph::solver {
 namespace {
@@ -16,97 +15,6 @@ constexpr double kSlowest = 0.9;
 constexpr int kLargestDense = 2000;
 // Entries of a row of P, finest level and below: the fewest that keep the number of iterations.
 constexpr int kFinestMeans = 2, kCoarseMeans = 3;
-// Jacobi's step is kStep / sum_j |a_ij| with the diagonal: below 2 the smoother is convergent for weights of any signs.
-constexpr double kStep = 1.6;
-
-SparseRows finest_weights(const Laplacian& L, Workers& workers) {
-  const int n = static_cast<int>(L.rows());
-  const auto kept = [&](Laplacian::StorageIndex e, int i) {
-    return L.innerIndexPtr()[e] != i && static_cast<float>(L.valuePtr()[e]) != 0;
-  };
-  SparseRows A;
-  A.start.assign(n + std::size_t{1}, 0);
-  for_rows(workers, n, [&](int i) {
-    for (auto e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) A.start[i + 1] += kept(e, i);
-  });
-  for (int i = 0; i < n; ++i) A.start[i + 1] += A.start[i];
-  A.column.resize(A.start[n]);
-  A.weight.resize(A.start[n]);
-  for_rows(workers, n, [&](int i) {
-    int place = A.start[i];
-    for (auto e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) {
-      if (!kept(e, i)) continue;
-      A.column[place] = L.innerIndexPtr()[e];
-      A.weight[place++] = -static_cast<float>(L.valuePtr()[e]);
-    }
-  });
-  return A;
-}
-
-Array<float> jacobi_steps(const SparseRows& A, const Array<char>& held, Workers& workers) {
-  Array<float> omega(A.size());
-  for_rows(workers, A.size(), [&](int i) {
-    double diagonal = 0, sum = 0;
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-      diagonal += A.weight[e];
-      sum += std::abs(A.weight[e]);
-    }
-    sum += std::abs(diagonal);
-    omega[i] = sum > 0 ? static_cast<float>(kStep / sum) : 0.0F;
-    if (!held.empty() && held[i] != 0) omega[i] = -omega[i];
-  });
-  return omega;
-}
-
-// Sums of one row of the coarse operator by column; an entry belongs to the row whose number it bears.
-struct RowSums {
-  struct Entry {
-    int row = -1;
-    double value = 0;
-  };
-  std::vector<Entry> entries;
-  std::vector<int> columns;
-
-  void add(int row, int column, double value) {
-    Entry& entry = entries[column];
-    if (entry.row != row) {
-      entry = {row, value};
-      columns.push_back(column);
-    } else {
-      entry.value += value;
-    }
-  }
-};
-
-// Off-diagonal weights of P^T A P, summed in double precision; the diagonal follows from them, as rows sum to 0.
-SparseRows coarse_operator(const Level& fine, Workers& workers, Progress& progress) {
-  const SparseRows &A = fine.A, &P = fine.P, &R = fine.R;
-  const int n = R.size();
-  const auto scratch = [&] { return RowSums{std::vector<RowSums::Entry>(n), {}}; };
-  const auto expected = 2 * A.column.size() / 3;
-  return build_rows(n, expected, workers, progress, scratch, [&](RowSums& sums, int I, auto& part) {
-    sums.columns.clear();
-    for (int r = R.start[I]; r < R.start[I + 1]; ++r) {
-      const int i = R.column[r];
-      double diagonal = 0;
-      for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-        const int j = A.column[e];
-        const double weight = static_cast<double>(R.weight[r]) * A.weight[e];
-        diagonal += weight;
-        for (int p = P.start[j]; p < P.start[j + 1]; ++p) sums.add(I, P.column[p], weight * P.weight[p]);
-      }
-      for (int p = P.start[i]; p < P.start[i + 1]; ++p) sums.add(I, P.column[p], -diagonal * P.weight[p]);
-    }
-    std::sort(sums.columns.begin(), sums.columns.end());
-    for (const int J : sums.columns) {
-      const auto weight = static_cast<float>(sums.entries[J].value);
-      if (J == I || weight == 0) continue;
-      part.column.push_back(J);
-      part.weight.push_back(weight);
-    }
-  });
-}
-
 Eigen::MatrixXd dense(const SparseRows& weights) {
   const int n = weights.size();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
@@ -173,26 +81,28 @@ double Hierarchy::operator_complexity() const {
 Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Workers& workers, Progress& progress) {
   Hierarchy result;
   result.levels.emplace_back();
-  result.levels[0].A = finest_weights(L, workers);
   if (!held.empty()) result.levels[0].held.assign(L.rows(), 0);
   for (const int v : held) result.levels[0].held[v] = 1;
-  progress.report(0);
+  Operator next = finest_operator(L, result.levels[0].held, workers, progress);
+  std::vector<RowSums> scratch;  // one per thread
   for (;;) {
     Level& level = result.levels.back();
-    level.omega = jacobi_steps(level.A, level.held, workers);
-    progress.report(0);
+    level.A = std::move(next.A);
+    level.omega = std::move(next.omega);
     const int n = level.A.size();
     if (n <= kCoarsest) break;
-    const Array<int> coarse = coarse_vertices(level.A, level.held, workers, progress);
+    const Array<int> coarse = coarse_vertices(level.A, next.largest, level.held, progress);
     const int count = 1 + *std::max_element(coarse.begin(), coarse.end());
     if (count > kSlowest * n) break;
+    while (static_cast<int>(scratch.size()) < workers.count()) scratch.emplace_back(count);
     const int most = result.levels.size() == 1 ? kFinestMeans : kCoarseMeans;
-    level.P = interpolation(level.A, level.held, coarse, count, most, workers, progress);
-    level.R = transposed(level.P, count, progress);
-    Level next;
-    next.A = coarse_operator(level, workers, progress);
-    next.held = held_below(level.held, coarse, count);
-    result.levels.push_back(std::move(next));
+    const Array<Mean> P = interpolation(level.A, next.largest, level.held, coarse, most, scratch, workers, progress);
+    level.P = sparse(P, workers, progress);
+    level.R = transposed(level.P, count, workers, progress);
+    Array<char> below = held_below(level.held, coarse, count);
+    next = coarse_operator(level, P, most, below, scratch, workers, progress);
+    result.levels.emplace_back();
+    result.levels.back().held = std::move(below);
   }
   const int coarsest = result.levels.back().A.size();
   if (coarsest > kLargestDense) {

@@ -11,7 +11,7 @@ namespace holomorph::solver {
 
 /// Whether vertices with consecutive numbers have neighbours that are far apart: most entries of the rows are far from
 /// every entry of the row before. Not where all blocks of unknowns fit into a processor's cache anyway.
-/// Cost: one pass over the entries.
+/// Cost: one pass over an eighth of the entries.
 bool is_scattered(const Laplacian& L, Workers& workers);
 
 /// All vertices, breadth first from vertex 0 (and from the next one that is left, where L is not connected).

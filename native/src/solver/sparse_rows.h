@@ -1,16 +1,13 @@
 // A sparse matrix in single precision, row by row.
 #pragma once
 
-#include <cstdint>
-#include <exception>
-
 #include "base/chunks.h"
 #include "base/page_allocator.h"
 #include "base/progress.h"
 
 namespace holomorph::solver {
 
-/// Row i has the entries start[i] .. start[i+1]-1: `column` (ascending) and `weight`.
+/// Row i has the entries start[i] .. start[i+1]-1: `column`, in a fixed order of no meaning, and `weight`.
 struct SparseRows {
   Array<int> start{0};
   Array<int> column;
@@ -19,57 +16,27 @@ struct SparseRows {
   int size() const { return static_cast<int>(start.size()) - 1; }
 };
 
-/// Builds a matrix with `rows` rows in parallel. make_row(scratch, i, part) appends the entries of row i to part.column
-/// and part.weight; every thread has a `scratch` of its own, made by make_scratch(), which must not influence the row.
-template <class MakeScratch, class MakeRow>
-SparseRows build_rows(int rows, std::size_t expected_entries, Workers& workers, Progress& progress,
-                      const MakeScratch& make_scratch, const MakeRow& make_row) {
-  // Chunks of one batch: some milliseconds, so that cancelling is answered soon.
-  constexpr int kBatch = 16;
-  SparseRows result;
-  result.start.reserve(rows + std::size_t{1});
-  result.column.reserve(expected_entries);
-  result.weight.reserve(expected_entries);
-  // Each on cache lines of its own: threads that write to one line wait for each other.
-  struct alignas(128) Scratch {
-    decltype(make_scratch()) own;
-  };
-  std::vector<Scratch> scratch;
-  for (int t = 0; t < workers.count(); ++t) scratch.push_back({make_scratch()});
-  struct alignas(128) Part {
-    std::vector<int> ends, column;
-    std::vector<float> weight;
-    std::exception_ptr failure;  // out of memory
-  };
-  std::vector<Part> parts(kBatch);
-  for (int first = 0; first < chunk_count(rows); first += kBatch) {
-    const int end = std::min(first + kBatch, chunk_count(rows));
+/// Rows of a chunk of the set-up: its loops do more for a row than those of a cycle, and coarse levels have few rows.
+inline constexpr int kSetUpChunk = 1024;
+
+inline int set_up_chunks(int rows) { return (rows + kSetUpChunk - 1) / kSetUpChunk; }
+
+/// body(thread, chunk, begin, end) for the rows begin .. end-1 of every chunk, in parallel; asks `progress` between
+/// batches of some 10 ms, so that cancelling is answered soon. @pre body does not throw
+template <class Body>
+void for_set_up_chunks(Workers& workers, int rows, Progress& progress, const Body& body) {
+  constexpr int kBatch = 256;
+  for (int first = 0; first < set_up_chunks(rows); first += kBatch) {
     progress.report(0);
-    workers.run(end - first, [&](int thread, int c) {
-      Part& part = parts[c];
-      const int begin_row = (first + c) * kChunk, end_row = std::min(begin_row + kChunk, rows);
-      part.ends.clear();
-      part.column.clear();
-      part.weight.clear();
-      try {
-        for (int i = begin_row; i < end_row; ++i) {
-          make_row(scratch[thread].own, i, part);
-          part.ends.push_back(static_cast<int>(part.column.size()));
-        }
-      } catch (...) {
-        part.failure = std::current_exception();
-      }
+    workers.run(std::min(kBatch, set_up_chunks(rows) - first), [&](int thread, int c) {
+      const int begin = (first + c) * kSetUpChunk;
+      body(thread, first + c, begin, std::min(begin + kSetUpChunk, rows));
     });
-    for (int c = first; c < end; ++c) {
-      const Part& part = parts[c - first];
-      if (part.failure) std::rethrow_exception(part.failure);
-      const int before = result.start.back();
-      for (const int row_end : part.ends) result.start.push_back(before + row_end);
-      result.column.insert(result.column.end(), part.column.begin(), part.column.end());
-      result.weight.insert(result.weight.end(), part.weight.begin(), part.weight.end());
-    }
   }
-  return result;
 }
+
+/// The transpose, entries of a row in ascending order. Cost: two passes over the entries, in parallel where the columns
+/// of neighbouring rows are near each other.
+SparseRows transposed(const SparseRows& M, int columns, Workers& workers, Progress& progress);
 
 }  // namespace holomorph::solver
