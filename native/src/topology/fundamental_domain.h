@@ -2,9 +2,9 @@
 //
 // D grows face by face; a face joins it through one edge, so the edges that were crossed form a spanning tree C of the
 // dual graph: D is the tree of a tree-cotree decomposition (Eppstein 2003). G is all other edges; what T leaves over of
-// G are the 2g edges e_i. The paper takes faces from a plain queue. Here the next face is the one behind the edge whose
-// loop through T is longest (diagonals of polygons first, edges of T never), so the edges left over close the shortest
-// loops: the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a root.
+// G are the 2g edges e_i. The paper takes faces from a plain queue. Here C is the spanning tree of the edges whose
+// loops through T are longest (diagonals of polygons before all others, edges of T never), so the edges left over close
+// the shortest loops: the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a root.
 //
 // With boundary: no boundary edge is crossed. T has all edges of each loop but one, e_k: the search for shortest paths
 // goes along a loop at no cost, because the surface need not be cut there. 2g interior edges are left over, as before.
@@ -25,11 +25,11 @@ using mesh::HalfEdges;
 struct FundamentalDomain {
   std::vector<HalfedgeHandle>
       to_parent_face;  ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
-  std::vector<int> face_depth;                   ///< #T steps to the first face
-  std::vector<int> face_order;                   ///< #T faces in the order in which they joined D
+  std::vector<int> face_order;                   ///< #T faces, each after its parent
+  std::vector<int> face_rank;                    ///< #T place of each face in that order
   std::vector<char> crossed;                     ///< #E 1 for the edges of C, which are inside D; the others are G
   std::vector<HalfedgeHandle> to_parent_vertex;  ///< #V the half-edge towards the root of T; invalid at the root
-  std::vector<int> vertex_depth;                 ///< #V steps to the root
+  std::vector<int> vertex_rank;                  ///< #V its place in an order in which each is after its parent
   std::vector<int> left_over;                    ///< the 2g interior edges of G outside T, ascending
   mesh::BoundaryLoops boundary;
   std::vector<HalfedgeHandle> gaps;  ///< e_k, the edge of boundary loop k outside T: the half-edge without a face
@@ -39,7 +39,8 @@ struct FundamentalDomain {
 /// edges
 /// @param stars of punctures, whose spokes all go into T: then C enters each face of a star across its link edge, as a
 /// leaf, and the surface without the stars is cut as if they were holes. @pre no spoke is a diagonal
-/// Cost: O(n log n).
+/// Cost: linear but for the logarithms of the queue of T (grow_shortest_paths) and of the sort of the edges that the
+/// dual loops cross.
 FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress,
                                      const std::vector<mesh::Star>& stars = {});
 

@@ -21,7 +21,7 @@ void add_crossing(HalfedgeHandle leaving, int form, int direction, IntegerForms&
 void add_dual_path(const HalfEdges& mesh, const FundamentalDomain& domain, int here, int there, int form,
                    IntegerForms& forms) {
   while (here != there) {
-    if (domain.face_depth[here] >= domain.face_depth[there]) {
+    if (domain.face_rank[here] > domain.face_rank[there]) {
       add_crossing(domain.to_parent_face[here], form, 1, forms);
       here = face_of(mesh, opposite(domain.to_parent_face[here]));
     } else {
@@ -40,7 +40,7 @@ std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& mesh, c
     int a = from_vertex(mesh, h), b = to_vertex(mesh, h);
     std::vector<HalfedgeHandle> from_b, towards_a;  // e, then b up to the common vertex, then down to a
     while (a != b) {
-      if (domain.vertex_depth[b] >= domain.vertex_depth[a]) {
+      if (domain.vertex_rank[b] > domain.vertex_rank[a]) {
         from_b.push_back(domain.to_parent_vertex[b]);
         b = to_vertex(mesh, from_b.back());
       } else {

@@ -17,7 +17,7 @@ IntegerForms puncture_classes(const HalfEdges& mesh, const FundamentalDomain& do
   for (int i = 0; i < forms.form_count; ++i) {
     int here = face_of(mesh, stars[i].link[0]), there = face_of(mesh, out);
     while (here != there) {
-      const bool leaving = domain.face_depth[here] >= domain.face_depth[there];
+      const bool leaving = domain.face_rank[here] > domain.face_rank[there];
       int& face = leaving ? here : there;
       const HalfedgeHandle h = domain.to_parent_face[face];
       forms.rows[edge_of(h)].emplace_back(i, leaving ? sign(h) : -sign(h));

@@ -1,0 +1,137 @@
+#include "topology/shortest_paths.h"
+
+#include <limits>
+
+#include "topology/monotone_queue.h"
+
+namespace holomorph::topology {
+namespace {
+
+using mesh::edge_of;
+using mesh::next;
+using mesh::opposite;
+using mesh::to_vertex;
+using mesh::VertexHandle;
+
+constexpr int kReportEvery = 4096;
+// Buckets of the queue to an edge of mean length.
+constexpr double kBucketsPerEdge = 8;
+
+double mean(const std::vector<double>& lengths) {
+  double sum = 0;
+  for (const double length : lengths) sum += length;
+  return sum / static_cast<double>(lengths.size());
+}
+
+class ShortestPathTree {
+ public:
+  ShortestPathTree(const mesh::Surface& surface, const HalfEdges& mesh, const std::vector<mesh::Star>& stars,
+                   FundamentalDomain& domain)
+      : surface_(surface),
+        mesh_(mesh),
+        stars_(stars),
+        domain_(domain),
+        queue_(mean(surface.edge_lengths) / kBucketsPerEdge) {
+    const std::size_t n = mesh.n_vertices();
+    distance.assign(n, std::numeric_limits<double>::infinity());
+    domain_.to_parent_vertex.assign(n, HalfedgeHandle());
+    domain_.vertex_rank.resize(n);
+    settled_.assign(n, 0);
+    domain_.gaps.resize(domain_.boundary.loops.size());
+    if (stars.empty()) return;
+    star_of_.assign(n, -1);
+    for (std::size_t s = 0; s < stars.size(); ++s) {
+      star_of_[stars[s].vertex] = static_cast<int>(s);
+      for (const HalfedgeHandle h : stars[s].link) star_of_[to_vertex(mesh, h)] = static_cast<int>(s);
+    }
+  }
+
+  void grow(int root, Progress& progress) {
+    distance[root] = 0;
+    queue_.push({0.0, root});
+    while (!queue_.empty()) {
+      const int v = queue_.pop().index;
+      if (settled_[v]) continue;
+      settle(v);
+      if (!star_of_.empty() && star_of_[v] >= 0) settle_star(v, stars_[star_of_[v]]);
+      if (domain_.boundary.loop_of_vertex[v] >= 0) settle_loop(v);
+      if (done_ % kReportEvery == 0)
+        progress.report(0.7 * static_cast<double>(done_) / static_cast<double>(distance.size()));
+    }
+  }
+
+  std::vector<double> distance;
+
+ private:
+  void settle(int v) {
+    settled_[v] = 1;
+    domain_.vertex_rank[v] = done_++;
+    const HalfedgeHandle start = mesh_.halfedge_handle(VertexHandle(v));
+    HalfedgeHandle h = start;
+    do {
+      const int w = to_vertex(mesh_, h), e = edge_of(h);
+      if (!settled_[w] && !surface_.is_diagonal(e)) {
+        const double through = distance[v] + surface_.edge_lengths[e];
+        if (through < distance[w]) reach(w, through, opposite(h));
+      }
+      h = next(mesh_, opposite(h));
+    } while (h != start);
+  }
+
+  void reach(int w, double at, HalfedgeHandle to_parent) {
+    distance[w] = at;
+    domain_.to_parent_vertex[w] = to_parent;
+    queue_.push({at, w});
+  }
+
+  void settle_star(int first, const mesh::Star& star) {
+    for (const HalfedgeHandle h : star.link) {
+      if (to_vertex(mesh_, h) == first) join(star.vertex, first, next(mesh_, h));
+    }
+    for (const HalfedgeHandle h : star.link) join(to_vertex(mesh_, h), first, next(mesh_, h));
+  }
+
+  // `between` lies between v and its parent, in either direction; it becomes the way of v to its parent.
+  void join(int v, int first, HalfedgeHandle between) {
+    if (settled_[v]) return;
+    distance[v] = distance[first];
+    domain_.to_parent_vertex[v] = mesh::from_vertex(mesh_, between) == v ? between : opposite(between);
+    settle(v);
+  }
+
+  // From v both ways to the edge opposite, which stays outside T.
+  void settle_loop(int v) {
+    std::vector<HalfedgeHandle> loop;
+    const HalfedgeHandle start = mesh_.halfedge_handle(VertexHandle(v));
+    HalfedgeHandle h = start;
+    do {
+      loop.push_back(h);
+      h = next(mesh_, h);
+    } while (h != start);
+    const std::size_t middle = loop.size() / 2;
+    domain_.gaps[domain_.boundary.loop_of_vertex[v]] = loop[middle];
+    for (std::size_t i = 0; i < middle; ++i) join(to_vertex(mesh_, loop[i]), v, loop[i]);
+    for (std::size_t i = loop.size() - 1; i > middle; --i) join(mesh::from_vertex(mesh_, loop[i]), v, loop[i]);
+  }
+
+  const mesh::Surface& surface_;
+  const HalfEdges& mesh_;
+  const std::vector<mesh::Star>& stars_;
+  FundamentalDomain& domain_;
+  std::vector<int> star_of_;  // #V star that the vertex belongs to, or -1; empty without stars
+  MonotoneQueue queue_;
+  std::vector<char> settled_;  // #V, small enough to stay in the cache
+  int done_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
+                                        const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
+                                        Progress& progress) {
+  ShortestPathTree tree(surface, half_edges, stars, domain);
+  tree.grow(root, progress);
+  return std::move(tree.distance);
+}
+
+}  // namespace holomorph::topology

@@ -1,0 +1,19 @@
+// The tree T of shortest paths of a fundamental domain, its root chosen by the caller.
+#pragma once
+
+#include <vector>
+
+#include "topology/fundamental_domain.h"
+
+namespace holomorph::topology {
+
+/// Fills in to_parent_vertex, vertex_rank and the gaps of a domain whose boundary is known.
+/// @return #V distances from the root along T
+/// Dijkstra along the artist's edges. A star is entered as a whole: with the first vertex of it that is settled come
+/// its centre and all its spokes. So is a boundary loop, at no cost, because the surface need not be cut along it.
+/// Cost: O(n log n), of which the logarithm is that of a bucket's few vertices.
+std::vector<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
+                                        const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
+                                        Progress& progress);
+
+}  // namespace holomorph::topology
