@@ -29,6 +29,21 @@ def corner_vertex_values(mesh):
     return mesh.loops, "vertex_index"
 
 
+def corner_vertex_column(mesh):
+    """Where old Blenders keep the same in memory: the elements, the integers of each, and which of them it is."""
+    return mesh.loops, 2, 0
+
+
+def polygon_columns(mesh):
+    """Likewise the first loop and the number of loops of each polygon."""
+    return (mesh.polygons, 3, 0), (mesh.polygons, 3, 1)
+
+
+def keeps_records():
+    """Whether loops and polygons are records of integers one behind the other, which Blender 3.6 gave up."""
+    return bpy.app.version < (3, 6, 0)
+
+
 def edge_vertex_values(mesh):
     """The collection and the property that hold the two vertices of each edge."""
     attribute = mesh.attributes.get(".edge_verts")

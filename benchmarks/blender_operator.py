@@ -56,6 +56,7 @@ def make_object(vertices, triangles, across):
     bpy.context.scene.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
+    bpy.context.view_layer.update()  # Blender's own work on a new object, which belongs to neither
     return obj
 
 

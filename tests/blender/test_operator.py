@@ -449,3 +449,13 @@ def test_shape_keys_and_modifiers_stay():
     assert run() == {"FINISHED"}
     assert [k.name for k in obj.data.shape_keys.key_blocks] == ["Basis", "Wave"]
     assert [m.name for m in obj.modifiers] == ["Subdivision"]
+
+
+def test_polygons_are_read_as_blender_gives_them():
+    """Old versions are read from memory: the same numbers as one by one."""
+    vertices = np.random.default_rng(1).normal(size=(9, 3))
+    obj = mesh_object("Mixed", vertices, [(0, 1, 2), (2, 1, 3, 4), (4, 3, 5, 6, 7), (8, 4, 7)])
+    polygons = module("mesh_io").read_polygons(obj.data, np.eye(3))
+    assert polygons.corner_vertices.tolist() == [loop.vertex_index for loop in obj.data.loops]
+    assert polygons.face_offsets.tolist() == [p.loop_start for p in obj.data.polygons] + [15]
+    assert np.abs(polygons.vertices - vertices).max() < 1e-6
