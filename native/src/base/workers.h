@@ -26,9 +26,10 @@ class Workers {
 
   /// task(thread, chunk) for each of `chunks` chunks, once, on any thread and in any order; returns when all are done.
   /// Only from the thread that made this. @pre task does not throw; chunks < 2^24
+  /// @param too_few chunks to wake a thread for
   template <class Task>
-  void run(int chunks, const Task& task) {
-    if (count_ == 1 || chunks <= kTooFew) {
+  void run(int chunks, const Task& task, int too_few = kTooFew) {
+    if (count_ == 1 || chunks <= too_few) {
       for (int c = 0; c < chunks; ++c) task(0, c);
     } else {
       share(chunks,
@@ -37,7 +38,7 @@ class Workers {
   }
 
  private:
-  static constexpr int kTooFew = 2;  // less work than waking a thread
+  static constexpr int kTooFew = 2;  // of the usual size: less work than waking a thread
   struct Call {
     void (*function)(const void*, int, int) = nullptr;
     const void* task = nullptr;

@@ -39,13 +39,14 @@ template <int K>
 BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, Workers& workers)
     : L_(L),
       level_(hierarchy.levels[0]),
-      n_(level_.A.size()),
+      n_(level_.rows),
       workers_(workers),
       cycle_(hierarchy, workers),
       X_(n_),
       x_(n_),
       p_(n_),
-      q_(n_) {}
+      q_(n_),
+      w_(n_) {}
 
 template <int K>
 void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
@@ -107,7 +108,7 @@ void BlockSolve<K>::read(const Columns& b) {
 template <int K>
 void BlockSolve<K>::update_residual(const Columns& b) {
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
-  Blocks<K>&r = cycle_.residual(), &u = cycle_.start();
+  Block<K>*const r = cycle_.residual(), *const u = cycle_.start();
   norm_r_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
               const Sums<K> here = X_[i];
               Sums<K> rest = right_hand_sides(b, i);
@@ -117,7 +118,7 @@ void BlockSolve<K>::update_residual(const Columns& b) {
               if (level_.omega[i] < 0) rest *= natural_.template cast<double>();
               sum += rest.square();
               r[i] = (rest * inverse).template cast<float>();
-              u[i] = jacobi_step<K>(level_, i, r[i], natural_);
+              u[i] = jacobi_step<K>(level_.omega[i], r[i], natural_);
               x_[i] = p_[i] = q_[i] = Block<K>::Zero();
             }).sqrt();
   reached_ = relative(norm_r_);
@@ -125,35 +126,78 @@ void BlockSolve<K>::update_residual(const Columns& b) {
 
 template <int K>
 void BlockSolve<K>::conjugate_gradients(const Report& report) {
-  const SparseRows& A = level_.A;
-  Blocks<K>&r = cycle_.residual(), &u = cycle_.start();
-  const Sums<K> zero = Sums<K>::Zero();
   const Sums<K> goal = quotient<K>((kInnerResidual * norm_r_).max(kSafety * kGoal * norm_b_), scale_);
-  Sums<K> rz = zero, norm = quotient<K>(norm_r_, scale_);
+  Sums<K> norm = quotient<K>(norm_r_, scale_);
+  Sums<K> rz = Sums<K>::Zero(), zAz = rz, pAp = rz;
+  cycle_.down([](int) {});  // r and u are there
   for (int step = 0; step < kMostInner && iterations_ < kMostIterations && !(norm <= goal).all();
        ++step, ++iterations_) {
     const Sums<K> rz_before = rz;
-    rz = cycle_.run();
-    const Block<K> beta = quotient<K>(rz, rz_before).template cast<float>();
-    // u is z from here to the next pass
-    const Sums<K> pq = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
-      p_[i] = u[i] + beta * p_[i];
-      q_[i] = difference(A, i, u) + beta * q_[i];
-      sum += (p_[i] * q_[i]).template cast<double>();
-    });
-    const Block<K> alpha = quotient<K>(rz, pq).template cast<float>();
-    norm = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
-             x_[i] += alpha * p_[i];
-             r[i] -= alpha * q_[i];
-             if (level_.omega[i] < 0) r[i] *= natural_;
-             u[i] = jacobi_step<K>(level_, i, r[i], natural_);
-             sum += r[i].square().template cast<double>();
-           }).sqrt();
+    precondition(rz, zAz);
+    const Sums<K> beta = quotient<K>(rz, rz_before);
+    pAp = zAz - beta.square() * pAp;
+    norm = this->step(quotient<K>(rz, pAp).template cast<float>(), beta.template cast<float>());
     report(relative(norm * scale_));
   }
   for_rows(workers_, n_, [&](int i) { X_[i] += scale_ * x_[i].template cast<double>(); });
   // About what the residual will be; it serves the range of single precision only.
   scale_ *= norm;
+}
+
+// From r, on the coarse levels: z, in u's place, w = A z, r.z and z.A z.
+template <int K>
+void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
+  struct Products {
+    Sums<K> rz = Sums<K>::Zero(), zAz = Sums<K>::Zero();
+  };
+  std::vector<Products> parts(level_.chunks);
+  const Block<K>*const r = cycle_.residual(), *const z = cycle_.start();
+  Block<K>* const w = w_.data();
+  cycle_.up([&](int chunk) {
+    Products products;
+    for_differences<K>(level_.A, chunk, z, [r, z, w, &products](int i, const Block<K>& Az) {
+      w[i] = Az;
+      const Block<K> rz = r[i] * z[i], zAz = z[i] * Az;
+      products.rz += rz.template cast<double>();
+      products.zAz += zAz.template cast<double>();
+    });
+    parts[chunk] = products;
+  });
+  rz = zAz = Sums<K>::Zero();
+  for (const Products& products : parts) {
+    rz += products.rz;
+    zAz += products.zAz;
+  }
+}
+
+// The step of conjugate gradients, and the way down from the new r. Returns |r|.
+template <int K>
+Sums<K> BlockSolve<K>::step(const Block<K>& alpha, const Block<K>& beta) {
+  std::vector<Sums<K>> parts(level_.chunks);
+  Block<K>*const r = cycle_.residual(), *const u = cycle_.start();
+  Block<K>*const x = x_.data(), *const p = p_.data(), *const q = q_.data();
+  const Block<K>* const w = w_.data();
+  const float* const omega = level_.omega.data();
+  const Block<K> a = alpha, b = beta, natural = natural_;
+  cycle_.down([=, this, &parts](int chunk) {
+    Sums<K> sum = Sums<K>::Zero();
+    for (int i = level_.begin(chunk), end = level_.end(chunk); i < end; ++i) {
+      const Block<K> p_i = u[i] + b * p[i], q_i = w[i] + b * q[i];  // u is z until here
+      p[i] = p_i;
+      q[i] = q_i;
+      x[i] += a * p_i;
+      Block<K> r_i = r[i] - a * q_i;
+      if (omega[i] < 0) r_i *= natural;
+      r[i] = r_i;
+      u[i] = jacobi_step<K>(omega[i], r_i, natural);
+      const Block<K> square = r_i.square();
+      sum += square.template cast<double>();
+    }
+    parts[chunk] = sum;
+  });
+  Sums<K> sum = Sums<K>::Zero();
+  for (const Sums<K>& part : parts) sum += part;
+  return sum.sqrt();
 }
 
 template <int K>

@@ -11,7 +11,9 @@ namespace holomorph::solver {
 /// precision from differences of X, until |B - L X| <= 1e-10 |B| for every right-hand side. Single precision is asked
 /// for a factor of 1e-4 at a time, so that its rounding does not matter; usually three corrections do.
 ///
-/// Every pass over the vertices does all that it can: A p is not computed but follows from A z, like p from z.
+/// A p is not computed but follows from A z, like p from z, and so does p.A p from z.A z (Chronopoulos and Gear 1989,
+/// doi:10.1016/0377-0427(89)90045-9): all sums of an iteration are known at its end, and its loops over the finest
+/// level are two wavefronts with those of the cycle, down and up.
 template <int K>
 class BlockSolve {
  public:
@@ -37,19 +39,21 @@ class BlockSolve {
   Sums<K> right_hand_sides(const Columns& b, int i) const;
   void update_residual(const Columns& b);
   void conjugate_gradients(const Report& report);
+  Sums<K> step(const Block<K>& alpha, const Block<K>& beta);
+  void precondition(Sums<K>& rz, Sums<K>& zAz);
   double relative(const Sums<K>& norms) const;
 
   const Laplacian& L_;
-  const Level& level_;
+  const CycleLevel& level_;
   const int n_;
   Workers& workers_;
   Cycle<K> cycle_;
   Array<Sums<K>> X_;
-  Blocks<K> x_, p_, q_;
-  Block<K> natural_;       // 1 for the right-hand sides that hold no vertex, 0 for the others
-  Sums<K> mean_, norm_b_;  // of the right-hand sides
-  Sums<K> norm_r_;         // |B - L X|
-  Sums<K> scale_;          // by which the residual is divided for single precision
+  Blocks<K> x_, p_, q_, w_;  // the solution, p, A p, A z
+  Block<K> natural_;         // 1 for the right-hand sides that hold no vertex, 0 for the others
+  Sums<K> mean_, norm_b_;    // of the right-hand sides
+  Sums<K> norm_r_;           // |B - L X|
+  Sums<K> scale_;            // by which the residual is divided for single precision
   int iterations_ = 0;
   double reached_ = 0;
 };

@@ -6,10 +6,17 @@
 
 namespace holomorph::solver {
 
+/// A level while the next one is made from it.
+struct Level {
+  SparseRows A;
+  SparseRows P, R;   ///< none on the coarsest level
+  Array<char> held;  ///< one flag per vertex, or empty for none
+};
+
 /// A level's operator and what its rows say.
 struct Operator {
   SparseRows A;          ///< off-diagonal weights w_ij = -a_ij
-  Array<float> omega;    ///< of Level
+  Array<float> omega;    ///< of CycleLevel
   Array<float> largest;  ///< #V: max_j w_ij, or 0 where none is positive
 };
 

@@ -14,30 +14,41 @@ using Blocks = Array<Block<K>>;
 template <int K>
 using Sums = Eigen::Array<double, K, 1>;
 
-/// (A x)_i = sum_j w_ij (x_i - x_j). Inlined, with pointers of its own: to the compiler a block that is written may be
-/// one of the vectors' pointers, and would be read again for every entry.
-template <int K>
-EIGEN_STRONG_INLINE Block<K> difference(const SparseRows& A, int i, const Blocks<K>& x) {
-  const int* const column = A.column.data();
-  const float* const weight = A.weight.data();
-  const Block<K>* const values = x.data();
-  const Block<K> here = values[i];
-  Block<K> sum = Block<K>::Zero();
-  for (int e = A.start[i], end = A.start[i + 1]; e < end; ++e) sum += weight[e] * (here - values[column[e]]);
-  return sum;
+// Bodies of the loops below capture pointers by value: to the compiler a block that is written may be one of the
+// pointers of an array, which would be read again for every row.
+
+/// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j).
+template <int K, class Body>
+EIGEN_STRONG_INLINE void for_differences(const GroupedRows& A, int chunk, const Block<K>* x, const Body& body) {
+  A.for_rows(chunk, [x, body](int i, const GroupedRows::Entry* entries, int length) {
+    const Block<K> here = x[i];
+    Block<K> sum = Block<K>::Zero();
+    for (int e = 0; e < length; ++e) sum += entries[e].weight * (here - x[entries[e].column]);
+    body(i, sum);
+  });
 }
 
-/// omega_i r_i, the smoother's step; 0 at a held vertex for the right-hand sides that hold it.
+/// body(i, (M x)_i) for the rows of a chunk of P or R.
+template <int K, class Body>
+EIGEN_STRONG_INLINE void for_products(const GroupedRows& M, int chunk, const Block<K>* x, const Body& body) {
+  M.for_rows(chunk, [x, body](int i, const GroupedRows::Entry* entries, int length) {
+    Block<K> sum = Block<K>::Zero();
+    for (int e = 0; e < length; ++e) sum += entries[e].weight * x[entries[e].column];
+    body(i, sum);
+  });
+}
+
+/// omega r, the smoother's step; 0 at a held vertex for the right-hand sides that hold it.
 /// @param natural 1 for the right-hand sides that do not, 0 for the others
 template <int K>
-EIGEN_STRONG_INLINE Block<K> jacobi_step(const Level& level, int i, const Block<K>& r, const Block<K>& natural) {
-  const float omega = level.omega[i];
+EIGEN_STRONG_INLINE Block<K> jacobi_step(float omega, const Block<K>& r, const Block<K>& natural) {
   if (omega >= 0) return omega * r;
   return (-omega * natural) * r;
 }
 
 /// z = M r for the symmetric positive semi-definite M of one V-cycle: a Jacobi step on each level down (on the way down
-/// from zero, so that it is one product), the exact solution on the coarsest, a Jacobi step on each level up.
+/// from zero, so that it is one product), the exact solution on the coarsest, a Jacobi step on each level up. On each
+/// level the loops down, and those up, are one wavefront each, which the caller's loops on the finest level join.
 template <int K>
 class Cycle {
  public:
@@ -46,23 +57,61 @@ class Cycle {
   /// @param natural of jacobi_step(); 1 for all until this is called
   void set_conditions(const Block<K>& natural) { natural_ = natural; }
 
-  /// The residual r that run() is applied to, 0 where vertices are held, and its jacobi_step(); both for the caller to
-  /// fill.
-  Blocks<K>& residual() { return work_[0].r; }
-  Blocks<K>& start() { return work_[0].u; }
-  /// z, in the place of start().
-  const Blocks<K>& result() const { return work_[0].u; }
+  /// The residual r, 0 where vertices are held, and its jacobi_step(): for the first loop to fill. After the way up z
+  /// is in the place of start().
+  Block<K>* residual() { return work_[0].r.data(); }
+  Block<K>* start() { return work_[0].u.data(); }
 
-  /// @return sum over the vertices of r z
-  Sums<K> run();
+  /// first(chunk) fills the chunk's residual() and start().
+  template <class First>
+  void down(const First& first) {
+    if (work_.size() > 1) {
+      descend(0, first);
+    } else {
+      for_chunks(first);
+    }
+  }
+
+  /// last(chunk) may read z of the chunk and of its neighbours' rows.
+  template <class Last>
+  void up(const Last& last) {
+    const std::size_t coarsest = work_.size() - 1;
+    for (std::size_t k = 1; k < coarsest; ++k) descend(k, [](int) {});
+    solve_coarsest();
+    for (std::size_t k = coarsest; k-- > 1;) ascend(k, [](int) {});
+    if (coarsest > 0) {
+      ascend(0, last);
+    } else {
+      for_chunks(last);
+    }
+  }
 
  private:
   struct Work {
     Blocks<K> r, u, t;
   };
-  void descend(std::size_t level);
+
+  // Where the finest level is the coarsest one as well.
+  template <class Loop>
+  void for_chunks(const Loop& loop) {
+    workers_.run(hierarchy_.levels[0].chunks, [&loop](int, int chunk) { loop(chunk); });
+  }
+  template <class First>
+  void descend(std::size_t k, const First& first) {
+    hierarchy_.levels[k].down.run(
+        workers_, first, [this, k](int chunk) { residual_after_start(k, chunk); },
+        [this, k](int chunk) { restrict_residual(k, chunk); });
+  }
+  template <class Last>
+  void ascend(std::size_t k, const Last& last) {
+    hierarchy_.levels[k].up.run(
+        workers_, [this, k](int chunk) { carry_up(k, chunk); }, [this, k](int chunk) { smooth(k, chunk); }, last);
+  }
+  void residual_after_start(std::size_t level, int chunk);
+  void restrict_residual(std::size_t level, int chunk);
   void solve_coarsest();
-  void carry_up(std::size_t level);
+  void carry_up(std::size_t level, int chunk);
+  void smooth(std::size_t level, int chunk);
 
   const Hierarchy& hierarchy_;
   Workers& workers_;

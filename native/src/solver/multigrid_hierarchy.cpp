@@ -15,6 +15,7 @@ constexpr double kSlowest = 0.9;
 constexpr int kLargestDense = 2000;
 // Entries of a row of P, finest level and below: the fewest that keep the number of iterations.
 constexpr int kFinestMeans = 2, kCoarseMeans = 3;
+
 Eigen::MatrixXd dense(const SparseRows& weights) {
   const int n = weights.size();
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
@@ -70,49 +71,61 @@ Array<char> held_below(const Array<char>& held, const Array<int>& coarse, int co
   return below;
 }
 
+// P, R, the next level's flags and operator; false where the vertices are few enough, or where no step leaves few
+// enough.
+// @param scratch one per thread, made on the finest level
+bool coarsen(Level& level, const Array<float>& largest, int most_means, std::vector<RowSums>& scratch, Level& next,
+             Operator& next_operator, Workers& workers, Progress& progress) {
+  const int n = level.A.size();
+  if (n <= kCoarsest) return false;
+  const Array<int> coarse = coarse_vertices(level.A, largest, level.held, progress);
+  const int count = 1 + *std::max_element(coarse.begin(), coarse.end());
+  if (count > kSlowest * n) return false;
+  while (static_cast<int>(scratch.size()) < workers.count()) scratch.emplace_back(count);
+  const Array<Mean> P = interpolation(level.A, largest, level.held, coarse, most_means, scratch, workers, progress);
+  level.P = sparse(P, workers, progress);
+  level.R = transposed(level.P, count, workers, progress);
+  next.held = held_below(level.held, coarse, count);
+  next_operator = coarse_operator(level, P, most_means, next.held, scratch, workers, progress);
+  return true;
+}
+
 }  // namespace
 
 double Hierarchy::operator_complexity() const {
-  double entries = 0;
-  for (const Level& level : levels) entries += static_cast<double>(level.A.column.size() + level.A.size());
-  return entries / static_cast<double>(levels[0].A.column.size() + levels[0].A.size());
+  const auto entries = [](const CycleLevel& level) { return static_cast<double>(level.A.entries()) + level.rows; };
+  double sum = 0;
+  for (const CycleLevel& level : levels) sum += entries(level);
+  return sum / entries(levels[0]);
 }
 
 Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Workers& workers, Progress& progress) {
   Hierarchy result;
-  result.levels.emplace_back();
-  if (!held.empty()) result.levels[0].held.assign(L.rows(), 0);
-  for (const int v : held) result.levels[0].held[v] = 1;
-  Operator next = finest_operator(L, result.levels[0].held, workers, progress);
-  std::vector<RowSums> scratch;  // one per thread
+  Level level;
+  if (!held.empty()) level.held.assign(L.rows(), 0);
+  for (const int v : held) level.held[v] = 1;
+  Operator here = finest_operator(L, level.held, workers, progress);
+  std::vector<RowSums> scratch;
   for (;;) {
-    Level& level = result.levels.back();
-    level.A = std::move(next.A);
-    level.omega = std::move(next.omega);
-    const int n = level.A.size();
-    if (n <= kCoarsest) break;
-    const Array<int> coarse = coarse_vertices(level.A, next.largest, level.held, progress);
-    const int count = 1 + *std::max_element(coarse.begin(), coarse.end());
-    if (count > kSlowest * n) break;
-    while (static_cast<int>(scratch.size()) < workers.count()) scratch.emplace_back(count);
-    const int most = result.levels.size() == 1 ? kFinestMeans : kCoarseMeans;
-    const Array<Mean> P = interpolation(level.A, next.largest, level.held, coarse, most, scratch, workers, progress);
-    level.P = sparse(P, workers, progress);
-    level.R = transposed(level.P, count, workers, progress);
-    Array<char> below = held_below(level.held, coarse, count);
-    next = coarse_operator(level, P, most, below, scratch, workers, progress);
-    result.levels.emplace_back();
-    result.levels.back().held = std::move(below);
+    level.A = std::move(here.A);
+    Level next;
+    Operator next_operator;
+    const int most = result.levels.empty() ? kFinestMeans : kCoarseMeans;
+    const bool last = !coarsen(level, here.largest, most, scratch, next, next_operator, workers, progress);
+    result.levels.push_back(cycle_level(level.A, level.P, level.R, std::move(here.omega), workers));
+    progress.report(0);
+    if (last) break;
+    level = std::move(next);
+    here = std::move(next_operator);
   }
-  const int coarsest = result.levels.back().A.size();
+  const int coarsest = level.A.size();
   if (coarsest > kLargestDense) {
     throw SolverError("the multigrid hierarchy of a system of " + std::to_string(L.rows()) + " unknowns ends at " +
                       std::to_string(coarsest));
   }
-  progress.report(0);
-  const Eigen::MatrixXd A = dense(result.levels.back().A);
+  const Eigen::MatrixXd A = dense(level.A);
   result.coarsest_inverse = pseudo_inverse(A);
-  if (!held.empty()) result.held_inverse = inverse_of_others(A, result.levels.back().held);
+  if (!held.empty()) result.held_inverse = inverse_of_others(A, level.held);
   return result;
 }
 

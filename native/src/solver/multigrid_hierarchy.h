@@ -9,21 +9,13 @@
 
 #include <Eigen/Core>
 
+#include "solver/cycle_level.h"
 #include "solver/laplace_solver.h"
-#include "solver/sparse_rows.h"
 
 namespace holomorph::solver {
 
-struct Level {
-  SparseRows A;        ///< off-diagonal weights w_ij = -a_ij: (A x)_i = sum_j w_ij (x_i - x_j)
-  Array<float> omega;  ///< #V, the smoother's step: x += omega (r - A x); negative at a held vertex
-  SparseRows P;        ///< #V x #V of the next level; rows sum to 1; none on the coarsest level
-  SparseRows R;        ///< its transpose
-  Array<char> held;    ///< one flag per vertex, or empty for none
-};
-
 struct Hierarchy {
-  std::vector<Level> levels;         ///< finest first
+  std::vector<CycleLevel> levels;    ///< finest first
   Eigen::MatrixXf coarsest_inverse;  ///< pseudo-inverse of the coarsest A, computed in double precision
   Eigen::MatrixXf held_inverse;      ///< inverse of the part without the held vertices, and 0 at these; or empty
 

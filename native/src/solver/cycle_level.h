@@ -1,0 +1,27 @@
+// A level of the multigrid hierarchy as the cycle goes through it.
+#pragma once
+
+#include "solver/grouped_rows.h"
+
+namespace holomorph::solver {
+
+struct CycleLevel {
+  int rows = 0;
+  int chunks = 0;      ///< of the rows, and of those of the next level that follow from them
+  GroupedRows A;       ///< off-diagonal weights w_ij = -a_ij: (A x)_i = sum_j w_ij (x_i - x_j)
+  GroupedRows P;       ///< interpolation from the next level; rows sum to 1; none on the coarsest level
+  GroupedRows R;       ///< its transpose
+  Array<float> omega;  ///< #V, the smoother's step: x += omega (r - A x); negative at a held vertex
+  Wavefront down;      ///< any loop over the rows, one that applies A, one that applies R
+  Wavefront up;        ///< any loop over the rows, and two that apply A
+
+  int begin(int chunk) const { return Chunks{rows, kWaveRows}.begin(chunk); }
+  int end(int chunk) const { return Chunks{rows, kWaveRows}.end(chunk); }
+};
+
+/// @param P, R without rows on the coarsest level
+/// Cost: linear, parallel; 8 bytes per entry.
+CycleLevel cycle_level(const SparseRows& A, const SparseRows& P, const SparseRows& R, Array<float>&& omega,
+                       Workers& workers);
+
+}  // namespace holomorph::solver
