@@ -39,6 +39,18 @@ void for_rows(Workers& workers, int rows, const Body& body) {
   });
 }
 
+/// The lowest row for which test(row) holds, in parallel; `rows` where there is none.
+template <class Test>
+int first_row(Workers& workers, int rows, const Test& test) {
+  std::vector<int> first(chunk_count(rows), rows);
+  run_throwing(workers, chunk_count(rows), [&](int chunk) {
+    for (int i = chunk * kChunk, end = std::min(i + kChunk, rows); i < end && first[chunk] == rows; ++i) {
+      if (test(i)) first[chunk] = i;
+    }
+  });
+  return first.empty() ? rows : *std::min_element(first.begin(), first.end());
+}
+
 /// Sum over all rows of what body(row, sum) adds to `sum`, begun at `zero` in every chunk. @pre body does not throw
 template <class Sum, class Body>
 Sum sum_over_rows(Workers& workers, int rows, const Sum& zero, const Body& body) {

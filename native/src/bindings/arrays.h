@@ -28,13 +28,13 @@ inline py::array read_only(py::array array) {
 }
 
 /// A read-only view of memory that `owner` keeps alive.
-template <class T>
-py::array view(const std::vector<T>& values, py::handle owner) {
+template <class T, class Allocator>
+py::array view(const std::vector<T, Allocator>& values, py::handle owner) {
   return read_only(py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data(), owner));
 }
 
-template <class T, std::size_t N>
-py::array view(const std::vector<std::array<T, N>>& rows, py::handle owner) {
+template <class T, std::size_t N, class Allocator>
+py::array view(const std::vector<std::array<T, N>, Allocator>& rows, py::handle owner) {
   const auto* data = rows.empty() ? nullptr : rows.front().data();
   return read_only(py::array_t<T>({static_cast<py::ssize_t>(rows.size()), static_cast<py::ssize_t>(N)}, data, owner));
 }

@@ -98,7 +98,7 @@ Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms,
   return result;
 }
 
-std::vector<double> averaged_star(const HalfEdges& mesh, const std::vector<double>& lengths,
+std::vector<double> averaged_star(const HalfEdges& mesh, std::span<const double> lengths,
                                   const std::vector<double>& form) {
   std::vector<double> star(form.size(), 0.0);
   for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {

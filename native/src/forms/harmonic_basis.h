@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "base/progress.h"
@@ -82,7 +83,7 @@ Eigen::MatrixXd periods(const mesh::HalfEdges& half_edges, const ClosedForms& fo
 
 /// The paper's averaged star (§ 7): on each edge the mean over its two faces of the face-wise star. Not closed, so it
 /// has no well-defined integral; for comparison only. @param form,result #E values along half-edge 2e
-std::vector<double> averaged_star(const mesh::HalfEdges& half_edges, const std::vector<double>& lengths,
+std::vector<double> averaged_star(const mesh::HalfEdges& half_edges, std::span<const double> lengths,
                                   const std::vector<double>& form);
 
 }  // namespace holomorph::forms

@@ -20,7 +20,7 @@ struct StarTriangle {
   double angle, length, height, t0, t1;
   double log_a, log_b;  // of the spokes, in units of their mean
 
-  StarTriangle(const HalfEdges& mesh, const std::vector<double>& lengths, HalfedgeHandle link, double angle_at_p,
+  StarTriangle(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle link, double angle_at_p,
                double unit)
       : a(mesh::from_vertex(mesh, link)), b(mesh::to_vertex(mesh, link)), angle(angle_at_p) {
     const HalfedgeHandle from_b = next(mesh, link), to_a = next(mesh, from_b);
@@ -49,7 +49,7 @@ struct StarTriangle {
   }
 };
 
-double mean_spoke(const HalfEdges& mesh, const std::vector<double>& lengths, const mesh::Star& star) {
+double mean_spoke(const HalfEdges& mesh, std::span<const double> lengths, const mesh::Star& star) {
   double sum = 0;
   for (const HalfedgeHandle h : star.link) sum += lengths[edge_of(next(mesh, h))];
   return sum / static_cast<double>(star.size());
@@ -68,8 +68,8 @@ void add(const StarTriangle& t, int p, double flux_a, double flux_b, double exce
 
 }  // namespace
 
-SingularPart singular_part(const HalfEdges& mesh, const std::vector<double>& lengths,
-                           const std::vector<mesh::Star>& stars, const Eigen::MatrixXd& residues) {
+SingularPart singular_part(const HalfEdges& mesh, std::span<const double> lengths, const std::vector<mesh::Star>& stars,
+                           const Eigen::MatrixXd& residues) {
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), residues.cols());
   SingularPart part{zero, zero, zero, zero};
   for (std::size_t i = 0; i < stars.size(); ++i) {
@@ -89,8 +89,8 @@ SingularPart singular_part(const HalfEdges& mesh, const std::vector<double>& len
   return part;
 }
 
-std::vector<double> outer_weights(const HalfEdges& mesh, const std::vector<double>& lengths,
-                                  std::vector<double> weights, const std::vector<mesh::Star>& stars) {
+std::vector<double> outer_weights(const HalfEdges& mesh, std::span<const double> lengths, std::vector<double> weights,
+                                  const std::vector<mesh::Star>& stars) {
   for (const mesh::Star& star : stars) {
     for (const HalfedgeHandle h : star.link) {
       weights[edge_of(next(mesh, h))] = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "mesh/stars.h"
@@ -22,11 +23,11 @@ struct SingularPart {
 };
 
 /// @param lengths #E; @param residues #stars x m reals, a column for each differential
-SingularPart singular_part(const mesh::HalfEdges& half_edges, const std::vector<double>& lengths,
+SingularPart singular_part(const mesh::HalfEdges& half_edges, std::span<const double> lengths,
                            const std::vector<mesh::Star>& stars, const Eigen::MatrixXd& residues);
 
 /// Weights k over the faces outside the stars: 0 on spokes, that of the outer face alone on link edges.
-std::vector<double> outer_weights(const mesh::HalfEdges& half_edges, const std::vector<double>& lengths,
+std::vector<double> outer_weights(const mesh::HalfEdges& half_edges, std::span<const double> lengths,
                                   std::vector<double> weights, const std::vector<mesh::Star>& stars);
 
 }  // namespace holomorph::forms

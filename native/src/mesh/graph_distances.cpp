@@ -6,7 +6,7 @@
 
 namespace holomorph::mesh {
 
-std::vector<double> graph_distances(const HalfEdges& mesh, const std::vector<double>& lengths,
+std::vector<double> graph_distances(const HalfEdges& mesh, std::span<const double> lengths,
                                     const std::vector<int>& sources) {
   using Entry = std::pair<double, int>;
   std::vector<double> distance(mesh.n_vertices(), std::numeric_limits<double>::infinity());

@@ -1,6 +1,7 @@
 // Distances along the edges of a mesh.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesh/half_edges.h"
@@ -9,7 +10,7 @@ namespace holomorph::mesh {
 
 /// #V length of the shortest path of edges from the nearest of the sources (Dijkstra); infinite where there is none.
 /// @param lengths #E. Cost: O(n log n).
-std::vector<double> graph_distances(const HalfEdges& half_edges, const std::vector<double>& lengths,
+std::vector<double> graph_distances(const HalfEdges& half_edges, std::span<const double> lengths,
                                     const std::vector<int>& sources);
 
 }  // namespace holomorph::mesh

@@ -17,10 +17,10 @@ struct Flip {
 
 struct IntrinsicTriangulation {
   HalfEdges half_edges;
-  std::vector<double> lengths;  ///< #E
-  Array<double> cotangents;     ///< of the angle opposite each half-edge; 0 outside the surface
-  std::vector<Flip> flips;      ///< in order, from the artist's triangulation to this one
-  double mollification = 0;     ///< added to every length, in their unit
+  Array<double> lengths;     ///< #E
+  Array<double> cotangents;  ///< of the angle opposite each half-edge; 0 outside the surface
+  std::vector<Flip> flips;   ///< in order, from the artist's triangulation to this one
+  double mollification = 0;  ///< added to every length, in their unit
 };
 
 /// 0 if no triangle is degenerate; else the increment of all lengths that intrinsic_triangulation takes.

@@ -1,5 +1,8 @@
 #include "mesh/orientation.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace holomorph::mesh {
 namespace {
 
@@ -18,6 +21,25 @@ struct FaceMeetings {
     }
   }
 };
+
+// #V: the lowest vertex that each is connected with.
+std::vector<int> lowest_connected(int vertex_count, const Array<Pair>& edges) {
+  std::vector<int> lower(vertex_count);  // a vertex connected with each, not above it
+  std::iota(lower.begin(), lower.end(), 0);
+  // First a lower neighbour of each, and what that leads to: mostly the answer.
+  for (const auto& [a, b] : edges) lower[b] = a;
+  for (int v = 0; v < vertex_count; ++v) lower[v] = lower[lower[v]];
+  const auto lowest = [&lower](int v) {
+    while (lower[v] != v) v = lower[v] = lower[lower[v]];
+    return v;
+  };
+  for (const auto& [a, b] : edges) {
+    const int i = lowest(a), j = lowest(b);
+    lower[std::max(i, j)] = std::min(i, j);
+  }
+  for (int v = 0; v < vertex_count; ++v) lower[v] = lower[lower[v]];
+  return lower;
+}
 
 }  // namespace
 
@@ -53,6 +75,22 @@ Orientation orient(int face_count, const std::vector<EdgeMeeting>& meetings) {
     if (2 * static_cast<std::size_t>(reversed_count) > flood.size()) {
       for (const int f : flood) result.reversed[f] ^= 1;
     }
+  }
+  return result;
+}
+
+Orientation oriented_as_given(const Polygons& mesh, const Array<Pair>& edges) {
+  const int vertex_count = static_cast<int>(mesh.vertices.size());
+  const int face_count = static_cast<int>(mesh.face_offsets.size()) - 1;
+  const std::vector<int> root = lowest_connected(vertex_count, edges);
+  Orientation result;
+  result.reversed.assign(face_count, 0);
+  result.face_component.resize(face_count);
+  std::vector<int> number(vertex_count, -1);  // of the component of each root
+  for (int f = 0; f < face_count; ++f) {
+    int& component = number[root[mesh.corner_vertices[mesh.face_offsets[f]]]];
+    if (component < 0) component = result.component_count++;
+    result.face_component[f] = component;
   }
   return result;
 }

@@ -3,11 +3,13 @@
 
 #include <vector>
 
+#include "mesh/surface.h"
+
 namespace holomorph::mesh {
 
 struct Orientation {
-  std::vector<char> reversed;       ///< #F 1 where the polygon must be read in reverse
-  std::vector<int> face_component;  ///< #F, numbered by first polygon
+  std::vector<char> reversed;  ///< #F 1 where the polygon must be read in reverse
+  Array<int> face_component;   ///< #F, numbered by first polygon
   int component_count = 0;
   int conflict = -1;  ///< an edge at which no orientation fits; -1 if the mesh is orientable
 };
@@ -20,5 +22,9 @@ struct EdgeMeeting {
 
 /// Orients each component as the larger part of its faces is given (as its first face where the parts are equal).
 Orientation orient(int face_count, const std::vector<EdgeMeeting>& meetings);
+
+/// The same where no face is to be reversed, from the vertices, which two faces of one component share if any do.
+/// @param edges #E ends, lower first
+Orientation oriented_as_given(const Polygons& polygons, const Array<Pair>& edges);
 
 }  // namespace holomorph::mesh

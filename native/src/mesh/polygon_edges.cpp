@@ -1,9 +1,12 @@
 #include "mesh/polygon_edges.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
+#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/page_allocator.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -11,32 +14,100 @@ namespace {
 using std::to_string;
 
 struct Side {
-  int higher;  // the higher of its two vertices
-  int corner;
+  int lower, higher;    // its two vertices
+  int directed_corner;  // 2 x its corner, + 1 where it runs from the higher vertex to the lower one
+  unsigned vertex_sum;  // of its polygon: equal where two polygons have the same vertices
+
+  int corner() const { return directed_corner >> 1; }
+  bool runs_down() const { return (directed_corner & 1) != 0; }
 };
 
-// All sides, grouped by their lower vertex (counting sort) and sorted by (higher vertex, corner) in each group.
-void sort_sides(const Polygons& mesh, const std::vector<int>& face_of, std::vector<Side>& sides,
-                std::vector<int>& first) {
-  const int corner_count = static_cast<int>(mesh.corner_vertices.size());
-  const auto ends = [&](int corner) {
-    const auto a = static_cast<int>(mesh.corner_vertices[corner]);
-    const auto b = static_cast<int>(mesh.corner_vertices[next_corner(mesh, face_of[corner], corner)]);
-    return Pair{std::min(a, b), std::max(a, b)};
-  };
-  first.assign(mesh.vertices.size() + 1, 0);
-  for (int c = 0; c < corner_count; ++c) ++first[ends(c)[0] + 1];
-  for (std::size_t v = 0; v + 1 < first.size(); ++v) first[v + 1] += first[v];
-  sides.resize(corner_count);
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (int c = 0; c < corner_count; ++c) {
-    const auto [lower, higher] = ends(c);
-    sides[next[lower]++] = {higher, c};
+// Calls each(side) for the sides of the polygons begin .. end-1.
+template <class Each>
+void each_side(const Polygons& mesh, int begin, int end, const Each& each) {
+  for (int f = begin; f < end; ++f) {
+    const auto first = static_cast<int>(mesh.face_offsets[f]), last = static_cast<int>(mesh.face_offsets[f + 1]);
+    unsigned sum = 0;
+    for (int c = first; c < last; ++c) sum += static_cast<unsigned>(mesh.corner_vertices[c]);
+    for (int c = first; c < last; ++c) {
+      const auto a = static_cast<int>(mesh.corner_vertices[c]);
+      const auto b = static_cast<int>(mesh.corner_vertices[c + 1 == last ? first : c + 1]);
+      each(Side{std::min(a, b), std::max(a, b), 2 * c + (a > b ? 1 : 0), sum});
+    }
   }
-  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    std::sort(sides.begin() + first[v], sides.begin() + first[v + 1], [](const Side& a, const Side& b) {
-      return a.higher != b.higher ? a.higher < b.higher : a.corner < b.corner;
+}
+
+// Sides by blocks of lower vertices, in each block in the order of the corners.
+class Blocks {
+ public:
+  Blocks(const Polygons& mesh, Workers& workers)
+      : sides_(mesh.corner_vertices.size()),
+        vertex_count_(static_cast<int>(mesh.vertices.size())),
+        size_(std::max(kChunk, (vertex_count_ + kMost - 1) / kMost)) {
+    const int faces = static_cast<int>(mesh.face_offsets.size()) - 1, batch = 4 * kChunk;
+    const int batches = (faces + batch - 1) / batch;
+    // Where the sides of each batch of polygons go in each block.
+    std::vector<std::vector<int>> place(batches, std::vector<int>(count(), 0));
+    const auto sides_of = [&](int i, const auto& each) {
+      each_side(mesh, i * batch, std::min((i + 1) * batch, faces), each);
+    };
+    workers.run(batches, [&](int, int i) { sides_of(i, [&](const Side& side) { ++place[i][side.lower / size_]; }); });
+    int sum = 0;
+    for (int block = 0; block < count(); ++block) {
+      start_.push_back(sum);
+      for (int i = 0; i < batches; ++i) sum += std::exchange(place[i][block], sum);
+    }
+    start_.push_back(sum);
+    workers.run(batches, [&](int, int i) {
+      sides_of(i, [&](const Side& side) { sides_[place[i][side.lower / size_]++] = side; });
     });
+  }
+
+  int count() const { return (vertex_count_ + size_ - 1) / size_; }
+  const Side* begin(int block) const { return sides_.data() + start_[block]; }
+  const Side* end(int block) const { return sides_.data() + start_[block + 1]; }
+
+  // Sorts a block by (lower, higher, corner): by counting, and then by insertion, as a vertex has few sides.
+  void sort(int block) {
+    const int first_vertex = block * size_;
+    const std::vector<Side> given(begin(block), end(block));
+    std::vector<int> first(size_ + 1, 0);
+    for (const Side& side : given) ++first[side.lower - first_vertex + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<int> next = first;
+    Side* const sides = sides_.data() + start_[block];
+    for (const Side& side : given) sides[next[side.lower - first_vertex]++] = side;
+    for (int v = 0; v < size_; ++v) sort_by_higher(sides + first[v], sides + first[v + 1]);
+  }
+
+ private:
+  static constexpr int kMost = 256, kFew = 32;
+
+  static void sort_by_higher(Side* begin, Side* end) {
+    if (end - begin > kFew) {
+      std::stable_sort(begin, end, [](const Side& a, const Side& b) { return a.higher < b.higher; });
+      return;
+    }
+    for (Side* i = begin; i < end; ++i) {
+      const Side side = *i;
+      Side* place = i;
+      for (; place > begin && place[-1].higher > side.higher; --place) *place = place[-1];
+      *place = side;
+    }
+  }
+
+  Array<Side> sides_;
+  std::vector<int> start_;  // of each block, and the end
+  int vertex_count_, size_;
+};
+
+// Calls each(begin, end) for the sides of each edge of a sorted block, until it answers false.
+template <class Each>
+void each_edge(const Blocks& blocks, int block, const Each& each) {
+  const Side* const last = blocks.end(block);
+  for (const Side *side = blocks.begin(block), *end = side; side != last; side = end) {
+    while (end != last && end->lower == side->lower && end->higher == side->higher) ++end;
+    if (!each(side, end)) return;
   }
 }
 
@@ -47,26 +118,54 @@ std::vector<std::int64_t> sorted_vertices(const Polygons& mesh, int face) {
   return v;
 }
 
-// Duplicate faces share every edge, so it is enough to compare the faces at each edge.
-void check_duplicates(const Polygons& mesh, const std::vector<int>& face_of, const Side* begin, const Side* end) {
+int face_of(const Polygons& mesh, const Side& side) {
+  const auto& offsets = mesh.face_offsets;
+  return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), side.corner()) - offsets.begin()) - 1;
+}
+
+// Two polygons with the same vertices among those at an edge, lower first, or none. Such polygons share every edge.
+Pair duplicates(const Polygons& mesh, const Side* begin, const Side* end) {
   for (const Side* a = begin; a != end; ++a) {
     for (const Side* b = a + 1; b != end; ++b) {
-      const int f = face_of[a->corner], g = face_of[b->corner];
-      const auto size = [&](int face) { return mesh.face_offsets[face + 1] - mesh.face_offsets[face]; };
-      if (f == g || size(f) != size(g)) continue;
-      if (size(f) == 3) {  // the usual case without a sort: the third corners
-        const auto sum = [&](int face) {
-          const auto* v = &mesh.corner_vertices[mesh.face_offsets[face]];
-          return v[0] + v[1] + v[2];
-        };
-        if (sum(f) != sum(g)) continue;
-      }
-      if (sorted_vertices(mesh, f) == sorted_vertices(mesh, g)) {
-        throw InvalidMesh("faces " + to_string(std::min(f, g)) + " and " + to_string(std::max(f, g)) +
-                          " have the same vertices");
-      }
+      if (a->vertex_sum != b->vertex_sum) continue;
+      const int f = face_of(mesh, *a), g = face_of(mesh, *b);
+      if (f != g && sorted_vertices(mesh, f) == sorted_vertices(mesh, g)) return {std::min(f, g), std::max(f, g)};
     }
   }
+  return {-1, -1};
+}
+
+[[noreturn]] void refuse(const Polygons& mesh, int edge, const Side* begin, const Side* end) {
+  const auto [f, g] = duplicates(mesh, begin, end);
+  if (f >= 0) throw InvalidMesh("faces " + to_string(f) + " and " + to_string(g) + " have the same vertices");
+  throw InvalidMesh("edge " + to_string(edge) + " (vertices " + to_string(begin->lower) + ", " +
+                    to_string(begin->higher) + ") has " + to_string(end - begin) + " faces; a surface has at most 2");
+}
+
+// Sorts all blocks. @return the number of the first edge of each block, and of all edges
+std::vector<int> first_edges(const Polygons& mesh, Blocks& blocks, Workers& workers) {
+  struct Bad {
+    int edge = -1;  // of the block's
+    const Side *begin = nullptr, *end = nullptr;
+  };
+  std::vector<int> first(blocks.count() + 1, 0);
+  std::vector<Bad> bad(blocks.count());
+  run_throwing(workers, blocks.count(), [&](int block) {
+    blocks.sort(block);
+    int edges = 0;
+    each_edge(blocks, block, [&](const Side* begin, const Side* end) {
+      if (end - begin > 2 || (end - begin == 2 && duplicates(mesh, begin, end)[0] >= 0))
+        bad[block] = {edges, begin, end};
+      ++edges;
+      return bad[block].edge < 0;
+    });
+    first[block + 1] = edges;
+  });
+  for (int block = 0; block < blocks.count(); ++block) {
+    if (bad[block].edge >= 0) refuse(mesh, first[block] + bad[block].edge, bad[block].begin, bad[block].end);
+    first[block + 1] += first[block];
+  }
+  return first;
 }
 
 }  // namespace
@@ -80,27 +179,27 @@ std::vector<int> corner_faces(const Polygons& mesh) {
 }
 
 PolygonEdges polygon_edges(const Polygons& mesh) {
-  const std::vector<int> face_of = corner_faces(mesh);
-  std::vector<Side> sides;
-  std::vector<int> first;
-  sort_sides(mesh, face_of, sides, first);
-
+  Workers workers;
+  Blocks blocks(mesh, workers);
+  const std::vector<int> first = first_edges(mesh, blocks, workers);
   PolygonEdges result;
-  result.side_edge.resize(sides.size());
-  for (std::size_t v = 0; v + 1 < first.size(); ++v) {
-    for (int i = first[v], j; i < first[v + 1]; i = j) {
-      for (j = i + 1; j < first[v + 1] && sides[j].higher == sides[i].higher;) ++j;
-      const int edge = static_cast<int>(result.edges.size());
-      if (j - i > 1) check_duplicates(mesh, face_of, &sides[i], &sides[i] + (j - i));
-      if (j - i > 2) {
-        throw InvalidMesh("edge " + to_string(edge) + " (vertices " + to_string(v) + ", " + to_string(sides[i].higher) +
-                          ") has " + to_string(j - i) + " faces; a surface has at most 2");
-      }
-      for (int k = i; k < j; ++k) result.side_edge[sides[k].corner] = edge;
-      result.edges.push_back({static_cast<int>(v), sides[i].higher});
-      result.edge_sides.push_back({sides[i].corner, j - i == 2 ? sides[i + 1].corner : -1});
-    }
-  }
+  result.side_edge.resize(mesh.corner_vertices.size());
+  result.edges.resize(first.back());
+  result.edge_sides.resize(first.back());
+  std::vector<char> oriented(blocks.count(), 1);
+  workers.run(blocks.count(), [&](int, int block) {
+    int edge = first[block];
+    each_edge(blocks, block, [&](const Side* begin, const Side* end) {
+      const bool two = end - begin == 2;
+      result.edges[edge] = {begin->lower, begin->higher};
+      result.edge_sides[edge] = {begin->corner(), two ? begin[1].corner() : -1};
+      if (two && begin[0].runs_down() == begin[1].runs_down()) oriented[block] = 0;
+      for (const Side* side = begin; side != end; ++side) result.side_edge[side->corner()] = edge;
+      ++edge;
+      return true;
+    });
+  });
+  result.oriented = std::find(oriented.begin(), oriented.end(), 0) == oriented.end();
   return result;
 }
 

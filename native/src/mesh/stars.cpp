@@ -20,13 +20,13 @@ class Names {
 };
 
 // Angle at the apex of the triangle on side h.
-double apex_angle(const HalfEdges& mesh, const std::vector<double>& lengths, HalfedgeHandle h) {
+double apex_angle(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(mesh, h), h2 = next(mesh, h1);
   const double a = lengths[edge_of(h)], b = lengths[edge_of(h1)], c = lengths[edge_of(h2)];
   return std::atan2(4 * triangle_area(a, b, c), (b - a) * (b + a) + c * c);
 }
 
-Star star(const HalfEdges& mesh, const std::vector<double>& lengths, int vertex, const Names& name) {
+Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, const Names& name) {
   Star result;
   result.vertex = vertex;
   const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
@@ -143,8 +143,8 @@ void turn(Surface& surface, Side s) {
 
 }  // namespace
 
-std::vector<Star> stars(const HalfEdges& half_edges, const std::vector<double>& lengths,
-                        const std::vector<int>& vertices, const std::vector<int>& names) {
+std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
+                        const std::vector<int>& names) {
   const Names name(names);
   std::vector<Star> result;
   std::vector<int> owner(half_edges.n_vertices(), -1);

@@ -1,6 +1,7 @@
 // The stars of vertices that become punctures: disks of faces, apart from each other and from the boundary.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesh/half_edges.h"
@@ -21,8 +22,8 @@ struct Star {
 /// @param lengths #E
 /// @param names what a vertex is called in messages; empty: its index
 /// @throws TopologyError if a vertex has no face, a star touches the boundary or itself, or two stars share a vertex
-std::vector<Star> stars(const HalfEdges& half_edges, const std::vector<double>& lengths,
-                        const std::vector<int>& vertices, const std::vector<int>& names = {});
+std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
+                        const std::vector<int>& names = {});
 
 /// Whether `stars` would take the vertex, once its diagonals are turned away: its neighbours along the artist's edges
 /// are distinct, not on the boundary and, like itself, not marked in `taken` (#V). It marks nothing.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/chunks.h"
 #include "mesh/orientation.h"
 #include "mesh/polygon_checks.h"
 #include "mesh/polygon_edges.h"
@@ -13,17 +14,33 @@
 namespace holomorph::mesh {
 namespace {
 
-// Appends the triangles of one polygon; diagonals get new edges, each known to its two triangles only.
+void make_room(Surface& surface) {
+  const Polygons& mesh = surface.polygons;
+  const std::size_t corners = mesh.corner_vertices.size(), faces = mesh.face_offsets.size() - 1;
+  const std::size_t edges = surface.edges.size() + corners - 3 * faces;
+  surface.triangles.resize(corners - 2 * faces);
+  surface.triangle_corners.resize(corners - 2 * faces);
+  surface.triangle_edges.resize(corners - 2 * faces);
+  surface.triangle_faces.resize(corners - 2 * faces);
+  surface.edges.resize(edges);
+  surface.edge_lengths.resize(edges);
+  surface.edge_face_count.resize(edges);
+}
+
+// Writes the triangles of polygons, each where its number of corners and those before it say. Diagonals get new edges,
+// each known to its two triangles only.
 class PolygonCutter {
  public:
-  PolygonCutter(Surface& surface, const PolygonEdges& edges, std::vector<int> loop_of_vertex)
-      : surface_(surface), edges_(edges), loop_of_vertex_(std::move(loop_of_vertex)) {}
+  PolygonCutter(Surface& surface, const PolygonEdges& edges, const std::vector<int>& loop_of_vertex)
+      : surface_(surface), edges_(edges), loop_of_vertex_(loop_of_vertex) {}
 
   void cut(int face, bool reversed) {
     const auto& mesh = surface_.polygons;
     const int first = static_cast<int>(mesh.face_offsets[face]);
     const int n = static_cast<int>(mesh.face_offsets[face + 1]) - first;
+    triangle_ = first - 2 * face;
     if (n == 3) return add(face, reversed, first, {0, 1, 2}, 3);
+    diagonal_ = surface_.polygon_edge_count + first - 3 * face;
     points_.resize(n);
     loops_.resize(n);
     for (int i = 0; i < n; ++i) {
@@ -39,12 +56,13 @@ class PolygonCutter {
   int edge(int first, int i, int j, int n) {
     if (j == i + 1) return edges_.side_edge[first + i];
     if (i == 0 && j == n - 1) return edges_.side_edge[first + j];
-    const auto [known, is_new] = diagonals_.try_emplace(Pair{i, j}, static_cast<int>(surface_.edges.size()));
+    const auto [known, is_new] = diagonals_.try_emplace(Pair{i, j}, diagonal_);
     if (!is_new) return known->second;
     const auto a = static_cast<int>(surface_.polygons.corner_vertices[first + i]);
     const auto b = static_cast<int>(surface_.polygons.corner_vertices[first + j]);
-    surface_.edges.push_back({std::min(a, b), std::max(a, b)});
-    return known->second;
+    surface_.edges[diagonal_] = {std::min(a, b), std::max(a, b)};
+    surface_.edge_face_count[diagonal_] = 2;
+    return diagonal_++;
   }
 
   void add(int face, bool reversed, int first, const Triple& local, int n) {
@@ -57,19 +75,29 @@ class PolygonCutter {
     }
     Triple vertices;
     for (int c = 0; c < 3; ++c) vertices[c] = static_cast<int>(surface_.polygons.corner_vertices[corners[c]]);
-    surface_.triangles.push_back(vertices);
-    surface_.triangle_corners.push_back(corners);
-    surface_.triangle_edges.push_back(sides);
-    surface_.triangle_faces.push_back(face);
+    surface_.triangles[triangle_] = vertices;
+    surface_.triangle_corners[triangle_] = corners;
+    surface_.triangle_edges[triangle_] = sides;
+    surface_.triangle_faces[triangle_++] = face;
   }
 
   Surface& surface_;
   const PolygonEdges& edges_;
-  std::vector<int> loop_of_vertex_;  // #V, -1 in the interior
+  const std::vector<int>& loop_of_vertex_;  // #V, -1 in the interior; empty where all polygons are triangles
+  int triangle_ = 0, diagonal_ = 0;         // the next ones
   std::vector<std::array<double, 3>> points_;
   std::vector<int> loops_;         // of the polygon being cut
   std::map<Pair, int> diagonals_;  // of the polygon being cut, by its local corners
 };
+
+void cut_polygons(Surface& surface, const PolygonEdges& edges, const std::vector<int>& loop_of_vertex,
+                  const std::vector<char>& reversed, Workers& workers) {
+  const int faces = static_cast<int>(surface.polygons.face_offsets.size()) - 1;
+  run_throwing(workers, chunk_count(faces), [&](int chunk) {
+    PolygonCutter cutter(surface, edges, loop_of_vertex);
+    for (int f = chunk * kChunk, end = std::min(f + kChunk, faces); f < end; ++f) cutter.cut(f, reversed[f]);
+  });
+}
 
 std::vector<EdgeMeeting> meetings_of(const Polygons& mesh, const PolygonEdges& edges) {
   const std::vector<int> face_of = corner_faces(mesh);
@@ -91,21 +119,23 @@ Surface make_surface(Polygons polygons) {
   const Polygons& mesh = surface.polygons;
   surface.vertex_count = static_cast<int>(mesh.vertices.size());
   PolygonEdges edges = polygon_edges(mesh);
-  const int face_count = static_cast<int>(mesh.face_offsets.size()) - 1;
   surface.polygon_edge_count = static_cast<int>(edges.edges.size());
-  const Orientation orientation = orient(face_count, meetings_of(mesh, edges));
-  std::vector<int> loop_of_vertex = boundary_loop_of_vertex(edges, surface.vertex_count);
+  const Orientation orientation =
+      edges.oriented ? oriented_as_given(mesh, edges.edges)
+                     : orient(static_cast<int>(mesh.face_offsets.size()) - 1, meetings_of(mesh, edges));
+  const bool all_triangles = mesh.corner_vertices.size() == 3 * (mesh.face_offsets.size() - 1);
+  const auto loop_of_vertex = all_triangles ? std::vector<int>{} : boundary_loop_of_vertex(edges, surface.vertex_count);
   surface.edges = std::move(edges.edges);
   record_orientation(surface, orientation);
-  const std::size_t triangle_count = mesh.corner_vertices.size() - 2 * static_cast<std::size_t>(face_count);
-  surface.triangles.reserve(triangle_count);
-  surface.triangle_corners.reserve(triangle_count);
-  surface.triangle_edges.reserve(triangle_count);
-  surface.triangle_faces.reserve(triangle_count);
-  PolygonCutter cutter(surface, edges, std::move(loop_of_vertex));
-  for (int f = 0; f < face_count; ++f) cutter.cut(f, orientation.reversed[f]);
-  surface.edge_lengths.reserve(surface.edges.size());
-  for (const auto& [a, b] : surface.edges) surface.edge_lengths.push_back(distance(mesh.vertices[a], mesh.vertices[b]));
+  make_room(surface);
+  Workers workers;
+  for_rows(workers, surface.polygon_edge_count,
+           [&](int e) { surface.edge_face_count[e] = edges.edge_sides[e][1] < 0 ? 1 : 2; });
+  cut_polygons(surface, edges, loop_of_vertex, orientation.reversed, workers);
+  for_rows(workers, static_cast<int>(surface.edges.size()), [&](int e) {
+    const auto [a, b] = surface.edges[e];
+    surface.edge_lengths[e] = distance(mesh.vertices[a], mesh.vertices[b]);
+  });
   finish_records(surface);
   return surface;
 }

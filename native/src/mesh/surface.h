@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/page_allocator.h"
 #include "mesh/polygons.h"
 
 namespace holomorph::mesh {
@@ -22,18 +23,18 @@ struct Repairs {
 /// Edges are known by their index, never by their pair of ends: two edges may share both ends.
 /// Side i of triangle t runs from its corner i to its corner i+1.
 struct Surface {
-  Polygons polygons;                     ///< as given
-  int vertex_count = 0;                  ///< isolated vertices included
-  std::vector<Triple> triangles;         ///< #T vertices, counter-clockwise after repairs
-  std::vector<Triple> triangle_corners;  ///< #T indices into polygons.corner_vertices
-  std::vector<Triple> triangle_edges;    ///< #T edge of each side
-  std::vector<int> triangle_faces;       ///< #T polygon of each triangle
-  std::vector<Pair> edges;               ///< #E ends, lower vertex first: the polygons' edges, then the diagonals
-  int polygon_edge_count = 0;            ///< edges before this index are the artist's, the others diagonals
-  std::vector<double> edge_lengths;      ///< #E, in the unit of the positions
-  std::vector<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
+  Polygons polygons;               ///< as given
+  int vertex_count = 0;            ///< isolated vertices included
+  Array<Triple> triangles;         ///< #T vertices, counter-clockwise after repairs
+  Array<Triple> triangle_corners;  ///< #T indices into polygons.corner_vertices
+  Array<Triple> triangle_edges;    ///< #T edge of each side
+  Array<int> triangle_faces;       ///< #T polygon of each triangle
+  Array<Pair> edges;               ///< #E ends, lower vertex first: the polygons' edges, then the diagonals
+  int polygon_edge_count = 0;      ///< edges before this index are the artist's, the others diagonals
+  Array<double> edge_lengths;      ///< #E, in the unit of the positions
+  Array<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
   int component_count = 0;
-  std::vector<int> edge_face_count;  ///< #E number of triangles at each edge, 1 or 2
+  Array<int> edge_face_count;  ///< #E number of triangles at each edge, 1 or 2
   Repairs repairs;
 
   bool intrinsic() const { return polygons.vertices.empty(); }

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/chunks.h"
 #include "base/errors.h"
 #include "mesh/half_edges.h"
 #include "mesh/triangle_geometry.h"
@@ -11,31 +12,25 @@ namespace {
 
 using std::to_string;
 
-void record_isolated_vertices(Surface& surface) {
-  std::vector<char> used(surface.vertex_count, 0);
-  for (const auto v : surface.polygons.corner_vertices) used[v] = 1;
+void record_isolated_vertices(Surface& surface, const HalfEdges& mesh) {
   for (int v = 0; v < surface.vertex_count; ++v) {
-    if (!used[v]) surface.repairs.isolated_vertices.push_back(v);
+    if (!mesh.halfedge_handle(VertexHandle(v)).is_valid()) surface.repairs.isolated_vertices.push_back(v);
   }
 }
 
 void record_zero_areas(Surface& surface) {
+  const auto is_zero = [&surface](int t) {
+    const auto& [i, j, k] = surface.triangle_edges[t];
+    return is_degenerate(surface.edge_lengths[i], surface.edge_lengths[j], surface.edge_lengths[k]);
+  };
+  Workers workers;
+  const int triangles = static_cast<int>(surface.triangles.size());
+  const int count = sum_over_rows(workers, triangles, 0, [&](int t, int& sum) { sum += is_zero(t); });
+  if (count == triangles) throw InvalidMesh("all faces have zero area (face 0 is the first)");
   auto& zero = surface.repairs.zero_area_faces;
-  std::size_t count = 0;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto& e = surface.triangle_edges[t];
-    const auto& l = surface.edge_lengths;
-    if (!is_degenerate(l[e[0]], l[e[1]], l[e[2]])) continue;
-    ++count;
-    if (zero.empty() || zero.back() != surface.triangle_faces[t]) zero.push_back(surface.triangle_faces[t]);
-  }
-  if (count == surface.triangles.size()) throw InvalidMesh("all faces have zero area (face 0 is the first)");
-}
-
-void count_edge_faces(Surface& surface) {
-  surface.edge_face_count.assign(surface.edges.size(), 0);
-  for (const auto& sides : surface.triangle_edges) {
-    for (const int e : sides) ++surface.edge_face_count[e];
+  for (int t = 0; count > 0 && t < triangles; ++t) {
+    const int face = surface.triangle_faces[t];
+    if (is_zero(t) && (zero.empty() || zero.back() != face)) zero.push_back(face);
   }
 }
 
@@ -55,11 +50,11 @@ void record_orientation(Surface& surface, const Orientation& orientation) {
 }
 
 void finish_records(Surface& surface) {
-  count_edge_faces(surface);
-  record_isolated_vertices(surface);
   record_zero_areas(surface);
   Progress silent;
-  refuse_pinched_vertices(half_edges(surface, silent));
+  const HalfEdges mesh = half_edges(surface, silent);
+  refuse_pinched_vertices(mesh);
+  record_isolated_vertices(surface, mesh);
 }
 
 }  // namespace holomorph::mesh

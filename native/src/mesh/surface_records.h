@@ -9,7 +9,7 @@ namespace holomorph::mesh {
 /// Components and reversed faces. @throws TopologyError naming the edge at which no orientation fits
 void record_orientation(Surface& surface, const Orientation& orientation);
 
-/// Faces per edge, isolated vertices, zero areas; refuses non-manifold vertices and a surface without area.
+/// Isolated vertices, zero areas; refuses non-manifold vertices and a surface without area.
 /// @throws InvalidMesh
 void finish_records(Surface& surface);
 

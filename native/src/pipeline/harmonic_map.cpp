@@ -1,6 +1,7 @@
 #include "pipeline/harmonic_map.h"
 
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "base/errors.h"
@@ -86,7 +87,7 @@ Eigen::MatrixXd codifferential(const mesh::Surface& surface, const std::vector<d
   return B;
 }
 
-Eigen::VectorXd vertex_areas(const mesh::Surface& surface, const std::vector<double>& lengths) {
+Eigen::VectorXd vertex_areas(const mesh::Surface& surface, std::span<const double> lengths) {
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(surface.vertex_count);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& side = surface.triangle_edges[t];

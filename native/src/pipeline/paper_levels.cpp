@@ -128,7 +128,7 @@ PaperLevels paper_levels(const ProgressiveMesh& mesh, int splits, const mesh::Su
   levels.splits = splits;
   levels.place.resize(static_cast<std::size_t>(level.vertex_count));
   std::iota(levels.place.begin(), levels.place.end(), 0);
-  levels.triangles = level.triangles;
+  levels.triangles.assign(level.triangles.begin(), level.triangles.end());
   levels.base_classes = base_bases(mesh.base).classes;
   levels.bases = topology::carried_bases(mesh, splits, level);
   return levels;

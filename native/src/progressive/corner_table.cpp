@@ -2,7 +2,7 @@
 
 namespace holomorph::progressive {
 
-CornerTable::CornerTable(const std::vector<Triple>& triangles, const std::vector<Triple>& edges, std::size_t edge_count,
+CornerTable::CornerTable(std::span<const Triple> triangles, std::span<const Triple> edges, std::size_t edge_count,
                          std::size_t triangle_capacity) {
   sides_.reserve(4 * triangle_capacity);
   std::vector<int> met(edge_count, -1);

@@ -1,6 +1,7 @@
 // Flat half-edges of a triangle mesh: half a cache line per triangle, changed in place, never allocated while in use.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/page_allocator.h"
@@ -22,7 +23,7 @@ class CornerTable {
  public:
   /// @param triangles #T consistently oriented; `edges` #T edge of each side, numbers below `edge_count`
   /// @param triangle_capacity room for this many triangles in all
-  CornerTable(const std::vector<Triple>& triangles, const std::vector<Triple>& edges, std::size_t edge_count,
+  CornerTable(std::span<const Triple> triangles, std::span<const Triple> edges, std::size_t edge_count,
               std::size_t triangle_capacity);
 
   static int next(int side) { return side + 1 - 3 * ((side & 3) == 2); }

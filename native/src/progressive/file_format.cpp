@@ -38,8 +38,8 @@ class Writer {
   void number(T value) {
     numbers(&value, 1);
   }
-  template <class T, std::size_t N>
-  void rows(const std::vector<std::array<T, N>>& rows) {
+  template <class T, std::size_t N, class Allocator>
+  void rows(const std::vector<std::array<T, N>, Allocator>& rows) {
     if (!rows.empty()) numbers(rows.front().data(), rows.size() * N);
   }
   std::vector<char> take() { return std::move(bytes_); }

@@ -76,7 +76,7 @@ class Loops {
 
 }  // namespace
 
-int edge_between(const std::vector<mesh::Pair>& edges, int a, int b) {
+int edge_between(std::span<const mesh::Pair> edges, int a, int b) {
   const mesh::Pair ends{std::min(a, b), std::max(a, b)};
   const auto found = std::lower_bound(edges.begin(), edges.end(), ends);
   return found != edges.end() && *found == ends ? static_cast<int>(found - edges.begin()) : -1;

@@ -1,6 +1,7 @@
 // Integer classes and loops carried from the base of a progressive mesh to finer levels (paper § 9, step 5).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "progressive/progressive_mesh.h"
@@ -19,7 +20,7 @@ IntegerForms carry_classes(const mesh::Surface& base, const IntegerForms& forms,
                            const std::vector<int>& map);
 
 /// The edge between two vertices, -1 if there is none. @param edges lower end first, in lexicographic order
-int edge_between(const std::vector<mesh::Pair>& edges, int a, int b);
+int edge_between(std::span<const mesh::Pair> edges, int a, int b);
 
 /// #E of `surface` edge of `base` on which each of its edges comes to lie, as 2e or, against its direction, 2e + 1; -1
 /// where its ends come together. By it real forms are carried too.
