@@ -72,6 +72,31 @@ def test_is_refused_and_named(name):
     assert "\n" not in str(caught.value)
 
 
+LARGE = families.torus(300, 200)  # its edges are found in blocks of vertices, its polygons checked in batches
+
+
+def large_with(vertices, *extra):
+    return families.polygons(vertices, [*LARGE.corners.reshape(-1, 4).tolist(), *extra])
+
+
+def test_first_bad_element_of_a_large_mesh_is_named():
+    a, b = (int(v) for v in LARGE.corners[4 * 40_000 : 4 * 40_000 + 2])
+    one_more = np.concatenate([LARGE.vertices, [[5.0, 5, 5]]])
+    index = Surface(LARGE.vertices, LARGE.corners.reshape(-1, 4))._native.edges.tolist().index(sorted((a, b)))
+    cases = [
+        (large_with(one_more, [a, b, 60_000]), rf"edge {index} \(vertices {min(a, b)}, {max(a, b)}\) has 3 faces"),
+        (large_with(LARGE.vertices, LARGE.corners[-4:].tolist()), r"faces 59999 and 60000 "),
+        (
+            replace(LARGE, vertices=np.where(np.arange(60_000)[:, None] >= 50_000, np.nan, LARGE.vertices)),
+            r"vertex 50000 ",
+        ),
+        (replace(LARGE, corners=np.where(np.arange(240_000) >= 4 * 30_001, -1, LARGE.corners)), r"face 30001 .*-1"),
+    ]
+    for mesh, message in cases:
+        with pytest.raises(InvalidMesh, match=message):
+            Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
+
+
 @pytest.mark.parametrize("name", ["negative index", "not a number", "two corners", "pinched vertex", "duplicate face"])
 def test_lists_give_the_same_message(name):
     mesh, _ = INVALID[name]

@@ -1,6 +1,7 @@
 #include "topology/shortest_paths.h"
 
 #include <limits>
+#include <span>
 
 #include "topology/monotone_queue.h"
 
@@ -17,7 +18,7 @@ constexpr int kReportEvery = 4096;
 // Buckets of the queue to an edge of mean length.
 constexpr double kBucketsPerEdge = 8;
 
-double mean(const std::vector<double>& lengths) {
+double mean(std::span<const double> lengths) {
   double sum = 0;
   for (const double length : lengths) sum += length;
   return sum / static_cast<double>(lengths.size());
