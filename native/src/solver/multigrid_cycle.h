@@ -1,50 +1,10 @@
 // One V-cycle for K right-hand sides at once, in single precision: the preconditioner.
 #pragma once
 
+#include "solver/block_loops.h"
 #include "solver/multigrid_hierarchy.h"
 
 namespace holomorph::solver {
-
-/// The K values at one vertex, side by side: one or two registers.
-template <int K>
-using Block = Eigen::Array<float, K, 1>;
-template <int K>
-using Blocks = Array<Block<K>>;
-/// Sums over vertices, one per right-hand side.
-template <int K>
-using Sums = Eigen::Array<double, K, 1>;
-
-// Bodies of the loops below capture pointers by value: to the compiler a block that is written may be one of the
-// pointers of an array, which would be read again for every row.
-
-/// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j).
-template <int K, class Body>
-EIGEN_STRONG_INLINE void for_differences(const GroupedRows& A, int chunk, const Block<K>* x, const Body& body) {
-  A.for_rows(chunk, [x, body](int i, const GroupedRows::Entry* entries, int length) {
-    const Block<K> here = x[i];
-    Block<K> sum = Block<K>::Zero();
-    for (int e = 0; e < length; ++e) sum += entries[e].weight * (here - x[entries[e].column]);
-    body(i, sum);
-  });
-}
-
-/// body(i, (M x)_i) for the rows of a chunk of P or R.
-template <int K, class Body>
-EIGEN_STRONG_INLINE void for_products(const GroupedRows& M, int chunk, const Block<K>* x, const Body& body) {
-  M.for_rows(chunk, [x, body](int i, const GroupedRows::Entry* entries, int length) {
-    Block<K> sum = Block<K>::Zero();
-    for (int e = 0; e < length; ++e) sum += entries[e].weight * x[entries[e].column];
-    body(i, sum);
-  });
-}
-
-/// omega r, the smoother's step; 0 at a held vertex for the right-hand sides that hold it.
-/// @param natural 1 for the right-hand sides that do not, 0 for the others
-template <int K>
-EIGEN_STRONG_INLINE Block<K> jacobi_step(float omega, const Block<K>& r, const Block<K>& natural) {
-  if (omega >= 0) return omega * r;
-  return (-omega * natural) * r;
-}
 
 /// z = M r for the symmetric positive semi-definite M of one V-cycle: a Jacobi step on each level down (on the way down
 /// from zero, so that it is one product), the exact solution on the coarsest, a Jacobi step on each level up. On each
