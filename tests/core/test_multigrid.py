@@ -71,6 +71,21 @@ def needles(width):
     return families.uniform(points, mesh.corners.reshape(-1, 3))
 
 
+def in_runs(mesh, length):
+    """Vertices in the given order but for runs of `length`, which change places at random."""
+    runs = np.arange(0, len(mesh.vertices), length)
+    np.random.default_rng(1).shuffle(runs)
+    order = np.concatenate([np.arange(first, min(first + length, len(mesh.vertices))) for first in runs])
+    number = np.empty_like(order)
+    number[order] = np.arange(len(order))
+    return families.uniform(mesh.vertices[order], number[mesh.corners].reshape(-1, 3))
+
+
+def long_torus():
+    """So many vertices that the loops of an iteration go through several segments of them (wavefront.h)."""
+    return families.torus(800, 130, shape="triangles", jitter=0.3)
+
+
 LARGER = {
     "marching tetrahedra": lambda: double_torus(60),
     "high valence": lambda: high_valence(3000),
@@ -84,6 +99,10 @@ LARGER = {
         families.torus(100, 80, shape="triangles").corners.reshape(-1, 3),
     ),
     "genus 5": lambda: families.block_with_holes(5, refine=6, jitter=0.2),
+    # A chunk needs the chunks beside it; the ends of a segment, and the last segment the first, need each other.
+    "long torus": long_torus,
+    # A chunk needs chunks anywhere: all that follow are left for the end.
+    "long torus in runs": lambda: in_runs(long_torus(), 1000),
 }
 MESHES = [*LARGER, *CLOSED, *FLAT]
 
@@ -139,7 +158,7 @@ def test_the_direct_solver_takes_over():
 
 
 @pytest.mark.parametrize("threads", [1, 2, 4, 8])
-@pytest.mark.parametrize("name", ["marching tetrahedra", "stretched"])
+@pytest.mark.parametrize("name", ["marching tetrahedra", "stretched", "long torus", "long torus in runs"])
 def test_bits_do_not_depend_on_the_threads(name, threads):
     one, other = solved_by("multigrid", name), conformal_structure(surface(name), solver="multigrid", threads=threads)
     assert one.harmonic_forms.tobytes() == other.harmonic_forms.tobytes()
