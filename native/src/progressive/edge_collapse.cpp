@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/prefetch.h"
+
 namespace holomorph::progressive {
 namespace {
 
@@ -226,26 +228,22 @@ void EdgeCollapse::collapse(int i) {
 }
 
 void EdgeCollapse::prefetch_stars(const int* v, int count) const {
-#if defined(__GNUC__)
   constexpr int kSteps = 7;  // around most vertices
   int sides[64];
   count = std::min(count, 64);
-  for (int i = 0; i < count; ++i) __builtin_prefetch(&vertices_[static_cast<std::size_t>(v[i])]);
+  for (int i = 0; i < count; ++i) prefetch(&vertices_[static_cast<std::size_t>(v[i])]);
   for (int i = 0; i < count; ++i) {
     sides[i] = vertices_[static_cast<std::size_t>(v[i])].side;
-    __builtin_prefetch(&table_[sides[i]]);
+    prefetch(&table_[sides[i]]);
   }
   for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < count; ++i) {
       if (sides[i] < 0) continue;
-      __builtin_prefetch(&vertices_[static_cast<std::size_t>(table_.to(sides[i]))]);
+      prefetch(&vertices_[static_cast<std::size_t>(table_.to(sides[i]))]);
       sides[i] = table_.turn_left(sides[i]);
-      if (sides[i] >= 0) __builtin_prefetch(&table_[sides[i]]);
+      if (sides[i] >= 0) prefetch(&table_[sides[i]]);
     }
   }
-#else
-  (void)v, (void)count;
-#endif
 }
 
 }  // namespace holomorph::progressive

@@ -1,6 +1,7 @@
 // A sparse matrix as the cycle reads it: chunk by chunk, rows of equal length together.
 #pragma once
 
+#include "base/prefetch.h"
 #include "solver/sparse_rows.h"
 #include "solver/wavefront.h"
 
@@ -28,7 +29,7 @@ class GroupedRows {
       const Entry* entries = entry_.data() + group.entries;
       const int* const row = row_.data();
       for (int r = group.begin; r < group.end; ++r, entries += group.length) {
-        __builtin_prefetch(entries + kAhead);
+        prefetch(entries + kAhead);
         body(row[r], entries, group.length);
       }
     }
@@ -36,7 +37,7 @@ class GroupedRows {
 
  private:
   // Entries, 4 KB: asked for before the processor, which does not look beyond a page, would do so itself. A fifth of
-  // the time of a solution; it may lie beyond the end, as asking never fails.
+  // the time of a solution; it may lie beyond the end.
   static constexpr int kAhead = 512;
   struct Group {
     int length, begin, end, entries;  // rows begin .. end-1 of row_, the first one's entries
