@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // solvers MESH METHOD RHS TOLERANCE: one line of JSON about solving L x = b, L the cotan Laplacian of a closed surface,
 // for RHS random right-hand sides. METHOD is one of
-//   multigrid, direct          the library's own, with half-edges, Delaunay flips and assembly
+//   multigrid, direct          the library's own, with half-edges, Delaunay flips and assembly; the library itself asks
+//                              multigrid for 1e-12
 //   cholmod-amd, cholmod-metis supernodal with OpenBLAS on all cores, one vertex pinned
 //   ldlt                       Eigen's SimplicialLDLT, one vertex pinned
 //   cg, jacobi-cg              conjugate gradients, all right-hand sides at once, on all cores
@@ -61,8 +62,8 @@ double largest_residual(const Matrix& L, const Eigen::MatrixXd& X, const Eigen::
   return ((L * X - B).colwise().norm().array() / B.colwise().norm().array()).maxCoeff();
 }
 
-Result library(const mesh::Surface& surface, solver::Method method, int count, Matrix& L, Eigen::MatrixXd& B,
-               Eigen::MatrixXd& X) {
+Result library(const mesh::Surface& surface, solver::Method method, int count, double tolerance, Matrix& L,
+               Eigen::MatrixXd& B, Eigen::MatrixXd& X) {
   Result result;
   Progress silent;
   const double start = now();
@@ -71,7 +72,7 @@ Result library(const mesh::Surface& surface, solver::Method method, int count, M
   B = right_hand_sides(L.rows(), count);
   Matrix given = L;
   const double begin = now();
-  const auto solver = solver::make_solver(method, std::move(given), {}, silent);
+  const auto solver = solver::make_solver(method, std::move(given), {}, silent, tolerance);
   const double ready = now();
   X = solver->solve(B, solver::Condition::natural, silent);
   result.solve = now() - ready;
@@ -215,8 +216,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: solvers MESH METHOD RHS TOLERANCE\n");
     return 2;
   }
-  openblas_set_num_threads(static_cast<int>(std::thread::hardware_concurrency()));
   const std::string method = argv[2];
+  if (method.rfind("cholmod", 0) == 0) openblas_set_num_threads(static_cast<int>(std::thread::hardware_concurrency()));
   const int count = std::stoi(argv[3]);
   const auto surface = mesh::make_surface(mesh::read(argv[1]));
   const double before = peak_bytes();
@@ -224,7 +225,8 @@ int main(int argc, char** argv) {
   Eigen::MatrixXd B, X;
   Result result;
   if (method == "multigrid" || method == "direct") {
-    result = library(surface, method == "direct" ? solver::Method::direct : solver::Method::multigrid, count, L, B, X);
+    const auto own = method == "direct" ? solver::Method::direct : solver::Method::multigrid;
+    result = library(surface, own, count, std::stod(argv[4]), L, B, X);
   } else {
     L = assembled(surface, false);
     B = right_hand_sides(L.rows(), count);

@@ -8,9 +8,6 @@ namespace {
 
 // What single precision is asked for at a time: less takes more corrections, more gains nothing.
 constexpr double kInnerResidual = 1e-4;
-// It goes on to this residual while that helps; the promise is kResidual. At a single vertex of a fine mesh the form
-// may be a thousand times less harmonic than the residual of the whole right-hand side says.
-constexpr double kGoal = 1e-12;
 // The last time it goes a little below the goal, as the residual that it carries along drifts from the true one.
 constexpr double kSafety = 0.7;
 constexpr int kMostInner = 100, kMostIterations = 300;
@@ -36,10 +33,11 @@ Sums<K> row(const std::array<const double*, K>& columns, int i) {
 }  // namespace
 
 template <int K>
-BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, Workers& workers)
+BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, double goal, Workers& workers)
     : L_(L),
       level_(hierarchy.levels[0]),
       n_(level_.rows),
+      goal_(goal),
       workers_(workers),
       cycle_(hierarchy, workers),
       X_(n_),
@@ -62,7 +60,7 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
   iterations_ = 0;
   update_residual(b);
   double before = reached_;
-  for (int stalls = 0; !(reached_ <= kGoal); before = reached_) {
+  for (int stalls = 0; !(reached_ <= goal_); before = reached_) {
     report(reached_);
     conjugate_gradients(report);
     update_residual(b);
@@ -126,7 +124,7 @@ void BlockSolve<K>::update_residual(const Columns& b) {
 
 template <int K>
 void BlockSolve<K>::conjugate_gradients(const Report& report) {
-  const Sums<K> goal = quotient<K>((kInnerResidual * norm_r_).max(kSafety * kGoal * norm_b_), scale_);
+  const Sums<K> goal = quotient<K>((kInnerResidual * norm_r_).max(kSafety * goal_ * norm_b_), scale_);
   Sums<K> norm = quotient<K>(norm_r_, scale_);
   Sums<K> rz = Sums<K>::Zero(), zAz = rz, pAp = rz;
   cycle_.down([](int) {});  // r and u are there

@@ -20,7 +20,8 @@ class BlockSolve {
   /// Called at every iteration with the largest relative residual; may throw.
   using Report = std::function<void(double residual)>;
 
-  BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, Workers& workers);
+  /// @param goal relative residual to go on to while that helps
+  BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, double goal, Workers& workers);
 
   /// Solves for the columns first .. first + width - 1 of B, width <= K, and writes the same columns of X.
   /// @param conditions of all columns
@@ -46,6 +47,7 @@ class BlockSolve {
   const Laplacian& L_;
   const CycleLevel& level_;
   const int n_;
+  const double goal_;
   Workers& workers_;
   Cycle<K> cycle_;
   Array<Sums<K>> X_;

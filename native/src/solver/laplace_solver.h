@@ -18,6 +18,10 @@ using Laplacian = Eigen::SparseMatrix<double>;
 /// The direct one also takes what rounding allows where weights are large, |L x - b| <= 1e-14 ||L| |x| + |b||.
 inline constexpr double kResidual = 1e-10;
 
+/// What multigrid goes on to while that helps. At a single vertex of a fine mesh the form may be a thousand times less
+/// harmonic than the residual of the whole right-hand side says.
+inline constexpr double kGoal = 1e-12;
+
 /// Which problem is solved. A solver is made for one set of vertices that can be held at 0, mostly those of the
 /// boundary.
 enum class Condition {
@@ -66,10 +70,12 @@ std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int
 /// inside a correction in double precision: linear time and memory. Takes weights of any signs, fewer iterations
 /// without negative ones; where it does not converge, the direct solver takes its place, and the remark says so.
 /// The bits of the result do not depend on the number of threads.
+/// @param goal relative residual to go on to while that helps, at most kResidual
 /// @throws SolverError if the direct solver fails as well; Cancelled
 /// Cost: about 1 us per vertex and 2 us per vertex and 4 right-hand sides on one thread; 0.35 KB per vertex
 /// for 4 right-hand sides.
-std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, Progress& progress);
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, double goal,
+                                                     Progress& progress);
 
 enum class Method { direct, multigrid };
 
@@ -86,6 +92,8 @@ Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Inde
 double factor_bytes(double unknowns);
 
 /// @param held vertices in any order; out of range: our bug
-std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress);
+/// @param goal of multigrid; the direct solver has none
+std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress,
+                                           double goal = kGoal);
 
 }  // namespace holomorph::solver

@@ -9,7 +9,8 @@ namespace {
 
 class MultigridSolver final : public LaplaceSolver {
  public:
-  MultigridSolver(Laplacian&& L, std::vector<int> held, Progress& progress) : held_(std::move(held)) {
+  MultigridSolver(Laplacian&& L, std::vector<int> held, double goal, Progress& progress)
+      : held_(std::move(held)), goal_(goal) {
     L_.swap(L);
     L_.makeCompressed();
     renumber(progress);
@@ -99,7 +100,7 @@ class MultigridSolver final : public LaplaceSolver {
   void solve_blocks(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index begin,
                     Eigen::Index end, Eigen::MatrixXd& X, Reached& reached, Progress& progress) {
     if (begin == end) return;
-    BlockSolve<K> block(L_, hierarchy_, workers_);
+    BlockSolve<K> block(L_, hierarchy_, goal_, workers_);
     for (Eigen::Index first = begin; first < end; first += K) {
       const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
       block.solve(B, conditions, first, width, X, [&](double residual) {
@@ -115,6 +116,7 @@ class MultigridSolver final : public LaplaceSolver {
   Laplacian L_;             // moved on to the direct solver, where that takes over
   std::vector<int> order_;  // the given number of each of the solver's, empty where these are the same
   std::vector<int> held_;   // in the solver's order
+  const double goal_;
   Workers workers_;
   Hierarchy hierarchy_;
   std::unique_ptr<LaplaceSolver> direct_;
@@ -123,8 +125,9 @@ class MultigridSolver final : public LaplaceSolver {
 
 }  // namespace
 
-std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, Progress& progress) {
-  return std::make_unique<MultigridSolver>(std::move(L), std::move(held), progress);
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, double goal,
+                                                     Progress& progress) {
+  return std::make_unique<MultigridSolver>(std::move(L), std::move(held), goal, progress);
 }
 
 }  // namespace holomorph::solver
