@@ -87,7 +87,7 @@ py::array carry_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32
   base.rows.resize(static_cast<std::size_t>(given.shape(1)));
   for (int i = 0; i < base.form_count; ++i) {
     for (py::ssize_t e = 0; e < given.shape(1); ++e) {
-      if (given(i, e) != 0) base.rows[static_cast<std::size_t>(e)].emplace_back(i, given(i, e));
+      if (given(i, e) != 0) base.rows.edit(static_cast<std::size_t>(e)).emplace_back(i, given(i, e));
     }
   }
   const topology::IntegerForms carried = topology::carry_classes(mesh.base, base, surface, map);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/chunks.h"
 #include "forms/harmonic_basis.h"
 
 namespace holomorph::forms {
@@ -26,41 +27,53 @@ int block_count(std::size_t elements) { return static_cast<int>((elements + kBlo
 // Runs `work(slot, begin, end)` on all blocks, batch by batch, and `collect(slot)` after each in order.
 template <class Work, class Collect>
 void for_blocks(std::size_t elements, Progress& progress, double from, double to, Work work, Collect collect) {
+  Workers workers;
   const int blocks = block_count(elements);
   for (int first = 0; first < blocks; first += kBatch) {
-    const int last = std::min(first + kBatch, blocks);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int b = first; b < last; ++b) {
-      work(b - first, b * kBlock,
-           static_cast<int>(std::min<std::size_t>(elements, static_cast<std::size_t>(b + 1) * kBlock)));
-    }
-    for (int b = first; b < last; ++b) collect(b - first);
-    progress.report(from + (to - from) * last / blocks);
+    const int count = std::min(kBatch, blocks - first);
+    run_throwing(workers, count, [&](int slot) {
+      const std::size_t begin = static_cast<std::size_t>(first + slot) * kBlock;
+      work(slot, static_cast<int>(begin), static_cast<int>(std::min(elements, begin + kBlock)));
+    });
+    for (int slot = 0; slot < count; ++slot) collect(slot);
+    progress.report(from + (to - from) * (first + count) / blocks);
   }
 }
 
-// Value of every form along h.
-void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h, double factor,
-               Eigen::RowVectorXd& sum) {
+template <int N>
+using Row = Eigen::Matrix<double, 1, N>;
+
+// The functions of all forms at one vertex.
+template <int N>
+Eigen::Map<const Row<N>> at_vertex(const ClosedForms& forms, int v) {
+  const auto n = forms.functions.cols();
+  return {forms.functions.data() + v * n, n};
+}
+
+// Value of every form along h. N is their number, where it is known in advance: two of them are several times faster.
+template <int N>
+void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h, double factor, Row<N>& sum) {
   const int head = to_vertex(mesh, h), tail = mesh::from_vertex(mesh, h);
-  sum += factor * (forms.functions.row(head) - forms.functions.row(tail));
+  sum += factor * (at_vertex<N>(forms, head) - at_vertex<N>(forms, tail));
   const int first = forms.first, count = static_cast<int>(sum.size());
   for (const auto& [i, value] : topology::forms_between(forms.classes.rows[edge_of(h)], first, first + count))
     sum[i - first] += factor * sign(h) * value;
 }
 
-using Maxima = std::array<Eigen::RowVectorXd, 2>;  // of |sum| and of the scale it is measured by, per form
+template <int N>
+using Maxima = std::array<Row<N>, 2>;  // of |sum| and of the scale it is measured by, per form
 
 // Faces: |sum around| against the largest value.
-void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end, Maxima& maxima) {
+template <int N>
+void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
-  Eigen::RowVectorXd sum(n), value(n);
+  Row<N> sum(n), value(n);
   for (int f = begin; f < end; ++f) {
     HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(f));
     sum.setZero();
     for (int i = 0; i < 3; ++i, h = next(mesh, h)) {
       value.setZero();
-      add_along(mesh, forms, h, 1.0, value);
+      add_along<N>(mesh, forms, h, 1.0, value);
       sum += value;
       maxima[1] = maxima[1].cwiseMax(value.cwiseAbs());
     }
@@ -69,10 +82,11 @@ void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, i
 }
 
 // Vertices: |d* h| = |sum of k h over the half-edges that leave| against the sum of |k h|.
+template <int N>
 void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
-                      const std::vector<char>& is_held, int begin, int end, Maxima& maxima) {
+                      const std::vector<char>& is_held, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
-  Eigen::RowVectorXd sum(n), size(n), value(n);
+  Row<N> sum(n), size(n), value(n);
   for (int v = begin; v < end; ++v) {
     if (is_held[v]) continue;
     sum.setZero();
@@ -81,7 +95,7 @@ void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights,
     HalfedgeHandle h = start;
     do {
       value.setZero();
-      add_along(mesh, forms, h, weights[edge_of(h)], value);
+      add_along<N>(mesh, forms, h, weights[edge_of(h)], value);
       sum += value;
       size += value.cwiseAbs();
       h = next(mesh, opposite(h));
@@ -91,12 +105,12 @@ void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights,
   }
 }
 
-template <class Measure>
+template <int N, class Measure>
 double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& progress, double from, double to,
                         Measure measure) {
-  const Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(forms);
-  std::array<Maxima, kBatch> slots;
-  Maxima total{zero, zero};
+  const Row<N> zero = Row<N>::Zero(forms);
+  std::array<Maxima<N>, kBatch> slots;
+  Maxima<N> total{zero, zero};
   for_blocks(
       elements, progress, from, to,
       [&](int slot, int begin, int end) {
@@ -109,11 +123,47 @@ double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& prog
   return (total[0].array() / total[1].array()).maxCoeff();
 }
 
+// For few forms; many are better multiplied block by block.
+template <int N>
+Eigen::MatrixXd gram_matrix_of(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+                               Progress& progress) {
+  constexpr int n = N;
+  using Square = Eigen::Matrix<double, N, N>;
+  std::array<Square, kBatch> slots;
+  Square G = Square::Zero(n, n);
+  for_blocks(
+      weights.size(), progress, 0.0, 1.0,
+      [&](int slot, int begin, int end) {
+        slots[slot] = Square::Zero(n, n);
+        Row<N> value(n);
+        for (int e = begin; e < end; ++e) {
+          value.setZero();
+          add_along<N>(mesh, forms, HalfedgeHandle(2 * e), 1.0, value);
+          slots[slot].noalias() += value.transpose() * (weights[e] * value);
+        }
+      },
+      [&](int slot) { G += slots[slot]; });
+  return (G + G.transpose()) / 2;
+}
+
+template <int N>
+Residuals residuals_of(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+                       Progress& progress, const std::vector<char>& is_held) {
+  const auto n = forms.functions.cols();
+  const auto faces = [&](int begin, int end, Maxima<N>& maxima) { measure_faces<N>(mesh, forms, begin, end, maxima); };
+  const auto vertices = [&](int begin, int end, Maxima<N>& maxima) {
+    measure_vertices<N>(mesh, weights, forms, is_held, begin, end, maxima);
+  };
+  return {relative_maximum<N>(mesh.n_faces(), n, progress, 0.0, 0.5, faces),
+          relative_maximum<N>(mesh.n_vertices(), n, progress, 0.5, 1.0, vertices)};
+}
+
 }  // namespace
 
 Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
                             Progress& progress) {
   const auto n = forms.functions.cols();
+  if (n == 2) return gram_matrix_of<2>(mesh, weights, forms, progress);
   std::array<Eigen::MatrixXd, kBatch> slots;
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
   for_blocks(
@@ -152,8 +202,8 @@ Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Ei
         slots[slot] = Eigen::RowVectorXd::Zero(n);
         for (int f = begin; f < end; ++f) {
           const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
-          add_along(mesh, forms, h0, 0.5 * sign(h1) * w[edge_of(h1)], slots[slot]);
-          add_along(mesh, forms, h1, -0.5 * sign(h0) * w[edge_of(h0)], slots[slot]);
+          add_along<Eigen::Dynamic>(mesh, forms, h0, 0.5 * sign(h1) * w[edge_of(h1)], slots[slot]);
+          add_along<Eigen::Dynamic>(mesh, forms, h1, -0.5 * sign(h0) * w[edge_of(h0)], slots[slot]);
         }
       },
       [&](int slot) { sum += slots[slot]; });
@@ -162,17 +212,10 @@ Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Ei
 
 Residuals residuals(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
                     Progress& progress, const std::vector<int>& held) {
-  const auto n = forms.functions.cols();
   std::vector<char> is_held(mesh.n_vertices(), 0);
   for (const int v : held) is_held[v] = 1;
-  Residuals result;
-  result.closedness = relative_maximum(mesh.n_faces(), n, progress, 0.0, 0.5, [&](int begin, int end, Maxima& maxima) {
-    measure_faces(mesh, forms, begin, end, maxima);
-  });
-  result.harmonicity = relative_maximum(
-      mesh.n_vertices(), n, progress, 0.5, 1.0,
-      [&](int begin, int end, Maxima& maxima) { measure_vertices(mesh, weights, forms, is_held, begin, end, maxima); });
-  return result;
+  if (forms.functions.cols() == 2) return residuals_of<2>(mesh, weights, forms, progress, is_held);
+  return residuals_of<Eigen::Dynamic>(mesh, weights, forms, progress, is_held);
 }
 
 }  // namespace holomorph::forms

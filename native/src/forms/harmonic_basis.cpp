@@ -23,7 +23,7 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>
 Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
                                 const topology::IntegerForms& classes, int first, int count) {
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), count);
-  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
+  for (const int e : classes.rows.edges()) {
     const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
     for (const auto& [i, value] : forms_between(classes.rows[e], first, first + count)) {
       B(head, i - first) -= weights[e] * value;
@@ -37,8 +37,7 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>
                                 const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations) {
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), combinations.cols());
   Eigen::RowVectorXd flux(combinations.cols());
-  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
-    if (classes.rows[e].empty()) continue;
+  for (const int e : classes.rows.edges()) {
     flux.setZero();
     for (const auto& [i, value] : classes.rows[e]) flux += weights[e] * value * combinations.row(i);
     B.row(to_vertex(mesh, HalfedgeHandle(2 * e))) -= flux;
@@ -78,8 +77,7 @@ Eigen::VectorXd combination(const HalfEdges& mesh, const ClosedForms& forms, con
 
 Eigen::MatrixXd class_products(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms) {
   RowMajorMatrix products = RowMajorMatrix::Zero(forms.classes.form_count, forms.functions.cols());
-  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
-    if (forms.classes.rows[e].empty()) continue;
+  for (const int e : forms.classes.rows.edges()) {
     const Eigen::RowVectorXd flux = weights[e] * edge_values(mesh, forms, e, e + 1).row(0);
     for (const auto& [i, value] : forms.classes.rows[e]) products.row(i) += value * flux;
   }

@@ -23,8 +23,8 @@ IntegerForms extended(const mesh::HalfEdges& half_edges, const DoubleCover& cove
     if (!half_edges.face_handle(h).is_valid()) continue;
     const HalfedgeHandle a = cover.first[i], b = cover.second[i];
     const auto& row = forms.rows[edge_of(h)];
-    both.rows[edge_of(b)] = topology::add(kZero, row, parity * mesh::sign(h) * mesh::sign(b));
-    both.rows[edge_of(a)] = topology::add(kZero, row, mesh::sign(h) * mesh::sign(a));
+    both.rows.set(edge_of(b), topology::add(kZero, row, parity * mesh::sign(h) * mesh::sign(b)));
+    both.rows.set(edge_of(a), topology::add(kZero, row, mesh::sign(h) * mesh::sign(a)));
   }
   return both;
 }

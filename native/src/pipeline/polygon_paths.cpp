@@ -71,7 +71,7 @@ void values_of_diagonals(const Surface& surface, const Surface& turned, topology
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       sum = topology::add(sum, forms.rows[edge(path[i], path[i + 1])], path[i] < path[i + 1] ? 1 : -1);
     }
-    forms.rows[e] = std::move(sum);
+    forms.rows.set(e, std::move(sum));
   }
 }
 

@@ -97,14 +97,11 @@ IntegerForms carry_classes(const mesh::Surface& base, const IntegerForms& forms,
                            const std::vector<int>& map) {
   IntegerForms carried;
   carried.form_count = forms.form_count;
-  carried.rows.reserve(surface.edges.size());
-  for (const int h : base_half_edges(base, surface, map)) {
-    carried.rows.emplace_back();
-    if (h < 0) continue;
-    carried.rows.back() = forms.rows[h / 2];
-    if (h & 1) {
-      for (auto& [form, value] : carried.rows.back()) value = -value;
-    }
+  carried.rows.resize(surface.edges.size());
+  const std::vector<int> half_edges = base_half_edges(base, surface, map);
+  for (std::size_t e = 0; e < half_edges.size(); ++e) {
+    const int h = half_edges[e];
+    if (h >= 0) carried.rows.set(e, add({}, forms.rows[h / 2], h & 1 ? -1 : 1));
   }
   return carried;
 }

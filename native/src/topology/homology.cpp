@@ -14,7 +14,7 @@ using mesh::sign;
 using mesh::to_vertex;
 
 void add_crossing(HalfedgeHandle leaving, int form, int direction, IntegerForms& forms) {
-  forms.rows[edge_of(leaving)].emplace_back(form, direction * sign(leaving));
+  forms.rows.edit(edge_of(leaving)).emplace_back(form, direction * sign(leaving));
 }
 
 // The dual path inside D from one face to another.
@@ -85,7 +85,7 @@ void add_loop_indicators(const HalfEdges& mesh, const mesh::BoundaryLoops& bound
     const HalfedgeHandle h(2 * e);
     const int head = boundary.loop_of_vertex[to_vertex(mesh, h)], tail = boundary.loop_of_vertex[from_vertex(mesh, h)];
     if (head == tail) continue;
-    auto& row = forms.rows[e];
+    auto& row = forms.rows.edit(e);
     if (head > 0) row.emplace_back(first + head, 1);
     if (tail > 0) row.emplace_back(first + tail, -1);
     if (head > 0 && tail > 0 && tail < head) std::swap(row.back(), row[row.size() - 2]);
@@ -110,8 +110,17 @@ IntegerMatrix pairing(const HalfEdges& mesh, const IntegerForms& a, const Intege
 IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Progress& progress) {
   const int n = forms.form_count;
   IntegerMatrix twice = IntegerMatrix::Zero(n, n);
-  for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
-    progress.step(f, mesh.n_faces(), 0.0, 0.5);
+  std::vector<int> faces;  // where some form is not 0
+  for (const int e : forms.rows.edges()) {
+    for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
+      if (!mesh.is_boundary(h)) faces.push_back(face_of(mesh, h));
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    progress.step(i, faces.size(), 0.0, 0.5);
+    const int f = faces[i];
     const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
     const int factor = sign(h0) * sign(h1);
     for (const auto& [i, x] : forms.rows[edge_of(h0)]) {

@@ -27,8 +27,8 @@ IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, in
 IntegerForms beside(const IntegerForms& a, const IntegerForms& b) {
   IntegerForms both = a;
   both.form_count += b.form_count;
-  for (std::size_t e = 0; e < b.rows.size(); ++e) {
-    for (const auto& [form, value] : b.rows[e]) both.rows[e].emplace_back(a.form_count + form, value);
+  for (const int e : b.rows.edges()) {
+    for (const auto& [form, value] : b.rows[e]) both.rows.edit(e).emplace_back(a.form_count + form, value);
   }
   return both;
 }
@@ -37,10 +37,9 @@ IntegerForms first_forms(const IntegerForms& forms, int count, int form_count) {
   IntegerForms first;
   first.form_count = form_count;
   first.rows.resize(forms.rows.size());
-  for (std::size_t e = 0; e < forms.rows.size(); ++e) {
-    const auto& row = forms.rows[e];
-    const auto end = std::find_if(row.begin(), row.end(), [count](const auto& entry) { return entry.first >= count; });
-    first.rows[e].assign(row.begin(), end);
+  for (const int e : forms.rows.edges()) {
+    const auto part = forms_between(forms.rows[e], 0, count);
+    first.rows.set(e, {part.begin(), part.end()});
   }
   return first;
 }
@@ -50,11 +49,8 @@ void carry_through(const std::vector<mesh::Flip>& flips, IntegerForms& forms) {
   for (const auto& [edge, a, b] : flips) {
     const auto& row_a = forms.rows[mesh::edge_of(a)];
     const auto& row_b = forms.rows[mesh::edge_of(b)];
-    if (row_a.empty() && row_b.empty()) {
-      forms.rows[edge].clear();
-    } else {
-      forms.rows[edge] = add(add(kZero, row_a, -mesh::sign(a)), row_b, -mesh::sign(b));
-    }
+    forms.rows.set(
+        edge, row_a.empty() && row_b.empty() ? kZero : add(add(kZero, row_a, -mesh::sign(a)), row_b, -mesh::sign(b)));
   }
 }
 

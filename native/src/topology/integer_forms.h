@@ -9,11 +9,46 @@
 
 namespace holomorph::topology {
 
-/// Row e lists (form, value) with value != 0, ascending by form, for the direction of half-edge 2e.
-struct IntegerForms {
+/// For each edge a list of (form, value), value != 0, ascending by form. Most are empty; these take one number each.
+class EdgeRows {
+ public:
   using Row = std::vector<std::pair<int, int>>;
+
+  std::size_t size() const { return place_.size(); }
+  void resize(std::size_t edges) { place_.resize(edges, 0); }
+
+  const Row& operator[](std::size_t edge) const { return rows_[place_[edge]]; }
+  /// The row, to be changed. References to rows are no longer valid after the first call for an edge.
+  Row& edit(std::size_t edge) {
+    if (place_[edge] == 0) {
+      place_[edge] = static_cast<int>(rows_.size());
+      rows_.emplace_back();
+      edges_.push_back(static_cast<int>(edge));
+    }
+    return rows_[place_[edge]];
+  }
+  void set(std::size_t edge, Row row) {
+    if (place_[edge] != 0 || !row.empty()) edit(edge) = std::move(row);
+  }
+
+  /// The edges whose rows are not empty, and perhaps some others; ascending.
+  std::vector<int> edges() const {
+    std::vector<int> ascending = edges_;
+    std::sort(ascending.begin(), ascending.end());
+    return ascending;
+  }
+
+ private:
+  std::vector<int> place_;    // #E of each edge's row; 0 is an empty one
+  std::vector<Row> rows_{1};  // that one, then those of `edges_`
+  std::vector<int> edges_;
+};
+
+/// Row e is meant for the direction of half-edge 2e.
+struct IntegerForms {
+  using Row = EdgeRows::Row;
   int form_count = 0;
-  std::vector<Row> rows;  ///< #E
+  EdgeRows rows;  ///< #E
 };
 
 /// The part of a row that belongs to the forms begin .. end - 1, for a loop over its entries.
@@ -23,6 +58,7 @@ struct RowPart {
   auto end() const { return last; }
 };
 inline RowPart forms_between(const IntegerForms::Row& row, int begin, int end) {
+  if (row.empty()) return {row.end(), row.end()};
   const auto before = [](const std::pair<int, int>& entry, int form) { return entry.first < form; };
   return {std::lower_bound(row.begin(), row.end(), begin, before),
           std::lower_bound(row.begin(), row.end(), end, before)};

@@ -20,10 +20,10 @@ IntegerForms puncture_classes(const HalfEdges& mesh, const FundamentalDomain& do
       const bool leaving = domain.face_rank[here] > domain.face_rank[there];
       int& face = leaving ? here : there;
       const HalfedgeHandle h = domain.to_parent_face[face];
-      forms.rows[edge_of(h)].emplace_back(i, leaving ? sign(h) : -sign(h));
+      forms.rows.edit(edge_of(h)).emplace_back(i, leaving ? sign(h) : -sign(h));
       face = face_of(mesh, opposite(h));
     }
-    if (!closed) forms.rows[edge_of(out)].emplace_back(i, sign(out));
+    if (!closed) forms.rows.edit(edge_of(out)).emplace_back(i, sign(out));
   }
   return forms;
 }
