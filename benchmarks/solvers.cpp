@@ -67,7 +67,7 @@ Result library(const mesh::Surface& surface, solver::Method method, int count, d
   Result result;
   Progress silent;
   const double start = now();
-  L = assembled(surface, true);
+  assembled(surface, true).swap(L);  // as the library hands it over: Eigen 3.4 copies where a matrix is moved
   result.assembly = now() - start;
   B = right_hand_sides(L.rows(), count);
   Matrix given = L;
@@ -228,7 +228,7 @@ int main(int argc, char** argv) {
     const auto own = method == "direct" ? solver::Method::direct : solver::Method::multigrid;
     result = library(surface, own, count, std::stod(argv[4]), L, B, X);
   } else {
-    L = assembled(surface, false);
+    assembled(surface, false).swap(L);
     B = right_hand_sides(L.rows(), count);
     if (method.rfind("matrix=", 0) == 0) {
       write_matrix(method.substr(7), L, B);
