@@ -113,6 +113,15 @@ def test_cancelling_at_any_call(call):
     assert len(calls) == call  # after the answer nothing more is asked
 
 
+@pytest.mark.parametrize("last", ["intrinsic Delaunay", "Laplacian", "solver"])
+def test_cancelling_while_the_homology_is_computed_beside(last):
+    with pytest.raises(Cancelled):
+        conformal_structure(large_torus(), threads=2, progress=lambda fraction, stage: stage != last)
+    one, two = (conformal_structure(large_torus(), threads=threads) for threads in (1, 2))
+    assert one.period_matrix.tobytes() == two.period_matrix.tobytes()
+    assert one.uv([1]).tobytes() == two.uv([1]).tobytes()
+
+
 def test_cancelling_the_forms_for_the_uv_map_leaves_the_structure_usable():
     structure = conformal_structure(large_torus())
     with pytest.raises(Cancelled):

@@ -1,5 +1,6 @@
 #include "pipeline/conformal_structure.h"
 
+#include "base/beside.h"
 #include "base/errors.h"
 #include "mesh/components.h"
 #include "pipeline/paper_forms.h"
@@ -31,18 +32,32 @@ void keep(const mesh::IntrinsicTriangulation& intrinsic, const std::vector<doubl
 
 // A few forms at a time, of which nothing is left but what is asked of them.
 void measure(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& intrinsic,
-             const std::vector<double>& weights, solver::Laplacian&& laplacian, topology::IntegerForms&& classes,
+             const std::vector<double>& weights, solver::LaplaceSolver& solver, topology::IntegerForms&& classes,
              ConformalStructure& result, Progress& progress) {
   forms::ClosedForms on_intrinsic{std::move(classes), {}};
-  auto streamed =
-      streamed_forms(surface, result.half_edges, result.homology_basis, result.harmonic, intrinsic.half_edges, weights,
-                     std::move(laplacian), on_intrinsic, result.memory, progress);
+  auto streamed = streamed_forms(surface, result.half_edges, result.homology_basis, result.harmonic,
+                                 intrinsic.half_edges, weights, solver, on_intrinsic, result.memory, progress);
   result.solver = std::move(streamed.solver);
   result.gram_matrix = std::move(streamed.gram_matrix);
   result.asymmetry = streamed.asymmetry;
   result.residuals = streamed.residuals;
   result.period_residual = streamed.period_residual;
   result.samples = std::move(streamed.samples);
+}
+
+// Loops, dual classes, canonical basis and the cut (paper § 4, 5): nothing here needs the intrinsic triangulation or
+// the solver, nor these the topology, until forms are solved for. @return the classes
+topology::IntegerForms find_topology(const mesh::Surface& surface, std::optional<topology::DualBases> given,
+                                     ConformalStructure& result, Progress& progress) {
+  progress.part(0, 0.8);
+  const auto domain = topology::fundamental_domain(surface, result.half_edges, progress);
+  result.homology_basis = given ? std::move(given->loops) : topology::homology_basis(result.half_edges, domain);
+  result.seams = topology::cut_graph(result.half_edges, domain);
+  progress.part(0.8, 1);
+  auto classes = given ? std::move(given->classes) : topology::cohomology_basis(result.half_edges, domain);
+  result.canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, progress));
+  result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes, progress);
+  return classes;
 }
 
 }  // namespace
@@ -65,36 +80,38 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   }
 
   progress.stage("homology", paper ? 0.1 : 0.05, 0.2);
-  const auto domain = topology::fundamental_domain(surface, result.half_edges, progress);
-  result.homology_basis = given ? std::move(given->loops) : topology::homology_basis(result.half_edges, domain);
-  result.seams = topology::cut_graph(result.half_edges, domain);
+  topology::IntegerForms classes;
+  Beside homology([&](Progress& p) { classes = find_topology(surface, std::move(given), result, p); }, progress);
 
-  progress.stage("cohomology", 0.2, 0.25);
-  auto classes = given ? std::move(given->classes) : topology::cohomology_basis(result.half_edges, domain);
-  result.canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, progress));
-  result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes, progress);
-
-  progress.stage("intrinsic Delaunay", 0.25, 0.3);
+  progress.stage("intrinsic Delaunay", 0.2, 0.25);
   auto intrinsic = mesh::intrinsic_triangulation(surface, result.half_edges);
   if (!paper) mesh::make_delaunay(intrinsic, progress);
+  const auto weights = mesh::cotangent_weights(intrinsic, progress);
+
+  progress.stage("Laplacian", 0.25, 0.3);
+  auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
+
+  progress.stage("solver", 0.3, 0.45);
+  std::unique_ptr<solver::LaplaceSolver> solver;
+  if (!paper) solver = solver::make_solver(result.memory.choice.method, std::move(laplacian), {}, progress);
+
+  progress.stage("homology", 0.45, 0.45);
+  homology.wait(progress);
   auto intrinsic_classes = classes;
   topology::carry_through(intrinsic.flips, intrinsic_classes);
 
-  progress.stage("Laplacian", 0.3, 0.35);
-  const auto weights = mesh::cotangent_weights(intrinsic, progress);
-  auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
-
-  progress.stage("harmonic forms", 0.35, 0.85);
+  progress.stage("harmonic forms", 0.45, 0.85);
   result.harmonic.classes = std::move(classes);
   if (paper) {
     keep(intrinsic, weights,
          paper_forms(*levels, intrinsic.half_edges, weights, laplacian, intrinsic_classes, progress), result, progress);
   } else if (result.memory.keep_forms) {
-    keep(intrinsic, weights,
-         harmonic_forms(intrinsic.half_edges, weights, std::move(laplacian), intrinsic_classes, options, progress),
-         result, progress);
+    auto solved = harmonic_forms(intrinsic.half_edges, weights, *solver, intrinsic_classes, result.memory, progress);
+    solver.reset();
+    keep(intrinsic, weights, std::move(solved), result, progress);
   } else {
-    measure(surface, intrinsic, weights, std::move(laplacian), std::move(intrinsic_classes), result, progress);
+    measure(surface, intrinsic, weights, *solver, std::move(intrinsic_classes), result, progress);
+    solver.reset();
   }
 
   progress.stage("holomorphic forms", 0.95, 1.0);

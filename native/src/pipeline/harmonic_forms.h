@@ -40,9 +40,9 @@ SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Ch
 using TakeFunctions = std::function<void(int first, const Eigen::MatrixXd& functions)>;
 
 /// Solves for plan.block forms at a time, in order, and hands each block on.
-/// @throws SolverError, Cancelled
+/// @param solver that of the plan. @throws SolverError, Cancelled
 SolverReport solve_in_blocks(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
-                             solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
+                             solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
                              const MemoryPlan& plan, Progress& progress, const TakeFunctions& take);
 
 struct HarmonicForms {
@@ -50,9 +50,13 @@ struct HarmonicForms {
   SolverReport solver;
 };
 
-/// The harmonic form of each class, all of them kept, with the solver that `options` asks for; its memory is free again
-/// at the end.
+/// The harmonic form of each class, all of them kept.
 /// @throws SolverError, Cancelled
+HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+                             solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
+                             const MemoryPlan& plan, Progress& progress);
+
+/// The same with the solver that `options` asks for; its memory is free again at the end.
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                              const Options& options, Progress& progress);

@@ -7,7 +7,7 @@ namespace holomorph::pipeline {
 StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                              const std::vector<std::vector<mesh::HalfedgeHandle>>& loops, forms::ClosedForms& artist,
                              const mesh::HalfEdges& triangulation, const std::vector<double>& weights,
-                             solver::Laplacian&& laplacian, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
+                             solver::LaplaceSolver& solver, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
                              Progress& progress) {
   const int n = intrinsic.classes.form_count;
   StreamedForms result;
@@ -29,8 +29,7 @@ StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges
         uv::values_on_sides(half_edges, artist, result.samples.triangles);
     artist.functions.swap(intrinsic.functions);
   };
-  result.solver =
-      solve_in_blocks(triangulation, weights, std::move(laplacian), intrinsic.classes, plan, progress, measure);
+  result.solver = solve_in_blocks(triangulation, weights, solver, intrinsic.classes, plan, progress, measure);
   intrinsic.functions.resize(0, 0);
   intrinsic.first = artist.first = 0;
   result.asymmetry = (G - G.transpose()).cwiseAbs().maxCoeff() / G.cwiseAbs().maxCoeff();

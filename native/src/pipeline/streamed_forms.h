@@ -18,13 +18,13 @@ struct StreamedForms {
 
 /// Solves for the harmonic forms block by block (plan.block at a time), measures each block and lets it go.
 /// @param surface,half_edges,loops,artist the artist's triangulation, the 2g loops and the classes on it
-/// @param triangulation,weights,laplacian,intrinsic what is solved on, and the classes there
+/// @param triangulation,weights,solver,intrinsic what is solved on, the solver of `plan`, and the classes there
 /// The functions of `artist` and `intrinsic` are those of the block at hand, and none at the end.
 /// Memory: that of `plan`. @throws SolverError, Cancelled
 StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                              const std::vector<std::vector<mesh::HalfedgeHandle>>& loops, forms::ClosedForms& artist,
                              const mesh::HalfEdges& triangulation, const std::vector<double>& weights,
-                             solver::Laplacian&& laplacian, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
+                             solver::LaplaceSolver& solver, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
                              Progress& progress);
 
 /// Largest |int_{zeta_i} h_j - delta_ij| over all loops and these forms.
