@@ -56,9 +56,7 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
     if (conditions[first + d] == Condition::dirichlet) natural_[d] = 0;
   }
   cycle_.set_conditions(natural_);
-  read(b);
-  iterations_ = 0;
-  update_residual(b);
+  begin(b);
   double before = reached_;
   for (int stalls = 0; !(reached_ <= goal_); before = reached_) {
     report(reached_);
@@ -76,7 +74,7 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
   }
   report(reached_);
   for_rows(workers_, n_, [&](int i) {
-    for (int d = 0; d < width; ++d) X(i, first + d) = X_[i][d];
+    for (int d = 0; d < width; ++d) X(i, first + d) = iterations_ > 0 ? X_[i][d] : 0.0;
   });
 }
 
@@ -88,25 +86,42 @@ Sums<K> BlockSolve<K>::right_hand_sides(const Columns& b, int i) const {
   return level_.omega[i] < 0 ? all * natural_.template cast<double>() : all;
 }
 
-// The means and norms of the right-hand sides; and X = 0.
+// The means and norms of the right-hand sides, and the residual of X = 0.
 template <int K>
-void BlockSolve<K>::read(const Columns& b) {
-  const Sums<K> zero = Sums<K>::Zero();
-  mean_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
-    sum += row<K>(b, i);
-    X_[i] = zero;
+void BlockSolve<K>::begin(const Columns& b) {
+  using Moments = Eigen::Array<double, K, 2>;
+  const Moments none = Moments::Zero();
+  mean_ = none.col(0);
+  const Moments moments = sum_over_rows(workers_, n_, none, [&](int i, Moments& sums) {
+    const Sums<K> here = right_hand_sides(b, i);
+    sums.col(0) += here;
+    sums.col(1) += here.square();
   });
-  mean_ *= natural_.template cast<double>() / static_cast<double>(n_);
-  norm_b_ =
-      sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) { sum += right_hand_sides(b, i).square(); }).sqrt();
-  scale_ = norm_b_;
+  mean_ = moments.col(0) * natural_.template cast<double>() / static_cast<double>(n_);
+  scale_ = moments.col(1).sqrt();
+  const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
+  norm_b_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
+              const Sums<K> here = right_hand_sides(b, i);
+              sum += here.square();
+              start(i, here * inverse);
+            }).sqrt();
+  norm_r_ = norm_b_;
+  reached_ = relative(norm_r_);
+  iterations_ = 0;
 }
 
-// The residual of X, and r = residual / scale, u = omega r, x = p = q = 0 for conjugate gradients.
+// Where conjugate gradients begin: r = residual / scale, u = omega r.
+template <int K>
+EIGEN_STRONG_INLINE void BlockSolve<K>::start(int i, const Sums<K>& residual) {
+  const Block<K> r = residual.template cast<float>();
+  cycle_.residual()[i] = r;
+  cycle_.start()[i] = jacobi_step<K>(level_.omega[i], r, natural_);
+}
+
+// The residual of X, from differences.
 template <int K>
 void BlockSolve<K>::update_residual(const Columns& b) {
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
-  Block<K>*const r = cycle_.residual(), *const u = cycle_.start();
   norm_r_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
               const Sums<K> here = X_[i];
               Sums<K> rest = right_hand_sides(b, i);
@@ -115,9 +130,7 @@ void BlockSolve<K>::update_residual(const Columns& b) {
               }
               if (level_.omega[i] < 0) rest *= natural_.template cast<double>();
               sum += rest.square();
-              r[i] = (rest * inverse).template cast<float>();
-              u[i] = jacobi_step<K>(level_.omega[i], r[i], natural_);
-              x_[i] = p_[i] = q_[i] = Block<K>::Zero();
+              start(i, rest * inverse);
             }).sqrt();
   reached_ = relative(norm_r_);
 }
@@ -127,17 +140,22 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
   const Sums<K> goal = quotient<K>((kInnerResidual * norm_r_).max(kSafety * goal_ * norm_b_), scale_);
   Sums<K> norm = quotient<K>(norm_r_, scale_);
   Sums<K> rz = Sums<K>::Zero(), zAz = rz, pAp = rz;
+  const int before = iterations_;
   cycle_.down([](int) {});  // r and u are there
-  for (int step = 0; step < kMostInner && iterations_ < kMostIterations && !(norm <= goal).all();
-       ++step, ++iterations_) {
+  do {
     const Sums<K> rz_before = rz;
     precondition(rz, zAz);
     const Sums<K> beta = quotient<K>(rz, rz_before);
     pAp = zAz - beta.square() * pAp;
-    norm = this->step(quotient<K>(rz, pAp).template cast<float>(), beta.template cast<float>());
+    const Block<K> a = quotient<K>(rz, pAp).template cast<float>(), b = beta.template cast<float>();
+    norm = iterations_ == before ? step<true>(a, b) : step<false>(a, b);
+    ++iterations_;
     report(relative(norm * scale_));
-  }
-  for_rows(workers_, n_, [&](int i) { X_[i] += scale_ * x_[i].template cast<double>(); });
+  } while (iterations_ < before + kMostInner && iterations_ < kMostIterations && !(norm <= goal).all());
+  for_rows(workers_, n_, [&](int i) {
+    const Sums<K> more = scale_ * x_[i].template cast<double>();
+    X_[i] = before > 0 ? X_[i] + more : more;
+  });
   // About what the residual will be; it serves the range of single precision only.
   scale_ *= norm;
 }
@@ -168,8 +186,9 @@ void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   }
 }
 
-// The step of conjugate gradients, and the way down from the new r. Returns |r|.
+// The step of conjugate gradients, and the way down from the new r. Returns |r|. The first step writes p, q and x.
 template <int K>
+template <bool first>
 Sums<K> BlockSolve<K>::step(const Block<K>& alpha, const Block<K>& beta) {
   std::vector<Sums<K>> parts(level_.chunks);
   Block<K>*const r = cycle_.residual(), *const u = cycle_.start();
@@ -180,10 +199,15 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha, const Block<K>& beta) {
   cycle_.down([=, this, &parts](int chunk) {
     Sums<K> sum = Sums<K>::Zero();
     for (int i = level_.begin(chunk), end = level_.end(chunk); i < end; ++i) {
-      const Block<K> p_i = u[i] + b * p[i], q_i = w[i] + b * q[i];  // u is z until here
+      Block<K> p_i = u[i], q_i = w[i], x_i = a * p_i;  // u is z until here
+      if constexpr (!first) {
+        p_i += b * p[i];
+        q_i += b * q[i];
+        x_i = x[i] + a * p_i;
+      }
       p[i] = p_i;
       q[i] = q_i;
-      x[i] += a * p_i;
+      x[i] = x_i;
       Block<K> r_i = r[i] - a * q_i;
       if (omega[i] < 0) r_i *= natural;
       r[i] = r_i;

@@ -36,10 +36,12 @@ class BlockSolve {
  private:
   using Columns = std::array<const double*, K>;
 
-  void read(const Columns& b);
+  void begin(const Columns& b);
   Sums<K> right_hand_sides(const Columns& b, int i) const;
+  void start(int i, const Sums<K>& residual);
   void update_residual(const Columns& b);
   void conjugate_gradients(const Report& report);
+  template <bool first>
   Sums<K> step(const Block<K>& alpha, const Block<K>& beta);
   void precondition(Sums<K>& rz, Sums<K>& zAz);
   double relative(const Sums<K>& norms) const;
