@@ -11,13 +11,24 @@ namespace {
 
 using std::to_string;
 
-void set_ends(HalfEdges& mesh, const Surface& surface, Workers& workers) {
+// Triangles ahead of the one that is linked whose half-edges are asked for: in the order of the triangles they may lie
+// anywhere.
+constexpr int kAhead = 24;
+
+// Of the half-edges that leave a vertex, it keeps the lowest one.
+void link_vertices(HalfEdges& mesh, const Surface& surface, Workers& workers) {
+  for_rows(workers, surface.vertex_count, [&](int v) { mesh.set_halfedge_handle(VertexHandle(v), HalfedgeHandle()); });
+  for_rows(workers, static_cast<int>(surface.edges.size()), [&](int e) {
+    for (const int i : {0, 1}) mesh.lower_halfedge_handle(VertexHandle(surface.edges[e][i]), HalfedgeHandle(2 * e + i));
+  });
+}
+
+// What half-edges without a face are to have; the others are linked later.
+void set_outside(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   for_rows(workers, static_cast<int>(surface.edges.size()), [&](int e) {
     for (const int i : {0, 1}) {
-      const HalfedgeHandle h(2 * e + i);
-      mesh.set_next_halfedge_handle(h, HalfedgeHandle());
-      mesh.set_vertex_handle(h, VertexHandle(surface.edges[e][1 - i]));
-      mesh.set_face_handle(h, FaceHandle());
+      const VertexHandle to(surface.edges[e][1 - i]);
+      mesh.set_halfedge(HalfedgeHandle(2 * e + i), HalfedgeHandle(), to, FaceHandle());
     }
   });
 }
@@ -52,29 +63,19 @@ class Sides {
   std::unordered_map<int, int> first_of_loop_;
 };
 
-// All links of the triangles but those of the vertices write where no other triangle does. Those of the vertices are
-// left to one thread, as one long task beside the others.
+// Each triangle writes where no other does.
 void link_triangles(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   const Sides sides(surface);
   const int count = static_cast<int>(surface.triangles.size());
-  const auto link_vertices = [&] {
-    for (int v = 0; v < surface.vertex_count; ++v) mesh.set_halfedge_handle(VertexHandle(v), HalfedgeHandle());
-    for (int t = 0; t < count; ++t) {
-      for (int i = 0; i < 3; ++i)
-        mesh.set_halfedge_handle(VertexHandle(surface.triangles[t][i]), sides.half_edge(t, i));
-    }
-  };
-  const auto link = [&](int t) {
+  for_rows(workers, count, [&](int t) {
+    for (const int e : surface.triangle_edges[std::min(t + kAhead, count - 1)]) mesh.prefetch_halfedges(EdgeHandle(e));
+    const Triple& vertices = surface.triangles[t];
     const HalfedgeHandle side[3] = {sides.half_edge(t, 0), sides.half_edge(t, 1), sides.half_edge(t, 2)};
     for (int i = 0; i < 3; ++i) {
-      mesh.set_face_handle(side[i], FaceHandle(t));
-      mesh.set_next_halfedge_handle(side[i], side[(i + 1) % 3]);
+      const int after = (i + 1) % 3;
+      mesh.set_halfedge(side[i], side[after], VertexHandle(vertices[after]), FaceHandle(t));
     }
     mesh.set_halfedge_handle(FaceHandle(t), side[0]);
-  };
-  workers.run(1 + chunk_count(count), [&](int, int task) {
-    if (task == 0) return link_vertices();
-    for (int t = (task - 1) * kChunk, end = std::min(t + kChunk, count); t < end; ++t) link(t);
   });
 }
 
@@ -116,11 +117,13 @@ int fan_size(const HalfEdges& mesh, int vertex) {
 HalfEdges half_edges(const Surface& surface, Progress& progress) {
   Workers workers;
   HalfEdges mesh(surface.vertex_count, surface.edges.size(), surface.triangles.size());
-  set_ends(mesh, surface, workers);
-  progress.report(0.3);
+  const bool closed = mesh.n_halfedges() == 3 * mesh.n_faces();
+  link_vertices(mesh, surface, workers);
+  progress.report(0.2);
+  if (!closed) set_outside(mesh, surface, workers);
   link_triangles(mesh, surface, workers);
   progress.report(0.9);
-  if (mesh.n_halfedges() > 3 * mesh.n_faces()) link_boundary(mesh);
+  if (!closed) link_boundary(mesh);
   progress.report(1.0);
   return mesh;
 }
@@ -148,17 +151,14 @@ void flip_links(HalfEdges& mesh, EdgeHandle e) {
   mesh.replace_halfedge_handle(head, b0, a1);
   mesh.replace_halfedge_handle(tail, a0, b1);
   // New triangles: fa = a0 a2 b1 with a0 from b's apex to a's, and fb = b0 b2 a1.
-  mesh.set_vertex_handle(a0, a_apex);
-  mesh.set_vertex_handle(b0, b_apex);
-  const auto link = [&](HalfedgeHandle x, HalfedgeHandle y, HalfedgeHandle z, FaceHandle f) {
-    mesh.set_next_halfedge_handle(x, y);
-    mesh.set_next_halfedge_handle(y, z);
-    mesh.set_next_halfedge_handle(z, x);
-    for (const HalfedgeHandle h : {x, y, z}) mesh.set_face_handle(h, f);
-    mesh.set_halfedge_handle(f, x);
-  };
-  link(a0, a2, b1, fa);
-  link(b0, b2, a1, fb);
+  mesh.set_halfedge(a0, a2, a_apex, fa);
+  mesh.set_halfedge(a2, b1, tail, fa);
+  mesh.set_halfedge(b1, a0, b_apex, fa);
+  mesh.set_halfedge_handle(fa, a0);
+  mesh.set_halfedge(b0, b2, b_apex, fb);
+  mesh.set_halfedge(b2, a1, head, fb);
+  mesh.set_halfedge(a1, b0, a_apex, fb);
+  mesh.set_halfedge_handle(fb, b0);
 }
 
 int boundary_count(const HalfEdges& mesh) {
