@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <type_traits>
 
 #include "base/workers.h"
 
@@ -14,14 +15,18 @@ inline constexpr int kChunk = 4096;
 
 inline int chunk_count(int rows) { return (rows + kChunk - 1) / kChunk; }
 
-/// task(chunk) for each of `chunks` chunks, in parallel, where it may throw: what the first of them threw is thrown
-/// when all are done.
+/// task(chunk), or task(thread, chunk), for each of `chunks` chunks, in parallel, where it may throw: what the first of
+/// them threw is thrown when all are done.
 template <class Task>
 void run_throwing(Workers& workers, int chunks, const Task& task) {
   std::vector<std::exception_ptr> failures(chunks);
-  workers.run(chunks, [&](int, int chunk) {
+  workers.run(chunks, [&](int thread, int chunk) {
     try {
-      task(chunk);
+      if constexpr (std::is_invocable_v<Task, int, int>) {
+        task(thread, chunk);
+      } else {
+        task(chunk);
+      }
     } catch (...) {
       failures[chunk] = std::current_exception();
     }

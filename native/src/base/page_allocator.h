@@ -36,8 +36,12 @@ struct PageAllocator {
   explicit PageAllocator(const PageAllocator<U>&) {}
 
   T* allocate(std::size_t count) {
-    void* memory = ::operator new(count * sizeof(T), alignment(count));
-    if (large(count)) advise_large_pages(memory, count * sizeof(T));
+    const std::size_t bytes = count * sizeof(T);
+    if (!large(count)) return static_cast<T*>(::operator new(bytes, alignment(count)));
+    // to the end of the last page: what is left over on small pages costs more faults than all large ones
+    const std::size_t room = (bytes + kLargePage - 1) / kLargePage * kLargePage;
+    void* memory = ::operator new(room, alignment(count));
+    advise_large_pages(memory, room);
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count)); }
@@ -54,7 +58,7 @@ struct PageAllocator {
   bool operator==(const PageAllocator&) const { return true; }
 
  private:
-  static bool large(std::size_t count) { return count * sizeof(T) >= 2 * kLargePage; }
+  static bool large(std::size_t count) { return count * sizeof(T) >= kLargePage / 2; }
   static std::align_val_t alignment(std::size_t count) { return std::align_val_t(large(count) ? kLargePage : 64); }
 };
 

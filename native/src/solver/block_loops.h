@@ -22,7 +22,7 @@ using Sums = Eigen::Array<double, K, 1>;
 /// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j).
 template <int K, class Body>
 EIGEN_STRONG_INLINE void for_differences(const GroupedRows& A, int chunk, const Block<K>* x, const Body& body) {
-  A.for_rows(chunk, [x, body](int i, const GroupedRows::Entry* entries, int length) {
+  A.for_rows(chunk, [x, body](int i, const Entry* entries, int length) {
     const Block<K> here = x[i];
     Block<K> sum = Block<K>::Zero();
     for (int e = 0; e < length; ++e) sum += entries[e].weight * (here - x[entries[e].column]);
@@ -30,14 +30,26 @@ EIGEN_STRONG_INLINE void for_differences(const GroupedRows& A, int chunk, const 
   });
 }
 
-/// body(i, (M x)_i) for the rows of a chunk of P or R.
+/// body(i, (R x)_i) for the rows of a chunk.
 template <int K, class Body>
-EIGEN_STRONG_INLINE void for_products(const GroupedRows& M, int chunk, const Block<K>* x, const Body& body) {
-  M.for_rows(chunk, [x, body](int i, const GroupedRows::Entry* entries, int length) {
+EIGEN_STRONG_INLINE void for_products(const GroupedRows& R, int chunk, const Block<K>* x, const Body& body) {
+  R.for_rows(chunk, [x, body](int i, const Entry* entries, int length) {
     Block<K> sum = Block<K>::Zero();
     for (int e = 0; e < length; ++e) sum += entries[e].weight * x[entries[e].column];
     body(i, sum);
   });
+}
+
+/// body(i, (P x)_i) for the rows begin .. end-1.
+template <int K, class Body>
+EIGEN_STRONG_INLINE void for_products(const EqualRows& P, int begin, int end, const Block<K>* x, const Body& body) {
+  const int each = P.each;
+  const Entry* entries = P[begin];
+  for (int i = begin; i < end; ++i, entries += each) {
+    Block<K> sum = entries[0].weight * x[entries[0].column];
+    for (int e = 1; e < each; ++e) sum += entries[e].weight * x[entries[e].column];
+    body(i, sum);
+  }
 }
 
 /// omega r, the smoother's step; 0 at a held vertex for the right-hand sides that hold it.

@@ -2,23 +2,20 @@
 
 namespace holomorph::solver {
 
-CycleLevel cycle_level(const SparseRows& A, const SparseRows& P, const SparseRows& R, Array<float>&& omega,
+CycleLevel cycle_level(GroupedRows&& A, EqualRows&& P, GroupedRows&& R, Array<float>&& omega, const Needs& needs_of_A,
                        Workers& workers) {
   CycleLevel level;
-  level.rows = A.size();
-  level.chunks = (A.size() + kWaveRows - 1) / kWaveRows;
+  level.rows = static_cast<int>(omega.size());
+  level.chunks = wave_chunks(level.rows);
+  level.A = std::move(A);
+  level.P = std::move(P);
+  level.R = std::move(R);
   level.omega = std::move(omega);
-  const Chunks rows{A.size(), kWaveRows};
-  level.A = GroupedRows(A, rows, level.chunks, workers);
-  if (R.size() == 0) return level;
-  // A vertex that stays keeps its place among the others, so that equal parts of both levels lie over each other.
-  const Chunks coarse{R.size(), (R.size() + level.chunks - 1) / level.chunks};
-  level.P = GroupedRows(P, rows, level.chunks, workers);
-  level.R = GroupedRows(R, coarse, level.chunks, workers);
-  const Needs of_A = needs_of(A, rows, rows, level.chunks, workers);
-  const Needs of_R = needs_of(R, coarse, rows, level.chunks, workers);
-  level.down = Wavefront(level.chunks, {&of_A, &of_R}, workers.count());
-  level.up = Wavefront(level.chunks, {&of_A, &of_A}, workers.count());
+  if (level.R.entries().empty()) return level;
+  Needs needs_of_R(level.chunks);
+  run_throwing(workers, level.chunks, [&](int chunk) { needs_of_R[chunk] = needs_of(level.R, chunk, level.chunks); });
+  level.down = Wavefront(level.chunks, {&needs_of_A, &needs_of_R}, workers.count());
+  level.up = Wavefront(level.chunks, {&needs_of_A, &needs_of_A}, workers.count());
   return level;
 }
 

@@ -9,7 +9,7 @@ struct CycleLevel {
   int rows = 0;
   int chunks = 0;      ///< of the rows, and of those of the next level that follow from them
   GroupedRows A;       ///< off-diagonal weights w_ij = -a_ij: (A x)_i = sum_j w_ij (x_i - x_j)
-  GroupedRows P;       ///< interpolation from the next level; rows sum to 1; none on the coarsest level
+  EqualRows P;         ///< interpolation from the next level; rows sum to 1; none on the coarsest level
   GroupedRows R;       ///< its transpose
   Array<float> omega;  ///< #V, the smoother's step: x += omega (r - A x); negative at a held vertex
   Wavefront down;      ///< any loop over the rows, one that applies A, one that applies R
@@ -19,9 +19,10 @@ struct CycleLevel {
   int end(int chunk) const { return Chunks{rows, kWaveRows}.end(chunk); }
 };
 
-/// @param P, R without rows on the coarsest level
-/// Cost: linear, parallel; 8 bytes per entry.
-CycleLevel cycle_level(const SparseRows& A, const SparseRows& P, const SparseRows& R, Array<float>&& omega,
+/// @param P, R, needs_of_A empty on the coarsest level
+/// @param needs_of_A for every chunk needs_of(A)
+/// Cost: linear, parallel.
+CycleLevel cycle_level(GroupedRows&& A, EqualRows&& P, GroupedRows&& R, Array<float>&& omega, const Needs& needs_of_A,
                        Workers& workers);
 
 }  // namespace holomorph::solver

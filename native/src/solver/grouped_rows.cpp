@@ -2,40 +2,42 @@
 
 namespace holomorph::solver {
 
-GroupedRows::GroupedRows(const SparseRows& M, const Chunks& rows, int chunks, Workers& workers)
-    : entry_(M.column.size()), row_(M.size()), first_{0} {
-  std::vector<std::vector<Group>> parts(chunks);
-  run_throwing(workers, chunks, [&](int chunk) { parts[chunk] = group(M, rows.begin(chunk), rows.end(chunk)); });
-  for (const auto& part : parts) {
-    groups_.insert(groups_.end(), part.begin(), part.end());
-    first_.push_back(static_cast<int>(groups_.size()));
+// Sorting by counting.
+void GroupedRows::lay_out(int chunk, int begin, std::span<const int> offsets, int first) {
+  const int rows = static_cast<int>(offsets.size()) - 1;
+  int most = 0;
+  for (int k = 0; k < rows; ++k) most = std::max(most, offsets[k + 1] - offsets[k]);
+  std::vector<int> next(most + 1, 0);
+  for (int k = 0; k < rows; ++k) ++next[offsets[k + 1] - offsets[k]];
+  std::vector<Group>& groups = groups_[chunk];
+  int row = begin;
+  for (int length = 0; length <= most; ++length) {
+    const int count = next[length];
+    if (count > 0) groups.push_back({length, row, row + count, first});
+    next[length] = row;
+    row += count;
+    first += count * length;
   }
+  for (int k = 0; k < rows; ++k) row_[next[offsets[k + 1] - offsets[k]]++] = begin + k;
 }
 
-// Sorts the rows begin .. end-1 by their length, in place of the same rows.
-std::vector<GroupedRows::Group> GroupedRows::group(const SparseRows& M, int begin, int end) {
-  const auto length = [&](int i) { return M.start[i + 1] - M.start[i]; };
-  std::vector<Group> of_length;
-  for (int i = begin; i < end; ++i) {
-    while (length(i) >= static_cast<int>(of_length.size()))
-      of_length.push_back({static_cast<int>(of_length.size()), 0, 0, 0});
-    ++of_length[length(i)].end;
+std::span<const Entry> GroupedRows::of_chunk(int chunk) const {
+  if (groups_[chunk].empty()) return {};
+  const Group &first = groups_[chunk].front(), &last = groups_[chunk].back();
+  const int end = last.entries + last.length * (last.end - last.begin);
+  return {entry_.data() + first.entries, static_cast<std::size_t>(end - first.entries)};
+}
+
+std::vector<int> needs_of(const GroupedRows& M, int chunk, int chunks) {
+  std::vector<char> found(chunks, 0);
+  std::vector<int> needs;
+  for (const Entry& entry : M.of_chunk(chunk)) {
+    const unsigned need = static_cast<unsigned>(entry.column) / kWaveRows;
+    if (found[need] != 0) continue;
+    found[need] = 1;
+    needs.push_back(static_cast<int>(need));
   }
-  int row = begin, entry = M.start[begin];
-  std::vector<Group> groups;
-  for (Group& group : of_length) {
-    const int count = group.end;
-    group = {group.length, row, row, entry};
-    if (count > 0) groups.push_back({group.length, row, row + count, entry});
-    row += count;
-    entry += count * group.length;
-  }
-  for (int i = begin; i < end; ++i) {
-    Group& group = of_length[length(i)];
-    row_[group.end++] = i;
-    for (int e = M.start[i]; e < M.start[i + 1]; ++e) entry_[group.entries++] = {M.column[e], M.weight[e]};
-  }
-  return groups;
+  return needs;
 }
 
 }  // namespace holomorph::solver

@@ -1,5 +1,6 @@
 #include "solver/interpolation.h"
 
+#include <array>
 #include <bit>
 
 namespace holomorph::solver {
@@ -13,7 +14,7 @@ constexpr float kWeak = 0.1F;
 // Weights of P but the largest are multiples of this; half of single precision is left for sums of them.
 constexpr int kWeightSteps = 1 << 20;
 // Of the staying neighbours of a vertex that goes, so many of largest weight count for the vertices around it.
-constexpr int kStaying = 4;
+constexpr int kStaying = 3;
 
 bool is_held(const Array<char>& held, int i) { return !held.empty() && held[i] != 0; }
 
@@ -40,136 +41,124 @@ class Largest {
   std::array<std::uint64_t, N> keys_{};
 };
 
-// The staying neighbours of a vertex that goes: half a cache line, whatever their number. A missing one has weight 0.
-struct Staying {
-  std::array<int, kStaying> vertex;
-  std::array<float, kStaying> weight;
-};
+// The staying neighbours of a vertex that goes, or a vertex that stays with weight 1. A missing one has weight 0, so
+// that loops over all of them are without branches.
+using Staying = std::array<Entry, kStaying>;
 
-// For the vertices that go; the others are left unwritten. None is without a staying neighbour: it goes because of one.
+// Calls body(i, entries, length) for the rows of a chunk whose vertices go; which these are cannot be predicted, so
+// that they are listed first.
+template <class Body>
+void for_going(const SparseRows& A, const Array<int>& coarse, int chunk, const Body& body) {
+  struct Row {
+    int i, length;
+    const Entry* entries;
+  };
+  std::array<Row, kWaveRows + 1> going;
+  int count = 0;
+  A.rows.for_rows(chunk, [&](int i, const Entry* entries, int length) {
+    going[count] = {i, length, entries};
+    count += coarse[i] < 0;
+  });
+  for (int k = 0; k < count; ++k) body(going[k].i, going[k].entries, going[k].length);
+}
+
+// None that goes is without a staying neighbour: it goes because of one.
 Array<Staying> staying_neighbours(const SparseRows& A, const Array<char>& held, const Array<int>& coarse,
                                   Workers& workers, Progress& progress) {
   Array<Staying> result(A.size());
-  for_set_up_chunks(workers, A.size(), progress, [&](int, int, int begin, int end) {
+  for_set_up_chunks(workers, A.size(), progress, [&](int, int chunk, int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      if (coarse[i] >= 0) continue;
-      Largest<kStaying> largest;
-      for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-        const int j = A.column[e], c = coarse[j];
-        const bool counts = c >= 0 && A.weight[e] > 0 && !(is_held(held, i) && !is_held(held, j));
-        largest.add(counts ? c : 0, counts ? A.weight[e] : 0.0F);
+      result[i].fill({coarse[i], 0});
+      result[i][0].weight = 1;
+    }
+    for_going(A, coarse, chunk, [&](int i, const Entry* entries, int length) {
+      Largest<kStaying> nearest;
+      for (int e = 0; e < length; ++e) {
+        const auto [j, w] = entries[e];
+        const int c = coarse[j];
+        const bool counts = (c >= 0) & (w > 0) & !(is_held(held, i) && !is_held(held, j));
+        nearest.add(counts ? c : 0, counts ? w : 0.0F);
       }
       for (int k = 0; k < kStaying; ++k) {
-        result[i].weight[k] = largest.weight(k);
-        result[i].vertex[k] = largest.weight(k) > 0 ? largest.vertex(k) : largest.vertex(0);
+        const float weight = nearest.weight(k);
+        result[i][k] = {weight > 0 ? nearest.vertex(k) : nearest.vertex(0), weight};
       }
-    }
+    });
   });
   return result;
 }
 
 // The sums divided by their total, made exact.
-Mean exact_mean(const Largest<kMostMeans>& sums, int most) {
-  Mean mean{};
-  mean.vertex.fill(sums.vertex(0));
-  double total = 0;
-  for (int k = 0; k < most; ++k) total += sums.weight(k);
+template <int Most>
+void write_mean(const Largest<Most>& sums, Entry* mean) {
+  float total = 0;
+  for (int k = 0; k < Most; ++k) total += sums.weight(k);
+  const float scale = kWeightSteps / total;
   int rest = kWeightSteps;
-  for (int k = 1; k < most; ++k) {
-    const int steps = static_cast<int>(sums.weight(k) / total * kWeightSteps + 0.5);
-    if (steps > 0) mean.vertex[k] = sums.vertex(k);
-    mean.weight[k] = static_cast<float>(steps) / kWeightSteps;
+  for (int k = 1; k < Most; ++k) {
+    const int steps = static_cast<int>(sums.weight(k) * scale + 0.5F);
+    mean[k] = {steps > 0 ? sums.vertex(k) : sums.vertex(0), static_cast<float>(steps) / kWeightSteps};
     rest -= steps;
   }
-  mean.weight[0] = static_cast<float>(rest) / kWeightSteps;
-  return mean;
+  mean[0] = {sums.vertex(0), static_cast<float>(rest) / kWeightSteps};
 }
 
-}  // namespace
-
-Array<int> coarse_vertices(const SparseRows& A, const Array<float>& largest, const Array<char>& held,
-                           Progress& progress) {
-  constexpr int kUndecided = -2, kGoes = -1;
-  Array<int> coarse(A.size());
-  std::fill(coarse.begin(), coarse.end(), kUndecided);
-  int count = 0;
-  for (int i = 0; i < A.size(); ++i) {
-    if (i % kChunk == 0) progress.report(0);
-    if (coarse[i] != kUndecided) continue;
-    coarse[i] = count++;
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-      const int j = A.column[e];
-      if (coarse[j] != kUndecided || A.weight[e] <= 0 || A.weight[e] < kStrong * largest[j]) continue;
-      if (is_held(held, i) || !is_held(held, j)) coarse[j] = kGoes;
-    }
-  }
-  return coarse;
-}
-
-Array<Mean> interpolation(const SparseRows& A, const Array<float>& largest, const Array<char>& held,
-                          const Array<int>& coarse, int most, std::vector<RowSums>& scratch, Workers& workers,
-                          Progress& progress) {
+template <int Most>
+EqualRows means(const SparseRows& A, const Array<float>& largest, const Array<char>& held, const Array<int>& coarse,
+                std::vector<RowSums<float>>& scratch, Workers& workers, Progress& progress) {
   const Array<Staying> staying = staying_neighbours(A, held, coarse, workers, progress);
-  const auto sum_up = [&](int i, RowSums::Row& sums) {
-    const float weak = kWeak * largest[i];
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-      const float w = A.weight[e];
-      const int j = A.column[e], c = coarse[j];
-      if (w <= weak || (is_held(held, i) && !is_held(held, j))) continue;
-      if (c >= 0) {
-        sums.add(c, w);
-        continue;
-      }
-      const Staying& next = staying[j];
-      const float part = w / (w + ((next.weight[0] + next.weight[1]) + (next.weight[2] + next.weight[3])));
-      for (int k = 0; k < kStaying; ++k) sums.add(next.vertex[k], part * next.weight[k]);
-    }
-  };
-  Array<Mean> result(A.size());
-  for_set_up_chunks(workers, A.size(), progress, [&](int thread, int, int begin, int end) {
+  EqualRows result{Most, Array<Entry>(std::size_t{Most} * A.size())};
+  for_set_up_chunks(workers, A.size(), progress, [&](int thread, int chunk, int begin, int end) {
+    RowSums<float>& room = scratch[thread];
+    Entry* const mean = result.entry.data();
     for (int i = begin; i < end; ++i) {
-      if (coarse[i] >= 0) {
-        result[i] = {{coarse[i], coarse[i], coarse[i]}, {1, 0, 0}};
-        continue;
-      }
-      RowSums::Row sums = scratch[thread].next();
-      sum_up(i, sums);
-      Largest<kMostMeans> kept;
-      for (int k = 0; k < sums.size(); ++k) kept.add(sums.column(k), static_cast<float>(sums.sum(k)));
-      result[i] = exact_mean(kept, most);
+      for (int k = 0; k < Most; ++k) mean[std::size_t{Most} * i + k] = {coarse[i], k == 0 ? 1.0F : 0.0F};
     }
+    for_going(A, coarse, chunk, [&](int i, const Entry* entries, int length) {
+      RowSums<float>::Row sums = room.next();
+      room.make_room(sums, kStaying * length);
+      const float weak = kWeak * largest[i];
+      for (int e = 0; e < length; ++e) {
+        const auto [j, w] = entries[e];
+        if (w <= weak || (is_held(held, i) && !is_held(held, j))) continue;
+        const Staying& next = staying[j];
+        float all = coarse[j] < 0 ? w : 0;
+        for (const Entry& s : next) all += s.weight;
+        const float part = w / all;
+        for (const Entry& s : next) sums.add(s.column, part * s.weight);
+      }
+      Largest<Most> kept;
+      for (int k = 0; k < sums.size(); ++k) kept.add(sums.column(k), sums.take(k));
+      write_mean(kept, mean + std::size_t{Most} * i);
+    });
   });
   return result;
 }
 
-SparseRows sparse(const Array<Mean>& P, Workers& workers, Progress& progress) {
-  const int n = static_cast<int>(P.size());
-  std::vector<int> place(set_up_chunks(n) + 1, 0);
-  for_set_up_chunks(workers, n, progress, [&](int, int chunk, int begin, int end) {
-    int entries = 0;
-    for (int i = begin; i < end; ++i) {
-      for (const float weight : P[i].weight) entries += weight != 0;
+}  // namespace
+
+Coarsening coarsening(const SparseRows& A, const Array<float>& largest, const Array<char>& held) {
+  constexpr int kUndecided = -2, kGoes = -1;
+  Coarsening result{Array<int>(A.size())};
+  Array<int>& number = result.number;
+  std::fill(number.begin(), number.end(), kUndecided);
+  for (int i = 0; i < A.size(); ++i) {
+    if (number[i] == kGoes) continue;
+    number[i] = result.count++;
+    for (const auto [j, w] : A[i]) {
+      const bool strong = (w > 0) & (w >= kStrong * largest[j]);
+      const bool goes = strong & (number[j] == kUndecided) & (is_held(held, i) || !is_held(held, j));
+      number[j] = goes ? kGoes : number[j];
     }
-    place[chunk + 1] = entries;
-  });
-  for (std::size_t c = 1; c < place.size(); ++c) place[c] += place[c - 1];
-  SparseRows rows;
-  rows.start.resize(n + std::size_t{1});
-  rows.start[0] = 0;
-  rows.column.resize(place.back());
-  rows.weight.resize(place.back());
-  for_set_up_chunks(workers, n, progress, [&](int, int chunk, int begin, int end) {
-    int next = place[chunk];
-    for (int i = begin; i < end; ++i) {
-      for (int k = 0; k < kMostMeans; ++k) {
-        if (P[i].weight[k] == 0) continue;
-        rows.column[next] = P[i].vertex[k];
-        rows.weight[next++] = P[i].weight[k];
-      }
-      rows.start[i + 1] = next;
-    }
-  });
-  return rows;
+  }
+  return result;
+}
+
+EqualRows interpolation(const SparseRows& A, const Array<float>& largest, const Array<char>& held,
+                        const Array<int>& coarse, int most, std::vector<RowSums<float>>& scratch, Workers& workers,
+                        Progress& progress) {
+  const auto by_most = most == 2 ? means<2> : means<3>;
+  return by_most(A, largest, held, coarse, scratch, workers, progress);
 }
 
 }  // namespace holomorph::solver

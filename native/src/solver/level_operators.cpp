@@ -9,8 +9,8 @@ namespace {
 
 // Jacobi's step is kStep / sum_j |a_ij| with the diagonal: below 2 the smoother is convergent for weights of any signs.
 constexpr double kStep = 1.6;
-// A weight of at most this part of the largest at either end is what is left of others' rounding: a diagonal of a
-// rectangle, whose angles are 90 degrees up to the last bit.
+// A weight of at most this part of the largest entries at both ends is what is left of others' rounding: a diagonal of
+// a rectangle, whose angles are 90 degrees up to the last bit.
 constexpr double kRounding = 1e-14;
 
 // Of one row.
@@ -36,15 +36,15 @@ void note(const RowMeasures& row, int i, const Array<char>& held, Operator& resu
   result.largest[i] = row.largest;
 }
 
-// The size of a row is that of its largest weight, of either sign.
+// The largest entry of each row, that of the diagonal included.
 Array<float> row_sizes(const Laplacian& L, Workers& workers, Progress& progress) {
-  Array<float> sizes(L.rows());
-  for_set_up_chunks(workers, static_cast<int>(L.rows()), progress, [&](int, int, int begin, int end) {
+  const auto n = static_cast<int>(L.rows());
+  const double* const value = L.valuePtr();
+  Array<float> sizes(n);
+  for_set_up_chunks(workers, n, progress, [&](int, int, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       double most = 0;
-      for (auto e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) {
-        most = std::max(most, L.innerIndexPtr()[e] != i ? std::abs(L.valuePtr()[e]) : 0.0);
-      }
+      for (auto e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) most = std::max(most, std::abs(value[e]));
       sizes[i] = static_cast<float>(most);
     }
   });
@@ -53,21 +53,22 @@ Array<float> row_sizes(const Laplacian& L, Workers& workers, Progress& progress)
 
 // Row I of P^T A P without its diagonal, which follows as rows sum to 0.
 template <int Most>
-void sum_up_row(const Level& fine, const Array<Mean>& P, int I, RowSums::Row& sums) {
-  const SparseRows &A = fine.A, &R = fine.R;
-  const auto add = [&](const Mean& mean, double weight) {
-    for (int k = 0; k < Most; ++k) sums.add(mean.vertex[k], weight * mean.weight[k]);
+void sum_up_row(const Level& fine, int I, RowSums<double>& room, RowSums<double>::Row& sums) {
+  const Entry* const means = fine.P.entry.data();
+  const auto add = [&](int i, double weight) {
+    const Entry* const mean = means + std::size_t{Most} * i;
+    for (int k = 0; k < Most; ++k) sums.add(mean[k].column, weight * mean[k].weight);
   };
-  for (int r = R.start[I]; r < R.start[I + 1]; ++r) {
-    const int i = R.column[r];
-    const double part = R.weight[r];
+  for (const auto [i, part] : fine.R[I]) {
+    const auto row = fine.A[i];
+    room.make_room(sums, Most * (static_cast<int>(row.size()) + 1));
     double diagonal = 0;
-    for (int e = A.start[i]; e < A.start[i + 1]; ++e) {
-      const double weight = part * A.weight[e];
+    for (const Entry& entry : row) {
+      const double weight = static_cast<double>(part) * entry.weight;
       diagonal += weight;
-      add(P[A.column[e]], weight);
+      add(entry.column, weight);
     }
-    add(P[i], -diagonal);
+    add(i, -diagonal);
   }
 }
 
@@ -79,65 +80,48 @@ Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& w
   const auto* const column = L.innerIndexPtr();
   const double* const value = L.valuePtr();
   const Array<float> sizes = row_sizes(L, workers, progress);
-  const auto kept = [&](int i, Laplacian::StorageIndex e) {
-    const int j = column[e];
-    return j != i && std::abs(value[e]) > kRounding * std::min(sizes[i], sizes[j]) && static_cast<float>(value[e]) != 0;
-  };
-  std::vector<int> place(set_up_chunks(n) + 1, 0);
-  for_set_up_chunks(workers, n, progress, [&](int, int chunk, int begin, int end) {
-    int entries = 0;
-    for (int i = begin; i < end; ++i) {
-      for (auto e = start[i]; e < start[i + 1]; ++e) entries += kept(i, e);
-    }
-    place[chunk + 1] = entries;
-  });
-  for (std::size_t c = 1; c < place.size(); ++c) place[c] += place[c - 1];
   Operator result;
-  result.A.start.resize(n + std::size_t{1});
-  result.A.start[0] = 0;
-  result.A.column.resize(place.back());
-  result.A.weight.resize(place.back());
   result.omega.resize(n);
   result.largest.resize(n);
-  for_set_up_chunks(workers, n, progress, [&](int, int chunk, int begin, int end) {
-    int next = place[chunk];
-    for (int i = begin; i < end; ++i) {
-      RowMeasures measures;
-      for (auto e = start[i]; e < start[i + 1]; ++e) {
-        if (!kept(i, e)) continue;
-        const auto weight = -static_cast<float>(value[e]);
-        result.A.column[next] = column[e];
-        result.A.weight[next++] = weight;
-        measures.add(weight);
-      }
-      result.A.start[i + 1] = next;
-      note(measures, i, held, result);
+  const std::size_t expected = L.nonZeros() - n;  // each row has a diagonal
+  result.A = build_rows(n, expected, workers, progress, [&](int, int i, RowPart& part) {
+    part.make_room(start[i + 1] - start[i]);
+    RowMeasures measures;
+    for (auto e = start[i]; e < start[i + 1]; ++e) {
+      const int j = column[e];
+      const auto weight = -static_cast<float>(value[e]);
+      const bool kept = (j != i) & (std::abs(value[e]) > kRounding * std::min(sizes[i], sizes[j])) & (weight != 0);
+      part.append(j, weight, kept);
+      measures.add(kept ? weight : 0.0F);
     }
+    note(measures, i, held, result);
   });
   return result;
 }
 
-Operator coarse_operator(const Level& fine, const Array<Mean>& P, int most, const Array<char>& held,
-                         std::vector<RowSums>& scratch, Workers& workers, Progress& progress) {
+Operator coarse_operator(const Level& fine, const Array<char>& held, std::vector<RowSums<double>>& scratch,
+                         Workers& workers, Progress& progress) {
   const int n = fine.R.size();
   Operator result;
   result.omega.resize(n);
   result.largest.resize(n);
-  const auto expected = fine.A.column.size();
+  const auto expected = fine.A.rows.entries().size();
   result.A = build_rows(n, expected, workers, progress, [&](int thread, int I, RowPart& part) {
-    RowSums::Row sums = scratch[thread].next();
-    if (most == 2) {
-      sum_up_row<2>(fine, P, I, sums);
+    RowSums<double>& room = scratch[thread];
+    RowSums<double>::Row sums = room.next();
+    if (fine.P.each == 2) {
+      sum_up_row<2>(fine, I, room, sums);
     } else {
-      sum_up_row<kMostMeans>(fine, P, I, sums);
+      sum_up_row<3>(fine, I, room, sums);
     }
     part.make_room(sums.size());
     RowMeasures measures;
     for (int k = 0; k < sums.size(); ++k) {
-      const auto weight = static_cast<float>(sums.sum(k));
-      const bool kept = sums.column(k) != I && weight != 0;
-      part.append(sums.column(k), weight, kept);
-      if (kept) measures.add(weight);
+      const int J = sums.column(k);
+      const auto weight = static_cast<float>(sums.take(k));
+      const bool kept = (J != I) & (weight != 0);
+      part.append(J, weight, kept);
+      measures.add(kept ? weight : 0.0F);
     }
     note(measures, I, held, result);
   });

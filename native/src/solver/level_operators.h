@@ -9,7 +9,9 @@ namespace holomorph::solver {
 /// A level while the next one is made from it.
 struct Level {
   SparseRows A;
-  SparseRows P, R;   ///< none on the coarsest level
+  Needs needs_of_A;  ///< this and what follows: none on the coarsest level
+  EqualRows P;
+  SparseRows R;      ///< its transpose, in chunks as many as those of A
   Array<char> held;  ///< one flag per vertex, or empty for none
 };
 
@@ -24,11 +26,10 @@ struct Operator {
 Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& workers, Progress& progress);
 
 /// P^T A P, summed in double precision; its diagonal follows from the other entries, as rows sum to 0.
-/// @param fine with A and R
-/// @param P,most of interpolation()
+/// @param fine with A, P and R
 /// @param held of the coarse level
 /// @param scratch one per thread, for rows as long as the coarse level
-Operator coarse_operator(const Level& fine, const Array<Mean>& P, int most, const Array<char>& held,
-                         std::vector<RowSums>& scratch, Workers& workers, Progress& progress);
+Operator coarse_operator(const Level& fine, const Array<char>& held, std::vector<RowSums<double>>& scratch,
+                         Workers& workers, Progress& progress);
 
 }  // namespace holomorph::solver

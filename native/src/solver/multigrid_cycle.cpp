@@ -50,9 +50,10 @@ void Cycle<K>::solve_coarsest() {
 // t = u + P u_coarse
 template <int K>
 void Cycle<K>::carry_up(std::size_t k, int chunk) {
-  const Block<K>* const u = work_[k].u.data();
+  const CycleLevel& level = hierarchy_.levels[k];
+  const Block<K>*const u = work_[k].u.data(), *const coarse = work_[k + 1].u.data();
   Block<K>* const t = work_[k].t.data();
-  for_products<K>(hierarchy_.levels[k].P, chunk, work_[k + 1].u.data(),
+  for_products<K>(level.P, level.begin(chunk), level.end(chunk), coarse,
                   [=](int i, const Block<K>& Pu) { t[i] = u[i] + Pu; });
 }
 

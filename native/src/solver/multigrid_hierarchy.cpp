@@ -16,19 +16,20 @@ constexpr int kLargestDense = 2000;
 // Entries of a row of P, finest level and below: the fewest that keep the number of iterations.
 constexpr int kFinestMeans = 2, kCoarseMeans = 3;
 
-Eigen::MatrixXd dense(const SparseRows& weights) {
-  const int n = weights.size();
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-  for (int i = 0; i < n; ++i) {
-    for (int e = weights.start[i]; e < weights.start[i + 1]; ++e) {
-      // half from either side, so that the inverse is symmetric
-      const int j = weights.column[e];
-      const double half = 0.5 * weights.weight[e];
-      A(i, j) -= half;
-      A(j, i) -= half;
-      A(i, i) += half;
-      A(j, j) += half;
-    }
+Eigen::MatrixXd dense(const CycleLevel& level) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(level.rows, level.rows);
+  for (int chunk = 0; chunk < level.chunks; ++chunk) {
+    level.A.for_rows(chunk, [&A](int i, const Entry* entries, int length) {
+      for (int e = 0; e < length; ++e) {
+        // half from either side, so that the inverse is symmetric
+        const int j = entries[e].column;
+        const double half = 0.5 * entries[e].weight;
+        A(i, j) -= half;
+        A(j, i) -= half;
+        A(i, i) += half;
+        A(j, j) += half;
+      }
+    });
   }
   return A;
 }
@@ -71,29 +72,53 @@ Array<char> held_below(const Array<char>& held, const Array<int>& coarse, int co
   return below;
 }
 
+// One of each per thread.
+struct Scratch {
+  std::vector<RowSums<float>> means;
+  std::vector<RowSums<double>> rows;
+};
+
+// Coarsening is done by one thread, the needs of A by the others meanwhile.
+Coarsening coarsening_and_needs(Level& level, const Array<float>& largest, Workers& workers) {
+  const int chunks = wave_chunks(level.A.size());
+  Coarsening result;
+  level.needs_of_A.resize(chunks);
+  run_throwing(workers, 1 + chunks, [&](int task) {
+    if (task == 0) {
+      result = coarsening(level.A, largest, level.held);
+    } else {
+      level.needs_of_A[task - 1] = needs_of(level.A.rows, task - 1, chunks);
+    }
+  });
+  return result;
+}
+
 // P, R, the next level's flags and operator; false where the vertices are few enough, or where no step leaves few
 // enough.
 // @param scratch one per thread, made on the finest level
-bool coarsen(Level& level, const Array<float>& largest, int most_means, std::vector<RowSums>& scratch, Level& next,
+bool coarsen(Level& level, const Array<float>& largest, int most_means, Scratch& scratch, Level& next,
              Operator& next_operator, Workers& workers, Progress& progress) {
   const int n = level.A.size();
   if (n <= kCoarsest) return false;
-  const Array<int> coarse = coarse_vertices(level.A, largest, level.held, progress);
-  const int count = 1 + *std::max_element(coarse.begin(), coarse.end());
+  const auto [coarse, count] = coarsening_and_needs(level, largest, workers);
   if (count > kSlowest * n) return false;
-  while (static_cast<int>(scratch.size()) < workers.count()) scratch.emplace_back(count);
-  const Array<Mean> P = interpolation(level.A, largest, level.held, coarse, most_means, scratch, workers, progress);
-  level.P = sparse(P, workers, progress);
-  level.R = transposed(level.P, count, workers, progress);
+  while (static_cast<int>(scratch.means.size()) < workers.count()) {
+    scratch.means.emplace_back(count);
+    scratch.rows.emplace_back(count);
+  }
+  level.P = interpolation(level.A, largest, level.held, coarse, most_means, scratch.means, workers, progress);
+  level.R = transposed(level.P, count, wave_chunks(n), workers, progress);
   next.held = held_below(level.held, coarse, count);
-  next_operator = coarse_operator(level, P, most_means, next.held, scratch, workers, progress);
+  next_operator = coarse_operator(level, next.held, scratch.rows, workers, progress);
   return true;
 }
 
 }  // namespace
 
 double Hierarchy::operator_complexity() const {
-  const auto entries = [](const CycleLevel& level) { return static_cast<double>(level.A.entries()) + level.rows; };
+  const auto entries = [](const CycleLevel& level) {
+    return static_cast<double>(level.A.entries().size()) + level.rows;
+  };
   double sum = 0;
   for (const CycleLevel& level : levels) sum += entries(level);
   return sum / entries(levels[0]);
@@ -105,25 +130,26 @@ Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Worke
   if (!held.empty()) level.held.assign(L.rows(), 0);
   for (const int v : held) level.held[v] = 1;
   Operator here = finest_operator(L, level.held, workers, progress);
-  std::vector<RowSums> scratch;
+  Scratch scratch;
   for (;;) {
     level.A = std::move(here.A);
     Level next;
     Operator next_operator;
     const int most = result.levels.empty() ? kFinestMeans : kCoarseMeans;
     const bool last = !coarsen(level, here.largest, most, scratch, next, next_operator, workers, progress);
-    result.levels.push_back(cycle_level(level.A, level.P, level.R, std::move(here.omega), workers));
+    result.levels.push_back(cycle_level(std::move(level.A.rows), std::move(level.P), std::move(level.R.rows),
+                                        std::move(here.omega), level.needs_of_A, workers));
     progress.report(0);
     if (last) break;
     level = std::move(next);
     here = std::move(next_operator);
   }
-  const int coarsest = level.A.size();
+  const int coarsest = result.levels.back().rows;
   if (coarsest > kLargestDense) {
     throw SolverError("the multigrid hierarchy of a system of " + std::to_string(L.rows()) + " unknowns ends at " +
                       std::to_string(coarsest));
   }
-  const Eigen::MatrixXd A = dense(level.A);
+  const Eigen::MatrixXd A = dense(result.levels.back());
   result.coarsest_inverse = pseudo_inverse(A);
   if (!held.empty()) result.held_inverse = inverse_of_others(A, level.held);
   return result;

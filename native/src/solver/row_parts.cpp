@@ -2,46 +2,46 @@
 
 namespace holomorph::solver {
 
-std::unique_ptr<RowPart> PartsInOrder::take() {
-  const std::lock_guard lock(mutex_);
-  if (free_.empty()) return std::make_unique<RowPart>();
-  auto part = std::move(free_.back());
-  free_.pop_back();
-  part->ends.clear();
-  part->size = 0;
-  return part;
+CollectedRows::CollectedRows(int rows, std::size_t expected_entries)
+    : matrix_{GroupedRows(rows, wave_chunks(rows)), Array<SparseRows::Place>(rows)} {
+  matrix_.rows.entries().resize(expected_entries);
 }
 
-void PartsInOrder::finish(int chunk, std::unique_ptr<RowPart> part) {
-  std::unique_lock lock(mutex_);
-  done_[chunk] = std::move(part);
-  if (appending_) return;  // that thread will look again
-  appending_ = true;
-  while (next_ < done_.size() && done_[next_] && !failure_) {
-    auto ready = std::move(done_[next_++]);
-    lock.unlock();
-    try {
-      append(*ready);
-    } catch (...) {
-      fail(std::current_exception());
+void CollectedRows::add(int chunk, const RowPart& part) {
+  std::size_t first;
+  {
+    const std::lock_guard lock(mutex_);
+    if (used_ + part.size > matrix_.rows.entries().size()) {
+      beyond_.emplace_back(chunk, part);
+      return;
     }
-    lock.lock();
-    free_.push_back(std::move(ready));
+    first = used_;
+    used_ += part.size;
   }
-  appending_ = false;
+  put(chunk, part, first);
 }
 
-void PartsInOrder::fail(std::exception_ptr failure) {
-  const std::lock_guard lock(mutex_);
-  if (!failure_) failure_ = std::move(failure);
+void CollectedRows::put(int chunk, const RowPart& part, std::size_t first) {
+  const int begin = chunk * kWaveRows;
+  auto next = static_cast<int>(first);
+  matrix_.rows.lay_out(chunk, begin, part.offsets, next);
+  Entry* const entries = matrix_.rows.entries().data();
+  matrix_.rows.for_rows(chunk, [&](int i, const Entry*, int length) {
+    std::copy_n(part.entry.data() + part.offsets[i - begin], length, entries + next);
+    matrix_.place[i] = {next, next + length};
+    next += length;
+  });
 }
 
-void PartsInOrder::append(const RowPart& part) {
-  const auto before = static_cast<int>(result_.column.size());
-  for (const int end : part.ends) result_.start.push_back(before + end);
-  const auto used = static_cast<std::ptrdiff_t>(part.size);
-  result_.column.insert(result_.column.end(), part.column.begin(), part.column.begin() + used);
-  result_.weight.insert(result_.weight.end(), part.weight.begin(), part.weight.begin() + used);
+SparseRows CollectedRows::result() {
+  std::size_t all = used_;
+  for (const auto& [chunk, part] : beyond_) all += part.size;
+  matrix_.rows.entries().resize(all);
+  for (const auto& [chunk, part] : beyond_) {
+    put(chunk, part, used_);
+    used_ += part.size;
+  }
+  return std::move(matrix_);
 }
 
 }  // namespace holomorph::solver

@@ -1,60 +1,53 @@
 // Building a sparse matrix in parallel where the length of a row is known only when it is done.
 #pragma once
 
-#include <exception>
-#include <memory>
 #include <mutex>
+#include <utility>
 
 #include "solver/sparse_rows.h"
 
 namespace holomorph::solver {
 
-/// The rows of one chunk on their way into a matrix.
-struct RowPart {
-  std::vector<int> ends;  // of each row
-  Array<int> column;      // longer than what is used of it, like `weight`
-  Array<float> weight;
+/// The rows of one chunk on their way into a matrix; on cache lines of its own.
+struct alignas(128) RowPart {
+  std::vector<int> offsets;  // of each row, and the end of the last one
+  Array<Entry> entry;        // longer than what is used of it
   std::size_t size = 0;
 
+  void clear() {
+    offsets.assign(1, 0);
+    size = 0;
+  }
   /// Makes room for so many entries of the next row.
   void make_room(std::size_t entries) {
-    if (size + entries <= column.size()) return;
-    column.resize(2 * (size + entries));
-    weight.resize(column.size());
+    if (size + entries > entry.size()) entry.resize(2 * (size + entries));
   }
   /// An entry that is not kept is overwritten by the next one: without a branch that cannot be predicted.
-  void append(int c, float w, bool kept) {
-    column[size] = c;
-    weight[size] = w;
+  void append(int column, float weight, bool kept) {
+    entry[size] = {column, weight};
     size += kept;
   }
+  void end_row() { offsets.push_back(static_cast<int>(size)); }
 };
 
-/// Parts that threads finish in any order, appended to a matrix in the order of the chunks: by whichever thread comes
-/// when the next one is ready. Nobody waits, and a part is copied while it is still in a cache.
-class PartsInOrder {
+/// A matrix into which threads put its chunks in any order, each copied while it is still in a cache. Where in memory
+/// it lies depends on that order, and nothing else.
+class CollectedRows {
  public:
-  PartsInOrder(SparseRows& result, int chunks) : result_(result), done_(chunks) {}
+  CollectedRows(int rows, std::size_t expected_entries);
 
-  /// For the thread that begins a chunk. @throws std::bad_alloc
-  std::unique_ptr<RowPart> take();
-  void finish(int chunk, std::unique_ptr<RowPart> part);
-
-  /// Keeps the first failure, which is out of memory, for rethrow().
-  void fail(std::exception_ptr failure);
-  void rethrow() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
+  /// @throws std::bad_alloc
+  void add(int chunk, const RowPart& part);
+  /// When all chunks are there. @throws std::bad_alloc
+  SparseRows result();
 
  private:
-  void append(const RowPart& part);
+  void put(int chunk, const RowPart& part, std::size_t first);
 
-  SparseRows& result_;
+  SparseRows matrix_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<RowPart>> done_, free_;
-  std::size_t next_ = 0;
-  bool appending_ = false;
-  std::exception_ptr failure_;
+  std::size_t used_ = 0;
+  std::vector<std::pair<int, RowPart>> beyond_;  // chunks for which there was no room
 };
 
 /// Builds a matrix with `rows` rows in parallel. make_row(thread, i, part) appends the entries of row i to `part`;
@@ -62,25 +55,18 @@ class PartsInOrder {
 template <class MakeRow>
 SparseRows build_rows(int rows, std::size_t expected_entries, Workers& workers, Progress& progress,
                       const MakeRow& make_row) {
-  SparseRows result;
-  result.start.reserve(rows + std::size_t{1});
-  result.column.reserve(expected_entries);
-  result.weight.reserve(expected_entries);
-  PartsInOrder parts(result, set_up_chunks(rows));
+  CollectedRows result(rows, expected_entries);
+  std::vector<RowPart> parts(workers.count());
   for_set_up_chunks(workers, rows, progress, [&](int thread, int chunk, int begin, int end) {
-    try {
-      auto part = parts.take();
-      for (int i = begin; i < end; ++i) {
-        make_row(thread, i, *part);
-        part->ends.push_back(static_cast<int>(part->size));
-      }
-      parts.finish(chunk, std::move(part));
-    } catch (...) {
-      parts.fail(std::current_exception());
+    RowPart& part = parts[thread];
+    part.clear();
+    for (int i = begin; i < end; ++i) {
+      make_row(thread, i, part);
+      part.end_row();
     }
+    result.add(chunk, part);
   });
-  parts.rethrow();
-  return result;
+  return result.result();
 }
 
 }  // namespace holomorph::solver

@@ -1,5 +1,7 @@
 #include "solver/sparse_rows.h"
 
+#include <numeric>
+
 namespace holomorph::solver {
 namespace {
 
@@ -10,14 +12,13 @@ constexpr int kColumns = 4096;
 struct ColumnRanges {
   std::vector<int> least, most;
 
-  ColumnRanges(const SparseRows& M, Workers& workers, Progress& progress)
-      : least(set_up_chunks(M.size())), most(set_up_chunks(M.size())) {
+  ColumnRanges(const EqualRows& M, Workers& workers, Progress& progress)
+      : least(wave_chunks(M.size())), most(wave_chunks(M.size())) {
     for_set_up_chunks(workers, M.size(), progress, [&](int, int chunk, int begin, int end) {
-      const int* const column = M.column.data();
-      int low = M.start[begin] < M.start[end] ? column[M.start[begin]] : 0, high = low;
-      for (int e = M.start[begin]; e < M.start[end]; ++e) {
-        low = std::min(low, column[e]);
-        high = std::max(high, column[e]);
+      int low = M[begin]->column, high = low;
+      for (const Entry* e = M[begin]; e != M[end]; ++e) {
+        low = std::min(low, e->column);
+        high = std::max(high, e->column);
       }
       least[chunk] = low;
       most[chunk] = high;
@@ -25,53 +26,62 @@ struct ColumnRanges {
   }
 };
 
-// visit(row, entry) for the entries of M in the columns begin .. end-1, row by row.
+// visit(row, entry) for the entries of M in the columns begin .. end-1, row by row, the last entry of each first.
 template <class Visit>
-void for_columns(const SparseRows& M, const ColumnRanges& ranges, int begin, int end, const Visit& visit) {
+void for_columns(const EqualRows& M, const ColumnRanges& ranges, int begin, int end, const Visit& visit) {
   for (int chunk = 0; chunk < static_cast<int>(ranges.least.size()); ++chunk) {
     if (ranges.most[chunk] < begin || ranges.least[chunk] >= end) continue;
-    const int first = chunk * kSetUpChunk, last = std::min(first + kSetUpChunk, M.size());
+    const int first = chunk * kWaveRows, last = std::min(first + kWaveRows, M.size());
     for (int i = first; i < last; ++i) {
-      for (int e = M.start[i]; e < M.start[i + 1]; ++e) {
-        if (M.column[e] >= begin && M.column[e] < end) visit(i, e);
+      for (int k = M.each; k-- > 0;) {
+        const Entry& entry = M[i][k];
+        if (entry.column >= begin && entry.column < end) visit(i, entry);
       }
     }
   }
 }
 
-}  // namespace
-
-// Each block of columns is done by one thread, which looks through the chunks that have entries in it.
-SparseRows transposed(const SparseRows& M, int columns, Workers& workers, Progress& progress) {
-  const ColumnRanges ranges(M, workers, progress);
+// Calls body(begin, end) for blocks of columns, in parallel.
+template <class Body>
+void for_column_blocks(int columns, Workers& workers, Progress& progress, const Body& body) {
   // One thread has nothing to share; and where columns are anywhere, more blocks would be more passes.
   const int blocks = workers.count() == 1 ? 1 : std::min(columns / kColumns + 1, 8 * workers.count());
   const int width = (columns + blocks - 1) / blocks;
-  const auto for_blocks = [&](const auto& body) {
-    progress.report(0);
-    workers.run(blocks, [&](int, int b) { body(b * width, std::min((b + 1) * width, columns)); });
-  };
-  SparseRows R;
-  R.start.resize(columns + std::size_t{1});
-  // start[c + 1]: first the number of entries of row c, then the place of the next one, in the end that of row c + 1.
-  R.start[0] = 0;
-  for_blocks([&](int begin, int end) {
-    for (int c = begin; c < end; ++c) R.start[c + 1] = 0;
-    for_columns(M, ranges, begin, end, [&](int, int e) { ++R.start[M.column[e] + 1]; });
+  progress.report(0);
+  workers.run(blocks, [&](int, int b) { body(std::min(b * width, columns), std::min((b + 1) * width, columns)); });
+}
+
+}  // namespace
+
+// Each block of columns is done by one thread, which looks through the chunks that have entries in it.
+SparseRows transposed(const EqualRows& M, int columns, int chunks, Workers& workers, Progress& progress) {
+  const ColumnRanges ranges(M, workers, progress);
+  Array<int> start(columns + std::size_t{1});  // of every row, if they followed each other
+  start[0] = 0;
+  for_column_blocks(columns, workers, progress, [&](int begin, int end) {
+    std::fill(start.begin() + begin + 1, start.begin() + end + 1, 0);
+    for_columns(M, ranges, begin, end, [&](int, const Entry& entry) { start[entry.column + 1] += entry.weight != 0; });
   });
-  int place = 0;
-  for (int c = 0; c < columns; ++c) {
-    const int count = R.start[c + 1];
-    R.start[c + 1] = place;
-    place += count;
-  }
-  R.column.resize(M.column.size());
-  R.weight.resize(M.column.size());
-  for_blocks([&](int begin, int end) {
-    for_columns(M, ranges, begin, end, [&](int i, int e) {
-      const int next = R.start[M.column[e] + 1]++;
-      R.column[next] = i;
-      R.weight[next] = M.weight[e];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  SparseRows R{GroupedRows(columns, chunks), Array<SparseRows::Place>(columns)};
+  R.rows.entries().resize(start[columns]);
+  const Chunks rows{columns, (columns + chunks - 1) / chunks};
+  run_throwing(workers, chunks, [&](int chunk) {
+    const int begin = rows.begin(chunk), count = rows.end(chunk) - begin;
+    R.rows.lay_out(chunk, begin, {start.data() + begin, count + std::size_t{1}}, start[begin]);
+    int next = start[begin];
+    R.rows.for_rows(chunk, [&](int c, const Entry*, int length) {
+      R.place[c] = {next, next};
+      next += length;
+    });
+  });
+  Entry* const entries = R.rows.entries().data();
+  for_column_blocks(columns, workers, progress, [&](int begin, int end) {
+    // A zero has the column of the first entry of its row, which comes later and overwrites it.
+    for_columns(M, ranges, begin, end, [&](int i, const Entry& entry) {
+      int& next = R.place[entry.column].end;
+      entries[next] = {i, entry.weight};
+      next += entry.weight != 0;
     });
   });
   return R;

@@ -1,42 +1,43 @@
-// A sparse matrix in single precision, row by row.
+// Sparse matrices in single precision while the hierarchy is set up.
 #pragma once
 
-#include "base/chunks.h"
-#include "base/page_allocator.h"
 #include "base/progress.h"
+#include "solver/equal_rows.h"
+#include "solver/grouped_rows.h"
 
 namespace holomorph::solver {
 
-/// Row i has the entries start[i] .. start[i+1]-1: `column`, in a fixed order of no meaning, and `weight`.
+/// A matrix whose rows are found by their numbers as well, in chunks of kWaveRows if not said otherwise.
 struct SparseRows {
-  Array<int> start{0};
-  Array<int> column;
-  Array<float> weight;
+  struct Place {
+    int begin, end;  // of the row's entries
+  };
+  GroupedRows rows;
+  Array<Place> place;
 
-  int size() const { return static_cast<int>(start.size()) - 1; }
+  int size() const { return static_cast<int>(place.size()); }
+  /// In a fixed order of no meaning.
+  std::span<const Entry> operator[](int i) const {
+    return {rows.entries().data() + place[i].begin, rows.entries().data() + place[i].end};
+  }
 };
 
-/// Rows of a chunk of the set-up: its loops do more for a row than those of a cycle, and coarse levels have few rows.
-inline constexpr int kSetUpChunk = 1024;
-
-inline int set_up_chunks(int rows) { return (rows + kSetUpChunk - 1) / kSetUpChunk; }
-
-/// body(thread, chunk, begin, end) for the rows begin .. end-1 of every chunk, in parallel; asks `progress` between
-/// batches of some 10 ms, so that cancelling is answered soon. @pre body does not throw
+/// body(thread, chunk, begin, end) for the rows begin .. end-1 of every chunk of kWaveRows, in parallel; asks
+/// `progress` between batches of some 10 ms, so that cancelling is answered soon. Throws what the first body threw.
 template <class Body>
 void for_set_up_chunks(Workers& workers, int rows, Progress& progress, const Body& body) {
   constexpr int kBatch = 256;
-  for (int first = 0; first < set_up_chunks(rows); first += kBatch) {
+  for (int first = 0; first < wave_chunks(rows); first += kBatch) {
     progress.report(0);
-    workers.run(std::min(kBatch, set_up_chunks(rows) - first), [&](int thread, int c) {
-      const int begin = (first + c) * kSetUpChunk;
-      body(thread, first + c, begin, std::min(begin + kSetUpChunk, rows));
+    run_throwing(workers, std::min(kBatch, wave_chunks(rows) - first), [&](int thread, int c) {
+      const int begin = (first + c) * kWaveRows;
+      body(thread, first + c, begin, std::min(begin + kWaveRows, rows));
     });
   }
 }
 
-/// The transpose, entries of a row in ascending order. Cost: two passes over the entries, in parallel where the columns
-/// of neighbouring rows are near each other.
-SparseRows transposed(const SparseRows& M, int columns, Workers& workers, Progress& progress);
+/// The transpose, without zeros, its rows in as many chunks of equal size; entries of a row in ascending order.
+/// Cost: two passes over the entries, in parallel where the columns of neighbouring rows are near each other.
+SparseRows transposed(const EqualRows& M, int columns, int chunks, Workers& workers, Progress& progress);
 
 }  // namespace holomorph::solver

@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "solver/sparse_rows.h"
-
 namespace holomorph::solver {
 namespace {
 
@@ -22,21 +20,6 @@ int ready(int chunk, const std::vector<int>& needs, const std::vector<int>& befo
 }
 
 }  // namespace
-
-Needs needs_of(const SparseRows& M, const Chunks& rows, const Chunks& columns, int chunks, Workers& workers) {
-  Needs needs(chunks);
-  std::vector<std::vector<int>> found_by(workers.count(), std::vector<int>(chunks, -1));
-  workers.run(chunks, [&](int thread, int chunk) {
-    int* const by = found_by[thread].data();
-    for (int e = M.start[rows.begin(chunk)], end = M.start[rows.end(chunk)]; e < end; ++e) {
-      const int need = M.column[e] / columns.each;
-      if (by[need] == chunk) continue;
-      by[need] = chunk;
-      needs[chunk].push_back(need);
-    }
-  });
-  return needs;
-}
 
 Wavefront::Wavefront(int chunks, const std::vector<const Needs*>& needs, int threads)
     : segments_(std::min(kSegmentsPerThread * threads, chunks / kShortestSegment)), left_(needs.size() + 1) {

@@ -8,8 +8,6 @@
 
 namespace holomorph::solver {
 
-struct SparseRows;
-
 /// Rows in chunks of equal size, the last ones shorter or empty.
 struct Chunks {
   int rows = 0;
@@ -23,13 +21,10 @@ struct Chunks {
 /// cache of one processor.
 inline constexpr int kWaveRows = 1024;
 
+inline int wave_chunks(int rows) { return (rows + kWaveRows - 1) / kWaveRows; }
+
 /// For every chunk of a loop the chunks of the loop before whose results it reads, without order.
 using Needs = std::vector<std::vector<int>>;
-
-/// The needs of a loop that computes M x, where the loop before wrote x.
-/// @param rows, columns how those of M are shared out
-/// Cost: linear, parallel.
-Needs needs_of(const SparseRows& M, const Chunks& rows, const Chunks& columns, int chunks, Workers& workers);
 
 /// The order in which the chunks of up to three loops are done. Every thread goes through segments of consecutive
 /// chunks: it does the next chunk of the first loop, then those of the later loops that need no more than what it has
