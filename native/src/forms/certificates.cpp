@@ -4,6 +4,7 @@
 
 #include "base/chunks.h"
 #include "forms/harmonic_basis.h"
+#include "mesh/triangle_geometry.h"
 
 namespace holomorph::forms {
 namespace {
@@ -146,6 +147,39 @@ Eigen::MatrixXd gram_matrix_of(const HalfEdges& mesh, const std::vector<double>&
   return (G + G.transpose()) / 2;
 }
 
+// A triangle adds cot / 2 h^2 for each side, cot that of the angle opposite.
+template <int N>
+Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
+                            Progress& progress) {
+  const auto n = forms.functions.cols();
+  const int first = forms.first, count = static_cast<int>(n);
+  const auto add_side = [&](int e, double cotangent, Row<N>& value, Row<N>& sum) {
+    const auto [tail, head] = surface.edges[e];
+    value = at_vertex<N>(forms, head) - at_vertex<N>(forms, tail);
+    for (const auto& [i, integer] : topology::forms_between(forms.classes.rows[e], first, first + count))
+      value[i - first] += integer;
+    sum += 0.5 * cotangent * value.cwiseAbs2();
+  };
+  std::array<Row<N>, kBatch> slots;
+  Row<N> total = Row<N>::Zero(n);
+  for_blocks(
+      surface.triangle_edges.size(), progress, 0.0, 1.0,
+      [&](int slot, int begin, int end) {
+        Row<N> value(n), sum = Row<N>::Zero(n);
+        for (int t = begin; t < end; ++t) {
+          const auto [i, j, k] = surface.triangle_edges[t];
+          const double a = surface.edge_lengths[i] + mollification, b = surface.edge_lengths[j] + mollification,
+                       c = surface.edge_lengths[k] + mollification, area = mesh::triangle_area(a, b, c);
+          add_side(i, mesh::cotangent(a, b, c, area), value, sum);
+          add_side(j, mesh::cotangent(b, c, a, area), value, sum);
+          add_side(k, mesh::cotangent(c, a, b, area), value, sum);
+        }
+        slots[slot] = sum;
+      },
+      [&](int slot) { total += slots[slot]; });
+  return total.transpose();
+}
+
 template <int N>
 Residuals residuals_of(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
                        Progress& progress, const std::vector<char>& is_held) {
@@ -177,19 +211,10 @@ Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& we
   return (G + G.transpose()) / 2;
 }
 
-Eigen::VectorXd energies(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
                          Progress& progress) {
-  std::array<Eigen::VectorXd, kBatch> slots;
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(forms.functions.cols());
-  for_blocks(
-      weights.size(), progress, 0.0, 1.0,
-      [&](int slot, int begin, int end) {
-        const RowMajorMatrix h = edge_values(mesh, forms, begin, end);
-        const auto k = Eigen::Map<const Eigen::VectorXd>(weights.data() + begin, end - begin);
-        slots[slot].noalias() = h.cwiseAbs2().transpose() * k;
-      },
-      [&](int slot) { sum += slots[slot]; });
-  return sum;
+  return forms.functions.cols() == 2 ? energies_of<2>(surface, mollification, forms, progress)
+                                     : energies_of<Eigen::Dynamic>(surface, mollification, forms, progress);
 }
 
 Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& w, Progress& progress) {

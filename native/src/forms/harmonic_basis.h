@@ -50,9 +50,10 @@ RowMajorMatrix edge_values(const mesh::HalfEdges& half_edges, const ClosedForms&
 Eigen::MatrixXd gram_matrix(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                             const ClosedForms& forms, Progress& progress);
 
-/// The diagonal of gram_matrix: cost #E x #forms.
-Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
-                         const ClosedForms& forms, Progress& progress);
+/// <h_i, h_i> on the artist's triangles: the diagonal of gram_matrix there, summed by triangles in a fixed order.
+/// @param mollification added to every length. Cost: #T x #forms
+Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
+                         Progress& progress);
 
 /// <eta_i, h_j> = sum_e k_e eta_i(e) h_j(e), #classes x #forms: the columns of the Gram matrix that belong to these
 /// forms. Where d* h_j = 0, <df_i, h_j> = 0 and so <h_i, h_j> = <eta_i, h_j>: one form h_j at a time is enough.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/chunks.h"
 #include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
@@ -23,7 +24,11 @@ constexpr int kEdgeBlock = 4096;
 uv::UvArray combination(const forms::RowMajorMatrix& functions, const Eigen::VectorXcd& p) {
   Eigen::Matrix<double, Eigen::Dynamic, 2> coefficients(p.size(), 2);
   coefficients << p.real(), p.imag();
-  return functions * coefficients;
+  uv::UvArray result(functions.rows(), 2);
+  Workers workers;
+  for_rows(workers, static_cast<int>(result.rows()),
+           [&](int v) { result.row(v).noalias() = functions.row(v) * coefficients; });
+  return result;
 }
 
 void write_edge_values(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
@@ -51,15 +56,15 @@ void ArtistForms::prepare_all(Progress& progress) {
   report_ = structure_.solver;
   if (structure_.flip_count == 0) return;
   progress.stage("artist's triangulation", 0.0, 0.2);
-  const auto plain = mesh::intrinsic_triangulation(surface_, structure_.half_edges);
-  const auto weights = mesh::cotangent_weights(plain, progress);
   auto& harmonic = structure_.harmonic;
   if (!given_up_) {
-    const Eigen::VectorXd here = forms::energies(plain.half_edges, weights, harmonic, progress);
+    const Eigen::VectorXd here = forms::energies(surface_, structure_.mollification, harmonic, progress);
     if (is_negligible(here, structure_.gram_matrix.diagonal())) return;
   }
   harmonic.functions.resize(0, 0);
   given_up_ = true;
+  const auto plain = mesh::intrinsic_triangulation(surface_, structure_.half_edges);
+  const auto weights = mesh::cotangent_weights(plain, progress);
 
   progress.stage("harmonic forms of the artist's triangles", 0.2, 1.0);
   auto laplacian = forms::laplacian(plain.half_edges, weights, progress);
@@ -136,12 +141,12 @@ HarmonicForms artist_forms(const mesh::Surface& surface, const BoundedStructure&
   if (structure.flip_count == 0) return {structure.harmonic, structure.solver};
   const ThreadCount threads(options.threads);
   progress.stage("artist's triangulation", 0.0, 0.2);
-  const auto plain = mesh::intrinsic_triangulation(surface, structure.half_edges);
-  const auto weights = mesh::cotangent_weights(plain, progress);
-  const Eigen::VectorXd here = forms::energies(plain.half_edges, weights, structure.harmonic, progress);
+  const Eigen::VectorXd here = forms::energies(surface, structure.mollification, structure.harmonic, progress);
   Eigen::VectorXd least(here.size());
   least << structure.natural_gram.diagonal(), structure.dirichlet_gram.diagonal();
   if (is_negligible(here, least)) return {structure.harmonic, structure.solver};
+  const auto plain = mesh::intrinsic_triangulation(surface, structure.half_edges);
+  const auto weights = mesh::cotangent_weights(plain, progress);
 
   progress.stage("harmonic forms of the artist's triangles", 0.2, 1.0);
   auto laplacian = forms::laplacian(plain.half_edges, weights, progress);
