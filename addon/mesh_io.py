@@ -9,6 +9,7 @@ import ctypes
 import functools
 import hashlib
 import re
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import bmesh
@@ -34,11 +35,12 @@ class Polygons:
     @functools.cached_property
     def fingerprint(self):
         """A hash of geometry and topology: equal meshes under equal scale have equal fingerprints."""
-        digest = hashlib.sha256()  # processors have instructions for it
-        for array in (self.vertices, self.corner_vertices, self.face_offsets):
-            digest.update(str(array.shape).encode())
-            digest.update(np.ascontiguousarray(array).data)
-        return digest.hexdigest()
+        arrays = [np.ascontiguousarray(a) for a in (self.vertices, self.corner_vertices, self.face_offsets)]
+        whole = hashlib.sha256(str([a.shape for a in arrays]).encode())
+        with ThreadPoolExecutor(len(arrays)) as threads:  # SHA-256: processors have instructions for it
+            for digest in threads.map(lambda a: hashlib.sha256(a.data).digest(), arrays):
+                whole.update(digest)
+        return whole.hexdigest()
 
 
 def _get(values, width, dtype):
@@ -84,8 +86,10 @@ def read_polygons(mesh, linear):
     here: Blender's own ``validate`` would repair the artist's mesh, so the library judges the arrays.
     """
     positions = _get(compatibility.position_values(mesh), 3, np.float32).reshape(-1, 3)
-    with np.errstate(all="ignore"):  # a NaN is the library's to name
-        vertices = positions.astype(np.float64) @ np.asarray(linear, np.float64).T
+    vertices, linear = positions.astype(np.float64), np.asarray(linear, np.float64)
+    if not np.array_equal(linear, np.eye(3)):
+        with np.errstate(all="ignore"):  # a NaN is the library's to name
+            vertices = vertices @ linear.T
     corner_vertices = _integers(compatibility.corner_vertex_values(mesh), compatibility.corner_vertex_column(mesh))
     start_column, size_column = compatibility.polygon_columns(mesh)
     starts = _integers((mesh.polygons, "loop_start"), start_column)

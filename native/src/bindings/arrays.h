@@ -65,8 +65,8 @@ py::array give(Container&& values, std::vector<py::ssize_t> shape) {
   return read_only(py::array_t<T>(std::move(shape), data, owner));
 }
 
-template <class T>
-py::array give(std::vector<T>&& values) {
+template <class T, class Allocator>
+py::array give(std::vector<T, Allocator>&& values) {
   const auto size = static_cast<py::ssize_t>(values.size());
   return give(std::move(values), {size});
 }

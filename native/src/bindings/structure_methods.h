@@ -6,12 +6,6 @@
 
 namespace holomorph::bindings {
 
-inline py::tuple report(const pipeline::SolverReport& solver) {
-  py::list levels;
-  for (const auto& level : solver.levels) levels.append(py::make_tuple(level.faces, level.iterations, level.seconds));
-  return py::make_tuple(solver.name, solver.reason, solver.iterations, solver.residual, py::tuple(levels));
-}
-
 template <class Value>
 py::tuple uv_solver(Structure<Value>& s) {
   pipeline::SolverReport solver;
@@ -59,11 +53,13 @@ py::array harmonic_forms(Structure<Value>& s) {
 
 template <class Value>
 py::array uv(Structure<Value>& s, const Eigen::VectorXcd& coefficients) {
-  uv::UvArray result;
+  // NumPy takes large arrays on large pages.
+  py::array_t<double> result({static_cast<py::ssize_t>(s.surface->polygons.corner_vertices.size()), py::ssize_t{2}});
+  Eigen::Map<uv::UvArray> corners(result.mutable_data(), result.shape(0), 2);
   s.with_forms([&](auto& forms, Progress& progress) {
-    result = uv::uv_map(*s.surface, s.value.sheets, forms.function(coefficients, progress), coefficients);
+    uv::write_uv_map(*s.surface, s.value.sheets, forms.function(coefficients, progress), coefficients, corners);
   });
-  return give_matrix(std::move(result));
+  return read_only(std::move(result));
 }
 
 template <class Value>

@@ -64,4 +64,10 @@ std::shared_ptr<Structure<Value>> make_structure(std::shared_ptr<mesh::Surface> 
   return structure;
 }
 
+inline py::tuple report(const pipeline::SolverReport& solver) {
+  py::list levels;
+  for (const auto& level : solver.levels) levels.append(py::make_tuple(level.faces, level.iterations, level.seconds));
+  return py::make_tuple(solver.name, solver.reason, solver.iterations, solver.residual, py::tuple(levels));
+}
+
 }  // namespace holomorph::bindings

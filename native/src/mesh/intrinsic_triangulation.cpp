@@ -37,15 +37,20 @@ bool set_all_cotangents(IntrinsicTriangulation& t, Workers& workers) {
 // The increment with which (a + x) + (b + x) - (c + x) >= slack holds in every triangle.
 double smallest_increment(const Surface& surface) {
   const auto& l = surface.edge_lengths;
+  Workers workers;
+  const int triangles = static_cast<int>(surface.triangle_edges.size());
+  const int first_degenerate = first_row(workers, triangles, [&](int t) {
+    const auto& [i, j, k] = surface.triangle_edges[t];
+    return is_degenerate(l[i], l[j], l[k]);
+  });
+  if (first_degenerate == triangles) return 0.0;
   const double mean = std::accumulate(l.begin(), l.end(), 0.0) / static_cast<double>(l.size());
   double increment = 0;
-  bool degenerate = false;
   for (const auto& [i, j, k] : surface.triangle_edges) {
-    degenerate = degenerate || is_degenerate(l[i], l[j], l[k]);
     const double longest = std::max({l[i], l[j], l[k]});
     increment = std::max(increment, kSlack * mean + 2 * longest - (l[i] + l[j] + l[k]));
   }
-  return degenerate ? increment : 0.0;
+  return increment;
 }
 
 void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {

@@ -44,13 +44,11 @@ double weighted_quantile(std::vector<Weighted>& items, double wanted) {
 // the order of the values. Only the items of the class in which a quantile lies are looked at again.
 class Distribution {
  public:
-  Distribution(const std::vector<double>& values, const std::vector<double>& weights, Workers& workers)
-      : values_(values), weights_(weights), classes_(kClasses, 0.0) {
-    const std::size_t count = values.size();
+  Distribution(const Array<double>& values, const Array<double>& weights, Workers& workers)
+      : values_(values), weights_(weights), workers_(workers), classes_(kClasses, 0.0) {
     std::vector<std::vector<double>> parts(kParts, std::vector<double>(kClasses, 0.0));
     workers.run(kParts, [&](int, int part) {
-      for (std::size_t i = count * part / kParts; i < count * (part + 1) / kParts; ++i)
-        parts[part][class_of(values[i])] += weights[i];
+      for (std::size_t i = begin(part); i < begin(part + 1); ++i) parts[part][class_of(values[i])] += weights[i];
     });
     for (const auto& part : parts) {
       for (int k = 0; k < kClasses; ++k) classes_[k] += part[k];
@@ -63,19 +61,31 @@ class Distribution {
     double wanted = fraction * total_;
     int k = 0;
     for (; k + 1 < kClasses && !(classes_[k] >= wanted && classes_[k] > 0); ++k) wanted -= classes_[k];
-    std::vector<Weighted> items;
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      if (class_of(values_[i]) == k) items.push_back({values_[i], weights_[i]});
-    }
+    std::vector<Weighted> items = items_of(k);
     return items.empty() ? 0.0 : weighted_quantile(items, wanted);
   }
 
  private:
   static constexpr int kClasses = 1 << 15, kParts = 8;
+  std::size_t begin(int part) const { return values_.size() * part / kParts; }
+
+  std::vector<Weighted> items_of(int k) const {
+    std::vector<std::vector<Weighted>> parts(kParts);
+    run_throwing(workers_, kParts, [&](int part) {
+      for (std::size_t i = begin(part); i < begin(part + 1); ++i) {
+        if (class_of(values_[i]) == k) parts[part].push_back({values_[i], weights_[i]});
+      }
+    });
+    std::vector<Weighted> items;
+    for (const auto& part : parts) items.insert(items.end(), part.begin(), part.end());
+    return items;
+  }
+
   static int class_of(double value) { return static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 48) % kClasses; }
 
-  const std::vector<double>& values_;
-  const std::vector<double>& weights_;
+  const Array<double>& values_;
+  const Array<double>& weights_;
+  Workers& workers_;
   std::vector<double> classes_;
   double total_ = 0;
 };
@@ -108,13 +118,16 @@ struct AngleSum {
 
 Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv) {
   const std::size_t count = surface.triangles.size();
-  Quality result{std::vector<double>(count, 1.0), std::vector<double>(count, 0.0), std::vector<char>(count, 0)};
-  std::vector<double> areas(count, 0.0);
+  Quality result{Array<double>(count), Array<double>(count), Array<char>(count)};
+  Array<double> areas(count);
   Workers workers;
   const auto measure = [&](int t, AngleSum& sum) {
     const auto& sides = surface.triangle_edges[t];
     const double a = surface.edge_lengths[sides[0]], b = surface.edge_lengths[sides[1]],
                  c = surface.edge_lengths[sides[2]];
+    result.angle[t] = 1;
+    result.area[t] = areas[t] = 0;
+    result.flipped[t] = 0;
     if (mesh::is_degenerate(a, b, c)) return;
     areas[t] = mesh::triangle_area(a, b, c);
     std::array<Complex, 3> at;

@@ -20,6 +20,13 @@ UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const f
 
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                const Eigen::VectorXcd& p) {
+  UvArray uv(static_cast<Eigen::Index>(surface.polygons.corner_vertices.size()), 2);
+  write_uv_map(surface, sheets, at_vertex, p, uv);
+  return uv;
+}
+
+void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+                  const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv) {
   const UvArray coefficients = real_and_imaginary(p);
   UvArray translation = UvArray::Zero(static_cast<Eigen::Index>(sheets.sheets.size()), 2);
   for (std::size_t s = 0; s < sheets.sheets.size(); ++s) {
@@ -27,11 +34,9 @@ UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const U
       translation.row(static_cast<Eigen::Index>(s)) += value * coefficients.row(k);
   }
   const auto& corner_vertices = surface.polygons.corner_vertices;
-  UvArray uv(static_cast<Eigen::Index>(corner_vertices.size()), 2);
   Workers workers;
   for_rows(workers, static_cast<int>(uv.rows()),
            [&](int c) { uv.row(c) = at_vertex.row(corner_vertices[c]) + translation.row(sheets.corner_sheet[c]); });
-  return uv;
 }
 
 }  // namespace holomorph::uv

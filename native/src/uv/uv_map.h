@@ -20,6 +20,9 @@ UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const f
 /// UV(corner) = at_vertex(vertex) + sum_k p_k P_k(corner): the same from any potentials, #V x 2.
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                const Eigen::VectorXcd& p);
+/// The same into memory that there is, #C x 2.
+void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
+                  const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv);
 
 /// What the balance below needs to know of the forms: their values on two sides of a few thousand triangles.
 struct FormSamples {
