@@ -76,6 +76,46 @@ def test_bits_of_another_process():
     assert len(runs.pop().strip()) == 64
 
 
+# ---- memory -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the memory in use, and glibc to keep none")
+def test_memory_goes_back_to_the_system():
+    """Pages are kept for the next array only while a computation lasts."""
+    program = """
+import ctypes
+import gc
+import families
+import holomorph
+
+
+def megabytes(key):
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) / 1024 for line in status if line.startswith(key))
+
+
+def compute(n):
+    mesh = families.torus(n, 300, shape="triangles")
+    surface = holomorph.Surface(mesh.vertices, mesh.corners.reshape(-1, 3))
+    return holomorph.conformal_structure(surface, solver="multigrid").solver.residual
+
+
+compute(10)
+gc.collect()
+before = megabytes("VmRSS:")
+compute(800)
+gc.collect()
+ctypes.CDLL("libc.so.6").malloc_trim(0)
+print(before, megabytes("VmRSS:"), megabytes("VmHWM:"))
+"""
+    paths = {"PYTHONPATH": os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(Path(__file__).parent)])}
+    command = [sys.executable, "-c", program]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, env=os.environ | paths)
+    before, after, peak = map(float, run.stdout.split())
+    assert peak > before + 150  # megabytes of arrays that were large
+    assert after < before + 0.2 * (peak - before)
+
+
 # ---- progress and cancelling --------------------------------------------------------------------------------------
 
 

@@ -1,4 +1,5 @@
-// Progress, cancelling and timing of long work: one object is handed down through all stages of a computation.
+// Progress, cancelling and timing of long work: one object is handed down through all stages of a computation, which
+// keep their memory as long as it lives.
 #pragma once
 
 #include <chrono>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/errors.h"
+#include "base/kept_pages.h"
 
 namespace holomorph {
 
@@ -53,6 +55,7 @@ class Progress {
   void call(double fraction);
   void close_stage();
 
+  KeptPages pages_;
   Callback callback_;
   std::string name_;
   double begin_ = 0, end_ = 0, part_begin_ = 0, part_end_ = 1, reported_ = 0;

@@ -113,6 +113,7 @@ std::vector<EdgeMeeting> meetings_of(const Polygons& mesh, const PolygonEdges& e
 }  // namespace
 
 Surface make_surface(Polygons polygons) {
+  const KeptPages pages;
   check_polygons(polygons);
   Surface surface;
   surface.polygons = std::move(polygons);
