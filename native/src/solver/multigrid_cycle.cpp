@@ -11,6 +11,9 @@ Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
     work_[k].u.resize(n);
     if (k + 1 < work_.size()) work_[k].t.resize(n);
   }
+  const auto rows = [&](std::size_t k) { return hierarchy.levels[k].rows; };
+  while (twice_ + 1 < work_.size() && rows(twice_) > rows(0) / kTwice) ++twice_;
+  first_.resize(rows(twice_));
 }
 
 // t = r - A u
@@ -32,6 +35,31 @@ void Cycle<K>::restrict_residual(std::size_t k, int chunk) {
     r[i] = Rt;
     u[i] = jacobi_step<K>(omega[i], Rt, natural);
   });
+}
+
+// 2 M - M A M for the M of one correction.
+template <int K>
+void Cycle<K>::correct_twice() {
+  if (twice_ + 1 == work_.size()) return solve_coarsest();
+  const CycleLevel& level = hierarchy_.levels[twice_];
+  Block<K>*const r = work_[twice_].r.data(), *const u = work_[twice_].u.data(), *const once = first_.data();
+  const Block<K> natural = natural_;
+  correct(
+      twice_, [](int) {},
+      [=, &level](int chunk) {
+        for_differences<K>(level.A, chunk, u, [r](int i, const Block<K>& Au) { r[i] -= Au; });
+      });
+  correct(
+      twice_,
+      [=, &level](int chunk) {
+        for (int i = level.begin(chunk), end = level.end(chunk); i < end; ++i) {
+          once[i] = u[i];
+          u[i] = jacobi_step<K>(level.omega[i], r[i], natural);
+        }
+      },
+      [=, &level](int chunk) {
+        for (int i = level.begin(chunk), end = level.end(chunk); i < end; ++i) u[i] += once[i];
+      });
 }
 
 template <int K>
