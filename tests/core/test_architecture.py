@@ -171,3 +171,13 @@ def test_nothing_is_left_for_later():
     mark = re.compile(r"\b(?:TODO|FIXME|XXX|HACK)\b")
     files = [*cpp_files(), *python_files(FACADE), *python_files(ADDON)]
     assert not [identify(path) for path in files if mark.search(path.read_text(encoding="utf-8"))]
+
+
+def test_sources_are_in_the_bibliography():
+    known = set(re.findall(r"doi = \{([^}]+)\}", (ROOT / "docs" / "bibliography.bib").read_text(encoding="utf-8")))
+    cited = {
+        doi.rstrip(".,;:")
+        for path in [*cpp_files(), *python_files(FACADE), *python_files(ADDON)]
+        for doi in re.findall(r"doi:(10\.\d+/[^\s(),;]*(?:\(\d+\)[^\s(),;]*)?)", path.read_text(encoding="utf-8"))
+    }
+    assert cited and cited <= known, cited - known
