@@ -41,9 +41,14 @@ class Largest {
   std::array<std::uint64_t, N> keys_{};
 };
 
-// The staying neighbours of a vertex that goes, or a vertex that stays with weight 1. A missing one has weight 0, so
-// that loops over all of them are without branches.
-using Staying = std::array<Entry, kStaying>;
+// The staying neighbours of a vertex that goes, or a vertex that stays with weight 1: half a cache line. A missing one
+// has weight 0, so that loops over all of them are without branches.
+struct alignas(32) Staying {
+  std::array<int, kStaying> vertex;
+  std::array<float, kStaying> weight;
+  float total;  // of the weights
+  float goes;   // 1, or 0 for a vertex that stays
+};
 
 // Calls body(i, entries, length) for the rows of a chunk whose vertices go; which these are cannot be predicted, so
 // that they are listed first.
@@ -68,8 +73,7 @@ Array<Staying> staying_neighbours(const SparseRows& A, const Array<char>& held, 
   Array<Staying> result(A.size());
   for_set_up_chunks(workers, A.size(), progress, [&](int, int chunk, int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      result[i].fill({coarse[i], 0});
-      result[i][0].weight = 1;
+      result[i] = {{coarse[i], coarse[i], coarse[i]}, {1, 0, 0}, 1, 0};
     }
     for_going(A, coarse, chunk, [&](int i, const Entry* entries, int length) {
       Largest<kStaying> nearest;
@@ -79,10 +83,13 @@ Array<Staying> staying_neighbours(const SparseRows& A, const Array<char>& held, 
         const bool counts = (c >= 0) & (w > 0) & !(is_held(held, i) && !is_held(held, j));
         nearest.add(counts ? c : 0, counts ? w : 0.0F);
       }
+      Staying staying{{}, {}, 0, 1};
       for (int k = 0; k < kStaying; ++k) {
-        const float weight = nearest.weight(k);
-        result[i][k] = {weight > 0 ? nearest.vertex(k) : nearest.vertex(0), weight};
+        staying.weight[k] = nearest.weight(k);
+        staying.vertex[k] = nearest.weight(k) > 0 ? nearest.vertex(k) : nearest.vertex(0);
+        staying.total += nearest.weight(k);
       }
+      result[i] = staying;
     });
   });
   return result;
@@ -122,10 +129,8 @@ EqualRows means(const SparseRows& A, const Array<float>& largest, const Array<ch
         const auto [j, w] = entries[e];
         if (w <= weak || (is_held(held, i) && !is_held(held, j))) continue;
         const Staying& next = staying[j];
-        float all = coarse[j] < 0 ? w : 0;
-        for (const Entry& s : next) all += s.weight;
-        const float part = w / all;
-        for (const Entry& s : next) sums.add(s.column, part * s.weight);
+        const float part = w / (next.goes * w + next.total);
+        for (int k = 0; k < kStaying; ++k) sums.add(next.vertex[k], part * next.weight[k]);
       }
       Largest<Most> kept;
       for (int k = 0; k < sums.size(); ++k) kept.add(sums.column(k), sums.take(k));
