@@ -47,7 +47,9 @@ Matrix assembled(const mesh::Surface& surface, bool delaunay) {
   Progress silent;
   auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent));
   if (delaunay) mesh::make_delaunay(triangulation, silent);
-  return forms::laplacian(triangulation.half_edges, mesh::cotangent_weights(triangulation, silent), silent);
+  const auto weights = mesh::cotangent_weights(triangulation, silent);
+  triangulation.forget_metric();
+  return forms::laplacian(triangulation.half_edges, weights, silent);
 }
 
 // Columns of sum 0, as those of d* eta are.

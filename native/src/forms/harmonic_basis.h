@@ -22,7 +22,7 @@ struct ClosedForms {
 };
 
 /// L = d^T k d for edge weights k; edges with the same ends add up, loops carry no energy of functions.
-solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, Progress& progress);
+solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, std::span<const double> weights, Progress& progress);
 
 /// -d* eta_i = -d^T (k eta_i), #V x #forms: the right-hand sides of Eq. 8.
 Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "base/chunks.h"
 #include "base/page_allocator.h"
@@ -15,7 +16,7 @@ using mesh::next;
 using mesh::opposite;
 using mesh::to_vertex;
 
-// Columns up to this long are sorted by ranks.
+// Columns up to this long, the diagonal included, are sorted by ranks.
 constexpr int kShort = 16;
 
 struct Entry {
@@ -23,48 +24,52 @@ struct Entry {
   double value;
 };
 
-// Calls each(place, vertex, weight of the edge) for the half-edges that leave v, in their order around it.
+// Calls each(place, vertex, weight of the edge) for the half-edges that leave v, in their order around it. @return
+// their number
 template <class Each>
-void around(const HalfEdges& mesh, const std::vector<double>& weights, int v, const Each& each) {
+int around(const HalfEdges& mesh, std::span<const double> weights, int v, const Each& each) {
   const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
-  if (!start.is_valid()) return;
+  if (!start.is_valid()) return 0;
   HalfedgeHandle h = start;
   int place = 0;
   do {
     each(place++, to_vertex(mesh, h), weights[edge_of(h)]);
     h = next(mesh, opposite(h));
   } while (h != start);
+  return place;
 }
 
-// Column v of L where it has `count` <= kShort entries, all in different rows: ascending, without a branch that depends
-// on their order. @return whether they are in different rows; else nothing is written
-bool write_distinct(const HalfEdges& mesh, const std::vector<double>& weights, int v, int count, int* rows,
-                    double* values) {
+// Column v of L where it has at most kShort entries, all in different rows: ascending, without a branch that depends on
+// their order. @return how many entries it has; 0 where it is not such a column, and nothing is written
+int write_distinct(const HalfEdges& mesh, std::span<const double> weights, int v, int* rows, double* values) {
   int row[kShort] = {};
   double value[kShort];
   double diagonal = 0;
-  around(mesh, weights, v, [&](int place, int vertex, double weight) {
-    row[place] = vertex;
-    value[place] = -weight;
+  const int others = around(mesh, weights, v, [&](int place, int vertex, double weight) {
+    const int kept = std::min(place, kShort - 1);
+    row[kept] = vertex;
+    value[kept] = -weight;
     diagonal += weight;
   });
-  row[count - 1] = v;
-  value[count - 1] = diagonal;
+  if (others >= kShort) return 0;
+  const int count = others + 1;
+  row[others] = v;
+  value[others] = diagonal;
   int rank[kShort] = {};
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < kShort; ++j) rank[j] += row[i] < row[j];
   }
   // Each pair of different rows counts once.
-  if (std::accumulate(rank, rank + count, 0) != count * (count - 1) / 2) return false;
+  if (std::accumulate(rank, rank + count, 0) != count * (count - 1) / 2) return 0;
   for (int i = 0; i < count; ++i) {
     rows[rank[i]] = row[i];
     values[rank[i]] = value[i];
   }
-  return true;
+  return count;
 }
 
 // Any column: entries of edges with the same ends added up, loops left out. @return how many entries it has
-int write_merged(const HalfEdges& mesh, const std::vector<double>& weights, int v, int* rows, double* values) {
+int write_merged(const HalfEdges& mesh, std::span<const double> weights, int v, int* rows, double* values) {
   std::vector<Entry> entries{{v, 0.0}};
   double diagonal = 0;
   around(mesh, weights, v, [&](int, int vertex, double weight) {
@@ -86,52 +91,65 @@ int write_merged(const HalfEdges& mesh, const std::vector<double>& weights, int 
   return count;
 }
 
-// Where each column begins if every edge has an entry of its own, behind the ones before.
-std::vector<int> column_starts(const HalfEdges& mesh) {
-  std::vector<int> start(mesh.n_vertices() + 1, 1);
-  start[0] = 0;
-  for (int h = 0; h < static_cast<int>(mesh.n_halfedges()); ++h) ++start[to_vertex(mesh, HalfedgeHandle(h)) + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
+// Where the columns of each chunk begin, and where the last ones end, if every edge has entries of its own.
+std::vector<int> chunk_starts(const HalfEdges& mesh, Workers& workers) {
+  const int n = static_cast<int>(mesh.n_vertices()), chunks = chunk_count(n);
+  const int half_edges = static_cast<int>(mesh.n_halfedges()), block = 64 * kChunk;
+  std::vector<std::vector<int>> met((half_edges + block - 1) / block, std::vector<int>(chunks, 0));
+  workers.run(static_cast<int>(met.size()), [&](int, int i) {
+    for (int h = i * block, end = std::min(h + block, half_edges); h < end; ++h)
+      ++met[i][to_vertex(mesh, HalfedgeHandle(h)) / kChunk];
+  });
+  std::vector<int> start(chunks + 1, 0);
+  for (int c = 0; c < chunks; ++c) {
+    start[c + 1] = start[c] + std::min(kChunk, n - c * kChunk);
+    for (const std::vector<int>& counts : met) start[c + 1] += counts[c];
+  }
   return start;
 }
 
-// Moves the columns together over the entries that merging has left empty.
-void close_gaps(const std::vector<int>& start, const std::vector<int>& counts, solver::Laplacian& L) {
-  int* const end = L.outerIndexPtr() + 1;
-  end[-1] = 0;
-  for (std::size_t v = 0; v < counts.size(); ++v) {
-    end[v] = end[v - 1] + counts[v];
-    if (end[v - 1] == start[v]) continue;
-    std::copy_n(L.innerIndexPtr() + start[v], counts[v], L.innerIndexPtr() + end[v - 1]);
-    std::copy_n(L.valuePtr() + start[v], counts[v], L.valuePtr() + end[v - 1]);
+// Moves the chunks together over the entries that merging has left empty.
+void close_gaps(const std::vector<int>& start, solver::Laplacian& L) {
+  const int n = static_cast<int>(L.cols());
+  int* const ends = L.outerIndexPtr() + 1;
+  int entries = 0;
+  for (int c = 0; c < chunk_count(n); ++c) {
+    const int first = c * kChunk, last = std::min(first + kChunk, n), begin = start[c], end = ends[last - 1];
+    if (begin > entries) {
+      std::copy(L.innerIndexPtr() + begin, L.innerIndexPtr() + end, L.innerIndexPtr() + entries);
+      std::copy(L.valuePtr() + begin, L.valuePtr() + end, L.valuePtr() + entries);
+      for (int v = first; v < last; ++v) ends[v] -= begin - entries;
+    }
+    entries += end - begin;
   }
-  L.resizeNonZeros(L.outerIndexPtr()[counts.size()]);
+  L.resizeNonZeros(entries);
 }
 
 }  // namespace
 
-// Every column has room for all edges at its vertex, and is filled by one thread.
-solver::Laplacian laplacian(const HalfEdges& mesh, const std::vector<double>& weights, Progress& progress) {
+// A chunk has room for all edges at its vertices, and is filled by one thread.
+solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weights, Progress& progress) {
   const int n = static_cast<int>(mesh.n_vertices());
-  const std::vector<int> start = column_starts(mesh);
+  Workers workers;
+  const std::vector<int> start = chunk_starts(mesh, workers);
   progress.report(0.2);
   solver::Laplacian L(n, n);
-  L.resizeNonZeros(start[n]);
+  L.resizeNonZeros(start.back());
   int* const rows = L.innerIndexPtr();
   double* const values = L.valuePtr();
-  advise_large_pages(rows, start[n] * sizeof(int));
-  advise_large_pages(values, start[n] * sizeof(double));
-  std::vector<int> counts(n);
-  Workers workers;
+  advise_large_pages(rows, start.back() * sizeof(int));
+  advise_large_pages(values, start.back() * sizeof(double));
+  int* const ends = L.outerIndexPtr() + 1;
   run_throwing(workers, chunk_count(n), [&](int chunk) {
+    int place = start[chunk];
     for (int v = chunk * kChunk, last = std::min(v + kChunk, n); v < last; ++v) {
-      const int begin = start[v], count = start[v + 1] - begin;
-      const bool written = count <= kShort && write_distinct(mesh, weights, v, count, rows + begin, values + begin);
-      counts[v] = written ? count : write_merged(mesh, weights, v, rows + begin, values + begin);
+      const int written = write_distinct(mesh, weights, v, rows + place, values + place);
+      place += written > 0 ? written : write_merged(mesh, weights, v, rows + place, values + place);
+      ends[v] = place;
     }
   });
   progress.report(0.9);
-  close_gaps(start, counts, L);
+  close_gaps(start, L);
   return L;
 }
 

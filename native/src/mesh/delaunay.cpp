@@ -3,6 +3,7 @@
 // follows when all are done. No result depends on which thread takes which region.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/chunks.h"
@@ -16,8 +17,10 @@ namespace {
 constexpr double kDelaunayTolerance = 1e-9;
 // ... and never more often than this, so that rounding among slivers cannot turn it back and forth for ever.
 constexpr unsigned kMostFlipsOfAnEdge = 60;
-// Many regions share out the work, large ones (in edges) leave little between them.
-constexpr int kRegions = 16, kLeastRegion = 8192;
+// Many regions share out the work, large ones (in edges, a power of 2) leave little between them.
+constexpr unsigned kRegions = 16, kLeastRegion = 8192;
+// Edges of a queue ahead of the one that is looked at whose memory is asked for.
+constexpr std::size_t kAhead = 8;
 
 // What is known of each edge, one byte.
 class EdgeMarks {
@@ -72,12 +75,19 @@ class Flipper {
       if (steps % 4096 == 0) report(stack.size());
       const int e = stack.back();
       stack.pop_back();
+      if (stack.size() > kAhead) look_ahead(stack[stack.size() - kAhead]);
       marks_.dequeue(e);
       if (is_interior(mesh_, e) && !is_delaunay(t_, e) && marks_.count_flip(e)) flip(e);
     }
   }
 
  private:
+  void look_ahead(int e) const {
+    mesh_.prefetch_halfedges(EdgeHandle(e));
+    prefetch(&t_.cotangents[2 * e]);
+    prefetch(&t_.lengths[e]);
+  }
+
   double length(HalfedgeHandle h) const { return t_.lengths[edge_of(h)]; }
 
   // Length between the apices when both triangles are laid out in the plane with the edge on the x axis.
@@ -129,10 +139,10 @@ struct Work {
 Work find_work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
   const HalfEdges& mesh = t.half_edges;
   const int edge_count = static_cast<int>(mesh.n_edges());
-  const int region_size = std::max(kLeastRegion, (edge_count + kRegions - 1) / kRegions);
+  const int region_bits = std::bit_width(std::max(kLeastRegion, (edge_count + kRegions - 1) / kRegions) - 1);
   const auto region = [&](HalfedgeHandle h) {
     const HalfedgeHandle after = next(mesh, h);
-    return std::min({edge_of(h), edge_of(after), edge_of(next(mesh, after))}) / region_size;
+    return std::min({edge_of(h), edge_of(after), edge_of(next(mesh, after))}) >> region_bits;
   };
   struct Bad {
     int edge, region;

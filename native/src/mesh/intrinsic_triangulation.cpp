@@ -63,8 +63,12 @@ void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
 }
 
 IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges) {
-  IntrinsicTriangulation result{std::move(half_edges), surface.edge_lengths, {}, {}, 0};
+  IntrinsicTriangulation result;
+  result.half_edges = std::move(half_edges);
+  result.lengths.resize(surface.edge_lengths.size());
   Workers workers;
+  for_rows(workers, static_cast<int>(result.lengths.size()),
+           [&](int e) { result.lengths[e] = surface.edge_lengths[e]; });
   if (set_all_cotangents(result, workers)) {
     result.mollification = smallest_increment(surface);
     for (double& l : result.lengths) l += result.mollification;
@@ -75,7 +79,10 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges
 
 std::vector<double> cotangent_weights(const IntrinsicTriangulation& t, Progress& progress) {
   Workers workers;
-  std::vector<double> weights(t.lengths.size());
+  std::vector<double> weights;
+  weights.reserve(t.lengths.size());
+  advise_large_pages(weights.data(), t.lengths.size() * sizeof(double));
+  weights.resize(t.lengths.size());
   for_rows(workers, static_cast<int>(weights.size()),
            [&](int e) { weights[e] = 0.5 * t.cotangents[2 * e] + 0.5 * t.cotangents[2 * e + 1]; });
   progress.report(1.0);

@@ -21,6 +21,12 @@ struct IntrinsicTriangulation {
   Array<double> cotangents;  ///< of the angle opposite each half-edge; 0 outside the surface
   std::vector<Flip> flips;   ///< in order, from the artist's triangulation to this one
   double mollification = 0;  ///< added to every length, in their unit
+
+  /// Gives the memory of lengths and cotangents back: once there are weights, nothing else may be asked of them.
+  void forget_metric() {
+    lengths = Array<double>();
+    cotangents = Array<double>();
+  }
 };
 
 /// 0 if no triangle is degenerate; else the increment of all lengths that intrinsic_triangulation takes.

@@ -85,6 +85,7 @@ BoundedStructure bounded_structure(const mesh::Surface& surface, const Options& 
 
   progress.stage("Laplacian", 0.25, 0.3);
   const auto weights = mesh::cotangent_weights(intrinsic, progress);
+  intrinsic.forget_metric();
   auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
 
   progress.stage("harmonic forms", 0.3, 0.85);

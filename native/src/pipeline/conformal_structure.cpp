@@ -87,6 +87,7 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   auto intrinsic = mesh::intrinsic_triangulation(surface, result.half_edges);
   if (!paper) mesh::make_delaunay(intrinsic, progress);
   const auto weights = mesh::cotangent_weights(intrinsic, progress);
+  intrinsic.forget_metric();
 
   progress.stage("Laplacian", 0.25, 0.3);
   auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);

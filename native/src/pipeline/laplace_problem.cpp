@@ -13,6 +13,7 @@ LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<i
   const mesh::HalfEdges& half_edges = triangulation.half_edges;
   LaplaceProblem result;
   result.weights = mesh::cotangent_weights(triangulation, progress);
+  triangulation.forget_metric();
   for (int e = 0; e < static_cast<int>(half_edges.n_edges()); ++e) {
     result.ends.push_back({mesh::to_vertex(half_edges, mesh::HalfedgeHandle(2 * e + 1)),
                            mesh::to_vertex(half_edges, mesh::HalfedgeHandle(2 * e))});
