@@ -39,7 +39,7 @@ class EdgeRows {
   }
 
  private:
-  std::vector<int> place_;    // #E of each edge's row; 0 is an empty one
+  Array<int> place_;          // #E of each edge's row; 0 is an empty one
   std::vector<Row> rows_{1};  // that one, then those of `edges_`
   std::vector<int> edges_;
 };

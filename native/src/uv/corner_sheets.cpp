@@ -78,10 +78,10 @@ Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
   return walk;
 }
 
-// The sheet of the corner at which each half-edge starts, in its face.
-std::vector<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table,
+// The sheet of the corner at which each half-edge starts, in its face; nothing is said of those without a face.
+Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table,
                                   Progress& progress) {
-  std::vector<int> at_start(mesh.n_halfedges(), 0);
+  Array<int> at_start(mesh.n_halfedges());
   for (std::size_t i = 0; i < walk.order.size(); ++i) {
     progress.step(i, walk.order.size(), 0.5, 1.0);
     const int f = walk.order[i];
@@ -91,6 +91,7 @@ std::vector<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk,
       at_start[next(mesh, h).idx()] = at_start[opposite(h).idx()];
     } else {
       h = mesh.halfedge_handle(mesh::FaceHandle(f));
+      at_start[h.idx()] = 0;
       at_start[next(mesh, h).idx()] = table.after(0, h);
     }
     const HalfedgeHandle h1 = next(mesh, h);
@@ -99,10 +100,10 @@ std::vector<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk,
   return at_start;
 }
 
-CornerSheets of_corners(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<int>& at_start,
+CornerSheets of_corners(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const Array<int>& at_start,
                         SheetTable&& table) {
   CornerSheets result;
-  result.corner_sheet.assign(surface.polygons.corner_vertices.size(), 0);
+  result.corner_sheet.resize(surface.polygons.corner_vertices.size());
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
     HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(t));
     for (int i = 0; i < 3; ++i, h = next(mesh, h))

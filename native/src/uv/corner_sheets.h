@@ -12,7 +12,7 @@ namespace holomorph::uv {
 /// On the fundamental domain every class eta_j has an integer potential P_j, found once by a walk over the faces. Few
 /// of the vectors (P_1 .. P_2g) are different: each is kept once, as a sheet, and corners name their sheet.
 struct CornerSheets {
-  std::vector<int> corner_sheet;                    ///< #C sheet of each polygon corner
+  Array<int> corner_sheet;                          ///< #C sheet of each polygon corner
   std::vector<topology::IntegerForms::Row> sheets;  ///< sparse vectors P of each sheet; sheet 0 is 0
 };
 
