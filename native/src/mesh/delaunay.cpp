@@ -166,6 +166,15 @@ Work find_work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
   return result;
 }
 
+// In the order of the flippers.
+void append_flips(const std::vector<Flipper>& flippers, std::vector<Flip>& flips) {
+  std::size_t count = flips.size();
+  for (const Flipper& flipper : flippers) count += flipper.flips.size();
+  flips.reserve(count);
+  advise_large_pages(flips.data(), count * sizeof(Flip));
+  for (const Flipper& flipper : flippers) flips.insert(flips.end(), flipper.flips.begin(), flipper.flips.end());
+}
+
 }  // namespace
 
 void make_delaunay(IntrinsicTriangulation& t, Progress& progress) {
@@ -176,14 +185,14 @@ void make_delaunay(IntrinsicTriangulation& t, Progress& progress) {
   run_throwing(workers, kRegions, [&regions = regions](int i) { regions[i].run([](std::size_t) {}); });
   progress.report(0.7);
   for (const Flipper& region : regions) {
-    t.flips.insert(t.flips.end(), region.flips.begin(), region.flips.end());
     for (const int e : region.between) {
       if (marks.enqueue(e)) rest.stack.push_back(e);
     }
   }
   const double total = std::max(1.0, static_cast<double>(rest.stack.size()));
   rest.run([&](std::size_t left) { progress.report(std::max(0.7, 1.0 - 0.3 * static_cast<double>(left) / total)); });
-  t.flips.insert(t.flips.end(), rest.flips.begin(), rest.flips.end());
+  regions.push_back(std::move(rest));
+  append_flips(regions, t.flips);
 }
 
 }  // namespace holomorph::mesh

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/page_allocator.h"
 #include "solver/block_solve.h"
 #include "solver/renumbering.h"
 
@@ -78,6 +79,7 @@ class MultigridSolver final : public LaplaceSolver {
   Eigen::MatrixXd solve_by_multigrid(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
                                      Progress& progress) {
     Eigen::MatrixXd X(B.rows(), B.cols());
+    advise_large_pages(X.data(), X.size() * sizeof(double));
     const Eigen::Index rest = B.cols() % 8, in_eights = B.cols() - (rest <= 4 ? rest : 0);
     Reached reached;
     solve_blocks<8>(B, conditions, 0, in_eights, X, reached, progress);
