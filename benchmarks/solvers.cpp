@@ -72,7 +72,9 @@ Result library(const mesh::Surface& surface, solver::Method method, int count, d
   assembled(surface, true).swap(L);  // as the library hands it over: Eigen 3.4 copies where a matrix is moved
   result.assembly = now() - start;
   B = right_hand_sides(L.rows(), count);
-  Matrix given = L;
+  Matrix given;  // on the pages that it was assembled on, as in the library; the copy stays here, for the residual
+  given.swap(L);
+  L = given;
   const double begin = now();
   const auto solver = solver::make_solver(method, std::move(given), {}, silent, tolerance);
   const double ready = now();
