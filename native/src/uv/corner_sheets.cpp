@@ -79,8 +79,7 @@ Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
 }
 
 // The sheet of the corner at which each half-edge starts, in its face; nothing is said of those without a face.
-Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table,
-                                  Progress& progress) {
+Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table, Progress& progress) {
   Array<int> at_start(mesh.n_halfedges());
   for (std::size_t i = 0; i < walk.order.size(); ++i) {
     progress.step(i, walk.order.size(), 0.5, 1.0);
