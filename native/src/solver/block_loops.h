@@ -46,6 +46,7 @@ EIGEN_STRONG_INLINE void for_products(const EqualRows& P, int begin, int end, co
   const int each = P.each;
   const Entry* entries = P[begin];
   for (int i = begin; i < end; ++i, entries += each) {
+    prefetch(entries + GroupedRows::kAhead);
     Block<K> sum = entries[0].weight * x[entries[0].column];
     for (int e = 1; e < each; ++e) sum += entries[e].weight * x[entries[e].column];
     body(i, sum);

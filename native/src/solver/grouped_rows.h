@@ -13,6 +13,10 @@ namespace holomorph::solver {
 /// by the processor's wrong guesses of its end than by its work.
 class GroupedRows {
  public:
+  /// Entries, 4 KB: asked for before the processor, which does not look beyond a page, would do so itself. A fifth of
+  /// the time of a solution; it may lie beyond the end.
+  static constexpr int kAhead = 512;
+
   GroupedRows() = default;
   /// Without entries, and with no order of the rows until each chunk is laid out.
   GroupedRows(int rows, int chunks) : row_(rows), groups_(chunks) {}
@@ -42,9 +46,6 @@ class GroupedRows {
   }
 
  private:
-  // Entries, 4 KB: asked for before the processor, which does not look beyond a page, would do so itself. A fifth of
-  // the time of a solution; it may lie beyond the end.
-  static constexpr int kAhead = 512;
   struct Group {
     int length, begin, end, entries;  // rows begin .. end-1 of row_, the first one's entries
   };
