@@ -18,22 +18,12 @@ from scenes import (
     straightness,
     torus,
     torus_arrays,
+    tube_arrays,
     two_parts,
     uv,
 )
 
 FLOAT32 = 1e-6  # of the UV size
-
-
-def tube_arrays(around=32, along=12):
-    """An uneven tube: triangles of all shapes, both ends wavy."""
-    i, j = np.meshgrid(np.arange(around), np.arange(along), indexing="ij")
-    angle, height = 2 * np.pi * i / around + 0.2 * np.sin(j), j / 3 + 0.2 * np.sin(3 * 2 * np.pi * i / around)
-    radius = 1 + 0.3 * np.sin(height) + 0.2 * np.cos(2 * angle)
-    vertices = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], -1).reshape(-1, 3)
-    a = np.arange(around * along).reshape(around, along)
-    b = np.roll(a, -1, axis=0)
-    return vertices, np.stack([a[:, :-1], b[:, :-1], b[:, 1:], a[:, 1:]], -1).reshape(-1, 4)
 
 
 def torus_with_a_hole():

@@ -5,6 +5,17 @@ from functools import cache
 import families
 from holomorph import Surface, conformal_structure
 
+# Arrays of a structure that do not depend on what is asked of it.
+RESULTS = [
+    "edges",
+    "intersection_matrix",
+    "canonical_basis",
+    "harmonic_forms",
+    "holomorphic_forms",
+    "gram_matrix",
+    "period_matrix",
+    "seams",
+]
 CLOSED = {
     "torus of quads": families.torus(24, 18, jitter=0.2),
     "torus of triangles": families.torus(24, 18, shape="triangles", jitter=0.3),

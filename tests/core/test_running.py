@@ -11,19 +11,8 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Cancelled, Error, Surface, TopologyError, conformal_structure
-from solved import CLOSED, solved, surface_of
+from solved import CLOSED, RESULTS, solved, surface_of
 from test_read import obj
-
-RESULTS = [
-    "edges",
-    "intersection_matrix",
-    "canonical_basis",
-    "harmonic_forms",
-    "holomorphic_forms",
-    "gram_matrix",
-    "period_matrix",
-    "seams",
-]
 
 
 def all_arrays(structure):

@@ -6,7 +6,7 @@ import pytest
 from equivalence import symplectic_unit
 from families import Mesh, components
 from forms import determinant, edge_forms
-from solved import CLOSED, FLAT, solved
+from solved import CLOSED, FLAT, RESULTS, solved
 
 ALL = [*CLOSED, *FLAT]
 everywhere = pytest.mark.parametrize("name", ALL)
@@ -106,19 +106,7 @@ def test_polygons_are_not_cut(name):
     assert not diagonal[structure.seams].any()
 
 
-@pytest.mark.parametrize(
-    "result",
-    [
-        "edges",
-        "intersection_matrix",
-        "canonical_basis",
-        "harmonic_forms",
-        "holomorphic_forms",
-        "gram_matrix",
-        "period_matrix",
-        "seams",
-    ],
-)
+@pytest.mark.parametrize("result", RESULTS)
 def test_results_are_read_only(result):
     values = getattr(solved("torus of quads"), result)
     with pytest.raises(ValueError, match="read-only"):

@@ -206,22 +206,23 @@ def test_quality_per_triangle(name):
     assert (quality.flipped == (areas < 0))[clear].all()
 
 
-@embedded
-def test_mean_angle(name):
+def quality_and_areas(name):
+    """Of some map, and the areas of the surface's triangles."""
     structure = solved(name)
     uv = structure.uv(some_coefficients(structure))
-    quality = structure.quality(uv)
-    _, area = singular_values(structure.surface, uv)
+    return structure.quality(uv), singular_values(structure.surface, uv)[1]
+
+
+@embedded
+def test_mean_angle(name):
+    quality, area = quality_and_areas(name)
     assert abs(quality.mean_angle - (quality.angle * area).sum() / area.sum()) < 1e-9 * quality.mean_angle
 
 
 @embedded
 def test_density_ratio(name):
     """Quantiles by area: at most 5 % of the area is below the lower and above the upper one."""
-    structure = solved(name)
-    uv = structure.uv(some_coefficients(structure))
-    quality = structure.quality(uv)
-    _, area = singular_values(structure.surface, uv)
+    quality, area = quality_and_areas(name)
     order = np.argsort(quality.area)
     below = np.cumsum(area[order]) / area.sum()
     # One triangle may be counted to either side, or its value interpolated: the neighbours in order bracket the ratio.
@@ -235,10 +236,7 @@ def test_density_ratio(name):
 
 @embedded
 def test_median_density(name):
-    structure = solved(name)
-    uv = structure.uv(some_coefficients(structure))
-    quality = structure.quality(uv)
-    _, area = singular_values(structure.surface, uv)
+    quality, area = quality_and_areas(name)
     below = (quality.area < quality.median_density * (1 - 1e-9)) @ area
     above = (quality.area > quality.median_density * (1 + 1e-9)) @ area
     assert max(below, above) < (0.5 + 1e-9) * area.sum()
