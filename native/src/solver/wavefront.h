@@ -19,7 +19,7 @@ struct Chunks {
 
 /// Rows of a chunk of a wavefront: few, so that what several loops touch of some neighbouring chunks fits into the
 /// cache of one processor.
-inline constexpr int kWaveRows = 1024;
+inline constexpr int kWaveRows = 512;
 
 inline int wave_chunks(int rows) { return (rows + kWaveRows - 1) / kWaveRows; }
 
