@@ -61,7 +61,7 @@ def solved(task, ask):
 class Job(Work):
     """Solves a list of `solve.Task` one after the other.
 
-    `results[i]` is a `SolvedObject`, or the `holomorph.Error` that refused the mesh.
+    `results[i]` is a `SolvedObject`, or the error that refused the mesh, one of `native.refusals`.
     """
 
     def __init__(self, tasks, progress=None):
@@ -71,13 +71,13 @@ class Job(Work):
 
     def run(self):
         """Solves here and now, in the calling thread."""
-        error_type = native.load().Error
+        refusals = native.refusals()
         count = len(self._tasks)
         for index, task in enumerate(self._tasks):
             if self._cancelled.is_set():
                 return
             try:
                 result = solved(task, lambda f, s, i=index: self.ask((i + f) / count, s))
-            except error_type as error:
+            except refusals as error:
                 result = error
             self.results[index] = result

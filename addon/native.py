@@ -94,3 +94,8 @@ def load():
 def forget():
     """Looks again at the next call (after an installation, or at registration)."""
     _load.cache_clear()
+
+
+def refusals():
+    """The exceptions with which a mesh is refused; their sentences are for artists."""
+    return load().Error, MemoryError

@@ -176,13 +176,13 @@ def write(context, targets, results, map_options, write_options, time_has_passed
     `time_has_passed`: Blender was alive during the solve, so each mesh is compared with what was read.
     """
     outcome = Outcome()
-    error_type = native.load().Error
+    refusals = native.refusals()
     with object_mode(context):
         for target, result in zip(targets, results):
             obj = target.find()
             if target.refused:
                 outcome.refuse(target.name, target.refused)
-            elif isinstance(result, error_type):
+            elif isinstance(result, refusals):
                 outcome.refuse(target.name, _sentence(result))
             elif obj is None or (time_has_passed and read(obj).fingerprint != target.polygons.fingerprint):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")

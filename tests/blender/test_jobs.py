@@ -34,6 +34,30 @@ def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
     assert job.results[1].form_count == 1
 
 
+def test_too_little_memory_is_a_sentence_and_the_next_is_solved(monkeypatch):
+    sentence = "there is not enough memory for a mesh of this size"
+    large, other = torus("Large", around=100), torus("Other")
+    solve = module("solve")
+    solve_any = solve.solve
+
+    def solve_small(task, *rest):
+        if task.key == tasks[0].key:
+            raise MemoryError(sentence)
+        return solve_any(task, *rest)
+
+    tasks = [task_of(large), task_of(other)]
+    monkeypatch.setattr(solve, "solve", solve_small)
+    job = module("jobs").Job(tasks)
+    job.run()
+    assert isinstance(job.results[0], MemoryError) and str(job.results[0]) == sentence
+    assert job.results[1].form_count == 1
+    layers = len(large.data.uv_layers)
+    select(large)
+    with pytest.raises(RuntimeError, match=f"Large: {sentence}"):
+        run()
+    assert len(large.data.uv_layers) == layers
+
+
 def test_cancel_leaves_the_rest_undone():
     task = task_of(torus(around=200, across=100))
     job = None

@@ -68,6 +68,15 @@ def test_bits_of_another_process():
 # ---- memory -------------------------------------------------------------------------------------------------------
 
 
+def output_of(program):
+    """The lines that a process of its own prints."""
+    paths = {"PYTHONPATH": os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(Path(__file__).parent)])}
+    command = [sys.executable, "-c", program]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, env=os.environ | paths)
+    assert run.returncode == 0, run.stderr
+    return run.stdout.splitlines()
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the memory in use, and glibc to keep none")
 def test_memory_goes_back_to_the_system():
     """Pages are kept for the next array only while a computation lasts."""
@@ -97,12 +106,38 @@ gc.collect()
 ctypes.CDLL("libc.so.6").malloc_trim(0)
 print(before, megabytes("VmRSS:"), megabytes("VmHWM:"))
 """
-    paths = {"PYTHONPATH": os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(Path(__file__).parent)])}
-    command = [sys.executable, "-c", program]
-    run = subprocess.run(command, capture_output=True, text=True, timeout=120, env=os.environ | paths)
-    before, after, peak = map(float, run.stdout.split())
+    before, after, peak = map(float, output_of(program)[0].split())
     assert peak > before + 150  # megabytes of arrays that were large
     assert after < before + 0.2 * (peak - before)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks Linux to refuse memory")
+def test_too_little_memory_is_an_error():
+    """Wherever it runs out, nothing else happens, and the same process computes again as soon as there is enough."""
+    program = """
+import resource
+import families
+import holomorph
+
+mesh = families.torus(600, 300, shape="triangles", jitter=0.2)
+small = families.torus(24, 18, shape="triangles")
+for megabytes in (2, 10, 40, 80, 120, 160, 200, 240):
+    with open("/proc/self/statm") as sizes:
+        used = int(sizes.read().split()[0]) * resource.getpagesize()
+    resource.setrlimit(resource.RLIMIT_AS, (used + megabytes * 2**20, resource.RLIM_INFINITY))
+    try:
+        surface = holomorph.Surface(mesh.vertices, mesh.corners.reshape(-1, 3))
+        holomorph.conformal_structure(surface, solver="multigrid")
+        print("enough")
+    except MemoryError as error:
+        assert str(error) == "there is not enough memory for a mesh of this size"
+        print("too little")
+    resource.setrlimit(resource.RLIMIT_AS, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+    surface = holomorph.Surface(small.vertices, small.corners.reshape(-1, 3))
+    assert holomorph.conformal_structure(surface, solver="multigrid").residuals.periods < 1e-12
+"""
+    answers = output_of(program)
+    assert len(answers) == 8 and answers[0] == "too little"
 
 
 # ---- progress and cancelling --------------------------------------------------------------------------------------

@@ -85,8 +85,9 @@ class KeptRuns {
       filled += part;
       if (filled < bytes) seams_.insert(room + filled);
       last.bytes -= part;
-      move(last.begin + last.bytes, part, to);
+      char* const from = last.begin + last.bytes;
       if (last.bytes == 0) kept_.pop_back();
+      move(from, part, to);
     }
   }
 

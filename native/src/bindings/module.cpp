@@ -2,6 +2,8 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <new>
+
 #include "base/errors.h"
 #include "bindings/bindings.h"
 #include "solver/sparse_cholesky.h"
@@ -22,6 +24,13 @@ py::exception<Exception>& declare(py::module_& m, const char* name, py::handle b
 }  // namespace
 
 PYBIND11_MODULE(_native, m) {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+      PyErr_SetString(PyExc_MemoryError, "there is not enough memory for a mesh of this size");
+    }
+  });
   m.attr("__version__") = HOLOMORPH_VERSION;
   m.attr("direct_solver") = solver::SparseCholesky::name();
   auto& base = declare<Error>(m, "Error", PyExc_RuntimeError, "Base of all errors of this library.");
