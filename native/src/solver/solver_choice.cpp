@@ -9,8 +9,8 @@
 namespace holomorph::solver {
 namespace {
 
-// Measured against CHOLMOD with OpenBLAS on irregular surfaces. Below this the two are nearly equal, and the direct
-// solver leaves smaller residuals.
+// Measured against CHOLMOD with OpenBLAS on irregular surfaces. Below this either takes less than a tenth of a second,
+// and the direct solver leaves smaller residuals.
 constexpr double kSmall = 25'000;
 // The factorisation is paid once, and one more right-hand side is cheaper with it than with multigrid on one thread. At
 // kLarge unknowns the direct solver is ahead from about 20 right-hand sides on one thread, and on two at none that was
