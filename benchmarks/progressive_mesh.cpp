@@ -93,10 +93,12 @@ void measure(const char* path) {
   const std::size_t faces = surface.triangles.size();
   const int runs = faces < 200000 ? 7 : 3;
   progressive::ProgressiveMesh mesh;
-  const double quadric = median_seconds(runs, [&] { mesh = progressive_mesh(surface, progressive::Order::quadric); });
+  Progress silent;
+  const double quadric =
+      median_seconds(runs, [&] { mesh = progressive_mesh(surface, progressive::Order::quadric, silent); });
   const double restore = median_seconds(runs, [&] { (void)restored(mesh); });
   const double independent =
-      median_seconds(runs, [&] { (void)progressive_mesh(surface, progressive::Order::independent); });
+      median_seconds(runs, [&] { (void)progressive_mesh(surface, progressive::Order::independent, silent); });
   std::size_t removed = 0;
   const double other = openmesh_seconds(surface, mesh.base.triangles.size(), removed);
   std::size_t removed_too = 0;
