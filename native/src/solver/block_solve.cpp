@@ -41,10 +41,8 @@ BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, double
       workers_(workers),
       cycle_(hierarchy, workers),
       X_(n_),
-      x_(n_),
       p_(n_),
-      q_(n_),
-      w_(n_) {}
+      q_(n_) {}
 
 template <int K>
 void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
@@ -74,7 +72,7 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
   }
   report(reached_);
   for_rows(workers_, n_, [&](int i) {
-    for (int d = 0; d < width; ++d) X(i, first + d) = iterations_ > 0 ? X_[i][d] : 0.0;
+    for (int d = 0; d < width; ++d) X(i, first + d) = X_[i][d];
   });
 }
 
@@ -103,6 +101,7 @@ void BlockSolve<K>::begin(const Columns& b) {
   norm_b_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
               const Sums<K> here = right_hand_sides(b, i);
               sum += here.square();
+              X_[i] = zero;
               start(i, here * inverse);
             }).sqrt();
   norm_r_ = norm_b_;
@@ -140,6 +139,7 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
   const Sums<K> goal = quotient<K>((kInnerResidual * norm_r_).max(kSafety * goal_ * norm_b_), scale_);
   Sums<K> norm = quotient<K>(norm_r_, scale_);
   Sums<K> rz = Sums<K>::Zero(), zAz = rz, pAp = rz;
+  Block<K> a_before = Block<K>::Zero();
   const int before = iterations_;
   cycle_.down([](int) {});  // r and u are there
   do {
@@ -148,19 +148,22 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
     const Sums<K> beta = quotient<K>(rz, rz_before);
     pAp = zAz - beta.square() * pAp;
     const Block<K> a = quotient<K>(rz, pAp).template cast<float>(), b = beta.template cast<float>();
-    norm = iterations_ == before ? step<true>(a, b) : step<false>(a, b);
+    // Steps along p are added to X two at a time, as with each p the one before is still known.
+    const int done = iterations_ - before;
+    norm = done == 0       ? step<true, false>(a_before, a, b)
+           : done % 2 == 0 ? step<false, false>(a_before, a, b)
+                           : step<false, true>(a_before, a, b);
+    a_before = a;
     ++iterations_;
     report(relative(norm * scale_));
   } while (iterations_ < before + kMostInner && iterations_ < kMostIterations && !(norm <= goal).all());
-  for_rows(workers_, n_, [&](int i) {
-    const Sums<K> more = scale_ * x_[i].template cast<double>();
-    X_[i] = before > 0 ? X_[i] + more : more;
-  });
+  const bool odd = (iterations_ - before) % 2 != 0;
+  if (odd) for_rows(workers_, n_, [&](int i) { X_[i] += scale_ * (a_before * p_[i]).template cast<double>(); });
   // About what the residual will be; it serves the range of single precision only.
   scale_ *= norm;
 }
 
-// From r, on the coarse levels: z, in u's place, w = A z, r.z and z.A z.
+// From r, on the coarse levels: z, in u's place, A z, r.z and z.A z.
 template <int K>
 void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   struct Products {
@@ -168,7 +171,7 @@ void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   };
   std::vector<Products> parts(level_.chunks);
   const Block<K>*const r = cycle_.residual(), *const z = cycle_.start();
-  Block<K>* const w = w_.data();
+  Block<K>* const w = cycle_.from_z();
   cycle_.up([&](int chunk) {
     Products products;
     for_differences<K>(level_.A, chunk, z, [r, z, w, &products](int i, const Block<K>& Az) {
@@ -186,28 +189,33 @@ void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   }
 }
 
-// The step of conjugate gradients, and the way down from the new r. Returns |r|. The first step writes p, q and x.
+// The step of conjugate gradients, and the way down from the new r. Returns |r|. The first step writes p and q; one
+// that adds takes the step before it and its own to X.
 template <int K>
-template <bool first>
-Sums<K> BlockSolve<K>::step(const Block<K>& alpha, const Block<K>& beta) {
+template <bool first, bool adds>
+Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta) {
   std::vector<Sums<K>> parts(level_.chunks);
   Block<K>*const r = cycle_.residual(), *const u = cycle_.start();
-  Block<K>*const x = x_.data(), *const p = p_.data(), *const q = q_.data();
-  const Block<K>* const w = w_.data();
+  Block<K>*const p = p_.data(), *const q = q_.data();
+  Sums<K>* const X = X_.data();
+  const Block<K>* const w = cycle_.from_z();
   const float* const omega = level_.omega.data();
-  const Block<K> a = alpha, b = beta, natural = natural_;
+  const Block<K> a_before = alpha_before, a = alpha, b = beta, natural = natural_;
+  const Sums<K> scale = scale_;
   cycle_.down([=, this, &parts](int chunk) {
     Sums<K> sum = Sums<K>::Zero();
     for (int i = level_.begin(chunk), end = level_.end(chunk); i < end; ++i) {
-      Block<K> p_i = u[i], q_i = w[i], x_i = a * p_i;  // u is z until here
+      Block<K> p_i = u[i], q_i = w[i];  // u is z until here
       if constexpr (!first) {
         p_i += b * p[i];
         q_i += b * q[i];
-        x_i = x[i] + a * p_i;
+      }
+      if constexpr (adds) {
+        const Block<K> both = a_before * p[i] + a * p_i;
+        X[i] += scale * both.template cast<double>();
       }
       p[i] = p_i;
       q[i] = q_i;
-      x[i] = x_i;
       Block<K> r_i = r[i] - a * q_i;
       if (omega[i] < 0) r_i *= natural;
       r[i] = r_i;

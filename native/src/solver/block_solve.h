@@ -41,8 +41,8 @@ class BlockSolve {
   void start(int i, const Sums<K>& residual);
   void update_residual(const Columns& b);
   void conjugate_gradients(const Report& report);
-  template <bool first>
-  Sums<K> step(const Block<K>& alpha, const Block<K>& beta);
+  template <bool first, bool adds>
+  Sums<K> step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta);
   void precondition(Sums<K>& rz, Sums<K>& zAz);
   double relative(const Sums<K>& norms) const;
 
@@ -53,11 +53,11 @@ class BlockSolve {
   Workers& workers_;
   Cycle<K> cycle_;
   Array<Sums<K>> X_;
-  Blocks<K> x_, p_, q_, w_;  // the solution, p, A p, A z
-  Block<K> natural_;         // 1 for the right-hand sides that hold no vertex, 0 for the others
-  Sums<K> mean_, norm_b_;    // of the right-hand sides
-  Sums<K> norm_r_;           // |B - L X|
-  Sums<K> scale_;            // by which the residual is divided for single precision
+  Blocks<K> p_, q_;        // p, A p
+  Block<K> natural_;       // 1 for the right-hand sides that hold no vertex, 0 for the others
+  Sums<K> mean_, norm_b_;  // of the right-hand sides
+  Sums<K> norm_r_;         // |B - L X|
+  Sums<K> scale_;          // by which the residual is divided for single precision
   int iterations_ = 0;
   double reached_ = 0;
 };

@@ -13,7 +13,7 @@ struct CycleLevel {
   GroupedRows R;       ///< its transpose
   Array<float> omega;  ///< #V, the smoother's step: x += omega (r - A x); negative at a held vertex
   Wavefront down;      ///< any loop over the rows, one that applies A, one that applies R
-  Wavefront up;        ///< any loop over the rows, and two that apply A
+  Wavefront up;        ///< any loop over the rows, and two that apply A, the last after all that read its chunk
 
   int begin(int chunk) const { return Chunks{rows, kWaveRows}.begin(chunk); }
   int end(int chunk) const { return Chunks{rows, kWaveRows}.end(chunk); }

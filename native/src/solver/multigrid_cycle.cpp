@@ -9,7 +9,7 @@ Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
     const std::size_t n = hierarchy.levels[k].rows;
     work_[k].r.resize(n);
     work_[k].u.resize(n);
-    if (k + 1 < work_.size()) work_[k].t.resize(n);
+    if (k == 0 || k + 1 < work_.size()) work_[k].t.resize(n);
   }
   const auto rows = [&](std::size_t k) { return hierarchy.levels[k].rows; };
   while (twice_ + 1 < work_.size() && rows(twice_) > rows(0) / kTwice) ++twice_;

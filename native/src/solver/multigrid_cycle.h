@@ -22,6 +22,9 @@ class Cycle {
   /// is in the place of start().
   Block<K>* residual() { return work_[0].r.data(); }
   Block<K>* start() { return work_[0].u.data(); }
+  /// A place for what is computed from z: the last loop on the way up may write its chunk, and the first on the way
+  /// down read it. In between, and only there, the cycle itself needs it.
+  Block<K>* from_z() { return work_[0].t.data(); }
 
   /// first(chunk) fills the chunk's residual() and start().
   template <class First>
@@ -33,7 +36,7 @@ class Cycle {
     }
   }
 
-  /// last(chunk) may read z of the chunk and of its neighbours' rows.
+  /// last(chunk) may read z of the chunk and of its neighbours' rows, and write from_z() of the chunk.
   template <class Last>
   void up(const Last& last) {
     for (std::size_t k = 1; k < twice_; ++k) descend(k, [](int) {});
