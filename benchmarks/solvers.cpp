@@ -78,8 +78,9 @@ Result library(const mesh::Surface& surface, solver::Method method, int count, d
   const double begin = now();
   const auto solver = solver::make_solver(method, std::move(given), {}, silent, tolerance);
   const double ready = now();
-  X = solver->solve(B, solver::Condition::natural, silent);
+  const solver::Solution solution = solver->solve(B, solver::Condition::natural, silent);
   result.solve = now() - ready;
+  X = solution;
   result.set_up = ready - begin;
   result.name = solver->name();
   result.iterations = solver->iterations();

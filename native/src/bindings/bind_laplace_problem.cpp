@@ -19,7 +19,7 @@ std::shared_ptr<Problem> make(const mesh::Surface& surface, const std::vector<in
 
 // @param holds one flag per column of B
 py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bool>& holds) {
-  Eigen::MatrixXd X;
+  solver::Solution X;
   {
     const py::gil_scoped_release unlocked;
     std::vector<solver::Condition> conditions;
@@ -29,7 +29,7 @@ py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bo
     Progress silent;
     X = problem.solver->solve(B, conditions, silent);
   }
-  return copy(X);
+  return give_matrix(std::move(X));
 }
 
 py::tuple report(const Problem& problem) {

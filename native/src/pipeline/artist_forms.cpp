@@ -86,8 +86,8 @@ void ArtistForms::prepare_solver(Progress& progress) {
   report_ = solver_report(*solver_, choice_);
 }
 
-Eigen::MatrixXd ArtistForms::solve(const Eigen::MatrixXd& right_hand_sides, Progress& progress) {
-  Eigen::MatrixXd functions = solver_->solve(right_hand_sides, solver::Condition::natural, progress);
+forms::RowMajorMatrix ArtistForms::solve(const Eigen::MatrixXd& right_hand_sides, Progress& progress) {
+  forms::RowMajorMatrix functions = solver_->solve(right_hand_sides, solver::Condition::natural, progress);
   report_ = solver_report(*solver_, choice_);
   return functions;
 }

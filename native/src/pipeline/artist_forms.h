@@ -82,7 +82,7 @@ class ArtistForms {
  private:
   void prepare_all(Progress& progress);
   void prepare_solver(Progress& progress);
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides, Progress& progress);
+  forms::RowMajorMatrix solve(const Eigen::MatrixXd& right_hand_sides, Progress& progress);
 
   const mesh::Surface& surface_;
   ConformalStructure& structure_;

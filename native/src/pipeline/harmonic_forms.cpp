@@ -25,11 +25,14 @@ SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Ch
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                              solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
                              const MemoryPlan& plan, Progress& progress) {
-  const auto vertices = static_cast<Eigen::Index>(half_edges.n_vertices());
-  HarmonicForms result{{classes, forms::RowMajorMatrix(vertices, classes.form_count)}, {}};
+  HarmonicForms result{{classes, {}}, {}};
+  forms::RowMajorMatrix& all = result.forms.functions;
   result.solver = solve_in_blocks(half_edges, weights, solver, classes, plan, progress,
-                                  [&](int first, const Eigen::MatrixXd& functions) {
-                                    result.forms.functions.middleCols(first, functions.cols()) = functions;
+                                  [&](int first, forms::RowMajorMatrix&& functions) {
+                                    const bool whole = functions.cols() == classes.form_count;
+                                    if (whole) return all.swap(functions);
+                                    if (first == 0) all.resize(functions.rows(), classes.form_count);
+                                    all.middleCols(first, functions.cols()) = functions;
                                   });
   return result;
 }

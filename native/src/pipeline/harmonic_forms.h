@@ -37,7 +37,7 @@ struct SolverReport {
 SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Choice& choice);
 
 /// Is given the functions of the forms first, first + 1, ..., #V x #block.
-using TakeFunctions = std::function<void(int first, const Eigen::MatrixXd& functions)>;
+using TakeFunctions = std::function<void(int first, forms::RowMajorMatrix&& functions)>;
 
 /// Solves for plan.block forms at a time, in order, and hands each block on.
 /// @param solver that of the plan. @throws SolverError, Cancelled

@@ -15,10 +15,10 @@ StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges
   result.samples.triangles = uv::sample_triangles(surface);
   result.samples.on_sides.resize(2 * static_cast<Eigen::Index>(result.samples.triangles.size()), n);
   Progress silent;
-  const auto measure = [&](int first, const Eigen::MatrixXd& functions) {
+  const auto measure = [&](int first, forms::RowMajorMatrix&& functions) {
     const auto width = functions.cols();
     intrinsic.first = artist.first = first;
-    intrinsic.functions = functions;
+    intrinsic.functions.swap(functions);
     G.middleCols(first, width) = forms::class_products(triangulation, weights, intrinsic);
     const auto residuals = forms::residuals(triangulation, weights, intrinsic, silent);
     result.residuals.closedness = std::max(result.residuals.closedness, residuals.closedness);

@@ -40,13 +40,18 @@ BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, double
       goal_(goal),
       workers_(workers),
       cycle_(hierarchy, workers),
-      X_(n_),
       p_(n_),
       q_(n_) {}
 
 template <int K>
 void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
-                          int width, Eigen::MatrixXd& X, const Report& report) {
+                          int width, Solution& X, const Report& report) {
+  if (X.cols() == K) {
+    x_ = X.data();
+  } else {
+    own_.resize(static_cast<std::size_t>(K) * n_);
+    x_ = own_.data();
+  }
   Columns b{};
   natural_ = Block<K>::Ones();
   for (int d = 0; d < width; ++d) {
@@ -71,9 +76,8 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
     }
   }
   report(reached_);
-  for_rows(workers_, n_, [&](int i) {
-    for (int d = 0; d < width; ++d) X(i, first + d) = X_[i][d];
-  });
+  if (x_ == X.data()) return;
+  for_rows(workers_, n_, [&](int i) { X.row(i).segment(first, width) = row_of(x_, i).head(width); });
 }
 
 // Entry i of every right-hand side, as it is solved for: nothing is asked of x where it is held, and without held
@@ -101,7 +105,7 @@ void BlockSolve<K>::begin(const Columns& b) {
   norm_b_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
               const Sums<K> here = right_hand_sides(b, i);
               sum += here.square();
-              X_[i] = zero;
+              row_of(x_, i) = zero;
               start(i, here * inverse);
             }).sqrt();
   norm_r_ = norm_b_;
@@ -122,10 +126,10 @@ template <int K>
 void BlockSolve<K>::update_residual(const Columns& b) {
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
   norm_r_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
-              const Sums<K> here = X_[i];
+              const Sums<K> here = row_of(x_, i);
               Sums<K> rest = right_hand_sides(b, i);
               for (auto e = L_.outerIndexPtr()[i]; e < L_.outerIndexPtr()[i + 1]; ++e) {
-                rest += L_.valuePtr()[e] * (here - X_[L_.innerIndexPtr()[e]]);
+                rest += L_.valuePtr()[e] * (here - row_of(x_, L_.innerIndexPtr()[e]));
               }
               if (level_.omega[i] < 0) rest *= natural_.template cast<double>();
               sum += rest.square();
@@ -158,7 +162,7 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
     report(relative(norm * scale_));
   } while (iterations_ < before + kMostInner && iterations_ < kMostIterations && !(norm <= goal).all());
   const bool odd = (iterations_ - before) % 2 != 0;
-  if (odd) for_rows(workers_, n_, [&](int i) { X_[i] += scale_ * (a_before * p_[i]).template cast<double>(); });
+  if (odd) for_rows(workers_, n_, [&](int i) { row_of(x_, i) += scale_ * (a_before * p_[i]).template cast<double>(); });
   // About what the residual will be; it serves the range of single precision only.
   scale_ *= norm;
 }
@@ -197,7 +201,7 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha,
   std::vector<Sums<K>> parts(level_.chunks);
   Block<K>*const r = cycle_.residual(), *const u = cycle_.start();
   Block<K>*const p = p_.data(), *const q = q_.data();
-  Sums<K>* const X = X_.data();
+  double* const x = x_;
   const Block<K>* const w = cycle_.from_z();
   const float* const omega = level_.omega.data();
   const Block<K> a_before = alpha_before, a = alpha, b = beta, natural = natural_;
@@ -212,7 +216,7 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha,
       }
       if constexpr (adds) {
         const Block<K> both = a_before * p[i] + a * p_i;
-        X[i] += scale * both.template cast<double>();
+        row_of(x, i) += scale * both.template cast<double>();
       }
       p[i] = p_i;
       q[i] = q_i;

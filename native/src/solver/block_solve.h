@@ -27,7 +27,7 @@ class BlockSolve {
   /// @param conditions of all columns
   /// @throws SolverError after 300 iterations or two corrections without progress; what `report` throws
   void solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first, int width,
-             Eigen::MatrixXd& X, const Report& report);
+             Solution& X, const Report& report);
 
   int iterations() const { return iterations_; }
   /// Largest |B - L X| / |B| of the last solve, as computed in double precision.
@@ -35,6 +35,11 @@ class BlockSolve {
 
  private:
   using Columns = std::array<const double*, K>;
+
+  // The row of vertex i of a #V x K matrix.
+  static Eigen::Map<Sums<K>> row_of(double* matrix, int i) {
+    return Eigen::Map<Sums<K>>(matrix + std::ptrdiff_t{K} * i);
+  }
 
   void begin(const Columns& b);
   Sums<K> right_hand_sides(const Columns& b, int i) const;
@@ -52,7 +57,8 @@ class BlockSolve {
   const double goal_;
   Workers& workers_;
   Cycle<K> cycle_;
-  Array<Sums<K>> X_;
+  Array<double> own_;      // the solution, where the caller's has not K columns
+  double* x_ = nullptr;    // #V x K: own_ or the caller's
   Blocks<K> p_, q_;        // p, A p
   Block<K> natural_;       // 1 for the right-hand sides that hold no vertex, 0 for the others
   Sums<K> mean_, norm_b_;  // of the right-hand sides

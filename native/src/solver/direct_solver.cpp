@@ -52,9 +52,8 @@ class DirectSolver final : public LaplaceSolver {
     progress.report(0.8);
   }
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                        Progress& progress) override {
-    Eigen::MatrixXd X(B.rows(), B.cols());
+  Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Progress& progress) override {
+    Solution X(B.rows(), B.cols());
     const auto block = std::max<Eigen::Index>(kLeastBlock, kBlockEntries / B.rows());
     for (Eigen::Index first = 0, width = 1; first < B.cols(); first += width) {
       condition_ = conditions[first];

@@ -29,6 +29,9 @@ enum class Condition {
   dirichlet  ///< x = 0 at the held vertices, L x = b at the others
 };
 
+/// What is solved for: the values of all right-hand sides at a vertex side by side.
+using Solution = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 class LaplaceSolver {
  public:
   virtual ~LaplaceSolver() = default;
@@ -38,9 +41,8 @@ class LaplaceSolver {
   /// @param B #V x #rhs; natural: each column sums to 0; dirichlet: the rows of held vertices are ignored
   /// @return #V x #rhs; natural: each column up to a constant; dirichlet: 0 at the held vertices, exactly
   /// @throws SolverError with the residual reached and the size of the system; Cancelled
-  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                                Progress& progress) = 0;
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) {
+  virtual Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Progress& progress) = 0;
+  Solution solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) {
     return solve(B, std::vector<Condition>(B.cols(), condition), progress);
   }
 

@@ -23,11 +23,10 @@ class MultigridSolver final : public LaplaceSolver {
     progress.report(kSetUp);
   }
 
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                        Progress& progress) override {
+  Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Progress& progress) override {
     if (order_.empty()) return solve_in_order(B, conditions, progress);
-    const Eigen::MatrixXd solution = solve_in_order(B(order_, Eigen::all), conditions, progress);
-    Eigen::MatrixXd X(B.rows(), B.cols());
+    const Solution solution = solve_in_order(B(order_, Eigen::all), conditions, progress);
+    Solution X(B.rows(), B.cols());
     X(order_, Eigen::all) = solution;
     return X;
   }
@@ -54,8 +53,7 @@ class MultigridSolver final : public LaplaceSolver {
     std::sort(held_.begin(), held_.end());
   }
 
-  Eigen::MatrixXd solve_in_order(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                                 Progress& progress) {
+  Solution solve_in_order(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Progress& progress) {
     if (!direct_) {
       try {
         return solve_by_multigrid(B, conditions, progress);
@@ -63,7 +61,7 @@ class MultigridSolver final : public LaplaceSolver {
         fall_back(error, progress);
       }
     }
-    Eigen::MatrixXd X = direct_->solve(B, conditions, progress);
+    Solution X = direct_->solve(B, conditions, progress);
     residual_ = std::max(residual_, direct_->residual());
     iterations_ = direct_->iterations();
     return X;
@@ -76,9 +74,8 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   // Blocks of 8, and at the end one of 4 or 2 where that is enough.
-  Eigen::MatrixXd solve_by_multigrid(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                                     Progress& progress) {
-    Eigen::MatrixXd X(B.rows(), B.cols());
+  Solution solve_by_multigrid(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Progress& progress) {
+    Solution X(B.rows(), B.cols());
     advise_large_pages(X.data(), X.size() * sizeof(double));
     const Eigen::Index rest = B.cols() % 8, in_eights = B.cols() - (rest <= 4 ? rest : 0);
     Reached reached;
@@ -100,7 +97,7 @@ class MultigridSolver final : public LaplaceSolver {
 
   template <int K>
   void solve_blocks(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index begin,
-                    Eigen::Index end, Eigen::MatrixXd& X, Reached& reached, Progress& progress) {
+                    Eigen::Index end, Solution& X, Reached& reached, Progress& progress) {
     if (begin == end) return;
     BlockSolve<K> block(L_, hierarchy_, goal_, workers_);
     for (Eigen::Index first = begin; first < end; first += K) {
