@@ -35,6 +35,7 @@ using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 struct Result {
   std::string name;
   double assembly = 0, set_up = 0, solve = 0;  // seconds
+  double peak_bytes = 0;  // before the result is looked at
   int iterations = 0;
   double residual = 0;
 };
@@ -42,6 +43,12 @@ struct Result {
 constexpr int kMostIterations = 100'000;
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
 
 Matrix assembled(const mesh::Surface& surface, bool delaunay) {
   Progress silent;
@@ -80,6 +87,7 @@ Result library(const mesh::Surface& surface, solver::Method method, int count, d
   const double ready = now();
   const solver::Solution solution = solver->solve(B, solver::Condition::natural, silent);
   result.solve = now() - ready;
+  result.peak_bytes = peak_bytes();
   X = solution;
   result.set_up = ready - begin;
   result.name = solver->name();
@@ -103,6 +111,7 @@ Result factorised(Method& method, const Matrix& L, const Eigen::MatrixXd& B, Eig
   X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
   X.bottomRows(B.rows() - 1) = method.solve(B.bottomRows(B.rows() - 1));
   result.solve = now() - ready;
+  result.peak_bytes = peak_bytes();
   result.set_up = ready - start;
   return result;
 }
@@ -170,6 +179,7 @@ Result conjugate_gradients(bool jacobi, double tolerance, const Matrix& L, const
     ++result.iterations;
   }
   result.solve = now() - start;
+  result.peak_bytes = peak_bytes();
   solution = X;
   return result;
 }
@@ -201,17 +211,11 @@ Result other(const std::string& method, double tolerance, const Matrix& L, const
   return result;
 }
 
-double peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
 void print(const Result& r, std::size_t faces, double before) {
   std::printf(
       "{\"name\": \"%s\", \"faces\": %zu, \"assembly\": %.4f, \"set_up\": %.4f, \"solve\": %.4f, \"iterations\": %d, "
       "\"residual\": %.2e, \"peak_bytes\": %.0f, \"bytes_before\": %.0f}\n",
-      r.name.c_str(), faces, r.assembly, r.set_up, r.solve, r.iterations, r.residual, peak_bytes(), before);
+      r.name.c_str(), faces, r.assembly, r.set_up, r.solve, r.iterations, r.residual, r.peak_bytes, before);
 }
 
 }  // namespace
