@@ -35,7 +35,7 @@ using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 struct Result {
   std::string name;
   double assembly = 0, set_up = 0, solve = 0;  // seconds
-  double peak_bytes = 0;  // before the result is looked at
+  double peak_bytes = 0;                       // before the result is looked at
   int iterations = 0;
   double residual = 0;
 };

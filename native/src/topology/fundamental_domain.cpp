@@ -21,7 +21,7 @@ using mesh::to_vertex;
 // loops. So C is the tree that Prim's algorithm finds by a queue of all faces, in linear time but for the core.
 class DualTree {
  public:
-  DualTree(const mesh::Surface& surface, const HalfEdges& mesh, const std::vector<double>& distance,
+  DualTree(const mesh::Surface& surface, const HalfEdges& mesh, const Array<double>& distance,
            FundamentalDomain& domain)
       : surface_(surface), mesh_(mesh), distance_(distance), domain_(domain), free_(mesh.n_edges(), 1) {
     for (const HalfedgeHandle h : domain.to_parent_vertex) {
@@ -35,7 +35,7 @@ class DualTree {
   }
 
   void grow(const std::vector<mesh::Star>& stars, Progress& progress) {
-    const std::vector<int> taken_off = take_off_leaves(stars, progress);
+    const Array<int> taken_off = take_off_leaves(stars, progress);
     cut_core();
     root_core();
     domain_.face_order.insert(domain_.face_order.end(), taken_off.rbegin(), taken_off.rend());
@@ -60,14 +60,14 @@ class DualTree {
   };
 
   // The faces of stars first, so that none of them becomes the root. @return the faces, each before its parent
-  std::vector<int> take_off_leaves(const std::vector<mesh::Star>& stars, Progress& progress) {
+  Array<int> take_off_leaves(const std::vector<mesh::Star>& stars, Progress& progress) {
     const int faces = static_cast<int>(mesh_.n_faces());
-    std::vector<Links> links(faces, {0, 0});
+    Array<Links> links(faces, {0, 0});
     for (int f = 0; f < faces; ++f) {
       for (const int e : surface_.triangle_edges[f])
         links[f] = {links[f].count + free_[e], links[f].edges ^ (free_[e] ? e : 0)};
     }
-    std::vector<int> taken_off;
+    Array<int> taken_off;
     taken_off.reserve(faces);
     const auto take_off = [&](int f) {
       const int e = links[f].edges, parent = behind(f, e);
@@ -144,9 +144,9 @@ class DualTree {
 
   const mesh::Surface& surface_;
   const HalfEdges& mesh_;
-  const std::vector<double>& distance_;
+  const Array<double>& distance_;
   FundamentalDomain& domain_;
-  std::vector<char> free_;  // #E neither in T nor a gap
+  Array<char> free_;  // #E neither in T nor a gap
 };
 
 }  // namespace

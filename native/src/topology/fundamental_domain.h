@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "base/page_allocator.h"
 #include "base/progress.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/stars.h"
@@ -23,14 +24,14 @@ using mesh::HalfEdges;
 
 /// @pre connected; every vertex has a face.
 struct FundamentalDomain {
-  std::vector<HalfedgeHandle>
-      to_parent_face;  ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
-  std::vector<int> face_order;                   ///< #T faces, each after its parent
-  std::vector<int> face_rank;                    ///< #T place of each face in that order
-  std::vector<char> crossed;                     ///< #E 1 for the edges of C, which are inside D; the others are G
-  std::vector<HalfedgeHandle> to_parent_vertex;  ///< #V the half-edge towards the root of T; invalid at the root
-  std::vector<int> vertex_rank;                  ///< #V its place in an order in which each is after its parent
-  std::vector<int> left_over;                    ///< the 2g interior edges of G outside T, ascending
+  Array<HalfedgeHandle>
+      to_parent_face;     ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
+  Array<int> face_order;  ///< #T faces, each after its parent
+  Array<int> face_rank;   ///< #T place of each face in that order
+  Array<char> crossed;    ///< #E 1 for the edges of C, which are inside D; the others are G
+  Array<HalfedgeHandle> to_parent_vertex;  ///< #V the half-edge towards the root of T; invalid at the root
+  Array<int> vertex_rank;                  ///< #V its place in an order in which each is after its parent
+  std::vector<int> left_over;              ///< the 2g interior edges of G outside T, ascending
   mesh::BoundaryLoops boundary;
   std::vector<HalfedgeHandle> gaps;  ///< e_k, the edge of boundary loop k outside T: the half-edge without a face
 };

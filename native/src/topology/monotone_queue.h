@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace holomorph::topology {
@@ -36,7 +37,7 @@ class MonotoneQueue {
 
   Entry pop() {
     while (heap_.empty()) {
-      heap_.swap(buckets_[++current_]);
+      heap_ = std::move(buckets_[++current_]);  // its own memory becomes that of the next bucket
       std::make_heap(heap_.begin(), heap_.end(), later);
     }
     std::pop_heap(heap_.begin(), heap_.end(), later);

@@ -61,7 +61,7 @@ class ShortestPathTree {
     }
   }
 
-  std::vector<double> distance;
+  Array<double> distance;
 
  private:
   void settle(int v) {
@@ -119,17 +119,17 @@ class ShortestPathTree {
   const HalfEdges& mesh_;
   const std::vector<mesh::Star>& stars_;
   FundamentalDomain& domain_;
-  std::vector<int> star_of_;  // #V star that the vertex belongs to, or -1; empty without stars
+  Array<int> star_of_;  // #V star that the vertex belongs to, or -1; empty without stars
   MonotoneQueue queue_;
-  std::vector<char> settled_;  // #V, small enough to stay in the cache
+  Array<char> settled_;  // #V, small enough to stay in the cache
   int done_ = 0;
 };
 
 }  // namespace
 
-std::vector<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
-                                        const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
-                                        Progress& progress) {
+Array<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
+                                  const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
+                                  Progress& progress) {
   ShortestPathTree tree(surface, half_edges, stars, domain);
   tree.grow(root, progress);
   return std::move(tree.distance);

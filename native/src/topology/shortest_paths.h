@@ -12,8 +12,8 @@ namespace holomorph::topology {
 /// Dijkstra along the artist's edges. A star is entered as a whole: with the first vertex of it that is settled come
 /// its centre and all its spokes. So is a boundary loop, at no cost, because the surface need not be cut along it.
 /// Cost: O(n log n), of which the logarithm is that of a bucket's few vertices.
-std::vector<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
-                                        const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
-                                        Progress& progress);
+Array<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
+                                  const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
+                                  Progress& progress);
 
 }  // namespace holomorph::topology

@@ -50,15 +50,15 @@ class SheetTable {
 
 // Faces in an order in which each comes after its parent, behind the half-edge to_parent of its own (invalid at roots).
 struct Walk {
-  std::vector<int> order;
-  std::vector<HalfedgeHandle> to_parent;
+  Array<int> order;
+  Array<HalfedgeHandle> to_parent;
 };
 
 // Breadth first from the first face of each piece.
 Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
   const int faces = static_cast<int>(mesh.n_faces());
-  Walk walk{{}, std::vector<HalfedgeHandle>(faces)};
-  std::vector<char> met(faces, 0);
+  Walk walk{{}, Array<HalfedgeHandle>(faces)};
+  Array<char> met(faces, 0);
   for (int root = 0; root < faces; ++root) {
     if (met[root]) continue;
     met[root] = 1;
