@@ -50,7 +50,7 @@ double peak_bytes() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-Matrix assembled(const mesh::Surface& surface, bool delaunay) {
+solver::Laplacian assembled(const mesh::Surface& surface, bool delaunay) {
   Progress silent;
   auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent));
   if (delaunay) mesh::make_delaunay(triangulation, silent);
@@ -76,12 +76,10 @@ Result library(const mesh::Surface& surface, solver::Method method, int count, d
   Result result;
   Progress silent;
   const double start = now();
-  assembled(surface, true).swap(L);  // as the library hands it over: Eigen 3.4 copies where a matrix is moved
+  solver::Laplacian given = assembled(surface, true);
   result.assembly = now() - start;
+  L = given.matrix();  // for the residual
   B = right_hand_sides(L.rows(), count);
-  Matrix given;  // on the pages that it was assembled on, as in the library; the copy stays here, for the residual
-  given.swap(L);
-  L = given;
   const double begin = now();
   const auto solver = solver::make_solver(method, std::move(given), {}, silent, tolerance);
   const double ready = now();
@@ -237,7 +235,7 @@ int main(int argc, char** argv) {
     const auto own = method == "direct" ? solver::Method::direct : solver::Method::multigrid;
     result = library(surface, own, count, std::stod(argv[4]), L, B, X);
   } else {
-    assembled(surface, false).swap(L);
+    L = assembled(surface, false).matrix();
     B = right_hand_sides(L.rows(), count);
     if (method.rfind("matrix=", 0) == 0) {
       write_matrix(method.substr(7), L, B);

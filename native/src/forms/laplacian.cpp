@@ -110,19 +110,22 @@ std::vector<int> chunk_starts(const HalfEdges& mesh, Workers& workers) {
 
 // Moves the chunks together over the entries that merging has left empty.
 void close_gaps(const std::vector<int>& start, solver::Laplacian& L) {
-  const int n = static_cast<int>(L.cols());
-  int* const ends = L.outerIndexPtr() + 1;
+  const int n = L.size();
+  int* const ends = L.starts.data() + 1;
+  int* const columns = L.columns.data();
+  double* const weights = L.weights.data();
   int entries = 0;
   for (int c = 0; c < chunk_count(n); ++c) {
     const int first = c * kChunk, last = std::min(first + kChunk, n), begin = start[c], end = ends[last - 1];
     if (begin > entries) {
-      std::copy(L.innerIndexPtr() + begin, L.innerIndexPtr() + end, L.innerIndexPtr() + entries);
-      std::copy(L.valuePtr() + begin, L.valuePtr() + end, L.valuePtr() + entries);
+      std::copy(columns + begin, columns + end, columns + entries);
+      std::copy(weights + begin, weights + end, weights + entries);
       for (int v = first; v < last; ++v) ends[v] -= begin - entries;
     }
     entries += end - begin;
   }
-  L.resizeNonZeros(entries);
+  L.columns.resize(entries);
+  L.weights.resize(entries);
 }
 
 }  // namespace
@@ -133,13 +136,11 @@ solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weigh
   Workers workers;
   const std::vector<int> start = chunk_starts(mesh, workers);
   progress.report(0.2);
-  solver::Laplacian L(n, n);
-  L.resizeNonZeros(start.back());
-  int* const rows = L.innerIndexPtr();
-  double* const values = L.valuePtr();
-  advise_large_pages(rows, start.back() * sizeof(int));
-  advise_large_pages(values, start.back() * sizeof(double));
-  int* const ends = L.outerIndexPtr() + 1;
+  solver::Laplacian L{Array<int>(n + 1), Array<int>(start.back()), Array<double>(start.back())};
+  int* const rows = L.columns.data();
+  double* const values = L.weights.data();
+  int* const ends = L.starts.data() + 1;
+  L.starts[0] = 0;
   run_throwing(workers, chunk_count(n), [&](int chunk) {
     int place = start[chunk];
     for (int v = chunk * kChunk, last = std::min(v + kChunk, n); v < last; ++v) {

@@ -42,7 +42,7 @@ BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, const std::vector<
   if (options.boundary == "double_cover")
     return double_cover_forms(half_edges, weights, classes, boundary, options, progress);
   const int n = classes.form_count, handles = n - (boundary.count() - 1);
-  const auto choice = choice_with_all_forms({laplacian.rows(), static_cast<std::int64_t>(weights.size()), 2 * n},
+  const auto choice = choice_with_all_forms({laplacian.size(), static_cast<std::int64_t>(weights.size()), 2 * n},
                                             options.solver, options.memory_limit);
   const auto solver =
       solver::make_solver(choice.method, std::move(laplacian), mesh::boundary_vertices(boundary), progress);

@@ -40,7 +40,7 @@ HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vecto
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                              const Options& options, Progress& progress) {
-  const MemoryPlan plan = plan_memory({laplacian.rows(), static_cast<std::int64_t>(weights.size()), classes.form_count},
+  const MemoryPlan plan = plan_memory({laplacian.size(), static_cast<std::int64_t>(weights.size()), classes.form_count},
                                       options.solver, options.memory_limit);
   const auto solver = solver::make_solver(plan.choice.method, std::move(laplacian), {}, progress);
   return harmonic_forms(half_edges, weights, *solver, classes, plan, progress);

@@ -54,13 +54,17 @@ struct Entry {
 
 // The matrix of sums of weights between rows: entries of each row lie behind one another, doubles among them.
 solver::Laplacian assembled(const std::vector<int>& start, std::vector<Entry>& entries) {
-  const auto n = static_cast<Eigen::Index>(start.size()) - 1;
-  solver::Laplacian L(n, n);
-  L.reserve(static_cast<Eigen::Index>(entries.size()) / 2 + n);
+  const int n = static_cast<int>(start.size()) - 1;
+  solver::Laplacian L{{0}, {}, {}};
+  L.columns.reserve(entries.size() / 2 + n);
+  L.weights.reserve(entries.size() / 2 + n);
+  const auto add = [&L](int column, double weight) {
+    L.columns.push_back(column);
+    L.weights.push_back(weight);
+  };
   for (int i = 0; i < n; ++i) {
     const auto begin = entries.begin() + start[i], end = entries.begin() + start[i + 1];
     std::sort(begin, end, [](const Entry& a, const Entry& b) { return a.column < b.column; });
-    L.startVec(i);
     double diagonal = 0;
     for (auto e = begin; e != end; ++e) diagonal += e->weight;
     bool placed = false;
@@ -69,14 +73,14 @@ solver::Laplacian assembled(const std::vector<int>& start, std::vector<Entry>& e
       double weight = 0;
       for (; e != end && e->column == column; ++e) weight += e->weight;
       if (!placed && column > i) {
-        L.insertBack(i, i) = diagonal;
+        add(i, diagonal);
         placed = true;
       }
-      L.insertBack(column, i) = -weight;
+      add(column, -weight);
     }
-    if (!placed) L.insertBack(i, i) = diagonal;
+    if (!placed) add(i, diagonal);
+    L.starts.push_back(static_cast<int>(L.columns.size()));
   }
-  L.finalize();
   return L;
 }
 

@@ -148,7 +148,7 @@ PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures p
   progress.stage("differential of the third kind", 0.35, 0.6);
   const auto held = mesh::boundary_vertices(domain.boundary);
   const auto choice =
-      solver::choose_method(options.solver, laplacian.rows(), classes.form_count + 2 * singularities.residues.cols());
+      solver::choose_method(options.solver, laplacian.size(), classes.form_count + 2 * singularities.residues.cols());
   const auto solver = solver::make_solver(choice.method, std::move(laplacian), held, progress);
   const auto pair = forms::third_kind(result.half_edges, weights, singularities, *solver, held, progress);
   result.residuals.harmonicity = pair.harmonicity;

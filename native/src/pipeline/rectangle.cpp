@@ -82,7 +82,8 @@ struct Solved {
 Solved solve(const mesh::IntrinsicTriangulation& triangulation, const Sides& sides, const Options& options, double from,
              double to, Progress& progress) {
   const auto weights = mesh::cotangent_weights(triangulation, progress);
-  const auto L = forms::laplacian(triangulation.half_edges, weights, progress);
+  const auto laplacian = forms::laplacian(triangulation.half_edges, weights, progress);
+  const auto L = laplacian.matrix();
   Solved result{Eigen::MatrixXd(L.rows(), 2), {0, 0}, 0, {}};
   for (int axis = 0; axis < 2; ++axis) {
     progress.stage(axis == 0 ? "width" : "height", from + (to - from) * axis / 2, from + (to - from) * (axis + 1) / 2);
@@ -92,7 +93,7 @@ Solved solve(const mesh::IntrinsicTriangulation& triangulation, const Sides& sid
     held.insert(held.end(), one.begin(), one.end());
     Eigen::VectorXd f = Eigen::VectorXd::Zero(L.rows());
     for (const int v : one) f[v] = 1;
-    auto matrix = L;
+    auto matrix = laplacian;
     const auto choice = solver::choose_method(options.solver, L.rows(), 1);
     const auto solver = solver::make_solver(choice.method, std::move(matrix), held, progress);
     f += solver->solve(-(L * f), solver::Condition::dirichlet, progress).col(0);

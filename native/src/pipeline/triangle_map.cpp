@@ -34,12 +34,13 @@ TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, P
 
   progress.stage("harmonic map", 0.3, 1.0);
   const auto weights = mesh::cotangent_weights(triangulation, progress);
-  auto L = forms::laplacian(half_edges, weights, progress);
+  auto laplacian = forms::laplacian(half_edges, weights, progress);
   const std::vector<int> held{vertex(0), vertex(1), vertex(2)};
   if (surface.vertex_count > 3) {
+    const auto L = laplacian.matrix();
     const Eigen::MatrixXd B = -(L * z);
     const double largest = (L.cwiseAbs() * z.cwiseAbs()).maxCoeff();
-    auto matrix = L;
+    auto matrix = laplacian;
     const auto choice = solver::choose_method(options.solver, L.rows(), 2);
     const auto solver = solver::make_solver(choice.method, std::move(matrix), held, progress);
     z += solver->solve(B, solver::Condition::dirichlet, progress);

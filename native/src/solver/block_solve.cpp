@@ -128,8 +128,8 @@ void BlockSolve<K>::update_residual(const Columns& b) {
   norm_r_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
               const Sums<K> here = row_of(x_, i);
               Sums<K> rest = right_hand_sides(b, i);
-              for (auto e = L_.outerIndexPtr()[i]; e < L_.outerIndexPtr()[i + 1]; ++e) {
-                rest += L_.valuePtr()[e] * (here - row_of(x_, L_.innerIndexPtr()[e]));
+              for (int e = L_.starts[i]; e < L_.starts[i + 1]; ++e) {
+                rest += L_.weights[e] * (here - row_of(x_, L_.columns[e]));
               }
               if (level_.omega[i] < 0) rest *= natural_.template cast<double>();
               sum += rest.square();

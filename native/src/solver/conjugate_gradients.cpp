@@ -30,18 +30,13 @@ template <int K>
 class Gradients {
  public:
   Gradients(const Laplacian& L, const GradientOptions& options, Workers& workers)
-      : L_(L),
-        options_(options),
-        workers_(workers),
-        n_(static_cast<int>(L.rows())),
-        inverse_(n_, 1.0),
-        x_(n_),
-        r_(n_),
-        p_(n_),
-        q_(n_) {
+      : L_(L), options_(options), workers_(workers), n_(L.size()), inverse_(n_, 1.0), x_(n_), r_(n_), p_(n_), q_(n_) {
     if (options.scaling == Scaling::none) return;
-    const Eigen::VectorXd diagonal = L.diagonal();
-    for (int i = 0; i < n_; ++i) inverse_[i] = diagonal[i] > 0 ? 1 / diagonal[i] : 1.0;
+    for (int i = 0; i < n_; ++i) {
+      for (int e = L.starts[i]; e < L.starts[i + 1]; ++e) {
+        if (L.columns[e] == i && L.weights[e] > 0) inverse_[i] = 1 / L.weights[e];
+      }
+    }
   }
 
   // Columns first .. first + width - 1.
@@ -92,9 +87,7 @@ class Gradients {
 
   Values<K> product(const Array<Values<K>>& v, int i) const {
     Values<K> sum = Values<K>::Zero();
-    for (auto e = L_.outerIndexPtr()[i]; e < L_.outerIndexPtr()[i + 1]; ++e) {
-      sum += L_.valuePtr()[e] * v[L_.innerIndexPtr()[e]];
-    }
+    for (int e = L_.starts[i]; e < L_.starts[i + 1]; ++e) sum += L_.weights[e] * v[L_.columns[e]];
     return sum;
   }
 

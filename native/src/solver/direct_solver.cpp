@@ -22,15 +22,15 @@ constexpr int kMostRefinements = 4;
 constexpr double kRounding = 1e-14;
 
 // L without the row and column of one vertex, lower triangle: positive definite for a connected surface.
-Laplacian pinned(const Laplacian& L, Eigen::Index vertex, Progress& progress) {
+Laplacian::Matrix pinned(const Eigen::Map<const Laplacian::Matrix>& L, Eigen::Index vertex, Progress& progress) {
   const auto n = L.rows() - 1;
-  Laplacian lower(n, n);
+  Laplacian::Matrix lower(n, n);
   lower.reserve(L.nonZeros() / 2 + n);
   for (Eigen::Index i = 0; i < n; ++i) {
     progress.step(i, n, 0.0, 0.1);
     const Eigen::Index column = i < vertex ? i : i + 1;
     lower.startVec(i);
-    for (Laplacian::InnerIterator it(L, column); it; ++it) {
+    for (Eigen::Map<const Laplacian::Matrix>::InnerIterator it(L, column); it; ++it) {
       if (it.row() >= column && it.row() != vertex) lower.insertBack(it.row() - (it.row() > vertex), i) = it.value();
     }
   }
@@ -41,14 +41,13 @@ Laplacian pinned(const Laplacian& L, Eigen::Index vertex, Progress& progress) {
 class DirectSolver final : public LaplaceSolver {
  public:
   // A held vertex is pinned where there is one: it is a single unknown less in both problems.
-  DirectSolver(Laplacian&& L, std::vector<int> held, Progress& progress) : held_(std::move(held)) {
-    L_.swap(L);
-    pin_ = held_.empty() ? L_.rows() - 1 : held_.back();
-    std::vector<char> last(held_.empty() ? 0 : L_.rows() - 1);
+  DirectSolver(Laplacian&& L, std::vector<int> held, Progress& progress) : L_(std::move(L)), held_(std::move(held)) {
+    pin_ = held_.empty() ? L_.size() - 1 : held_.back();
+    std::vector<char> last(held_.empty() ? 0 : L_.size() - 1);
     for (const int v : held_) {
       if (v != pin_) last[v] = 1;
     }
-    factor_.compute(pinned(L_, pin_, progress), std::move(last));
+    factor_.compute(pinned(L_.matrix(), pin_, progress), std::move(last));
     progress.report(0.8);
   }
 
@@ -107,13 +106,13 @@ class DirectSolver final : public LaplaceSolver {
   }
 
   Eigen::MatrixXd rest(const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) const {
-    Eigen::MatrixXd R = B - L_ * X;
+    Eigen::MatrixXd R = B - L_.matrix() * X;
     if (condition_ == Condition::dirichlet) R(held_, Eigen::all).setZero();
     return R;
   }
 
   bool is_rounding(const Eigen::MatrixXd& R, const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) const {
-    const Eigen::MatrixXd terms = L_.cwiseAbs() * X.cwiseAbs() + B.cwiseAbs();
+    const Eigen::MatrixXd terms = L_.matrix().cwiseAbs() * X.cwiseAbs() + B.cwiseAbs();
     return (R.colwise().norm().array() <= kRounding * terms.colwise().norm().array()).all();
   }
 

@@ -1,18 +1,15 @@
 // The interface behind which every solver of L x = b stands, L the cotan Laplacian of a connected surface.
 #pragma once
 
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "base/progress.h"
+#include "solver/laplacian.h"
 
 namespace holomorph::solver {
-
-/// Symmetric, both triangles stored, positive semi-definite; its kernel is the constants.
-/// Handed over by swapping: Eigen 3.4 copies a sparse matrix that is moved.
-using Laplacian = Eigen::SparseMatrix<double>;
 
 /// A solver promises |L x - b| <= kResidual |b| for every right-hand side, in the Euclidean norm, or throws.
 /// The direct one also takes what rounding allows where weights are large, |L x - b| <= 1e-14 ||L| |x| + |b||.

@@ -38,13 +38,13 @@ void note(const RowMeasures& row, int i, const Array<char>& held, Operator& resu
 
 // The largest entry of each row, that of the diagonal included.
 Array<float> row_sizes(const Laplacian& L, Workers& workers, Progress& progress) {
-  const auto n = static_cast<int>(L.rows());
-  const double* const value = L.valuePtr();
+  const int n = L.size();
+  const double* const value = L.weights.data();
   Array<float> sizes(n);
   for_set_up_chunks(workers, n, progress, [&](int, int, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       double most = 0;
-      for (auto e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) most = std::max(most, std::abs(value[e]));
+      for (int e = L.starts[i]; e < L.starts[i + 1]; ++e) most = std::max(most, std::abs(value[e]));
       sizes[i] = static_cast<float>(most);
     }
   });
@@ -75,15 +75,14 @@ void sum_up_row(const Level& fine, int I, RowSums<double>& room, RowSums<double>
 }  // namespace
 
 Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& workers, Progress& progress) {
-  const int n = static_cast<int>(L.rows());
-  const auto* const start = L.outerIndexPtr();
-  const auto* const column = L.innerIndexPtr();
-  const double* const value = L.valuePtr();
+  const int n = L.size();
+  const int *const start = L.starts.data(), *const column = L.columns.data();
+  const double* const value = L.weights.data();
   const Array<float> sizes = row_sizes(L, workers, progress);
   Operator result;
   result.omega.resize(n);
   result.largest.resize(n);
-  const std::size_t expected = L.nonZeros() - n;  // each row has a diagonal
+  const std::size_t expected = L.columns.size() - n;  // each row has a diagonal
   result.A = build_rows(n, expected, workers, progress, [&](int, int i, RowPart& part) {
     part.make_room(start[i + 1] - start[i]);
     RowMeasures measures;

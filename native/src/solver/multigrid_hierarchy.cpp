@@ -127,7 +127,7 @@ double Hierarchy::operator_complexity() const {
 Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Workers& workers, Progress& progress) {
   Hierarchy result;
   Level level;
-  if (!held.empty()) level.held.assign(L.rows(), 0);
+  if (!held.empty()) level.held.assign(L.size(), 0);
   for (const int v : held) level.held[v] = 1;
   Operator here = finest_operator(L, level.held, workers, progress);
   Scratch scratch;
@@ -146,7 +146,7 @@ Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Worke
   }
   const int coarsest = result.levels.back().rows;
   if (coarsest > kLargestDense) {
-    throw SolverError("the multigrid hierarchy of a system of " + std::to_string(L.rows()) + " unknowns ends at " +
+    throw SolverError("the multigrid hierarchy of a system of " + std::to_string(L.size()) + " unknowns ends at " +
                       std::to_string(coarsest));
   }
   const Eigen::MatrixXd A = dense(result.levels.back());

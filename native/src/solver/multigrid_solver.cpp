@@ -11,9 +11,7 @@ namespace {
 class MultigridSolver final : public LaplaceSolver {
  public:
   MultigridSolver(Laplacian&& L, std::vector<int> held, double goal, Progress& progress)
-      : held_(std::move(held)), goal_(goal) {
-    L_.swap(L);
-    L_.makeCompressed();
+      : L_(std::move(L)), held_(std::move(held)), goal_(goal) {
     renumber(progress);
     try {
       hierarchy_ = make_hierarchy(L_, held_, workers_, progress);
@@ -45,8 +43,7 @@ class MultigridSolver final : public LaplaceSolver {
   void renumber(Progress& progress) {
     if (!is_scattered(L_, workers_)) return;
     order_ = breadth_first_order(L_, progress);
-    Laplacian in_order = renumbered(L_, order_);
-    L_.swap(in_order);
+    L_ = renumbered(L_, order_);
     std::vector<int> number(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) number[order_[i]] = static_cast<int>(i);
     for (int& v : held_) v = number[v];

@@ -17,8 +17,7 @@ constexpr int kSampled = 8;
 
 // Entries of row i further than kFar from every entry of row i-1.
 int far_entries(const Laplacian& L, int i) {
-  const int* const start = L.outerIndexPtr();
-  const int* const column = L.innerIndexPtr();
+  const int *const start = L.starts.data(), *const column = L.columns.data();
   int count = 0;
   int before = start[i - 1];
   for (int e = start[i]; e < start[i + 1]; ++e) {
@@ -34,7 +33,7 @@ int far_entries(const Laplacian& L, int i) {
 }  // namespace
 
 bool is_scattered(const Laplacian& L, Workers& workers) {
-  const int n = static_cast<int>(L.rows());
+  const int n = L.size();
   if (n <= kCached) return false;
   const int sampled = chunk_count(n) / kSampled;
   std::vector<std::int64_t> far(sampled, 0), all(sampled, 0);
@@ -43,7 +42,7 @@ bool is_scattered(const Laplacian& L, Workers& workers) {
     std::int64_t count = 0;
     for (int i = begin + 1; i < end; ++i) count += far_entries(L, i);
     far[c] = count;
-    all[c] = L.outerIndexPtr()[end] - L.outerIndexPtr()[begin + 1];
+    all[c] = L.starts[end] - L.starts[begin + 1];
   });
   const auto total = [](const auto& counts) {
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}));
@@ -52,7 +51,7 @@ bool is_scattered(const Laplacian& L, Workers& workers) {
 }
 
 std::vector<int> breadth_first_order(const Laplacian& L, Progress& progress) {
-  const int n = static_cast<int>(L.rows());
+  const int n = L.size();
   std::vector<int> order;
   order.reserve(n);
   std::vector<char> seen(n, 0);
@@ -63,8 +62,8 @@ std::vector<int> breadth_first_order(const Laplacian& L, Progress& progress) {
     for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
       if (next % kChunk == 0) progress.report(0);
       const int i = order[next];
-      for (int e = L.outerIndexPtr()[i]; e < L.outerIndexPtr()[i + 1]; ++e) {
-        const int j = L.innerIndexPtr()[e];
+      for (int e = L.starts[i]; e < L.starts[i + 1]; ++e) {
+        const int j = L.columns[e];
         if (seen[j] == 0) order.push_back(j);
         seen[j] = 1;
       }
@@ -76,22 +75,20 @@ std::vector<int> breadth_first_order(const Laplacian& L, Progress& progress) {
 // Row by row of the given matrix in the new order, each entry is appended to the row of the other end: ascending
 // without sorting, as the matrix is symmetric.
 Laplacian renumbered(const Laplacian& L, const std::vector<int>& order) {
-  const int n = static_cast<int>(L.rows());
+  const int n = L.size();
   std::vector<int> number(n), end(n);
   for (int i = 0; i < n; ++i) number[order[i]] = i;
-  Laplacian result(n, n);
-  result.resizeNonZeros(L.nonZeros());
-  int* const start = result.outerIndexPtr();
-  start[0] = 0;
+  Laplacian result{Array<int>(n + 1), Array<int>(L.columns.size()), Array<double>(L.weights.size())};
+  result.starts[0] = 0;
   for (int i = 0; i < n; ++i) {
-    end[i] = start[i];
-    start[i + 1] = start[i] + L.outerIndexPtr()[order[i] + 1] - L.outerIndexPtr()[order[i]];
+    end[i] = result.starts[i];
+    result.starts[i + 1] = end[i] + L.starts[order[i] + 1] - L.starts[order[i]];
   }
   for (int j = 0; j < n; ++j) {
-    for (Laplacian::InnerIterator it(L, order[j]); it; ++it) {
-      const int place = end[number[it.row()]]++;
-      result.innerIndexPtr()[place] = j;
-      result.valuePtr()[place] = it.value();
+    for (int e = L.starts[order[j]]; e < L.starts[order[j] + 1]; ++e) {
+      const int place = end[number[L.columns[e]]]++;
+      result.columns[place] = j;
+      result.weights[place] = L.weights[e];
     }
   }
   return result;

@@ -50,7 +50,7 @@ std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::ve
                                            double goal) {
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
-  assert(held.empty() || (held.front() >= 0 && held.back() < L.rows()));
+  assert(held.empty() || (held.front() >= 0 && held.back() < L.size()));
   return method == Method::direct ? make_direct_solver(std::move(L), std::move(held), progress)
                                   : make_multigrid_solver(std::move(L), std::move(held), goal, progress);
 }

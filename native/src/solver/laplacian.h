@@ -1,0 +1,28 @@
+// The matrix of the linear systems, as every solver takes it.
+#pragma once
+
+#include <Eigen/SparseCore>
+
+#include "base/page_allocator.h"
+
+namespace holomorph::solver {
+
+/// The cotan Laplacian L of a connected surface: symmetric, both triangles stored, positive semi-definite; its kernel
+/// is the constants. Row by row, or column by column, which is the same. A matrix of Eigen's lies in memory that
+/// nothing else can use afterwards without new pages, and its moves are copies (3.4).
+struct Laplacian {
+  Array<int> starts;      ///< #V + 1, where each row begins, and the end of the last
+  Array<int> columns;     ///< ascending in each row, the diagonal among them
+  Array<double> weights;  ///< of the same entries
+
+  int size() const { return starts.empty() ? 0 : static_cast<int>(starts.size()) - 1; }
+
+  using Matrix = Eigen::SparseMatrix<double>;
+  /// The same as a matrix of Eigen's, without a copy.
+  Eigen::Map<const Matrix> matrix() const {
+    const auto entries = static_cast<Eigen::Index>(columns.size());
+    return {size(), size(), entries, starts.data(), columns.data(), weights.data()};
+  }
+};
+
+}  // namespace holomorph::solver
