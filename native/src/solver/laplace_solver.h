@@ -71,7 +71,7 @@ std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int
 /// The bits of the result do not depend on the number of threads.
 /// @param goal relative residual to go on to while that helps, at most kResidual
 /// @throws SolverError if the direct solver fails as well; Cancelled
-/// Cost: about 1 us per vertex and 2 us per vertex and 4 right-hand sides on one thread; 0.35 KB per vertex
+/// Cost: about 0.6 us per vertex and 1.2 us per vertex and 4 right-hand sides on one thread; 0.35 KB per vertex
 /// for 4 right-hand sides.
 std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, double goal,
                                                      Progress& progress);

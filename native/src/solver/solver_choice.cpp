@@ -9,13 +9,13 @@
 namespace holomorph::solver {
 namespace {
 
-// Measured against CHOLMOD with OpenBLAS on irregular surfaces. Below this either takes less than a tenth of a second,
-// and the direct solver leaves smaller residuals.
+// Measured against CHOLMOD with OpenBLAS on irregular surfaces. Below this the direct solver takes less than a tenth of
+// a second, and leaves smaller residuals; multigrid takes half of that.
 constexpr double kSmall = 25'000;
 // The factorisation is paid once, and one more right-hand side is cheaper with it than with multigrid on one thread. At
-// kLarge unknowns the direct solver is ahead from about 20 right-hand sides on one thread, and on two at none that was
-// measured; at kSmall from 4 and from about 20. The number in between serves more cores than one, and grows like the
-// cube root of the size.
+// kLarge unknowns the direct solver is ahead from about 35 right-hand sides on one thread, and on two at none that was
+// measured; at kSmall from about 13 and from about 32. The number in between serves more cores than one, and grows like
+// the cube root of the size.
 constexpr double kMany = 64, kLarge = 500'000;
 // Memory of a factor: about this times n log2 n bytes. More than kMostBytes is not asked for.
 constexpr double kFactorBytes = 60, kMostBytes = 4e9;
