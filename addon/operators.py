@@ -94,14 +94,20 @@ class HOLOMORPH_OT_maps(WorkOperator, bpy.types.Operator):
     rotation: FloatProperty(
         name="Rotation", description="Turns every part of all maps", subtype="ANGLE", unit="ROTATION"
     )
+    # Not remembered for the next object, unlike the other options: that has a selection of its own.
     use_selection: EnumProperty(
-        name="Use Selection", description="What the selected vertices are", items=SELECTION_USES, default="AUTOMATIC"
+        name="Use Selection",
+        description="What the selected vertices are",
+        items=SELECTION_USES,
+        default="AUTOMATIC",
+        options={"SKIP_SAVE"},
     )
     residues: StringProperty(
         name="Residues",
         description="One number for each puncture, in the order of selection, for example 1 1 -2; they sum to 0 on a "
         "closed surface, and may be complex (1+0.5j). Empty: chosen by themselves",
         default="",
+        options={"SKIP_SAVE"},
     )
     cut_at_seams: BoolProperty(
         name="Use Seams as Cut",

@@ -4,7 +4,7 @@ import families
 import numpy as np
 import pytest
 from forms import edge_forms
-from holomorph import Surface, TopologyError, conformal_structure
+from holomorph import Cancelled, Surface, TopologyError, conformal_structure
 from solved import CLOSED, surface_of
 from test_uv import corner_sides, jumps
 
@@ -233,6 +233,26 @@ def test_the_loneliest_of_several_takes_the_rest():
     far = int(np.argmin(points[:, 2]))
     structure = conformal_structure(surface_of(SPHERE), punctures=[near[0], far, *near[1:]])
     assert (structure.residues == [1, -3, 1, 1]).all()
+
+
+def test_residues_are_not_sought_for_vertices_that_cannot_be_punctures():
+    """All vertices of a large selection: the search would take longer than anything else."""
+    stages = []
+    with pytest.raises(TopologyError, match="corners of one face"):
+        conformal_structure(
+            surface_of(SPHERE),
+            punctures=np.arange(len(SPHERE.vertices)),
+            progress=lambda _fraction, stage: stages.append(stage),
+        )
+    assert "punctures" in stages
+    assert "residues" not in stages
+
+
+def test_the_search_for_the_loneliest_can_be_cancelled():
+    with pytest.raises(Cancelled):
+        conformal_structure(
+            surface_of(SPHERE), punctures=[3, 100, 400], progress=lambda _fraction, stage: stage != "residues"
+        )
 
 
 def test_isolated_vertices_keep_their_numbers():

@@ -14,81 +14,16 @@ import traceback
 from pathlib import Path
 
 import bpy
-import numpy as np
 
-FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
+sys.path.insert(0, str(Path(__file__).parent))
+from objects import maps, part_report, pick, pick_vertices, sheet, torus
+from screen import FOLDER, area, click, event, hover, inside, move, picture, region, tap, window
+
 PANEL_TABS_STEP = 30  # pixels; a tab is longer
 PATIENCE = 90  # seconds for a solve
+BUTTONS = {"maps": 44, "punctures": 91, "rectangle": 112}  # pixels below the top of the sidebar, in edit mode
 seen = {}
-pointer = [0, 0]
 drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
-
-
-def window():
-    return bpy.context.window_manager.windows[0]
-
-
-def area(kind):
-    return next(a for a in window().screen.areas if a.type == kind)
-
-
-def region(owner, kind):
-    return next(r for r in owner.regions if r.type == kind)
-
-
-def event(kind, value, **keys):
-    window().event_simulate(type=kind, value=value, x=pointer[0], y=pointer[1], **keys)
-
-
-def move(x, y):
-    pointer[:] = int(x), int(y)
-    event("MOUSEMOVE", "NOTHING")
-
-
-def click(x, y):
-    move(x, y)
-    event("LEFTMOUSE", "PRESS")
-    event("LEFTMOUSE", "RELEASE")
-
-
-def tap(kind, **keys):
-    event(kind, "PRESS", **keys)
-    event(kind, "RELEASE", **keys)
-
-
-def hover(owner):
-    move(owner.x + owner.width * 0.3, owner.y + owner.height * 0.3)
-
-
-def inside(owner):
-    return bpy.context.temp_override(window=window(), area=owner, region=region(owner, "WINDOW"))
-
-
-def picture(name):
-    bpy.ops.screen.screenshot(filepath=str(FOLDER / name))
-
-
-def maps(name):
-    return [layer.name for layer in bpy.data.objects[name].data.uv_layers]
-
-
-def pick(name):
-    bpy.context.view_layer.update()  # or it lists objects that are gone
-    for obj in bpy.context.view_layer.objects:
-        obj.select_set(obj.name == name)
-    bpy.context.view_layer.objects.active = bpy.data.objects[name]
-
-
-def torus(name, around, across, x):
-    i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
-    u, v = 2 * np.pi * i / around, 2 * np.pi * j / across
-    radius = 1 + 0.4 * np.cos(v)
-    vertices = np.stack([x + radius * np.cos(u), radius * np.sin(u), 0.4 * np.sin(v)], -1).reshape(-1, 3)
-    i2, j2 = (i + 1) % around, (j + 1) % across
-    corners = np.stack([i * across + j, i2 * across + j, i2 * across + j2, i * across + j2], -1).ravel()
-    mesh_io = importlib.import_module("holomorph_addon.mesh_io")
-    mesh = mesh_io.new_mesh(name, vertices, corners, np.arange(0, len(corners) + 1, 4))
-    bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
 
 
 def count_draws(panel, kind):
@@ -129,10 +64,14 @@ def open_tab(kind):
             return
 
 
-def press_button(kind):
-    """Clicks our first button: it is below the panel's header, at the top of the sidebar."""
+def press_button(kind, button="maps"):
+    """Clicks one of our buttons, unhurriedly: they are below the panel's header, at the top of the sidebar."""
     sidebar = region(area(kind), "UI")
-    click(sidebar.x + sidebar.width * 0.4, sidebar.y + sidebar.height - 44)
+    move(sidebar.x + sidebar.width * 0.4, sidebar.y + sidebar.height - BUTTONS[button])
+    yield 0.3
+    event("LEFTMOUSE", "PRESS")
+    yield 0.1
+    event("LEFTMOUSE", "RELEASE")
 
 
 def wait_for_maps(name):
@@ -151,6 +90,7 @@ def prepare():
         bpy.data.objects.remove(obj)
     torus("Small", 48, 24, 0)
     torus("Big", 600, 500, 3)
+    sheet("Sheet", 8, -4)
     pick("Small")
     with inside(area("VIEW_3D")):
         area("VIEW_3D").spaces.active.shading.type = "SOLID"
@@ -169,7 +109,7 @@ def small_mesh():
     yield from open_tab("VIEW_3D")
     picture("panel.png")
     yield 0.5
-    press_button("VIEW_3D")
+    yield from press_button("VIEW_3D")
     yield 2
     seen["button"] = maps("Small")
     picture("button.png")
@@ -185,7 +125,7 @@ def small_mesh():
 
 def redo_panel():
     """A change in the redo panel undoes, sets the property and executes again: what this operator does."""
-    press_button("VIEW_3D")
+    yield from press_button("VIEW_3D")
     yield 1
     hud = region(area("VIEW_3D"), "HUD")
     seen["hud"] = [hud.x, hud.y, hud.width, hud.height]
@@ -208,7 +148,7 @@ def image_editor():
         layers = bpy.data.objects["Small"].data.uv_layers
         layers.remove(layers[0])
     yield from open_tab("IMAGE_EDITOR")
-    press_button("IMAGE_EDITOR")
+    yield from press_button("IMAGE_EDITOR")
     yield 2
     seen["button of the UV editor"] = maps("Small")
 
@@ -222,7 +162,7 @@ def edit_mode():
             bpy.ops.mesh.uv_texture_remove()
         bpy.ops.ed.undo_push(message="In edit mode")
     yield 1
-    press_button("VIEW_3D")
+    yield from press_button("VIEW_3D")
     yield 2
     seen["button in edit mode"] = maps("Small")
     picture("edit_mode.png")
@@ -236,6 +176,25 @@ def edit_mode():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
+def chosen_vertices():
+    view = area("VIEW_3D")
+    pick("Sheet")
+    with inside(view):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.view3d.view_selected()
+    for button, vertices in (("rectangle", (0, 8, 72, 80)), ("punctures", (40,))):
+        pick_vertices("Sheet", vertices)
+        hover(view)
+        yield 1
+        yield from press_button("VIEW_3D", button)
+        yield 2
+        seen[f"part after {button}"] = part_report("Sheet")
+        picture(f"{button}.png")
+        yield 0.5
+    with inside(view):
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
 def big_mesh():
     view = area("VIEW_3D")
     pick("Big")
@@ -243,7 +202,7 @@ def big_mesh():
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Big")
     yield 1
-    press_button("VIEW_3D")
+    yield from press_button("VIEW_3D")
     yield 1.2
     seen["no maps while it runs"] = maps("Big")
     picture("running.png")
@@ -255,7 +214,7 @@ def big_mesh():
     seen["seconds to cancel"] = ended[0] - start
     yield 0.5
     seen["after ESC"] = maps("Big")
-    press_button("VIEW_3D")
+    yield from press_button("VIEW_3D")
     yield from wait_for_maps("Big")
     yield 1
     seen["modal run"] = maps("Big")
@@ -302,7 +261,7 @@ def levels_of_detail():
 
 
 def steps():
-    for part in (prepare, small_mesh, redo_panel, image_editor, edit_mode, big_mesh, levels_of_detail):
+    for part in (prepare, small_mesh, redo_panel, image_editor, edit_mode, chosen_vertices, big_mesh, levels_of_detail):
         yield from part()
 
 

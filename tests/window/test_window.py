@@ -12,7 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or shutil.which("blender")
 SECONDS = 280
 BOTH_MAPS = ["Holomorphic", "Holomorphic 1"]
-PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "running.png", "modal.png", "levels.png"]
+PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "rectangle.png", "punctures.png"]
+PICTURES += ["running.png", "modal.png", "levels.png"]
 
 pytestmark = [
     pytest.mark.skipif(not BLENDER, reason="there is no Blender program"),
@@ -106,6 +107,17 @@ def test_levels_of_detail_are_made_in_the_background(seen):
 
 def test_edit_mode_is_kept(seen):
     assert seen["mode after undo"] == "EDIT"
+
+
+def test_selected_vertices_become_the_corners_of_a_rectangle(seen):
+    part = seen["part after rectangle"]
+    assert part["description"].startswith("rectangle with corners ")
+    low, high = part["modulus_bounds"]
+    assert low <= part["modulus"] <= high
+
+
+def test_a_selected_vertex_becomes_a_puncture(seen):
+    assert seen["part after punctures"]["description"] == "disk map, centre at vertex 40"
 
 
 @pytest.mark.parametrize("name", PICTURES)

@@ -26,8 +26,10 @@ int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edg
 
 /// The residues meant by none: 1 and -1 for two punctures of a closed surface; for more of them 1 everywhere but at the
 /// one with the largest sum of distances to the others, which takes the rest. With a boundary, which takes the rest, 1.
+/// @throws Cancelled
+/// Cost: of more than two on a closed surface, a search over the whole surface from each.
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                                   const std::vector<int>& vertices, bool closed);
+                                                   const std::vector<int>& vertices, bool closed, Progress& progress);
 
 /// @throws TopologyError for vertices repeated or out of range, a single puncture of a closed surface, a number of
 /// residues that is not theirs, a residue that is 0 or not finite, or a sum that is not 0 on a closed surface

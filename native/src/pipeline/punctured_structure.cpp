@@ -34,8 +34,8 @@ Eigen::VectorXcd joined(const Eigen::MatrixXd& columns) {
   return result;
 }
 
-// Fills in what was not chosen.
-Punctures completed(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Punctures punctures, bool closed) {
+// With vertices, where none were chosen.
+Punctures placed(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Punctures punctures, bool closed) {
   if (punctures.vertices.empty() && punctures.residues.empty()) {
     if (closed)
       punctures.vertices = far_apart(surface, half_edges);
@@ -43,8 +43,6 @@ Punctures completed(const mesh::Surface& surface, const mesh::HalfEdges& half_ed
       punctures.vertices = {deepest_vertex(surface, half_edges)};
   }
   check_punctures(punctures, surface.vertex_count, closed);
-  if (punctures.residues.empty())
-    punctures.residues = default_residues(surface, half_edges, punctures.vertices, closed);
   return punctures;
 }
 
@@ -116,16 +114,19 @@ PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures p
   PuncturedStructure result;
   result.surface = surface;
 
-  progress.stage("punctures", 0.0, 0.1);
-  result.half_edges = mesh::half_edges(surface, progress);
-  result.closed = mesh::boundary_count(result.half_edges) == 0;
-  result.punctures = completed(surface, result.half_edges, std::move(punctures), result.closed);
+  progress.stage("punctures", 0.0, 0.05);
+  const mesh::HalfEdges given = mesh::half_edges(surface, progress);
+  result.closed = mesh::boundary_count(given) == 0;
+  result.punctures = placed(surface, given, std::move(punctures), result.closed);
   mesh::turn_diagonals_away(result.surface, result.punctures.vertices, result.punctures.names);
   result.half_edges = mesh::half_edges(result.surface, progress);
   const auto triangulation = mesh::intrinsic_triangulation(result.surface, result.half_edges);
   result.mollification = triangulation.mollification;
   result.stars =
       mesh::stars(result.half_edges, triangulation.lengths, result.punctures.vertices, result.punctures.names);
+  progress.stage("residues", 0.05, 0.1);
+  auto& [vertices, residues, names] = result.punctures;  // found only now: vertices that cannot be are refused at once
+  if (residues.empty()) residues = default_residues(surface, given, vertices, result.closed, progress);
 
   progress.stage("homology", 0.1, 0.25);
   const auto domain = topology::fundamental_domain(result.surface, result.half_edges, progress, result.stars);

@@ -1,0 +1,53 @@
+"""Blender's window as a hand and an eye have it: where things are, the pointer, the keys, pictures."""
+
+import sys
+from pathlib import Path
+
+import bpy
+
+FOLDER = Path(sys.argv[sys.argv.index("--") + 1])  # for pictures
+pointer = [0, 0]
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def area(kind):
+    return next(a for a in window().screen.areas if a.type == kind)
+
+
+def region(owner, kind):
+    return next(r for r in owner.regions if r.type == kind)
+
+
+def event(kind, value, **keys):
+    window().event_simulate(type=kind, value=value, x=pointer[0], y=pointer[1], **keys)
+
+
+def move(x, y):
+    pointer[:] = int(x), int(y)
+    event("MOUSEMOVE", "NOTHING")
+
+
+def click(x, y):
+    move(x, y)
+    event("LEFTMOUSE", "PRESS")
+    event("LEFTMOUSE", "RELEASE")
+
+
+def tap(kind, **keys):
+    event(kind, "PRESS", **keys)
+    event(kind, "RELEASE", **keys)
+
+
+def hover(owner):
+    move(owner.x + owner.width * 0.3, owner.y + owner.height * 0.3)
+
+
+def inside(owner):
+    return bpy.context.temp_override(window=window(), area=owner, region=region(owner, "WINDOW"))
+
+
+def picture(name):
+    bpy.ops.screen.screenshot(filepath=str(FOLDER / name))
