@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "solver/grouped_rows.h"
 
@@ -59,6 +60,13 @@ template <int K>
 EIGEN_STRONG_INLINE Block<K> jacobi_step(float omega, const Block<K>& r, const Block<K>& natural) {
   if (omega >= 0) return omega * r;
   return (-omega * natural) * r;
+}
+
+/// The r of a jacobi_step(), where its right-hand side does not hold the vertex.
+template <int K>
+EIGEN_STRONG_INLINE Block<K> residual_of_step(float omega, const Block<K>& step) {
+  const float size = std::abs(omega);
+  return (size > 0 ? 1 / size : 0.0F) * step;
 }
 
 }  // namespace holomorph::solver

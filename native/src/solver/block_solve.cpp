@@ -8,9 +8,12 @@ namespace {
 
 // What single precision is asked for at a time: less takes more corrections, more gains nothing.
 constexpr double kInnerResidual = 1e-4;
-// The last time it goes a little below the goal, as the residual that it carries along drifts from the true one.
-constexpr double kSafety = 0.7;
+// The last time it goes a little below the goal, as the residual that it carries along drifts from the true one: by a
+// thousandth of it at most, after the first correction, which has to find what is smooth and large.
+constexpr double kSafety = 0.99;
 constexpr int kMostInner = 100, kMostIterations = 300;
+// Where so many times the residual that was carried along is left, it is the rounding of B - L X.
+constexpr double kMostDrift = 10;
 // Corrections in a row that leave more than half of the residual.
 constexpr int kMostStalls = 2;
 
@@ -67,7 +70,8 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
     update_residual(b);
     stalls = reached_ < 0.5 * before ? 0 : stalls + 1;
     const bool tired = iterations_ >= kMostIterations;
-    if (reached_ <= kResidual && (stalls > 0 || tired)) break;  // the rest is rounding
+    const bool rounding = reached_ > kMostDrift * relative(scale_);
+    if (reached_ <= kResidual && (stalls > 0 || tired || rounding)) break;
     if (stalls == kMostStalls || tired || !std::isfinite(reached_)) {
       std::ostringstream message;
       message << "multigrid reached a relative residual of " << reached_ << " instead of 1e-10 after " << iterations_
@@ -113,11 +117,10 @@ void BlockSolve<K>::begin(const Columns& b) {
   iterations_ = 0;
 }
 
-// Where conjugate gradients begin: r = residual / scale, u = omega r.
+// Where conjugate gradients begin: r = residual / scale.
 template <int K>
 EIGEN_STRONG_INLINE void BlockSolve<K>::start(int i, const Sums<K>& residual) {
   const Block<K> r = residual.template cast<float>();
-  cycle_.residual()[i] = r;
   cycle_.start()[i] = jacobi_step<K>(level_.omega[i], r, natural_);
 }
 
@@ -145,7 +148,7 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
   Sums<K> rz = Sums<K>::Zero(), zAz = rz, pAp = rz;
   Block<K> a_before = Block<K>::Zero();
   const int before = iterations_;
-  cycle_.down([](int) {});  // r and u are there
+  cycle_.down([](int) {});  // r is there
   do {
     const Sums<K> rz_before = rz;
     precondition(rz, zAz);
@@ -167,20 +170,21 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
   scale_ *= norm;
 }
 
-// From r, on the coarse levels: z, in u's place, A z, r.z and z.A z.
+// From r, on the coarse levels: z, A z, r.z and z.A z.
 template <int K>
 void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   struct Products {
     Sums<K> rz = Sums<K>::Zero(), zAz = Sums<K>::Zero();
   };
   std::vector<Products> parts(level_.chunks);
-  const Block<K>*const r = cycle_.residual(), *const z = cycle_.start();
+  const Block<K>*const s = cycle_.start(), *const z = cycle_.result();
   Block<K>* const w = cycle_.from_z();
+  const float* const omega = level_.omega.data();
   cycle_.up([&](int chunk) {
     Products products;
-    for_differences<K>(level_.A, chunk, z, [r, z, w, &products](int i, const Block<K>& Az) {
+    for_differences<K>(level_.A, chunk, z, [s, z, w, omega, &products](int i, const Block<K>& Az) {
       w[i] = Az;
-      const Block<K> rz = r[i] * z[i], zAz = z[i] * Az;
+      const Block<K> rz = residual_of_step<K>(omega[i], s[i]) * z[i], zAz = z[i] * Az;
       products.rz += rz.template cast<double>();
       products.zAz += zAz.template cast<double>();
     });
@@ -199,17 +203,16 @@ template <int K>
 template <bool first, bool adds>
 Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta) {
   std::vector<Sums<K>> parts(level_.chunks);
-  Block<K>*const r = cycle_.residual(), *const u = cycle_.start();
-  Block<K>*const p = p_.data(), *const q = q_.data();
+  Block<K>*const s = cycle_.start(), *const p = p_.data(), *const q = q_.data();
   double* const x = x_;
-  const Block<K>* const w = cycle_.from_z();
+  const Block<K>*const z = cycle_.result(), *const w = cycle_.from_z();
   const float* const omega = level_.omega.data();
   const Block<K> a_before = alpha_before, a = alpha, b = beta, natural = natural_;
   const Sums<K> scale = scale_;
   cycle_.down([=, this, &parts](int chunk) {
     Sums<K> sum = Sums<K>::Zero();
     for (int i = level_.begin(chunk), end = level_.end(chunk); i < end; ++i) {
-      Block<K> p_i = u[i], q_i = w[i];  // u is z until here
+      Block<K> p_i = z[i], q_i = w[i];
       if constexpr (!first) {
         p_i += b * p[i];
         q_i += b * q[i];
@@ -220,11 +223,9 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha,
       }
       p[i] = p_i;
       q[i] = q_i;
-      Block<K> r_i = r[i] - a * q_i;
-      if (omega[i] < 0) r_i *= natural;
-      r[i] = r_i;
-      u[i] = jacobi_step<K>(omega[i], r_i, natural);
-      const Block<K> square = r_i.square();
+      const Block<K> step = a * q_i, s_i = s[i] - jacobi_step<K>(omega[i], step, natural);
+      s[i] = s_i;
+      const Block<K> square = residual_of_step<K>(omega[i], s_i).square();
       sum += square.template cast<double>();
     }
     parts[chunk] = sum;

@@ -9,7 +9,8 @@ namespace holomorph::solver {
 /// z = M r for the symmetric positive semi-definite M of one V-cycle: a Jacobi step on each level down (on the way down
 /// from zero, so that it is one product), the exact solution on the coarsest, a Jacobi step on each level up; below one
 /// coarse level a second time, for the residual that the first leaves. On each level the loops down, and those up, are
-/// one wavefront each, which the caller's loops on the finest level join.
+/// one wavefront each, which the caller's loops on the finest level join. A residual r is known by its jacobi_step()
+/// s = omega r alone, with which the way down begins: a vector less to write and to read than with both.
 template <int K>
 class Cycle {
  public:
@@ -18,15 +19,15 @@ class Cycle {
   /// @param natural of jacobi_step(); 1 for all until this is called
   void set_conditions(const Block<K>& natural) { natural_ = natural; }
 
-  /// The residual r, 0 where vertices are held, and its jacobi_step(): for the first loop to fill. After the way up z
-  /// is in the place of start().
-  Block<K>* residual() { return work_[0].r.data(); }
-  Block<K>* start() { return work_[0].u.data(); }
+  /// jacobi_step() of the residual: for the first loop to fill.
+  Block<K>* start() { return work_[0].s.data(); }
+  /// z, after the way up.
+  Block<K>* result() { return work_[0].u.data(); }
   /// A place for what is computed from z: the last loop on the way up may write its chunk, and the first on the way
   /// down read it. In between, and only there, the cycle itself needs it.
   Block<K>* from_z() { return work_[0].t.data(); }
 
-  /// first(chunk) fills the chunk's residual() and start().
+  /// first(chunk) fills the chunk's start().
   template <class First>
   void down(const First& first) {
     if (work_.size() > 1) {
@@ -51,7 +52,7 @@ class Cycle {
 
  private:
   struct Work {
-    Blocks<K> r, u, t;
+    Blocks<K> s, u, t;  // the residual's step, the correction, what is between them
   };
   // The level that is corrected twice has at most this part of the finest level's rows: few percent of the work, in the
   // cache, for one iteration of twenty less, and two of fifteen where a mesh is stretched.
@@ -73,7 +74,7 @@ class Cycle {
     hierarchy_.levels[k].up.run(
         workers_, [this, k](int chunk) { carry_up(k, chunk); }, [this, k](int chunk) { smooth(k, chunk); }, last);
   }
-  // From residual and start of level k down to the coarsest level and back.
+  // From the start of level k down to the coarsest level and back.
   template <class First, class Last>
   void correct(std::size_t k, const First& first, const Last& last) {
     const std::size_t coarsest = work_.size() - 1;
