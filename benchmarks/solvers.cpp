@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// solvers MESH METHOD RHS TOLERANCE: one line of JSON about solving L x = b, L the cotan Laplacian of a closed surface,
-// for RHS random right-hand sides. METHOD is one of
+// solvers MESH METHOD RHS TOLERANCE [RUNS]: a line of JSON about solving L x = b, L the cotan Laplacian of a closed
+// surface, for RHS random right-hand sides, for each of so many runs, one if not said otherwise: the first gets new
+// pages of memory from the system, the library's others find them in place. METHOD is one of
 //   multigrid, direct          the library's own, with half-edges, Delaunay flips and assembly; the library itself asks
 //                              multigrid for 1e-12
 //   cholmod-amd, cholmod-metis supernodal with OpenBLAS on all cores, one vertex pinned
@@ -19,6 +20,7 @@
 #include <string>
 #include <thread>
 
+#include "base/kept_pages.h"
 #include "forms/harmonic_basis.h"
 #include "mesh/io/read.h"
 #include "solver/laplace_solver.h"
@@ -216,33 +218,40 @@ void print(const Result& r, std::size_t faces, double before) {
       r.name.c_str(), faces, r.assembly, r.set_up, r.solve, r.iterations, r.residual, r.peak_bytes, before);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::fprintf(stderr, "usage: solvers MESH METHOD RHS TOLERANCE\n");
-    return 2;
-  }
-  const std::string method = argv[2];
-  if (method.rfind("cholmod", 0) == 0) openblas_set_num_threads(static_cast<int>(std::thread::hardware_concurrency()));
-  const int count = std::stoi(argv[3]);
-  const auto surface = mesh::make_surface(mesh::read(argv[1]));
-  const double before = peak_bytes();
+Result run(const mesh::Surface& surface, const std::string& method, int count, double tolerance) {
   Matrix L;
   Eigen::MatrixXd B, X;
   Result result;
   if (method == "multigrid" || method == "direct") {
     const auto own = method == "direct" ? solver::Method::direct : solver::Method::multigrid;
-    result = library(surface, own, count, std::stod(argv[4]), L, B, X);
+    result = library(surface, own, count, tolerance, L, B, X);
   } else {
     L = assembled(surface, false).matrix();
     B = right_hand_sides(L.rows(), count);
-    if (method.rfind("matrix=", 0) == 0) {
-      write_matrix(method.substr(7), L, B);
-      return 0;
-    }
-    result = other(method, std::stod(argv[4]), L, B, X);
+    result = other(method, tolerance, L, B, X);
   }
   result.residual = largest_residual(L, X, B);
-  print(result, surface.triangles.size(), before);
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 5 || argc > 6) {
+    std::fprintf(stderr, "usage: solvers MESH METHOD RHS TOLERANCE [RUNS]\n");
+    return 2;
+  }
+  const std::string method = argv[2];
+  const int count = std::stoi(argv[3]), runs = argc == 6 ? std::stoi(argv[5]) : 1;
+  if (method.rfind("cholmod", 0) == 0) openblas_set_num_threads(static_cast<int>(std::thread::hardware_concurrency()));
+  const auto surface = mesh::make_surface(mesh::read(argv[1]));
+  if (method.rfind("matrix=", 0) == 0) {
+    const Matrix L = assembled(surface, false).matrix();
+    write_matrix(method.substr(7), L, right_hand_sides(L.rows(), count));
+    return 0;
+  }
+  const double before = peak_bytes();
+  const KeptPages kept;
+  for (int i = 0; i < runs; ++i)
+    print(run(surface, method, count, std::stod(argv[4])), surface.triangles.size(), before);
 }
