@@ -161,10 +161,8 @@ def main():
     solvers = program("solvers")
     print(f"{os.cpu_count()} cores, {RIGHT_HAND_SIDES} right-hand sides, relative residual {options.tolerance:g}")
     print(
-        print(
-            f"{'':38} {'seconds':>11}  {'/CHOLMOD':>8}  {'again':>10} {'/CHOLMOD':>7}  "
-            f"{'asm':>6} {'set-up':>7} {'solve':>8}  {'iter.':>6}"
-        )
+        f"{'':38} {'seconds':>11}  {'/CHOLMOD':>8}  {'again':>10} {'/CHOLMOD':>7}  "
+        f"{'asm':>6} {'set-up':>7} {'solve':>8}  {'iter.':>6}"
     )
     rows = []
     with tempfile.TemporaryDirectory() as folder:
