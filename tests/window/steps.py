@@ -36,19 +36,25 @@ def count_draws(panel, kind):
     panel.draw = draw
 
 
-def note_the_end():
-    """A list that gets the time at which the operator's modal part ends."""
-    ended = []
+def note(method):
+    """A list that gets the time at which the operator first calls this method of its modal part."""
+    called = []
     operator = importlib.import_module("holomorph_addon.operators").HOLOMORPH_OT_maps
-    original = operator._end_modal
+    original = getattr(operator, method)
 
-    def end_modal(self, context):
-        ended.append(time.perf_counter())
-        operator._end_modal = original
+    def noted(self, context):
+        called.append(time.perf_counter())
+        setattr(operator, method, original)
         original(self, context)
 
-    operator._end_modal = end_modal
-    return ended
+    setattr(operator, method, noted)
+    return called
+
+
+def wait_until(called):
+    start = time.perf_counter()
+    while not called and time.perf_counter() - start < PATIENCE:
+        yield 0.02
 
 
 def open_tab(kind):
@@ -89,7 +95,7 @@ def prepare():
     for obj in list(bpy.data.objects):
         bpy.data.objects.remove(obj)
     torus("Small", 48, 24, 0)
-    torus("Big", 600, 500, 3)
+    torus("Big", 850, 700, 3)
     sheet("Sheet", 8, -4)
     pick("Small")
     with inside(area("VIEW_3D")):
@@ -202,15 +208,15 @@ def big_mesh():
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Big")
     yield 1
+    ended, shown = note("_end_modal"), note("_show_progress")
     yield from press_button("VIEW_3D")
-    yield 1.2
+    yield from wait_until(shown)
+    yield 0.2  # for it to be drawn
     seen["no maps while it runs"] = maps("Big")
     picture("running.png")
-    ended = note_the_end()
     start = time.perf_counter()
     tap("ESC")
-    while not ended and time.perf_counter() - start < PATIENCE:
-        yield 0.02
+    yield from wait_until(ended)
     seen["seconds to cancel"] = ended[0] - start
     yield 0.5
     seen["after ESC"] = maps("Big")
