@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // solvers MESH METHOD RHS TOLERANCE [RUNS]: a line of JSON about solving L x = b, L the cotan Laplacian of a closed
-// surface, for RHS random right-hand sides, for each of so many runs, one if not said otherwise: the first gets new
-// pages of memory from the system, the library's others find them in place. METHOD is one of
+// surface, for RHS random right-hand sides, for each of so many runs, one if not said otherwise: the first two get new
+// pages of memory from the system, the others find them in place. METHOD is one of
 //   multigrid, direct          the library's own, with half-edges, Delaunay flips and assembly; the library itself asks
 //                              multigrid for 1e-12
 //   cholmod-amd, cholmod-metis supernodal with OpenBLAS on all cores, one vertex pinned
