@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "solver/ahead.h"
 #include "solver/grouped_rows.h"
 
 namespace holomorph::solver {
@@ -20,13 +21,16 @@ using Sums = Eigen::Array<double, K, 1>;
 // Bodies of the loops below capture pointers by value: to the compiler a block that is written may be one of the
 // pointers of an array, which would be read again for every row.
 
-/// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j).
+/// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j); meanwhile asks for what is ahead, as
+/// many lines as a row of x is long.
 template <int K, class Body>
-EIGEN_STRONG_INLINE void for_differences(const GroupedRows& A, int chunk, const Block<K>* x, const Body& body) {
-  A.for_rows(chunk, [x, body](int i, const Entry* entries, int length) {
+EIGEN_STRONG_INLINE void for_differences(const GroupedRows& A, int chunk, const Block<K>* x, const Body& body,
+                                         Ahead ahead = {}) {
+  A.for_rows(chunk, [x, body, &ahead](int i, const Entry* entries, int length) {
     const Block<K> here = x[i];
     Block<K> sum = Block<K>::Zero();
     for (int e = 0; e < length; ++e) sum += entries[e].weight * (here - x[entries[e].column]);
+    for (int line = 0; line < (K + 3) / 4; ++line) ahead.ask();
     body(i, sum);
   });
 }

@@ -148,7 +148,7 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
   Sums<K> rz = Sums<K>::Zero(), zAz = rz, pAp = rz;
   Block<K> a_before = Block<K>::Zero();
   const int before = iterations_;
-  cycle_.down([](int) {});  // r is there
+  cycle_.down();
   do {
     const Sums<K> rz_before = rz;
     precondition(rz, zAz);
@@ -180,14 +180,15 @@ void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   const Block<K>*const s = cycle_.start(), *const z = cycle_.result();
   Block<K>* const w = cycle_.from_z();
   const float* const omega = level_.omega.data();
-  cycle_.up([&](int chunk) {
+  cycle_.up([&](int chunk, const Ahead& ahead) {
     Products products;
-    for_differences<K>(level_.A, chunk, z, [s, z, w, omega, &products](int i, const Block<K>& Az) {
+    const auto add = [s, z, w, omega, &products](int i, const Block<K>& Az) {
       w[i] = Az;
       const Block<K> rz = residual_of_step<K>(omega[i], s[i]) * z[i], zAz = z[i] * Az;
       products.rz += rz.template cast<double>();
       products.zAz += zAz.template cast<double>();
-    });
+    };
+    for_differences<K>(level_.A, chunk, z, add, ahead);
     parts[chunk] = products;
   });
   rz = zAz = Sums<K>::Zero();

@@ -16,14 +16,37 @@ Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
   first_.resize(rows(twice_));
 }
 
+// What residual_after_start() of a chunk reads and writes, but for the matrix.
+template <int K>
+Ahead Cycle<K>::ahead_of_residual(std::size_t k, int next) const {
+  Ahead ahead;
+  if (next == Wavefront::kNone) return ahead;
+  const int begin = hierarchy_.levels[k].begin(next), end = hierarchy_.levels[k].end(next);
+  for (const Blocks<K>* const x : {&work_[k].s, &work_[k].t}) ahead.add(x->data() + begin, x->data() + end);
+  return ahead;
+}
+
+// What carry_up() and smooth() of a chunk read and write, but for the matrix and the coarse level.
+template <int K>
+Ahead Cycle<K>::ahead_of_carrying(std::size_t k, int next) const {
+  Ahead ahead = ahead_of_residual(k, next);
+  if (next == Wavefront::kNone) return ahead;
+  const CycleLevel& level = hierarchy_.levels[k];
+  const int begin = level.begin(next), end = level.end(next);
+  ahead.add(level.P[begin], level.P[end]);
+  ahead.add(work_[k].u.data() + begin, work_[k].u.data() + end);
+  return ahead;
+}
+
 // t = r - A s
 template <int K>
-void Cycle<K>::residual_after_start(std::size_t k, int chunk) {
+void Cycle<K>::residual_after_start(std::size_t k, int chunk, const Ahead& ahead) {
   const Block<K>* const s = work_[k].s.data();
   Block<K>* const t = work_[k].t.data();
   const float* const omega = hierarchy_.levels[k].omega.data();
   for_differences<K>(hierarchy_.levels[k].A, chunk, s,
-                     [t, s, omega](int i, const Block<K>& As) { t[i] = residual_of_step<K>(omega[i], s[i]) - As; });
+                     [t, s, omega](int i, const Block<K>& As) { t[i] = residual_of_step<K>(omega[i], s[i]) - As; },
+                     ahead);
 }
 
 // s = omega R t of the level above
@@ -46,7 +69,7 @@ void Cycle<K>::correct_twice() {
   const Block<K> natural = natural_;
   correct(
       twice_, [](int) {},
-      [=, &level](int chunk) {
+      [=, &level](int chunk, const Ahead&) {
         for_differences<K>(level.A, chunk, u, [=](int i, const Block<K>& Au) {
           once[i] = u[i];
           s[i] -= jacobi_step<K>(omega[i], Au, natural);
@@ -54,7 +77,7 @@ void Cycle<K>::correct_twice() {
       });
   correct(
       twice_, [](int) {},
-      [=, &level](int chunk) {
+      [=, &level](int chunk, const Ahead&) {
         for (int i = level.begin(chunk), end = level.end(chunk); i < end; ++i) u[i] += once[i];
       });
 }
@@ -86,13 +109,14 @@ void Cycle<K>::carry_up(std::size_t k, int chunk) {
 
 // u = t + omega (r - A t)
 template <int K>
-void Cycle<K>::smooth(std::size_t k, int chunk) {
+void Cycle<K>::smooth(std::size_t k, int chunk, const Ahead& ahead) {
   const Block<K>*const s = work_[k].s.data(), *const t = work_[k].t.data();
   Block<K>* const u = work_[k].u.data();
   const float* const omega = hierarchy_.levels[k].omega.data();
   const Block<K> natural = natural_;
   for_differences<K>(hierarchy_.levels[k].A, chunk, t,
-                     [=](int i, const Block<K>& At) { u[i] = t[i] + (s[i] - jacobi_step<K>(omega[i], At, natural)); });
+                     [=](int i, const Block<K>& At) { u[i] = t[i] + (s[i] - jacobi_step<K>(omega[i], At, natural)); },
+                     ahead);
 }
 
 template class Cycle<2>;

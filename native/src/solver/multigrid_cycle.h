@@ -27,6 +27,10 @@ class Cycle {
   /// down read it. In between, and only there, the cycle itself needs it.
   Block<K>* from_z() { return work_[0].t.data(); }
 
+  /// From a start() that is there.
+  void down() {
+    if (work_.size() > 1) descend(0);
+  }
   /// first(chunk) fills the chunk's start().
   template <class First>
   void down(const First& first) {
@@ -37,16 +41,17 @@ class Cycle {
     }
   }
 
-  /// last(chunk) may read z of the chunk and of its neighbours' rows, and write from_z() of the chunk.
+  /// last(chunk, ahead) may read z of the chunk and of its neighbours' rows, and write from_z() of the chunk; it may ask
+  /// for what is ahead.
   template <class Last>
   void up(const Last& last) {
-    for (std::size_t k = 1; k < twice_; ++k) descend(k, [](int) {});
+    for (std::size_t k = 1; k < twice_; ++k) descend(k);
     correct_twice();
-    for (std::size_t k = twice_; k-- > 1;) ascend(k, [](int) {});
+    for (std::size_t k = twice_; k-- > 1;) ascend(k);
     if (work_.size() > 1) {
       ascend(0, last);
     } else {
-      for_chunks(last);
+      for_chunks([&last](int chunk) { last(chunk, Ahead()); });
     }
   }
 
@@ -63,33 +68,50 @@ class Cycle {
   void for_chunks(const Loop& loop) {
     workers_.run(hierarchy_.levels[0].chunks, [&loop](int, int chunk) { loop(chunk); });
   }
+  // first(chunk) goes through several arrays as fast as the memory gives them: nothing can be asked for beside it.
   template <class First>
   void descend(std::size_t k, const First& first) {
     hierarchy_.levels[k].down.run(
-        workers_, first, [this, k](int chunk) { residual_after_start(k, chunk); },
-        [this, k](int chunk) { restrict_residual(k, chunk); });
+        workers_, [&first](int chunk, int) { first(chunk); },
+        [this, k](int chunk, int) { residual_after_start(k, chunk, Ahead()); },
+        [this, k](int chunk, int) { restrict_residual(k, chunk); });
+  }
+  void descend(std::size_t k) {
+    hierarchy_.levels[k].down.run(
+        workers_, [](int, int) {},
+        [this, k](int chunk, int next) { residual_after_start(k, chunk, ahead_of_residual(k, next)); },
+        [this, k](int chunk, int) { restrict_residual(k, chunk); });
   }
   template <class Last>
   void ascend(std::size_t k, const Last& last) {
     hierarchy_.levels[k].up.run(
-        workers_, [this, k](int chunk) { carry_up(k, chunk); }, [this, k](int chunk) { smooth(k, chunk); }, last);
+        workers_, [this, k](int chunk, int) { carry_up(k, chunk); },
+        [this, k](int chunk, int) { smooth(k, chunk, Ahead()); },
+        [this, k, &last](int chunk, int next) { last(chunk, ahead_of_carrying(k, next)); });
+  }
+  void ascend(std::size_t k) {
+    hierarchy_.levels[k].up.run(
+        workers_, [this, k](int chunk, int) { carry_up(k, chunk); },
+        [this, k](int chunk, int next) { smooth(k, chunk, ahead_of_carrying(k, next)); });
   }
   // From the start of level k down to the coarsest level and back.
   template <class First, class Last>
   void correct(std::size_t k, const First& first, const Last& last) {
     const std::size_t coarsest = work_.size() - 1;
     descend(k, first);
-    for (std::size_t j = k + 1; j < coarsest; ++j) descend(j, [](int) {});
+    for (std::size_t j = k + 1; j < coarsest; ++j) descend(j);
     solve_coarsest();
-    for (std::size_t j = coarsest; --j > k;) ascend(j, [](int) {});
+    for (std::size_t j = coarsest; --j > k;) ascend(j);
     ascend(k, last);
   }
   void correct_twice();
-  void residual_after_start(std::size_t level, int chunk);
+  Ahead ahead_of_residual(std::size_t level, int next) const;
+  Ahead ahead_of_carrying(std::size_t level, int next) const;
+  void residual_after_start(std::size_t level, int chunk, const Ahead& ahead);
   void restrict_residual(std::size_t level, int chunk);
   void solve_coarsest();
   void carry_up(std::size_t level, int chunk);
-  void smooth(std::size_t level, int chunk);
+  void smooth(std::size_t level, int chunk, const Ahead& ahead);
 
   const Hierarchy& hierarchy_;
   Workers& workers_;

@@ -31,7 +31,9 @@ Wavefront::Wavefront(int chunks, const std::vector<const Needs*>& needs, int thr
     for (int loop = 0; loop < static_cast<int>(time.size()); ++loop) {
       for (int c = begin; c < end; ++c) {
         time[loop][c] = loop == 0 ? c : ready(c, (*needs[loop - 1])[c], time[loop - 1], begin, end);
-        if (time[loop][c] != kLeft) at[time[loop][c] - begin].push_back({loop, c});
+        if (time[loop][c] == kLeft) continue;
+        const int next = time[loop][c] + 1;
+        at[time[loop][c] - begin].push_back({loop, c, next < end ? next : kNone});
       }
     }
     for (const auto& steps : at) segments_[s].insert(segments_[s].end(), steps.begin(), steps.end());

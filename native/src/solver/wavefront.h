@@ -33,33 +33,36 @@ using Needs = std::vector<std::vector<int>>;
 /// one chunk of one loop, and sums are kept by chunk, the results do not depend on the order.
 class Wavefront {
  public:
+  static constexpr int kNone = -1;
+
   Wavefront() = default;
   /// @param needs of the second loop, the third ...
   Wavefront(int chunks, const std::vector<const Needs*>& needs, int threads);
 
-  /// Calls loop(chunk) for every chunk of every loop, none before those that it needs. @pre loops do not throw
+  /// Calls loop(chunk, next) for every chunk of every loop, none before those that it needs; `next` is the chunk that
+  /// the first loop will do next on this thread, or kNone. @pre loops do not throw
   template <class... Loops>
   void run(Workers& workers, const Loops&... loops) const {
-    const auto call = [&](int loop, int chunk) {
+    const auto call = [&](const Step& step) {
       int number = 0;
-      ((number++ == loop ? loops(chunk) : void()), ...);
+      ((number++ == step.loop ? loops(step.chunk, step.next) : void()), ...);
     };
     constexpr int kAnyNumber = 0;  // of segments is worth a second thread
     workers.run(
         static_cast<int>(segments_.size()),
         [&](int, int segment) {
-          for (const auto& [loop, chunk] : segments_[segment]) call(loop, chunk);
+          for (const Step& step : segments_[segment]) call(step);
         },
         kAnyNumber);
     for (int loop = 0; loop < static_cast<int>(left_.size()); ++loop) {
       const std::vector<int>& left = left_[loop];
-      workers.run(static_cast<int>(left.size()), [&](int, int k) { call(loop, left[k]); });
+      workers.run(static_cast<int>(left.size()), [&](int, int k) { call({loop, left[k], kNone}); });
     }
   }
 
  private:
   struct Step {
-    int loop, chunk;
+    int loop, chunk, next;
   };
   std::vector<std::vector<Step>> segments_;
   std::vector<std::vector<int>> left_;  // chunks per loop
