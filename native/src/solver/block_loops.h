@@ -21,8 +21,8 @@ using Sums = Eigen::Array<double, K, 1>;
 // Bodies of the loops below capture pointers by value: to the compiler a block that is written may be one of the
 // pointers of an array, which would be read again for every row.
 
-/// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j); meanwhile asks for what is ahead, as
-/// many lines as a row of x is long.
+/// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j); meanwhile asks for what is ahead,
+/// as many lines as a row of x is long.
 template <int K, class Body>
 EIGEN_STRONG_INLINE void for_differences(const GroupedRows& A, int chunk, const Block<K>* x, const Body& body,
                                          Ahead ahead = {}) {

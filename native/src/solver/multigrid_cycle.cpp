@@ -16,26 +16,24 @@ Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
   first_.resize(rows(twice_));
 }
 
-// What residual_after_start() of a chunk reads and writes, but for the matrix.
+// What the way down, or up, reads and writes in a chunk, but for matrices: these it reads in one go.
 template <int K>
-Ahead Cycle<K>::ahead_of_residual(std::size_t k, int next) const {
-  Ahead ahead;
-  if (next == Wavefront::kNone) return ahead;
+Ahead Cycle<K>::ahead(std::initializer_list<const Blocks<K>*> arrays, std::size_t k, int next) const {
+  Ahead result;
+  if (next == Wavefront::kNone) return result;
   const int begin = hierarchy_.levels[k].begin(next), end = hierarchy_.levels[k].end(next);
-  for (const Blocks<K>* const x : {&work_[k].s, &work_[k].t}) ahead.add(x->data() + begin, x->data() + end);
-  return ahead;
+  for (const Blocks<K>* const x : arrays) result.add(x->data() + begin, x->data() + end);
+  return result;
 }
 
-// What carry_up() and smooth() of a chunk read and write, but for the matrix and the coarse level.
 template <int K>
-Ahead Cycle<K>::ahead_of_carrying(std::size_t k, int next) const {
-  Ahead ahead = ahead_of_residual(k, next);
-  if (next == Wavefront::kNone) return ahead;
-  const CycleLevel& level = hierarchy_.levels[k];
-  const int begin = level.begin(next), end = level.end(next);
-  ahead.add(level.P[begin], level.P[end]);
-  ahead.add(work_[k].u.data() + begin, work_[k].u.data() + end);
-  return ahead;
+Ahead Cycle<K>::ahead_down(std::size_t k, int next) const {
+  return ahead({&work_[k].s, &work_[k].t}, k, next);
+}
+
+template <int K>
+Ahead Cycle<K>::ahead_up(std::size_t k, int next) const {
+  return ahead({&work_[k].s, &work_[k].t, &work_[k].u}, k, next);
 }
 
 // t = r - A s
@@ -44,9 +42,9 @@ void Cycle<K>::residual_after_start(std::size_t k, int chunk, const Ahead& ahead
   const Block<K>* const s = work_[k].s.data();
   Block<K>* const t = work_[k].t.data();
   const float* const omega = hierarchy_.levels[k].omega.data();
-  for_differences<K>(hierarchy_.levels[k].A, chunk, s,
-                     [t, s, omega](int i, const Block<K>& As) { t[i] = residual_of_step<K>(omega[i], s[i]) - As; },
-                     ahead);
+  for_differences<K>(
+      hierarchy_.levels[k].A, chunk, s,
+      [t, s, omega](int i, const Block<K>& As) { t[i] = residual_of_step<K>(omega[i], s[i]) - As; }, ahead);
 }
 
 // s = omega R t of the level above
@@ -114,9 +112,9 @@ void Cycle<K>::smooth(std::size_t k, int chunk, const Ahead& ahead) {
   Block<K>* const u = work_[k].u.data();
   const float* const omega = hierarchy_.levels[k].omega.data();
   const Block<K> natural = natural_;
-  for_differences<K>(hierarchy_.levels[k].A, chunk, t,
-                     [=](int i, const Block<K>& At) { u[i] = t[i] + (s[i] - jacobi_step<K>(omega[i], At, natural)); },
-                     ahead);
+  for_differences<K>(
+      hierarchy_.levels[k].A, chunk, t,
+      [=](int i, const Block<K>& At) { u[i] = t[i] + (s[i] - jacobi_step<K>(omega[i], At, natural)); }, ahead);
 }
 
 template class Cycle<2>;

@@ -41,8 +41,8 @@ class Cycle {
     }
   }
 
-  /// last(chunk, ahead) may read z of the chunk and of its neighbours' rows, and write from_z() of the chunk; it may ask
-  /// for what is ahead.
+  /// last(chunk, ahead) may read z of the chunk and of its neighbours' rows, and write from_z() of the chunk; it may
+  /// ask for what is ahead.
   template <class Last>
   void up(const Last& last) {
     for (std::size_t k = 1; k < twice_; ++k) descend(k);
@@ -79,7 +79,7 @@ class Cycle {
   void descend(std::size_t k) {
     hierarchy_.levels[k].down.run(
         workers_, [](int, int) {},
-        [this, k](int chunk, int next) { residual_after_start(k, chunk, ahead_of_residual(k, next)); },
+        [this, k](int chunk, int next) { residual_after_start(k, chunk, ahead_down(k, next)); },
         [this, k](int chunk, int) { restrict_residual(k, chunk); });
   }
   template <class Last>
@@ -87,12 +87,12 @@ class Cycle {
     hierarchy_.levels[k].up.run(
         workers_, [this, k](int chunk, int) { carry_up(k, chunk); },
         [this, k](int chunk, int) { smooth(k, chunk, Ahead()); },
-        [this, k, &last](int chunk, int next) { last(chunk, ahead_of_carrying(k, next)); });
+        [this, k, &last](int chunk, int next) { last(chunk, ahead_up(k, next)); });
   }
   void ascend(std::size_t k) {
     hierarchy_.levels[k].up.run(
         workers_, [this, k](int chunk, int) { carry_up(k, chunk); },
-        [this, k](int chunk, int next) { smooth(k, chunk, ahead_of_carrying(k, next)); });
+        [this, k](int chunk, int next) { smooth(k, chunk, ahead_up(k, next)); });
   }
   // From the start of level k down to the coarsest level and back.
   template <class First, class Last>
@@ -105,8 +105,9 @@ class Cycle {
     ascend(k, last);
   }
   void correct_twice();
-  Ahead ahead_of_residual(std::size_t level, int next) const;
-  Ahead ahead_of_carrying(std::size_t level, int next) const;
+  Ahead ahead(std::initializer_list<const Blocks<K>*> arrays, std::size_t level, int next) const;
+  Ahead ahead_down(std::size_t level, int next) const;
+  Ahead ahead_up(std::size_t level, int next) const;
   void residual_after_start(std::size_t level, int chunk, const Ahead& ahead);
   void restrict_residual(std::size_t level, int chunk);
   void solve_coarsest();

@@ -11,6 +11,11 @@ constexpr int kShortestSegment = 32;
 // So that a thread which comes late leaves work to the others.
 constexpr int kSegmentsPerThread = 2;
 
+// Equally many for each thread; none where that would make them too short.
+int segments(int chunks, int threads) {
+  return threads * std::min(kSegmentsPerThread, chunks / (kShortestSegment * threads));
+}
+
 // After which chunk of the first loop a chunk may be done, given those times for the loop before; kLeft if it needs
 // chunks that are not in the segment `begin` .. `end` - 1.
 int ready(int chunk, const std::vector<int>& needs, const std::vector<int>& before, int begin, int end) {
@@ -22,7 +27,7 @@ int ready(int chunk, const std::vector<int>& needs, const std::vector<int>& befo
 }  // namespace
 
 Wavefront::Wavefront(int chunks, const std::vector<const Needs*>& needs, int threads)
-    : segments_(std::min(kSegmentsPerThread * threads, chunks / kShortestSegment)), left_(needs.size() + 1) {
+    : segments_(segments(chunks, threads)), left_(needs.size() + 1) {
   std::vector<std::vector<int>> time(left_.size(), std::vector<int>(chunks, kLeft));
   const auto count = static_cast<std::int64_t>(segments_.size());
   for (std::int64_t s = 0; s < count; ++s) {
