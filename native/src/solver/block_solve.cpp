@@ -25,12 +25,10 @@ Sums<K> quotient(const Sums<K>& a, const Sums<K>& b) {
   return result;
 }
 
-// Entry i of every right-hand side; those that are missing are 0.
+// The Jacobi step with which conjugate gradients begin, of the scaled residual r.
 template <int K>
-Sums<K> row(const std::array<const double*, K>& columns, int i) {
-  Sums<K> result;
-  for (int d = 0; d < K; ++d) result[d] = columns[d] ? columns[d][i] : 0.0;
-  return result;
+EIGEN_STRONG_INLINE Block<K> scaled_step(const RightHandSides<K>& b, int i, const Sums<K>& r) {
+  return jacobi_step<K>(b.omega[i], r.template cast<float>(), b.natural.template cast<float>());
 }
 
 }  // namespace
@@ -55,12 +53,14 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
     own_.resize(static_cast<std::size_t>(K) * n_);
     x_ = own_.data();
   }
-  Columns b{};
-  natural_ = Block<K>::Ones();
-  for (int d = 0; d < width; ++d) {
-    b[d] = B.col(first + d).data();
-    if (conditions[first + d] == Condition::dirichlet) natural_[d] = 0;
+  RightHandSides<K> b;
+  for (int d = 0; d < K; ++d) {
+    const Eigen::Index column = first + (d < width ? d : 0);  // the first one again, where the block is not full
+    b.columns[d] = B.col(column).data();
+    b.natural[d] = conditions[column] == Condition::natural ? 1 : 0;
   }
+  b.omega = level_.omega.data();
+  natural_ = b.natural.template cast<float>();
   cycle_.set_conditions(natural_);
   begin(b);
   double before = reached_;
@@ -84,59 +84,54 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
   for_rows(workers_, n_, [&](int i) { X.row(i).segment(first, width) = row_of(x_, i).head(width); });
 }
 
-// Entry i of every right-hand side, as it is solved for: nothing is asked of x where it is held, and without held
-// vertices the mean is left out, the part of the rounding that no x can answer for.
+// The mean of the right-hand sides, their norms, and the residual of X = 0.
 template <int K>
-Sums<K> BlockSolve<K>::right_hand_sides(const Columns& b, int i) const {
-  const Sums<K> all = row<K>(b, i) - mean_;
-  return level_.omega[i] < 0 ? all * natural_.template cast<double>() : all;
-}
-
-// The means and norms of the right-hand sides, and the residual of X = 0.
-template <int K>
-void BlockSolve<K>::begin(const Columns& b) {
-  using Moments = Eigen::Array<double, K, 2>;
-  const Moments none = Moments::Zero();
-  mean_ = none.col(0);
-  const Moments moments = sum_over_rows(workers_, n_, none, [&](int i, Moments& sums) {
-    const Sums<K> here = right_hand_sides(b, i);
-    sums.col(0) += here;
-    sums.col(1) += here.square();
+void BlockSolve<K>::begin(RightHandSides<K>& b) {
+  struct Moments {
+    Sums<K> first = Sums<K>::Zero(), second = Sums<K>::Zero();
+    Moments& operator+=(const Moments& other) {
+      first += other.first;
+      second += other.second;
+      return *this;
+    }
+  };
+  const Moments moments = sum_over_rows(workers_, n_, Moments(), [b](int i, Moments& sums) {
+    const Sums<K> here = b(i);
+    sums.first += here;
+    sums.second += here.square();
   });
-  mean_ = moments.col(0) * natural_.template cast<double>() / static_cast<double>(n_);
-  scale_ = moments.col(1).sqrt();
+  b.mean = moments.first * b.natural / static_cast<double>(n_);
+  scale_ = moments.second.sqrt();
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
-  norm_b_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
-              const Sums<K> here = right_hand_sides(b, i);
+  norm_b_ = sum_over_rows(workers_, n_, zero, [=, x = x_, s = cycle_.start()](int i, Sums<K>& sum) {
+              const Sums<K> here = b(i);
               sum += here.square();
-              row_of(x_, i) = zero;
-              start(i, here * inverse);
+              row_of(x, i) = zero;
+              s[i] = scaled_step<K>(b, i, here * inverse);
             }).sqrt();
   norm_r_ = norm_b_;
   reached_ = relative(norm_r_);
   iterations_ = 0;
 }
 
-// Where conjugate gradients begin: r = residual / scale.
-template <int K>
-EIGEN_STRONG_INLINE void BlockSolve<K>::start(int i, const Sums<K>& residual) {
-  const Block<K> r = residual.template cast<float>();
-  cycle_.start()[i] = jacobi_step<K>(level_.omega[i], r, natural_);
-}
-
 // The residual of X, from differences.
 template <int K>
-void BlockSolve<K>::update_residual(const Columns& b) {
+void BlockSolve<K>::update_residual(const RightHandSides<K>& b) {
+  constexpr int kAhead = 512;  // entries, 4 KB, as in GroupedRows
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
-  norm_r_ = sum_over_rows(workers_, n_, zero, [&](int i, Sums<K>& sum) {
-              const Sums<K> here = row_of(x_, i);
-              Sums<K> rest = right_hand_sides(b, i);
-              for (int e = L_.starts[i]; e < L_.starts[i + 1]; ++e) {
-                rest += L_.weights[e] * (here - row_of(x_, L_.columns[e]));
+  const int *const starts = L_.starts.data(), *const columns = L_.columns.data();
+  const double* const weights = L_.weights.data();
+  norm_r_ = sum_over_rows(workers_, n_, zero, [=, x = x_, s = cycle_.start()](int i, Sums<K>& sum) {
+              prefetch(weights + starts[i] + kAhead);
+              prefetch(columns + starts[i] + 2 * kAhead);
+              const Sums<K> here = row_of(x, i);
+              Sums<K> rest = b(i);
+              for (int e = starts[i], end = starts[i + 1]; e < end; ++e) {
+                rest += weights[e] * (here - row_of(x, columns[e]));
               }
-              if (level_.omega[i] < 0) rest *= natural_.template cast<double>();
+              rest = b.asked(i, rest);
               sum += rest.square();
-              start(i, rest * inverse);
+              s[i] = scaled_step<K>(b, i, rest * inverse);
             }).sqrt();
   reached_ = relative(norm_r_);
 }

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "solver/multigrid_cycle.h"
+#include "solver/right_hand_sides.h"
 
 namespace holomorph::solver {
 
@@ -34,17 +35,13 @@ class BlockSolve {
   double residual() const { return reached_; }
 
  private:
-  using Columns = std::array<const double*, K>;
-
   // The row of vertex i of a #V x K matrix.
   static Eigen::Map<Sums<K>> row_of(double* matrix, int i) {
     return Eigen::Map<Sums<K>>(matrix + std::ptrdiff_t{K} * i);
   }
 
-  void begin(const Columns& b);
-  Sums<K> right_hand_sides(const Columns& b, int i) const;
-  void start(int i, const Sums<K>& residual);
-  void update_residual(const Columns& b);
+  void begin(RightHandSides<K>& b);
+  void update_residual(const RightHandSides<K>& b);
   void conjugate_gradients(const Report& report);
   template <bool first, bool adds>
   Sums<K> step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta);
@@ -60,10 +57,9 @@ class BlockSolve {
   Array<double> own_;      // the solution, where the caller's has not K columns
   double* x_ = nullptr;    // #V x K: own_ or the caller's
   Blocks<K> p_, q_;        // p, A p
-  Block<K> natural_;       // 1 for the right-hand sides that hold no vertex, 0 for the others
-  Sums<K> mean_, norm_b_;  // of the right-hand sides
-  Sums<K> norm_r_;         // |B - L X|
-  Sums<K> scale_;          // by which the residual is divided for single precision
+  Block<K> natural_;         // of jacobi_step()
+  Sums<K> norm_b_, norm_r_;  // |B|, |B - L X|
+  Sums<K> scale_;            // by which the residual is divided for single precision
   int iterations_ = 0;
   double reached_ = 0;
 };
