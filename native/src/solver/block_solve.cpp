@@ -142,9 +142,10 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
   Sums<K> norm = quotient<K>(norm_r_, scale_);
   Sums<K> rz = Sums<K>::Zero(), zAz = rz, pAp = rz;
   Block<K> a_before = Block<K>::Zero();
+  Sums<K> reduction = Sums<K>::Ones();  // of the residual, by the step before
   const int before = iterations_;
   cycle_.down();
-  do {
+  for (bool ended = false; !ended;) {
     const Sums<K> rz_before = rz;
     precondition(rz, zAz);
     const Sums<K> beta = quotient<K>(rz, rz_before);
@@ -152,13 +153,18 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
     const Block<K> a = quotient<K>(rz, pAp).template cast<float>(), b = beta.template cast<float>();
     // Steps along p are added to X two at a time, as with each p the one before is still known.
     const int done = iterations_ - before;
-    norm = done == 0       ? step<true, false>(a_before, a, b)
-           : done % 2 == 0 ? step<false, false>(a_before, a, b)
-                           : step<false, true>(a_before, a, b);
+    const bool foreseen = (norm * reduction <= goal).all();
+    const Sums<K> norm_before = norm;
+    norm = done == 0       ? step<true, false>(a_before, a, b, foreseen)
+           : done % 2 == 0 ? step<false, false>(a_before, a, b, foreseen)
+                           : step<false, true>(a_before, a, b, foreseen);
+    reduction = quotient<K>(norm, norm_before);
     a_before = a;
     ++iterations_;
     report(relative(norm * scale_));
-  } while (iterations_ < before + kMostInner && iterations_ < kMostIterations && !(norm <= goal).all());
+    ended = (norm <= goal).all() || iterations_ == before + kMostInner || iterations_ == kMostIterations;
+    if (foreseen && !ended) cycle_.down();
+  }
   const bool odd = (iterations_ - before) % 2 != 0;
   if (odd) for_rows(workers_, n_, [&](int i) { row_of(x_, i) += scale_ * (a_before * p_[i]).template cast<double>(); });
   // About what the residual will be; it serves the range of single precision only.
@@ -193,11 +199,11 @@ void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   }
 }
 
-// The step of conjugate gradients, and the way down from the new r. Returns |r|. The first step writes p and q; one
-// that adds takes the step before it and its own to X.
+// The step of conjugate gradients, and the way down from the new r, unless it is to be the last one. Returns |r|. The
+// first step writes p and q; one that adds takes the step before it and its own to X.
 template <int K>
 template <bool first, bool adds>
-Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta) {
+Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta, bool last) {
   std::vector<Sums<K>> parts(level_.chunks);
   Block<K>*const s = cycle_.start(), *const p = p_.data(), *const q = q_.data();
   double* const x = x_;
@@ -205,7 +211,7 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha,
   const float* const omega = level_.omega.data();
   const Block<K> a_before = alpha_before, a = alpha, b = beta, natural = natural_;
   const Sums<K> scale = scale_;
-  cycle_.down([=, this, &parts](int chunk) {
+  const auto loop = [=, this, &parts](int chunk) {
     Sums<K> sum = Sums<K>::Zero();
     for (int i = level_.begin(chunk), end = level_.end(chunk); i < end; ++i) {
       Block<K> p_i = z[i], q_i = w[i];
@@ -225,7 +231,12 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha,
       sum += square.template cast<double>();
     }
     parts[chunk] = sum;
-  });
+  };
+  if (last) {
+    cycle_.for_chunks(loop);
+  } else {
+    cycle_.down(loop);
+  }
   Sums<K> sum = Sums<K>::Zero();
   for (const Sums<K>& part : parts) sum += part;
   return sum.sqrt();

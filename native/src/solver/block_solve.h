@@ -44,7 +44,7 @@ class BlockSolve {
   void update_residual(const RightHandSides<K>& b);
   void conjugate_gradients(const Report& report);
   template <bool first, bool adds>
-  Sums<K> step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta);
+  Sums<K> step(const Block<K>& alpha_before, const Block<K>& alpha, const Block<K>& beta, bool last);
   void precondition(Sums<K>& rz, Sums<K>& zAz);
   double relative(const Sums<K>& norms) const;
 
@@ -54,9 +54,9 @@ class BlockSolve {
   const double goal_;
   Workers& workers_;
   Cycle<K> cycle_;
-  Array<double> own_;      // the solution, where the caller's has not K columns
-  double* x_ = nullptr;    // #V x K: own_ or the caller's
-  Blocks<K> p_, q_;        // p, A p
+  Array<double> own_;        // the solution, where the caller's has not K columns
+  double* x_ = nullptr;      // #V x K: own_ or the caller's
+  Blocks<K> p_, q_;          // p, A p
   Block<K> natural_;         // of jacobi_step()
   Sums<K> norm_b_, norm_r_;  // |B|, |B - L X|
   Sums<K> scale_;            // by which the residual is divided for single precision

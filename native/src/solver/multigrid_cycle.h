@@ -27,11 +27,16 @@ class Cycle {
   /// down read it. In between, and only there, the cycle itself needs it.
   Block<K>* from_z() { return work_[0].t.data(); }
 
-  /// From a start() that is there.
+  /// loop(chunk) for the chunks of the finest level, in parallel.
+  template <class Loop>
+  void for_chunks(const Loop& loop) {
+    workers_.run(hierarchy_.levels[0].chunks, [&loop](int, int chunk) { loop(chunk); });
+  }
+  /// The way down, from a start() that is there.
   void down() {
     if (work_.size() > 1) descend(0);
   }
-  /// first(chunk) fills the chunk's start().
+  /// The same, after first(chunk) has filled the chunk's start().
   template <class First>
   void down(const First& first) {
     if (work_.size() > 1) {
@@ -63,11 +68,6 @@ class Cycle {
   // cache, for one iteration of twenty less, and two of fifteen where a mesh is stretched.
   static constexpr int kTwice = 40;
 
-  // Where the finest level is the coarsest one as well.
-  template <class Loop>
-  void for_chunks(const Loop& loop) {
-    workers_.run(hierarchy_.levels[0].chunks, [&loop](int, int chunk) { loop(chunk); });
-  }
   // first(chunk) goes through several arrays as fast as the memory gives them: nothing can be asked for beside it.
   template <class First>
   void descend(std::size_t k, const First& first) {

@@ -7,9 +7,9 @@
 
 namespace holomorph::solver {
 
-/// Nothing is asked of x where it is held, and without held vertices the mean is left out, the part of the rounding that
-/// no x can answer for. A value, to be captured as one: loops over it write doubles, behind which the compiler would
-/// look for each pointer and sum anew.
+/// Nothing is asked of x where it is held, and without held vertices the mean is left out, the part of the rounding
+/// that no x can answer for. A value, to be captured as one: loops over it write doubles, behind which the compiler
+/// would look for each pointer and sum anew.
 template <int K>
 struct RightHandSides {
   std::array<const double*, K> columns;
