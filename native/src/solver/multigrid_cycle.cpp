@@ -1,6 +1,17 @@
 #include "solver/multigrid_cycle.h"
 
 namespace holomorph::solver {
+namespace {
+
+template <int K>
+Ahead ahead(const CycleLevel& level, int next, std::initializer_list<const Blocks<K>*> arrays) {
+  Ahead result;
+  if (next == Wavefront::kNone) return result;
+  for (const Blocks<K>* const x : arrays) result.add(x->data() + level.begin(next), x->data() + level.end(next));
+  return result;
+}
+
+}  // namespace
 
 template <int K>
 Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
@@ -16,24 +27,29 @@ Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
   first_.resize(rows(twice_));
 }
 
-// What the way down, or up, reads and writes in a chunk, but for matrices: these it reads in one go.
-template <int K>
-Ahead Cycle<K>::ahead(std::initializer_list<const Blocks<K>*> arrays, std::size_t k, int next) const {
-  Ahead result;
-  if (next == Wavefront::kNone) return result;
-  const int begin = hierarchy_.levels[k].begin(next), end = hierarchy_.levels[k].end(next);
-  for (const Blocks<K>* const x : arrays) result.add(x->data() + begin, x->data() + end);
-  return result;
-}
-
-template <int K>
-Ahead Cycle<K>::ahead_down(std::size_t k, int next) const {
-  return ahead({&work_[k].s, &work_[k].t}, k, next);
-}
-
+// What the way down, or up, reads and writes in a chunk, but for the matrices: these it reads in one go.
 template <int K>
 Ahead Cycle<K>::ahead_up(std::size_t k, int next) const {
-  return ahead({&work_[k].s, &work_[k].t, &work_[k].u}, k, next);
+  return ahead<K>(hierarchy_.levels[k], next, {&work_[k].s, &work_[k].t, &work_[k].u});
+}
+
+template <int K>
+void Cycle<K>::descend(std::size_t k) {
+  const CycleLevel& level = hierarchy_.levels[k];
+  const Work& work = work_[k];
+  level.down.run(
+      workers_, [](int, int) {},
+      [&, k](int chunk, int next) {
+        residual_after_start(k, chunk, ahead<K>(level, next, {&work.s, &work.t}));
+      },
+      [this, k](int chunk, int) { restrict_residual(k, chunk); });
+}
+
+template <int K>
+void Cycle<K>::ascend(std::size_t k) {
+  hierarchy_.levels[k].up.run(
+      workers_, [this, k](int chunk, int) { carry_up(k, chunk); },
+      [this, k](int chunk, int next) { smooth(k, chunk, ahead_up(k, next)); });
 }
 
 // t = r - A s
@@ -57,6 +73,17 @@ void Cycle<K>::restrict_residual(std::size_t k, int chunk) {
                   [=](int i, const Block<K>& Rt) { s[i] = jacobi_step<K>(omega[i], Rt, natural); });
 }
 
+// From the start of level k down to the coarsest level and back.
+template <int K>
+template <class Last>
+void Cycle<K>::correct(std::size_t k, const Last& last) {
+  const std::size_t coarsest = work_.size() - 1;
+  for (std::size_t j = k; j < coarsest; ++j) descend(j);
+  solve_coarsest();
+  for (std::size_t j = coarsest; --j > k;) ascend(j);
+  ascend(k, last);
+}
+
 // 2 M - M A M for the M of one correction.
 template <int K>
 void Cycle<K>::correct_twice() {
@@ -65,19 +92,15 @@ void Cycle<K>::correct_twice() {
   Block<K>*const s = work_[twice_].s.data(), *const u = work_[twice_].u.data(), *const once = first_.data();
   const float* const omega = level.omega.data();
   const Block<K> natural = natural_;
-  correct(
-      twice_, [](int) {},
-      [=, &level](int chunk, const Ahead&) {
-        for_differences<K>(level.A, chunk, u, [=](int i, const Block<K>& Au) {
-          once[i] = u[i];
-          s[i] -= jacobi_step<K>(omega[i], Au, natural);
-        });
-      });
-  correct(
-      twice_, [](int) {},
-      [=, &level](int chunk, const Ahead&) {
-        for (int i = level.begin(chunk), end = level.end(chunk); i < end; ++i) u[i] += once[i];
-      });
+  correct(twice_, [=, &level](int chunk, const Ahead&) {
+    for_differences<K>(level.A, chunk, u, [=](int i, const Block<K>& Au) {
+      once[i] = u[i];
+      s[i] -= jacobi_step<K>(omega[i], Au, natural);
+    });
+  });
+  correct(twice_, [=, &level](int chunk, const Ahead&) {
+    for (int i = level.begin(chunk), end = level.end(chunk); i < end; ++i) u[i] += once[i];
+  });
 }
 
 template <int K>

@@ -76,12 +76,7 @@ class Cycle {
         [this, k](int chunk, int) { residual_after_start(k, chunk, Ahead()); },
         [this, k](int chunk, int) { restrict_residual(k, chunk); });
   }
-  void descend(std::size_t k) {
-    hierarchy_.levels[k].down.run(
-        workers_, [](int, int) {},
-        [this, k](int chunk, int next) { residual_after_start(k, chunk, ahead_down(k, next)); },
-        [this, k](int chunk, int) { restrict_residual(k, chunk); });
-  }
+  void descend(std::size_t k);
   template <class Last>
   void ascend(std::size_t k, const Last& last) {
     hierarchy_.levels[k].up.run(
@@ -89,24 +84,10 @@ class Cycle {
         [this, k](int chunk, int) { smooth(k, chunk, Ahead()); },
         [this, k, &last](int chunk, int next) { last(chunk, ahead_up(k, next)); });
   }
-  void ascend(std::size_t k) {
-    hierarchy_.levels[k].up.run(
-        workers_, [this, k](int chunk, int) { carry_up(k, chunk); },
-        [this, k](int chunk, int next) { smooth(k, chunk, ahead_up(k, next)); });
-  }
-  // From the start of level k down to the coarsest level and back.
-  template <class First, class Last>
-  void correct(std::size_t k, const First& first, const Last& last) {
-    const std::size_t coarsest = work_.size() - 1;
-    descend(k, first);
-    for (std::size_t j = k + 1; j < coarsest; ++j) descend(j);
-    solve_coarsest();
-    for (std::size_t j = coarsest; --j > k;) ascend(j);
-    ascend(k, last);
-  }
+  void ascend(std::size_t k);
+  template <class Last>
+  void correct(std::size_t k, const Last& last);
   void correct_twice();
-  Ahead ahead(std::initializer_list<const Blocks<K>*> arrays, std::size_t level, int next) const;
-  Ahead ahead_down(std::size_t level, int next) const;
   Ahead ahead_up(std::size_t level, int next) const;
   void residual_after_start(std::size_t level, int chunk, const Ahead& ahead);
   void restrict_residual(std::size_t level, int chunk);
