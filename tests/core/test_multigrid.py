@@ -9,6 +9,8 @@ import pytest
 from holomorph import Cancelled, conformal_structure
 from solved import CLOSED, FLAT, surface_of
 
+SOLVER = 1e-8  # relative residual that a result may have
+
 
 def marching_tetrahedra(field):
     """The zero level of values on a grid, each cell cut into six tetrahedra: irregular, with many slivers."""
@@ -148,10 +150,12 @@ def test_weights_of_both_signs(name):
 
 
 def test_the_direct_solver_takes_over():
-    """Weights of 1e9 are beyond single precision."""
+    """Weights of 1e9 are beyond single precision; it gets the matrix put together again of what is left of it."""
     structure = conformal_structure(surface_of(needles(1e-9)), solver="multigrid")
     assert structure.solver.name.startswith("direct")
     assert structure.solver.reason.startswith("asked for; the direct solver took over: multigrid reached")
+    direct = conformal_structure(surface_of(needles(1e-9)), solver="direct")
+    np.testing.assert_allclose(structure.period_matrix, direct.period_matrix, rtol=SOLVER)
 
 
 # ---- same bits -------------------------------------------------------------------------------------------------------

@@ -34,9 +34,9 @@ EIGEN_STRONG_INLINE Block<K> scaled_step(const RightHandSides<K>& b, int i, cons
 }  // namespace
 
 template <int K>
-BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, double goal, Workers& workers)
-    : L_(L),
-      level_(hierarchy.levels[0]),
+BlockSolve<K>::BlockSolve(const Hierarchy& hierarchy, double goal, Workers& workers)
+    : level_(hierarchy.levels[0]),
+      rests_(hierarchy.rests),
       n_(level_.rows),
       goal_(goal),
       workers_(workers),
@@ -114,25 +114,32 @@ void BlockSolve<K>::begin(RightHandSides<K>& b) {
   iterations_ = 0;
 }
 
-// The residual of X, from differences.
+// The residual of X, from differences and with the weights in double precision.
 template <int K>
 void BlockSolve<K>::update_residual(const RightHandSides<K>& b) {
-  constexpr int kAhead = 512;  // entries, 4 KB, as in GroupedRows
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
-  const int *const starts = L_.starts.data(), *const columns = L_.columns.data();
-  const double* const weights = L_.weights.data();
-  norm_r_ = sum_over_rows(workers_, n_, zero, [=, x = x_, s = cycle_.start()](int i, Sums<K>& sum) {
-              prefetch(weights + starts[i] + kAhead);
-              prefetch(columns + starts[i] + 2 * kAhead);
-              const Sums<K> here = row_of(x, i);
-              Sums<K> rest = b(i);
-              for (int e = starts[i], end = starts[i + 1]; e < end; ++e) {
-                rest += weights[e] * (here - row_of(x, columns[e]));
-              }
-              rest = b.asked(i, rest);
-              sum += rest.square();
-              s[i] = scaled_step<K>(b, i, rest * inverse);
-            }).sqrt();
+  const Entry* const first = level_.A.entries().data();
+  std::vector<Sums<K>> parts(level_.chunks, zero);
+  workers_.run(level_.chunks, [&](int, int chunk) {
+    Sums<K> sum = zero;
+    level_.A.for_rows(chunk, [=, this, &sum, x = x_, s = cycle_.start()](int i, const Entry* entries, int length) {
+      const float* const rests = rests_.data() + (entries - first);
+      prefetch(rests + GroupedRows::kAhead);
+      const Sums<K> here = row_of(x, i);
+      Sums<K> residual = b(i);
+      for (int e = 0; e < length; ++e) {
+        const double weight = static_cast<double>(entries[e].weight) + static_cast<double>(rests[e]);
+        residual -= weight * (here - row_of(x, entries[e].column));
+      }
+      residual = b.asked(i, residual);
+      sum += residual.square();
+      s[i] = scaled_step<K>(b, i, residual * inverse);
+    });
+    parts[chunk] = sum;
+  });
+  norm_r_ = zero;
+  for (const Sums<K>& part : parts) norm_r_ += part;
+  norm_r_ = norm_r_.sqrt();
   reached_ = relative(norm_r_);
 }
 

@@ -22,7 +22,7 @@ class BlockSolve {
   using Report = std::function<void(double residual)>;
 
   /// @param goal relative residual to go on to while that helps
-  BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, double goal, Workers& workers);
+  BlockSolve(const Hierarchy& hierarchy, double goal, Workers& workers);
 
   /// Solves for the columns first .. first + width - 1 of B, width <= K, and writes the same columns of X.
   /// @param conditions of all columns
@@ -48,8 +48,8 @@ class BlockSolve {
   void precondition(Sums<K>& rz, Sums<K>& zAz);
   double relative(const Sums<K>& norms) const;
 
-  const Laplacian& L_;
   const CycleLevel& level_;
+  const Array<float>& rests_;
   const int n_;
   const double goal_;
   Workers& workers_;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "solver/level_operators.h"
+#include "solver/weight_rests.h"
 
 namespace holomorph::solver {
 namespace {
@@ -124,35 +125,37 @@ double Hierarchy::operator_complexity() const {
   return sum / entries(levels[0]);
 }
 
-Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Workers& workers, Progress& progress) {
-  Hierarchy result;
+void make_hierarchy(Laplacian&& L, const std::vector<int>& held, Workers& workers, Progress& progress,
+                    Hierarchy& hierarchy) {
   Level level;
-  if (!held.empty()) level.held.assign(L.size(), 0);
+  const int n = L.size();
+  if (!held.empty()) level.held.assign(n, 0);
   for (const int v : held) level.held[v] = 1;
   Operator here = finest_operator(L, level.held, workers, progress);
+  hierarchy.rests = weight_rests(L, here.A, workers, progress);
+  L = {};
   Scratch scratch;
   for (;;) {
     level.A = std::move(here.A);
     Level next;
     Operator next_operator;
-    const int most = result.levels.empty() ? kFinestMeans : kCoarseMeans;
+    const int most = hierarchy.levels.empty() ? kFinestMeans : kCoarseMeans;
     const bool last = !coarsen(level, here.largest, most, scratch, next, next_operator, workers, progress);
-    result.levels.push_back(cycle_level(std::move(level.A.rows), std::move(level.P), std::move(level.R.rows),
-                                        std::move(here.omega), level.needs_of_A, workers));
+    hierarchy.levels.push_back(cycle_level(std::move(level.A.rows), std::move(level.P), std::move(level.R.rows),
+                                           std::move(here.omega), level.needs_of_A, workers));
     progress.report(0);
     if (last) break;
     level = std::move(next);
     here = std::move(next_operator);
   }
-  const int coarsest = result.levels.back().rows;
+  const int coarsest = hierarchy.levels.back().rows;
   if (coarsest > kLargestDense) {
-    throw SolverError("the multigrid hierarchy of a system of " + std::to_string(L.size()) + " unknowns ends at " +
+    throw SolverError("the multigrid hierarchy of a system of " + std::to_string(n) + " unknowns ends at " +
                       std::to_string(coarsest));
   }
-  const Eigen::MatrixXd A = dense(result.levels.back());
-  result.coarsest_inverse = pseudo_inverse(A);
-  if (!held.empty()) result.held_inverse = inverse_of_others(A, level.held);
-  return result;
+  const Eigen::MatrixXd A = dense(hierarchy.levels.back());
+  hierarchy.coarsest_inverse = pseudo_inverse(A);
+  if (!held.empty()) hierarchy.held_inverse = inverse_of_others(A, level.held);
 }
 
 }  // namespace holomorph::solver

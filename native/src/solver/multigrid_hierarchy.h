@@ -16,6 +16,7 @@ namespace holomorph::solver {
 
 struct Hierarchy {
   std::vector<CycleLevel> levels;    ///< finest first
+  Array<float> rests;                ///< weight_rests() of the finest level
   Eigen::MatrixXf coarsest_inverse;  ///< pseudo-inverse of the coarsest A, computed in double precision
   Eigen::MatrixXf held_inverse;      ///< inverse of the part without the held vertices, and 0 at these; or empty
 
@@ -25,11 +26,14 @@ struct Hierarchy {
 
 /// Coarsens until 250 vertices are left. Operators are kept and applied as differences, never with a diagonal: in
 /// single precision the rows of a stored diagonal form do not sum to 0, and smooth functions drown in that.
-/// @throws SolverError if the graph cannot be coarsened further or the matrix is not semi-definite; Cancelled
+/// L is given up as soon as its weights are in the hierarchy.
+/// @throws SolverError if the graph cannot be coarsened further or the matrix is not semi-definite; there is a finest
+///   level then, of which laplacian_of() makes L again; Cancelled
 /// Cost: linear; about 0.2 KB and 0.5 us per vertex.
 ///
 /// The held vertices of a level are among those of the level above, and their values are means of theirs alone. So one
 /// hierarchy serves both conditions: functions that are 0 at the held vertices of a level are so on all.
-Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& held, Workers& workers, Progress& progress);
+void make_hierarchy(Laplacian&& L, const std::vector<int>& held, Workers& workers, Progress& progress,
+                    Hierarchy& hierarchy);
 
 }  // namespace holomorph::solver

@@ -4,6 +4,7 @@
 #include "base/page_allocator.h"
 #include "solver/block_solve.h"
 #include "solver/renumbering.h"
+#include "solver/weight_rests.h"
 
 namespace holomorph::solver {
 namespace {
@@ -14,7 +15,7 @@ class MultigridSolver final : public LaplaceSolver {
       : L_(std::move(L)), held_(std::move(held)), goal_(goal) {
     renumber(progress);
     try {
-      hierarchy_ = make_hierarchy(L_, held_, workers_, progress);
+      make_hierarchy(std::move(L_), held_, workers_, progress, hierarchy_);
     } catch (const SolverError& error) {
       fall_back(error, progress);
     }
@@ -66,6 +67,7 @@ class MultigridSolver final : public LaplaceSolver {
 
   void fall_back(const SolverError& error, Progress& progress) {
     remark_ = std::string("the direct solver took over: ") + error.what();
+    L_ = laplacian_of(hierarchy_.levels[0], hierarchy_.rests);
     hierarchy_ = {};
     direct_ = make_direct_solver(std::move(L_), held_, progress);
   }
@@ -96,7 +98,7 @@ class MultigridSolver final : public LaplaceSolver {
   void solve_blocks(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index begin,
                     Eigen::Index end, Solution& X, Reached& reached, Progress& progress) {
     if (begin == end) return;
-    BlockSolve<K> block(L_, hierarchy_, goal_, workers_);
+    BlockSolve<K> block(hierarchy_, goal_, workers_);
     for (Eigen::Index first = begin; first < end; first += K) {
       const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
       block.solve(B, conditions, first, width, X, [&](double residual) {
@@ -109,7 +111,7 @@ class MultigridSolver final : public LaplaceSolver {
     }
   }
 
-  Laplacian L_;             // moved on to the direct solver, where that takes over
+  Laplacian L_;             // until the hierarchy takes it apart
   std::vector<int> order_;  // the given number of each of the solver's, empty where these are the same
   std::vector<int> held_;   // in the solver's order
   const double goal_;
