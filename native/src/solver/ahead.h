@@ -12,7 +12,7 @@ namespace holomorph::solver {
 /// next chunk of each of many while it is busy with sums.
 class Ahead {
  public:
-  /// @pre not more than kMost times
+  /// @pre not empty; not more than kMost times
   template <class T>
   void add(const T* begin, const T* end) {
     parts_[count_++] = {reinterpret_cast<const char*>(begin), reinterpret_cast<const char*>(end)};

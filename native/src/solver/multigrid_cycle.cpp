@@ -1,5 +1,7 @@
 #include "solver/multigrid_cycle.h"
 
+#include <initializer_list>
+
 namespace holomorph::solver {
 namespace {
 
