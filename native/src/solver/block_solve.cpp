@@ -7,6 +7,7 @@ namespace holomorph::solver {
 namespace {
 
 // What single precision is asked for at a time: less takes more corrections, more gains nothing.
+// Its products are summed in single precision, too, chunk by chunk.
 constexpr double kInnerResidual = 1e-4;
 // The last time it goes a little below the goal, as the residual that it carries along drifts from the true one: by a
 // thousandth of it at most, after the first correction, which has to find what is smooth and large.
@@ -182,22 +183,21 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
 template <int K>
 void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   struct Products {
-    Sums<K> rz = Sums<K>::Zero(), zAz = Sums<K>::Zero();
+    Sums<K> rz, zAz;
   };
   std::vector<Products> parts(level_.chunks);
   const Block<K>*const s = cycle_.start(), *const z = cycle_.result();
   Block<K>* const w = cycle_.from_z();
   const float* const omega = level_.omega.data();
   cycle_.up([&](int chunk, const Ahead& ahead) {
-    Products products;
-    const auto add = [s, z, w, omega, &products](int i, const Block<K>& Az) {
+    Block<K> with_r = Block<K>::Zero(), with_Az = with_r;
+    const auto add = [s, z, w, omega, &with_r, &with_Az](int i, const Block<K>& Az) {
       w[i] = Az;
-      const Block<K> rz = residual_of_step<K>(omega[i], s[i]) * z[i], zAz = z[i] * Az;
-      products.rz += rz.template cast<double>();
-      products.zAz += zAz.template cast<double>();
+      with_r += residual_of_step<K>(omega[i], s[i]) * z[i];
+      with_Az += z[i] * Az;
     };
     for_differences<K>(level_.A, chunk, z, add, ahead);
-    parts[chunk] = products;
+    parts[chunk] = {with_r.template cast<double>(), with_Az.template cast<double>()};
   });
   rz = zAz = Sums<K>::Zero();
   for (const Products& products : parts) {
@@ -219,7 +219,7 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha,
   const Block<K> a_before = alpha_before, a = alpha, b = beta, natural = natural_;
   const Sums<K> scale = scale_;
   const auto loop = [=, this, &parts](int chunk) {
-    Sums<K> sum = Sums<K>::Zero();
+    Block<K> sum = Block<K>::Zero();
     for (int i = level_.begin(chunk), end = level_.end(chunk); i < end; ++i) {
       Block<K> p_i = z[i], q_i = w[i];
       if constexpr (!first) {
@@ -234,10 +234,9 @@ Sums<K> BlockSolve<K>::step(const Block<K>& alpha_before, const Block<K>& alpha,
       q[i] = q_i;
       const Block<K> step = a * q_i, s_i = s[i] - jacobi_step<K>(omega[i], step, natural);
       s[i] = s_i;
-      const Block<K> square = residual_of_step<K>(omega[i], s_i).square();
-      sum += square.template cast<double>();
+      sum += residual_of_step<K>(omega[i], s_i).square();
     }
-    parts[chunk] = sum;
+    parts[chunk] = sum.template cast<double>();
   };
   if (last) {
     cycle_.for_chunks(loop);
