@@ -50,8 +50,9 @@ def map_values(solved, options):
     """Yields (name, (#C,2) float32) for every map; components that lack the form are zero there."""
     write = native.load().place
     for index, name in enumerate(map_names(solved, options)):
-        placed = np.zeros((len(solved.surface.corner_vertices), 2), np.float32)
         parts = _parts(solved, index)
+        whole = len(parts) == 1 and parts[0].surface is solved.surface  # then every row is written
+        placed = (np.empty if whole else np.zeros)((len(solved.surface.corner_vertices), 2), np.float32)
         raw = [_raw(part, index, options) for part in parts]
         for part, uv, place in zip(parts, raw, _places(parts, index, options, raw)):
             if index == 0:

@@ -20,7 +20,7 @@ def real(array, columns, name):
 
 
 def integer(array, name, dimensions=1, columns=None):
-    """`array` as C-contiguous int64; anything but integers is refused, never rounded."""
+    """`array` as C-contiguous int32 where it is that, else int64; anything but integers is refused, never rounded."""
     try:
         result = np.asarray(array)
     except ValueError as error:
@@ -32,14 +32,14 @@ def integer(array, name, dimensions=1, columns=None):
     if result.ndim != dimensions or (columns is not None and result.shape[1] not in columns):
         shape = " or ".join(f"(rows, {c})" for c in columns) if columns else f"of {dimensions} dimension(s)"
         raise InvalidMesh(f"{name} has the shape {result.shape}; {shape} is needed")
-    return np.ascontiguousarray(result, dtype=np.int64)
+    return np.ascontiguousarray(result, dtype=np.int32 if result.dtype == np.int32 else np.int64)
 
 
 def polygons(faces):
     """Corner vertices and face offsets of (#F, 3) or (#F, 4) integers, or of a list of lists of any sizes."""
     if isinstance(faces, np.ndarray) and faces.dtype != object:
         array = integer(faces, "faces", dimensions=2, columns=(3, 4))
-        return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=np.int64)
+        return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=array.dtype)
     faces = list(faces)
     try:
         sizes = np.fromiter(map(len, faces), dtype=np.int64, count=len(faces))

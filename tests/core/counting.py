@@ -8,7 +8,7 @@ def sides(mesh):
     """From and to vertex of every side of every polygon, in the order of the corners."""
     following = np.arange(1, len(mesh.corners) + 1)
     following[mesh.offsets[1:] - 1] = mesh.offsets[:-1]
-    return mesh.corners, mesh.corners[following]
+    return mesh.corners.astype(np.int64), mesh.corners[following].astype(np.int64)  # for keys like from * #V + to
 
 
 def face_of_corner(mesh):

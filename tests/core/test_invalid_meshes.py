@@ -64,12 +64,24 @@ INVALID = {
 }
 
 
+@pytest.mark.parametrize("integers", [np.int32, np.int64])
 @pytest.mark.parametrize("name", INVALID)
-def test_is_refused_and_named(name):
+def test_is_refused_and_named(name, integers):
     mesh, message = INVALID[name]
+    corners = mesh.corners if name == "enormous index" else mesh.corners.astype(integers)
     with pytest.raises(InvalidMesh, match=message) as caught:
-        Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
+        Surface.from_polygons(mesh.vertices, corners, mesh.offsets.astype(integers))
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("integers", [np.int32, np.int64])
+@pytest.mark.parametrize("face", [3, 29])
+def test_offsets_of_any_size_are_refused(integers, face):
+    for wrong in (np.iinfo(integers).min, -1, np.iinfo(integers).max):
+        offsets = TORUS.offsets.astype(integers)
+        offsets[face] = wrong
+        with pytest.raises(InvalidMesh, match="face_offsets decrease at face"):
+            Surface.from_polygons(TORUS.vertices, TORUS.corners.astype(integers), offsets)
 
 
 LARGE = families.torus(300, 200)  # its edges are found in blocks of vertices, its polygons checked in batches

@@ -40,6 +40,8 @@ def test_every_integer_type_is_taken(integers):
     surface = Surface.from_polygons(mesh.vertices, mesh.corners.astype(integers), mesh.offsets.astype(integers))
     assert (surface.corner_vertices == mesh.corners).all()
     assert (Surface(mesh.vertices, mesh.corners.reshape(-1, 4).astype(integers)).corner_vertices == mesh.corners).all()
+    mixed = Surface.from_polygons(mesh.vertices, mesh.corners.astype(integers), mesh.offsets.astype(np.int32))
+    assert (mixed.corner_vertices == mesh.corners).all() and (mixed.face_offsets == mesh.offsets).all()
 
 
 @pytest.mark.parametrize("reals", [np.float32, np.float64, np.int32])

@@ -49,8 +49,8 @@ py::array copy(const Eigen::MatrixBase<Derived>& matrix) {
   return read_only(std::move(array));
 }
 
-template <class T>
-py::array copy(const std::vector<T>& values) {
+template <class T, class Allocator>
+py::array copy(const std::vector<T, Allocator>& values) {
   return read_only(py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data()));
 }
 

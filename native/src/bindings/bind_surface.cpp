@@ -16,9 +16,10 @@ namespace {
 using mesh::Surface;
 using SurfacePointer = std::shared_ptr<Surface>;
 
-SurfacePointer from_polygons(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corner_vertices,
-                             const Contiguous<std::int64_t>& face_offsets) {
-  mesh::Polygons polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
+template <class Index>
+SurfacePointer from_polygons(const Contiguous<double>& vertices, const Contiguous<Index>& corner_vertices,
+                             const Contiguous<Index>& face_offsets) {
+  mesh::BasicPolygons<Index> polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
   const py::gil_scoped_release unlocked;
   return std::make_shared<Surface>(mesh::make_surface(std::move(polygons)));
 }
@@ -65,7 +66,9 @@ void bind_surface(py::module_& m) {
     return [member](py::object self) { return view(self.cast<const Surface&>().repairs.*member, self); };
   };
   py::class_<Surface, SurfacePointer>(m, "Surface")
-      .def_static("from_polygons", &from_polygons)
+      .def_static("from_polygons", &from_polygons<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
+                  py::arg("face_offsets").noconvert())
+      .def_static("from_polygons", &from_polygons<std::int64_t>)
       .def_static("from_edge_lengths", &from_edge_lengths)
       .def_static("read", &read)
       .def("component", &component)

@@ -84,7 +84,7 @@ void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, i
 
 // Vertices: |d* h| = |sum of k h over the half-edges that leave| against the sum of |k h|.
 template <int N>
-void measure_vertices(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+void measure_vertices(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
                       const std::vector<char>& is_held, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
   Row<N> sum(n), size(n), value(n);
@@ -126,7 +126,7 @@ double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& prog
 
 // For few forms; many are better multiplied block by block.
 template <int N>
-Eigen::MatrixXd gram_matrix_of(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+Eigen::MatrixXd gram_matrix_of(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
                                Progress& progress) {
   constexpr int n = N;
   using Square = Eigen::Matrix<double, N, N>;
@@ -181,7 +181,7 @@ Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, 
 }
 
 template <int N>
-Residuals residuals_of(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+Residuals residuals_of(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
                        Progress& progress, const std::vector<char>& is_held) {
   const auto n = forms.functions.cols();
   const auto faces = [&](int begin, int end, Maxima<N>& maxima) { measure_faces<N>(mesh, forms, begin, end, maxima); };
@@ -194,7 +194,7 @@ Residuals residuals_of(const HalfEdges& mesh, const std::vector<double>& weights
 
 }  // namespace
 
-Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
                             Progress& progress) {
   const auto n = forms.functions.cols();
   if (n == 2) return gram_matrix_of<2>(mesh, weights, forms, progress);
@@ -235,7 +235,7 @@ Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Ei
   return sum.transpose();
 }
 
-Residuals residuals(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms,
+Residuals residuals(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
                     Progress& progress, const std::vector<int>& held) {
   std::vector<char> is_held(mesh.n_vertices(), 0);
   for (const int v : held) is_held[v] = 1;

@@ -1,5 +1,6 @@
 #include "forms/harmonic_basis.h"
 
+#include "base/page_allocator.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::forms {
@@ -13,16 +14,24 @@ using mesh::sign;
 using mesh::to_vertex;
 using topology::forms_between;
 
+// A column of values at the vertices for each right-hand side.
+Eigen::MatrixXd zeros(const HalfEdges& mesh, Eigen::Index count) {
+  Eigen::MatrixXd B(static_cast<Eigen::Index>(mesh.n_vertices()), count);
+  advise_large_pages(B.data(), B.size() * sizeof(double));
+  B.setZero();
+  return B;
+}
+
 }  // namespace
 
-Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
+Eigen::MatrixXd codifferentials(const HalfEdges& mesh, std::span<const double> weights,
                                 const topology::IntegerForms& classes) {
   return codifferentials(mesh, weights, classes, 0, classes.form_count);
 }
 
-Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
+Eigen::MatrixXd codifferentials(const HalfEdges& mesh, std::span<const double> weights,
                                 const topology::IntegerForms& classes, int first, int count) {
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), count);
+  Eigen::MatrixXd B = zeros(mesh, count);
   for (const int e : classes.rows.edges()) {
     const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
     for (const auto& [i, value] : forms_between(classes.rows[e], first, first + count)) {
@@ -33,9 +42,9 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>
   return B;
 }
 
-Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>& weights,
+Eigen::MatrixXd codifferentials(const HalfEdges& mesh, std::span<const double> weights,
                                 const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations) {
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), combinations.cols());
+  Eigen::MatrixXd B = zeros(mesh, combinations.cols());
   Eigen::RowVectorXd flux(combinations.cols());
   for (const int e : classes.rows.edges()) {
     flux.setZero();
@@ -46,7 +55,7 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, const std::vector<double>
   return B;
 }
 
-ClosedForms harmonic_basis(const HalfEdges& mesh, const std::vector<double>& weights,
+ClosedForms harmonic_basis(const HalfEdges& mesh, std::span<const double> weights,
                            const topology::IntegerForms& classes, solver::LaplaceSolver& solver,
                            solver::Condition condition, Progress& progress) {
   return {classes, solver.solve(codifferentials(mesh, weights, classes), condition, progress)};
@@ -75,7 +84,7 @@ Eigen::VectorXd combination(const HalfEdges& mesh, const ClosedForms& forms, con
   return values;
 }
 
-Eigen::MatrixXd class_products(const HalfEdges& mesh, const std::vector<double>& weights, const ClosedForms& forms) {
+Eigen::MatrixXd class_products(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms) {
   RowMajorMatrix products = RowMajorMatrix::Zero(forms.classes.form_count, forms.functions.cols());
   for (const int e : forms.classes.rows.edges()) {
     const Eigen::RowVectorXd flux = weights[e] * edge_values(mesh, forms, e, e + 1).row(0);

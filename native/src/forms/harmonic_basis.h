@@ -25,20 +25,20 @@ struct ClosedForms {
 solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, std::span<const double> weights, Progress& progress);
 
 /// -d* eta_i = -d^T (k eta_i), #V x #forms: the right-hand sides of Eq. 8.
-Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                 const topology::IntegerForms& classes);
 
 /// The same for the classes first .. first + count - 1 alone, #V x count.
-Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                 const topology::IntegerForms& classes, int first, int count);
 
 /// The same for real combinations of the classes: column j for sum_i combinations(i, j) eta_i, #V x #combinations.
-Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+Eigen::MatrixXd codifferentials(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                 const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations);
 
 /// The harmonic form of each class: L f_i = -d* eta_i, all right-hand sides in one block. With the Dirichlet condition
 /// f_i = 0 at the solver's held vertices, and d* h_i need not vanish there.
-ClosedForms harmonic_basis(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+ClosedForms harmonic_basis(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                            const topology::IntegerForms& classes, solver::LaplaceSolver& solver,
                            solver::Condition condition, Progress& progress);
 
@@ -47,7 +47,7 @@ RowMajorMatrix edge_values(const mesh::HalfEdges& half_edges, const ClosedForms&
 
 /// G_ij = sum_e k_e h_i(e) h_j(e): exactly the L2 products of the piecewise constant forms.
 /// Summed in a fixed order of blocks of edges, so the bits do not depend on the number of threads.
-Eigen::MatrixXd gram_matrix(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+Eigen::MatrixXd gram_matrix(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                             const ClosedForms& forms, Progress& progress);
 
 /// <h_i, h_i> on the artist's triangles: the diagonal of gram_matrix there, summed by triangles in a fixed order.
@@ -58,7 +58,7 @@ Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, con
 /// <eta_i, h_j> = sum_e k_e eta_i(e) h_j(e), #classes x #forms: the columns of the Gram matrix that belong to these
 /// forms. Where d* h_j = 0, <df_i, h_j> = 0 and so <h_i, h_j> = <eta_i, h_j>: one form h_j at a time is enough.
 /// With the residual r_j = L f_j + d* eta_j of its system it is <h_i, h_j> + f_i . r_j.
-Eigen::MatrixXd class_products(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+Eigen::MatrixXd class_products(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                const ClosedForms& forms);
 
 /// Relative maxima over all forms: |sum of a form around a face| over its largest value; |d* h| at a vertex over the
@@ -67,7 +67,7 @@ Eigen::MatrixXd class_products(const mesh::HalfEdges& half_edges, const std::vec
 struct Residuals {
   double closedness = 0, harmonicity = 0;
 };
-Residuals residuals(const mesh::HalfEdges& half_edges, const std::vector<double>& weights, const ClosedForms& forms,
+Residuals residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
                     Progress& progress, const std::vector<int>& held = {});
 
 /// Values of one combination sum_j c_j h_j on all edges, #E along half-edge 2e.

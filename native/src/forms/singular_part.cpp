@@ -89,8 +89,8 @@ SingularPart singular_part(const HalfEdges& mesh, std::span<const double> length
   return part;
 }
 
-std::vector<double> outer_weights(const HalfEdges& mesh, std::span<const double> lengths, std::vector<double> weights,
-                                  const std::vector<mesh::Star>& stars) {
+Array<double> outer_weights(const HalfEdges& mesh, std::span<const double> lengths, Array<double> weights,
+                            const std::vector<mesh::Star>& stars) {
   for (const mesh::Star& star : stars) {
     for (const HalfedgeHandle h : star.link) {
       weights[edge_of(next(mesh, h))] = 0;

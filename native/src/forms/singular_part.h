@@ -27,7 +27,7 @@ SingularPart singular_part(const mesh::HalfEdges& half_edges, std::span<const do
                            const std::vector<mesh::Star>& stars, const Eigen::MatrixXd& residues);
 
 /// Weights k over the faces outside the stars: 0 on spokes, that of the outer face alone on link edges.
-std::vector<double> outer_weights(const mesh::HalfEdges& half_edges, std::span<const double> lengths,
-                                  std::vector<double> weights, const std::vector<mesh::Star>& stars);
+Array<double> outer_weights(const mesh::HalfEdges& half_edges, std::span<const double> lengths, Array<double> weights,
+                            const std::vector<mesh::Star>& stars);
 
 }  // namespace holomorph::forms

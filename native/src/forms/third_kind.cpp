@@ -40,7 +40,7 @@ Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Singularities& s) 
 }
 
 // Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at held vertices are no equations.
-double relative_residual(const HalfEdges& mesh, const std::vector<double>& weights, const Eigen::MatrixXd& B,
+double relative_residual(const HalfEdges& mesh, std::span<const double> weights, const Eigen::MatrixXd& B,
                          const Eigen::MatrixXd& X, const std::vector<int>& held) {
   Eigen::MatrixXd rest = B, size = B.cwiseAbs();
   for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
@@ -57,7 +57,7 @@ double relative_residual(const HalfEdges& mesh, const std::vector<double>& weigh
 
 }  // namespace
 
-ThirdKind third_kind(const HalfEdges& mesh, const std::vector<double>& weights, const Singularities& s,
+ThirdKind third_kind(const HalfEdges& mesh, std::span<const double> weights, const Singularities& s,
                      solver::LaplaceSolver& solver, const std::vector<int>& held, Progress& progress) {
   const auto m = s.residues.cols();
   const Eigen::MatrixXd B = right_hand_sides(mesh, s);

@@ -6,6 +6,7 @@
 //     L f = -d^T (k u_s) + b_u,   L g = -d^T (k d v_s) + b_v      (d^T over the faces outside the stars)
 #pragma once
 
+#include <span>
 #include "forms/harmonic_basis.h"
 #include "forms/singular_part.h"
 
@@ -14,9 +15,9 @@ namespace holomorph::forms {
 /// u_s outside the stars: d(part.u) + sum_i residues(i) n_i.
 struct Singularities {
   SingularPart part;
-  topology::IntegerForms classes;     ///< n_i of the stars (topology::puncture_classes)
-  Eigen::MatrixXd residues;           ///< #stars x m reals; on a closed surface each column sums to 0
-  std::vector<double> outer_weights;  ///< #E
+  topology::IntegerForms classes;  ///< n_i of the stars (topology::puncture_classes)
+  Eigen::MatrixXd residues;        ///< #stars x m reals; on a closed surface each column sums to 0
+  Array<double> outer_weights;     ///< #E
 };
 
 /// The form of u is d(u) + sum_i residues(i) n_i outside the stars; v is single-valued.
@@ -30,7 +31,7 @@ struct ThirdKind {
 /// closed surface
 /// @return pairs whose u has the periods of the classes: where there are harmonic forms not yet conjugate, see
 /// harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
-ThirdKind third_kind(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+ThirdKind third_kind(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                      const Singularities& singularities, solver::LaplaceSolver& solver, const std::vector<int>& held,
                      Progress& progress);
 

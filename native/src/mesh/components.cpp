@@ -59,7 +59,7 @@ Component component(const Surface& parent, int which) {
   for (const int f : part.face_index) {
     for (auto c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c)
       polygons.corner_vertices.push_back(new_vertex[mesh.corner_vertices[c]]);
-    polygons.face_offsets.push_back(static_cast<std::int64_t>(polygons.corner_vertices.size()));
+    polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
   }
   part.surface = make_surface(std::move(polygons));
   return part;

@@ -100,7 +100,7 @@ class EdgeBuilder {
     }
     surface_.edges.push_back(ends);
     surface_.edge_lengths.push_back(length(*begin));
-    surface_.edge_face_count.push_back(static_cast<int>(end - begin));
+    surface_.edge_face_count.push_back(static_cast<char>(end - begin));
     if (end - begin == 2) meetings.push_back(meeting(edge, begin[0], begin[1]));
   }
 

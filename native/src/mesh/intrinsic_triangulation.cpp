@@ -77,9 +77,9 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges
   return result;
 }
 
-std::vector<double> cotangent_weights(const IntrinsicTriangulation& t, Progress& progress) {
+Array<double> cotangent_weights(const IntrinsicTriangulation& t, Progress& progress) {
   Workers workers;
-  std::vector<double> weights;
+  Array<double> weights;
   weights.reserve(t.lengths.size());
   advise_large_pages(weights.data(), t.lengths.size() * sizeof(double));
   weights.resize(t.lengths.size());

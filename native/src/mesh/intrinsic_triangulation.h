@@ -50,6 +50,6 @@ void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress);
 void set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
 
 /// #E weights k = (cot a + cot b) / 2 (paper Eq. 3).
-std::vector<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Progress& progress);
+Array<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Progress& progress);
 
 }  // namespace holomorph::mesh

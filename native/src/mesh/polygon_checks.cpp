@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "base/chunks.h"
@@ -16,7 +17,8 @@ constexpr std::int64_t kMaxCorners = std::numeric_limits<int>::max() / 8;
 
 using std::to_string;
 
-void check_sizes(const Polygons& mesh) {
+template <class Index>
+void check_sizes(const BasicPolygons<Index>& mesh) {
   const auto corners = static_cast<std::int64_t>(mesh.corner_vertices.size());
   const auto& offsets = mesh.face_offsets;
   if (offsets.size() < 2) throw InvalidMesh("the mesh has no faces");
@@ -29,8 +31,8 @@ void check_sizes(const Polygons& mesh) {
                       to_string(offsets.front()) + " to " + to_string(offsets.back()));
   }
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
-    const auto size = offsets[f + 1] - offsets[f];
-    if (size < 0) throw InvalidMesh("face_offsets decrease at face " + to_string(f));
+    if (offsets[f + 1] < offsets[f]) throw InvalidMesh("face_offsets decrease at face " + to_string(f));
+    const auto size = offsets[f + 1] - offsets[f];  // of two numbers from 0 on
     if (size < 3)
       throw InvalidMesh("face " + to_string(f) + " has " + to_string(size) + " corners; it needs at least 3");
   }
@@ -40,8 +42,8 @@ bool is_finite(const std::array<double, 3>& point) {
   return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
 }
 
-[[noreturn]] void refuse_vertex(const Polygons& mesh, int vertex) {
-  for (const double x : mesh.vertices[vertex]) {
+[[noreturn]] void refuse_vertex(const std::array<double, 3>& point, int vertex) {
+  for (const double x : point) {
     if (!std::isfinite(x))
       throw InvalidMesh("vertex " + to_string(vertex) + " has a coordinate that is " +
                         (std::isnan(x) ? "not a number" : "infinite"));
@@ -49,57 +51,60 @@ bool is_finite(const std::array<double, 3>& point) {
   throw Error("vertex " + to_string(vertex) + " is finite");
 }
 
-struct Corners {
-  const std::int64_t *begin, *end;
-};
-
-Corners corners_of(const Polygons& mesh, int face) {
+template <class Index>
+std::span<const Index> corners_of(const BasicPolygons<Index>& mesh, int face) {
   return {mesh.corner_vertices.data() + mesh.face_offsets[face],
           mesh.corner_vertices.data() + mesh.face_offsets[face + 1]};
 }
 
 // A vertex that comes twice, or -1.
-std::int64_t vertex_met_twice(Corners corners) {
-  std::vector<std::int64_t> sorted(corners.begin, corners.end);
+template <class Index>
+Index vertex_met_twice(std::span<const Index> corners) {
+  std::vector<Index> sorted(corners.begin(), corners.end());
   std::sort(sorted.begin(), sorted.end());
   const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
   return twice == sorted.end() ? -1 : *twice;
 }
 
-bool is_sound(const Polygons& mesh, int face) {
-  const auto vertex_count = static_cast<std::int64_t>(mesh.vertices.size());
-  const Corners corners = corners_of(mesh, face);
-  const auto in_range = [&](std::int64_t v) { return v >= 0 && v < vertex_count; };
-  if (!std::all_of(corners.begin, corners.end, in_range)) return false;
-  if (corners.end - corners.begin > 3) return vertex_met_twice(corners) < 0;
-  const std::int64_t a = corners.begin[0], b = corners.begin[1], c = corners.begin[2];
+template <class Index>
+bool is_sound(const BasicPolygons<Index>& mesh, int face) {
+  const auto vertex_count = static_cast<Index>(mesh.vertices.size());
+  const auto corners = corners_of(mesh, face);
+  const auto in_range = [&](Index v) { return v >= 0 && v < vertex_count; };
+  if (!std::all_of(corners.begin(), corners.end(), in_range)) return false;
+  if (corners.size() > 3) return vertex_met_twice(corners) < 0;
+  const Index a = corners[0], b = corners[1], c = corners[2];
   return a != b && b != c && c != a;
 }
 
-[[noreturn]] void refuse_face(const Polygons& mesh, int face) {
-  const auto vertex_count = static_cast<std::int64_t>(mesh.vertices.size());
-  const Corners corners = corners_of(mesh, face);
-  for (const auto* corner = corners.begin; corner != corners.end; ++corner) {
-    if (*corner < 0)
-      throw InvalidMesh("face " + to_string(face) + " has the negative vertex index " + to_string(*corner));
-    if (*corner >= vertex_count) {
-      throw InvalidMesh("face " + to_string(face) + " names vertex " + to_string(*corner) + ", but there are only " +
+template <class Index>
+[[noreturn]] void refuse_face(const BasicPolygons<Index>& mesh, int face) {
+  const auto vertex_count = static_cast<Index>(mesh.vertices.size());
+  const auto corners = corners_of(mesh, face);
+  for (const Index v : corners) {
+    if (v < 0) throw InvalidMesh("face " + to_string(face) + " has the negative vertex index " + to_string(v));
+    if (v >= vertex_count) {
+      throw InvalidMesh("face " + to_string(face) + " names vertex " + to_string(v) + ", but there are only " +
                         to_string(vertex_count) + " vertices");
     }
   }
   throw InvalidMesh("face " + to_string(face) + " has vertex " + to_string(vertex_met_twice(corners)) + " twice");
 }
 
-}  // namespace
-
-void check_polygons(const Polygons& mesh) {
+template <class Index>
+void check(const BasicPolygons<Index>& mesh) {
   check_sizes(mesh);
   Workers workers;
   const int vertices = static_cast<int>(mesh.vertices.size()), faces = static_cast<int>(mesh.face_offsets.size()) - 1;
   const int bad_vertex = first_row(workers, vertices, [&](int v) { return !is_finite(mesh.vertices[v]); });
-  if (bad_vertex < vertices) refuse_vertex(mesh, bad_vertex);
+  if (bad_vertex < vertices) refuse_vertex(mesh.vertices[bad_vertex], bad_vertex);
   const int bad_face = first_row(workers, faces, [&](int f) { return !is_sound(mesh, f); });
   if (bad_face < faces) refuse_face(mesh, bad_face);
 }
+
+}  // namespace
+
+void check_polygons(const Polygons& mesh) { check(mesh); }
+void check_polygons(const GivenPolygons& mesh) { check(mesh); }
 
 }  // namespace holomorph::mesh

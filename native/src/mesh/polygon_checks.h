@@ -9,5 +9,6 @@ namespace holomorph::mesh {
 /// negative or too large, a vertex twice in a face, a position that is NaN or infinite, too many elements for 32 bits.
 /// @throws InvalidMesh
 void check_polygons(const Polygons& polygons);
+void check_polygons(const GivenPolygons& polygons);
 
 }  // namespace holomorph::mesh

@@ -26,12 +26,11 @@ struct Side {
 template <class Each>
 void each_side(const Polygons& mesh, int begin, int end, const Each& each) {
   for (int f = begin; f < end; ++f) {
-    const auto first = static_cast<int>(mesh.face_offsets[f]), last = static_cast<int>(mesh.face_offsets[f + 1]);
+    const int first = mesh.face_offsets[f], last = mesh.face_offsets[f + 1];
     unsigned sum = 0;
     for (int c = first; c < last; ++c) sum += static_cast<unsigned>(mesh.corner_vertices[c]);
     for (int c = first; c < last; ++c) {
-      const auto a = static_cast<int>(mesh.corner_vertices[c]);
-      const auto b = static_cast<int>(mesh.corner_vertices[c + 1 == last ? first : c + 1]);
+      const int a = mesh.corner_vertices[c], b = mesh.corner_vertices[c + 1 == last ? first : c + 1];
       each(Side{std::min(a, b), std::max(a, b), 2 * c + (a > b ? 1 : 0), sum});
     }
   }
@@ -111,9 +110,9 @@ void each_edge(const Blocks& blocks, int block, const Each& each) {
   }
 }
 
-std::vector<std::int64_t> sorted_vertices(const Polygons& mesh, int face) {
-  std::vector<std::int64_t> v(mesh.corner_vertices.begin() + mesh.face_offsets[face],
-                              mesh.corner_vertices.begin() + mesh.face_offsets[face + 1]);
+std::vector<int> sorted_vertices(const Polygons& mesh, int face) {
+  std::vector<int> v(mesh.corner_vertices.begin() + mesh.face_offsets[face],
+                     mesh.corner_vertices.begin() + mesh.face_offsets[face + 1]);
   std::sort(v.begin(), v.end());
   return v;
 }

@@ -1,4 +1,4 @@
-// A polygon mesh as plain arrays, as a file or an application gives it: nothing about it has been checked.
+// A polygon mesh as plain arrays.
 #pragma once
 
 #include <array>
@@ -7,10 +7,16 @@
 
 namespace holomorph::mesh {
 
-struct Polygons {
+template <class Index>
+struct BasicPolygons {
   std::vector<std::array<double, 3>> vertices;  ///< #V positions; empty for an intrinsic surface
-  std::vector<std::int64_t> corner_vertices;    ///< #C vertex of each polygon corner, polygon by polygon
-  std::vector<std::int64_t> face_offsets;  ///< #F + 1; polygon f has corners face_offsets[f] .. face_offsets[f+1]-1
+  std::vector<Index> corner_vertices;           ///< #C vertex of each polygon corner, polygon by polygon
+  std::vector<Index> face_offsets;  ///< #F + 1; polygon f has corners face_offsets[f] .. face_offsets[f+1]-1
 };
+
+/// With the indices that all else is computed with.
+using Polygons = BasicPolygons<int>;
+/// With whatever indices a file or an application gives.
+using GivenPolygons = BasicPolygons<std::int64_t>;
 
 }  // namespace holomorph::mesh

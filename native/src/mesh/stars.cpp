@@ -106,7 +106,7 @@ std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vect
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
     int first = -1;
     for (auto c = offsets[f]; c < offsets[f + 1]; ++c) {
-      const auto v = static_cast<int>(surface.polygons.corner_vertices[c]);
+      const int v = surface.polygons.corner_vertices[c];
       if (!chosen[v]) continue;
       if (first >= 0 && first != v) {
         throw TopologyError("the punctures " + name(first) + " and " + name(v) +
@@ -134,7 +134,7 @@ void turn(Surface& surface, Side s) {
   surface.triangle_edges[o.triangle] = second_edges;
   for (const int t : {s.triangle, o.triangle}) {
     for (int i = 0; i < 3; ++i)
-      surface.triangles[t][i] = static_cast<int>(surface.polygons.corner_vertices[surface.triangle_corners[t][i]]);
+      surface.triangles[t][i] = surface.polygons.corner_vertices[surface.triangle_corners[t][i]];
   }
   const auto [low, high] = std::minmax(surface.triangles[s.triangle][0], surface.triangles[o.triangle][0]);
   surface.edges[e] = {low, high};

@@ -36,8 +36,7 @@ class PolygonCutter {
 
   void cut(int face, bool reversed) {
     const auto& mesh = surface_.polygons;
-    const int first = static_cast<int>(mesh.face_offsets[face]);
-    const int n = static_cast<int>(mesh.face_offsets[face + 1]) - first;
+    const int first = mesh.face_offsets[face], n = mesh.face_offsets[face + 1] - first;
     triangle_ = first - 2 * face;
     if (n == 3) return add(face, reversed, first, {0, 1, 2}, 3);
     diagonal_ = surface_.polygon_edge_count + first - 3 * face;
@@ -58,8 +57,7 @@ class PolygonCutter {
     if (i == 0 && j == n - 1) return edges_.side_edge[first + j];
     const auto [known, is_new] = diagonals_.try_emplace(Pair{i, j}, diagonal_);
     if (!is_new) return known->second;
-    const auto a = static_cast<int>(surface_.polygons.corner_vertices[first + i]);
-    const auto b = static_cast<int>(surface_.polygons.corner_vertices[first + j]);
+    const int a = surface_.polygons.corner_vertices[first + i], b = surface_.polygons.corner_vertices[first + j];
     surface_.edges[diagonal_] = {std::min(a, b), std::max(a, b)};
     surface_.edge_face_count[diagonal_] = 2;
     return diagonal_++;
@@ -74,7 +72,7 @@ class PolygonCutter {
       std::swap(sides[0], sides[2]);
     }
     Triple vertices;
-    for (int c = 0; c < 3; ++c) vertices[c] = static_cast<int>(surface_.polygons.corner_vertices[corners[c]]);
+    for (int c = 0; c < 3; ++c) vertices[c] = surface_.polygons.corner_vertices[corners[c]];
     surface_.triangles[triangle_] = vertices;
     surface_.triangle_corners[triangle_] = corners;
     surface_.triangle_edges[triangle_] = sides;
@@ -110,11 +108,16 @@ std::vector<EdgeMeeting> meetings_of(const Polygons& mesh, const PolygonEdges& e
   return meetings;
 }
 
-}  // namespace
+// @pre check_polygons has passed
+Polygons narrowed(GivenPolygons given) {
+  return {std::move(given.vertices),
+          {given.corner_vertices.begin(), given.corner_vertices.end()},
+          {given.face_offsets.begin(), given.face_offsets.end()}};
+}
 
-Surface make_surface(Polygons polygons) {
+// @pre check_polygons has passed
+Surface surface_of(Polygons polygons) {
   const KeptPages pages;
-  check_polygons(polygons);
   Surface surface;
   surface.polygons = std::move(polygons);
   const Polygons& mesh = surface.polygons;
@@ -137,8 +140,21 @@ Surface make_surface(Polygons polygons) {
     const auto [a, b] = surface.edges[e];
     surface.edge_lengths[e] = distance(mesh.vertices[a], mesh.vertices[b]);
   });
+  edges = {};
   finish_records(surface);
   return surface;
+}
+
+}  // namespace
+
+Surface make_surface(Polygons polygons) {
+  check_polygons(polygons);
+  return surface_of(std::move(polygons));
+}
+
+Surface make_surface(GivenPolygons polygons) {
+  check_polygons(polygons);
+  return surface_of(narrowed(std::move(polygons)));
 }
 
 double area(const Surface& surface) {

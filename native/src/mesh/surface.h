@@ -34,7 +34,7 @@ struct Surface {
   Array<double> edge_lengths;      ///< #E, in the unit of the positions
   Array<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
   int component_count = 0;
-  Array<int> edge_face_count;  ///< #E number of triangles at each edge, 1 or 2
+  Array<char> edge_face_count;  ///< #E number of triangles at each edge, 1 or 2
   Repairs repairs;
 
   bool intrinsic() const { return polygons.vertices.empty(); }
@@ -47,6 +47,7 @@ struct Surface {
 /// @throws InvalidMesh, TopologyError (non-orientable), naming the first bad element.
 /// Cost: linear in the number of corners, cubic in the size of a polygon up to 64 corners.
 Surface make_surface(Polygons polygons);
+Surface make_surface(GivenPolygons polygons);
 
 /// An intrinsic surface: triangles and the lengths of their edges, without positions.
 /// @param faces #F vertices; a vertex may come twice in a triangle

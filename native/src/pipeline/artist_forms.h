@@ -91,7 +91,7 @@ class ArtistForms {
   SolverReport report_;
   // Of streamed forms alone:
   solver::Choice choice_;
-  std::vector<double> weights_;
+  Array<double> weights_;
   std::unique_ptr<solver::LaplaceSolver> solver_;
 };
 

@@ -9,7 +9,7 @@ namespace {
 using solver::Condition;
 
 // The right-hand sides of both families, solved together.
-Eigen::MatrixXd solve_both(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+Eigen::MatrixXd solve_both(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                            const topology::IntegerForms& natural, const topology::IntegerForms& relative,
                            solver::LaplaceSolver& solver, Progress& progress) {
   const int n = natural.form_count;
@@ -36,7 +36,7 @@ forms::RowMajorMatrix side_by_side(const BoundedForms& forms) {
   return both;
 }
 
-BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                            solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                            const mesh::BoundaryLoops& boundary, const Options& options, Progress& progress) {
   if (options.boundary == "double_cover")

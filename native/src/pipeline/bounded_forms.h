@@ -1,6 +1,7 @@
 // The two families of harmonic forms on a surface with boundary.
 #pragma once
 
+#include <span>
 #include "mesh/boundary_loops.h"
 #include "pipeline/harmonic_forms.h"
 
@@ -24,7 +25,7 @@ forms::RowMajorMatrix side_by_side(const BoundedForms& forms);
 /// @param classes n natural classes: those of the 2g handles, zero along the boundary, and then those of the loops
 /// @param options boundary "double_cover" takes the way over the double instead
 /// @throws SolverError, Cancelled
-BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                            solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                            const mesh::BoundaryLoops& boundary, const Options& options, Progress& progress);
 

@@ -19,7 +19,7 @@ int checked_genus(const mesh::Surface& surface, const mesh::HalfEdges& half_edge
 }
 
 // All forms at once: the Gram matrix is the full energy <h_i, h_j>, the residuals those of all of them.
-void keep(const mesh::IntrinsicTriangulation& intrinsic, const std::vector<double>& weights, HarmonicForms&& solved,
+void keep(const mesh::IntrinsicTriangulation& intrinsic, std::span<const double> weights, HarmonicForms&& solved,
           ConformalStructure& result, Progress& progress) {
   const auto& mesh = intrinsic.half_edges;
   result.solver = std::move(solved.solver);
@@ -32,7 +32,7 @@ void keep(const mesh::IntrinsicTriangulation& intrinsic, const std::vector<doubl
 
 // A few forms at a time, of which nothing is left but what is asked of them.
 void measure(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& intrinsic,
-             const std::vector<double>& weights, solver::LaplaceSolver& solver, topology::IntegerForms&& classes,
+             std::span<const double> weights, solver::LaplaceSolver& solver, topology::IntegerForms&& classes,
              ConformalStructure& result, Progress& progress) {
   forms::ClosedForms on_intrinsic{std::move(classes), {}};
   auto streamed = streamed_forms(surface, result.half_edges, result.homology_basis, result.harmonic,

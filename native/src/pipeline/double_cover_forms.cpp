@@ -29,9 +29,9 @@ IntegerForms extended(const mesh::HalfEdges& half_edges, const DoubleCover& cove
   return both;
 }
 
-std::vector<double> weights_of_double(const mesh::HalfEdges& half_edges, const DoubleCover& cover,
-                                      const std::vector<double>& weights) {
-  std::vector<double> both(cover.half_edges.n_edges(), 0.0);
+Array<double> weights_of_double(const mesh::HalfEdges& half_edges, const DoubleCover& cover,
+                                std::span<const double> weights) {
+  Array<double> both(cover.half_edges.n_edges(), 0.0);
   for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
     const HalfedgeHandle h(half_edges.is_boundary(HalfedgeHandle(2 * e)) ? 2 * e + 1 : 2 * e);
     both[edge_of(cover.first[h.idx()])] += weights[e];
@@ -50,7 +50,7 @@ forms::RowMajorMatrix symmetrised(const Eigen::MatrixXd& f, const DoubleCover& c
 
 }  // namespace
 
-BoundedForms double_cover_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+BoundedForms double_cover_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                 const IntegerForms& classes, const mesh::BoundaryLoops& boundary,
                                 const Options& options, Progress& progress) {
   const int n = classes.form_count, handles = n - (boundary.count() - 1);

@@ -1,6 +1,7 @@
 // The forms of a surface with boundary by way of its double: the paper's own path (§ 8), the reference for the other.
 #pragma once
 
+#include <span>
 #include "pipeline/bounded_forms.h"
 
 namespace holomorph::pipeline {
@@ -10,7 +11,7 @@ namespace holomorph::pipeline {
 /// f(v*), v* the dual vertex, and restricted to the surface. They are those of bounded_forms to solver accuracy, at
 /// twice the size. The double has the edge weights of the surface: edges of the boundary count twice.
 /// @throws SolverError, Cancelled
-BoundedForms double_cover_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+BoundedForms double_cover_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                 const topology::IntegerForms& classes, const mesh::BoundaryLoops& boundary,
                                 const Options& options, Progress& progress);
 

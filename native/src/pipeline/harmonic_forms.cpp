@@ -3,7 +3,7 @@
 #include <algorithm>
 
 namespace holomorph::pipeline {
-SolverReport solve_in_blocks(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+SolverReport solve_in_blocks(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
                              const MemoryPlan& plan, Progress& progress, const TakeFunctions& take) {
   const int count = classes.form_count;
@@ -22,7 +22,7 @@ SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Ch
       solver.name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver.iterations(), solver.residual(), {}};
 }
 
-HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
                              const MemoryPlan& plan, Progress& progress) {
   HarmonicForms result{{classes, {}}, {}};
@@ -37,7 +37,7 @@ HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vecto
   return result;
 }
 
-HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                              const Options& options, Progress& progress) {
   const MemoryPlan plan = plan_memory({laplacian.size(), static_cast<std::int64_t>(weights.size()), classes.form_count},

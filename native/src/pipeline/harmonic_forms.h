@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,7 @@ using TakeFunctions = std::function<void(int first, forms::RowMajorMatrix&& func
 
 /// Solves for plan.block forms at a time, in order, and hands each block on.
 /// @param solver that of the plan. @throws SolverError, Cancelled
-SolverReport solve_in_blocks(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+SolverReport solve_in_blocks(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
                              const MemoryPlan& plan, Progress& progress, const TakeFunctions& take);
 
@@ -52,12 +53,12 @@ struct HarmonicForms {
 
 /// The harmonic form of each class, all of them kept.
 /// @throws SolverError, Cancelled
-HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
                              const MemoryPlan& plan, Progress& progress);
 
 /// The same with the solver that `options` asks for; its memory is free again at the end.
-HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, const std::vector<double>& weights,
+HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
                              const Options& options, Progress& progress);
 

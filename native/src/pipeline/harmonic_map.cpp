@@ -76,7 +76,7 @@ forms::RowMajorMatrix differences(const mesh::Surface& surface, const forms::Row
 }
 
 // -d^T (k w) for the rows w.
-Eigen::MatrixXd codifferential(const mesh::Surface& surface, const std::vector<double>& weights,
+Eigen::MatrixXd codifferential(const mesh::Surface& surface, std::span<const double> weights,
                                const forms::RowMajorMatrix& edge_values) {
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(surface.vertex_count, edge_values.cols());
   for (std::size_t e = 0; e < weights.size(); ++e) {

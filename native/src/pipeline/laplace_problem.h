@@ -12,7 +12,7 @@ namespace holomorph::pipeline {
 
 struct LaplaceProblem {
   std::vector<std::array<int, 2>> ends;  ///< of the edges of the intrinsic Delaunay triangulation
-  std::vector<double> weights;           ///< of these edges: (L x)_i = sum_j w_ij (x_i - x_j)
+  Array<double> weights;                 ///< of these edges: (L x)_i = sum_j w_ij (x_i - x_j)
   std::unique_ptr<solver::LaplaceSolver> solver;
 };
 

@@ -122,9 +122,9 @@ PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& lapla
   return result;
 }
 
-HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges,
-                          const std::vector<double>& weights, const solver::Laplacian& laplacian,
-                          const topology::IntegerForms& classes, Progress& progress) {
+HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                          const solver::Laplacian& laplacian, const topology::IntegerForms& classes,
+                          Progress& progress) {
   const auto B = forms::codifferentials(half_edges, weights, classes);
   auto result = paper_forms(levels, laplacian, B, {}, progress);
   return {{classes, std::move(result.functions)}, std::move(result.solver)};

@@ -13,6 +13,7 @@
 // collapsed into: eta stays an integer class, and f(v_t) = f(v_s).
 #pragma once
 
+#include <span>
 #include "pipeline/harmonic_forms.h"
 #include "pipeline/paper_levels.h"
 #include "solver/conjugate_gradients.h"
@@ -47,8 +48,8 @@ PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& lapla
                        const PaperOptions& options, Progress& progress);
 
 /// The same on a surface's own triangulation. @param classes those of `levels.bases`
-HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges,
-                          const std::vector<double>& weights, const solver::Laplacian& laplacian,
-                          const topology::IntegerForms& classes, Progress& progress);
+HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                          const solver::Laplacian& laplacian, const topology::IntegerForms& classes,
+                          Progress& progress);
 
 }  // namespace holomorph::pipeline

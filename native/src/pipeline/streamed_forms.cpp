@@ -6,7 +6,7 @@ namespace holomorph::pipeline {
 
 StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                              const std::vector<std::vector<mesh::HalfedgeHandle>>& loops, forms::ClosedForms& artist,
-                             const mesh::HalfEdges& triangulation, const std::vector<double>& weights,
+                             const mesh::HalfEdges& triangulation, std::span<const double> weights,
                              solver::LaplaceSolver& solver, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
                              Progress& progress) {
   const int n = intrinsic.classes.form_count;

@@ -1,6 +1,7 @@
 // What is known of harmonic forms that are never there all at once.
 #pragma once
 
+#include <span>
 #include "mesh/intrinsic_triangulation.h"
 #include "pipeline/harmonic_forms.h"
 #include "uv/uv_map.h"
@@ -23,7 +24,7 @@ struct StreamedForms {
 /// Memory: that of `plan`. @throws SolverError, Cancelled
 StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                              const std::vector<std::vector<mesh::HalfedgeHandle>>& loops, forms::ClosedForms& artist,
-                             const mesh::HalfEdges& triangulation, const std::vector<double>& weights,
+                             const mesh::HalfEdges& triangulation, std::span<const double> weights,
                              solver::LaplaceSolver& solver, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
                              Progress& progress);
 

@@ -67,7 +67,7 @@ void set_base(ProgressiveMesh& mesh, const std::vector<Triple>& triangles, std::
       {mesh.positions.begin(), mesh.positions.begin() + static_cast<std::ptrdiff_t>(vertex_count)}, {}, {0}};
   for (const Triple& t : triangles) {
     polygons.corner_vertices.insert(polygons.corner_vertices.end(), t.begin(), t.end());
-    polygons.face_offsets.push_back(static_cast<std::int64_t>(polygons.corner_vertices.size()));
+    polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
   }
   try {
     mesh.base = make_surface(std::move(polygons));

@@ -18,10 +18,10 @@ mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, co
   polygons.corner_vertices.reserve(3 * triangles.size());
   polygons.face_offsets.reserve(triangles.size() + 1);
   for (const Triple& t : triangles) {
-    polygons.face_offsets.push_back(static_cast<std::int64_t>(polygons.corner_vertices.size()));
+    polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
     for (const int v : t) polygons.corner_vertices.push_back(v);
   }
-  polygons.face_offsets.push_back(static_cast<std::int64_t>(polygons.corner_vertices.size()));
+  polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
   return polygons;
 }
 
@@ -168,8 +168,7 @@ mesh::Polygons restored(const ProgressiveMesh& mesh) {
   polygons.vertices.resize(mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) polygons.vertices[mesh.vertex_index[v]] = mesh.positions[v];
   polygons.face_offsets.assign(mesh.face_offsets.begin(), mesh.face_offsets.end());
-  for (int t = 0; mesh.face_offsets.empty() && t <= mesh.triangle_count(); ++t)
-    polygons.face_offsets.push_back(3 * std::int64_t{t});
+  for (int t = 0; mesh.face_offsets.empty() && t <= mesh.triangle_count(); ++t) polygons.face_offsets.push_back(3 * t);
   polygons.corner_vertices.resize(static_cast<std::size_t>(polygons.face_offsets.back()));
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) polygons.corner_vertices[corners[t][i]] = mesh.vertex_index[triangles[t][i]];

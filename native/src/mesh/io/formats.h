@@ -17,9 +17,9 @@ struct FileText {
   [[noreturn]] void fail(std::string_view reason) const;
 };
 
-Polygons read_obj(const FileText& file);
-Polygons read_off(const FileText& file);
-Polygons read_ply(const FileText& file);
-Polygons read_stl(const FileText& file);
+GivenPolygons read_obj(const FileText& file);
+GivenPolygons read_off(const FileText& file);
+GivenPolygons read_ply(const FileText& file);
+GivenPolygons read_stl(const FileText& file);
 
 }  // namespace holomorph::mesh

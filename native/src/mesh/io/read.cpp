@@ -17,7 +17,7 @@ namespace {
 
 struct Format {
   std::string_view extension;
-  Polygons (*read)(const FileText&);
+  GivenPolygons (*read)(const FileText&);
 };
 
 constexpr std::array<Format, 4> formats{
@@ -77,7 +77,7 @@ FileText load(const std::filesystem::path& path) {
 
 void FileText::fail(std::string_view reason) const { throw InvalidMesh(name + ": " + std::string(reason)); }
 
-Polygons read(const std::filesystem::path& path) {
+GivenPolygons read(const std::filesystem::path& path) {
   const auto& format = format_of(path);
   return format.read(load(path));
 }

@@ -16,6 +16,6 @@ namespace holomorph::mesh {
 /// the mesh's faults, and its validation names them.
 /// \throw InvalidMesh if the file cannot be read or is malformed; the sentence names file and line, byte or element.
 /// Cost: linear in the file's size, which is held in memory.
-Polygons read(const std::filesystem::path& path);
+GivenPolygons read(const std::filesystem::path& path);
 
 }  // namespace holomorph::mesh

@@ -32,9 +32,9 @@ std::int64_t vertex_index(const Scanner& scan, std::string_view corner, std::int
 
 }  // namespace
 
-Polygons read_obj(const FileText& file) {
+GivenPolygons read_obj(const FileText& file) {
   if (file.bytes.find('\0') != std::string::npos) file.fail("an OBJ file is text, but this one has zero bytes");
-  Polygons mesh;
+  GivenPolygons mesh;
   mesh.face_offsets.push_back(0);
   for (Scanner scan(file, Comments::after_hash); !scan.at_end(); scan.next_line()) {
     const auto keyword = scan.word();

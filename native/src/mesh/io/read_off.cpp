@@ -29,7 +29,7 @@ void read_header(const FileText& file, Scanner& scan) {
   scan = ahead;
 }
 
-void read_vertices(Scanner& scan, std::int64_t count, Polygons& mesh) {
+void read_vertices(Scanner& scan, std::int64_t count, GivenPolygons& mesh) {
   mesh.vertices.resize(static_cast<std::size_t>(count));
   for (std::int64_t i = 0; i < count; ++i) {
     const auto name = [&] { return "vertex " + std::to_string(i) + " of " + std::to_string(count); };
@@ -43,7 +43,7 @@ void read_vertices(Scanner& scan, std::int64_t count, Polygons& mesh) {
   }
 }
 
-void read_faces(Scanner& scan, std::int64_t count, Polygons& mesh) {
+void read_faces(Scanner& scan, std::int64_t count, GivenPolygons& mesh) {
   mesh.face_offsets.reserve(static_cast<std::size_t>(count) + 1);
   mesh.face_offsets.push_back(0);
   for (std::int64_t f = 0; f < count; ++f) {
@@ -58,7 +58,7 @@ void read_faces(Scanner& scan, std::int64_t count, Polygons& mesh) {
 
 }  // namespace
 
-Polygons read_off(const FileText& file) {
+GivenPolygons read_off(const FileText& file) {
   Scanner scan(file, Comments::after_hash);
   read_header(file, scan);
   const auto vertices =
@@ -66,7 +66,7 @@ Polygons read_off(const FileText& file) {
   const auto faces = scan.count(scan.word_on_any_line("the number of faces"), "the number of faces", shortest_word);
   scan.next_line();  // past the number of edges, which nobody needs
 
-  Polygons mesh;
+  GivenPolygons mesh;
   read_vertices(scan, vertices, mesh);
   read_faces(scan, faces, mesh);
   if (!scan.at_end())

@@ -182,7 +182,7 @@ std::size_t polygon_list(const Element& element, const FileText& file) {
 }
 
 template <class Body>
-void read_vertices(Body& body, const Element& element, const FileText& file, Polygons& mesh) {
+void read_vertices(Body& body, const Element& element, const FileText& file, GivenPolygons& mesh) {
   if (!mesh.vertices.empty()) body.fail("the element 'vertex' is declared twice");
   constexpr std::size_t skipped = 3;
   std::vector<std::size_t> axis(element.properties.size(), skipped);
@@ -205,7 +205,7 @@ void read_vertices(Body& body, const Element& element, const FileText& file, Pol
 
 /// The triangles of a strip, every other one turned round; -1 starts a new strip. Triangles with a vertex twice only
 /// join parts of a strip, and are no faces.
-void append_strip(const std::vector<std::int64_t>& strip, Polygons& mesh) {
+void append_strip(const std::vector<std::int64_t>& strip, GivenPolygons& mesh) {
   constexpr std::int64_t restart = -1;
   std::size_t first = 0;
   for (std::size_t i = 0; i < strip.size(); ++i) {
@@ -220,7 +220,7 @@ void append_strip(const std::vector<std::int64_t>& strip, Polygons& mesh) {
 }
 
 template <class Body>
-void read_polygons(Body& body, const Element& element, const FileText& file, Polygons& mesh) {
+void read_polygons(Body& body, const Element& element, const FileText& file, GivenPolygons& mesh) {
   const auto list = polygon_list(element, file);
   const bool strips = element.name == "tristrips";
   std::vector<std::int64_t> strip;
@@ -256,9 +256,9 @@ void skip_element(Body& body, const Element& element) {
 }
 
 template <class Body>
-Polygons read_body(const FileText& file, const Header& header) {
+GivenPolygons read_body(const FileText& file, const Header& header) {
   Body body(file, header);
-  Polygons mesh;
+  GivenPolygons mesh;
   mesh.face_offsets.push_back(0);
   for (const auto& element : header.elements) {
     body.enter(element);
@@ -278,7 +278,7 @@ Polygons read_body(const FileText& file, const Header& header) {
 
 }  // namespace ply
 
-Polygons read_ply(const FileText& file) {
+GivenPolygons read_ply(const FileText& file) {
   const auto header = ply::read_header(file);
   switch (header.encoding) {
     case ply::Encoding::text:

@@ -52,8 +52,8 @@ class Weld {
   std::vector<std::int64_t> slots_;
 };
 
-Polygons welded(const std::vector<Point>& corners) {
-  Polygons mesh;
+GivenPolygons welded(const std::vector<Point>& corners) {
+  GivenPolygons mesh;
   Weld weld(corners.size());
   mesh.corner_vertices.reserve(corners.size());
   for (const auto& p : corners) mesh.corner_vertices.push_back(weld(p));
@@ -138,7 +138,7 @@ bool is_text(const FileText& file) {
 
 }  // namespace
 
-Polygons read_stl(const FileText& file) {
+GivenPolygons read_stl(const FileText& file) {
   if (is_text(file)) return welded(text_corners(file));
   if (file.bytes.size() < header_size + 4)
     file.fail("the file is neither a text STL ('solid ...') nor as long as the header of a binary one");
