@@ -23,7 +23,7 @@ SHAPE = "Holomorphic Shape"  # vector attribute of vertices
 OUR_MAP = re.compile(rf"^{MAIN_MAP}( [1-9][0-9]*)?$")
 
 
-@dataclass(frozen=True)
+@dataclass(eq=False)
 class Polygons:
     """A mesh's polygons as arrays; `loops` gives the loop of each corner, or None where they agree."""
 
@@ -31,6 +31,11 @@ class Polygons:
     corner_vertices: np.ndarray  # (#C,) int32
     face_offsets: np.ndarray  # (#F+1,) int32
     loops: np.ndarray | None
+
+    def share(self, surface):
+        """Takes the arrays of the surface that was made of these, which are equal: one copy of them is left."""
+        self.vertices, self.corner_vertices = surface.vertices, surface.corner_vertices
+        self.face_offsets = surface.face_offsets
 
     @functools.cached_property
     def fingerprint(self):

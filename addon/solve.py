@@ -84,6 +84,7 @@ def solve(task, progress=None):
     start = time.perf_counter()
     polygons = task.polygons
     surface = holomorph.Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    polygons.share(surface)
     parts = surface.components
     stray = choices.stray_vertex(surface, task.chosen)
     if stray is not None:

@@ -24,6 +24,18 @@ def test_a_worker_gives_what_the_main_thread_gives():
     assert [r.form_count for r in job.results] == [1, 1]
 
 
+def test_one_copy_of_the_arrays_is_left():
+    task = task_of(torus())
+    given = [a.copy() for a in (task.polygons.vertices, task.polygons.corner_vertices, task.polygons.face_offsets)]
+    key = task.key
+    surface = module("solve").solve(task).surface
+    left = (task.polygons.vertices, task.polygons.corner_vertices, task.polygons.face_offsets)
+    for array, own, before in zip(left, (surface.vertices, surface.corner_vertices, surface.face_offsets), given):
+        assert np.shares_memory(array, own) and array.dtype == before.dtype and (array == before).all()
+    del task.polygons.fingerprint
+    assert task.key == key
+
+
 def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
     vertices, faces = torus_arrays()
     bad = mesh_object("Bad", vertices * np.nan, faces)
