@@ -158,12 +158,12 @@ Surface make_surface(GivenPolygons polygons) {
 }
 
 double area(const Surface& surface) {
-  double sum = 0;
-  for (const auto& [a, b, c] : surface.triangle_edges) {
+  Workers workers;
+  return sum_over_rows(workers, static_cast<int>(surface.triangles.size()), 0.0, [&surface](int t, double& sum) {
+    const auto& [a, b, c] = surface.triangle_edges[t];
     const auto& l = surface.edge_lengths;
     sum += triangle_area(l[a], l[b], l[c]);
-  }
-  return sum;
+  });
 }
 
 }  // namespace holomorph::mesh
