@@ -41,8 +41,8 @@ def test_bits_do_not_depend_on_the_threads(name, threads):
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_bits_of_a_larger_mesh(threads):
-    """Large enough for every parallel loop to be cut into pieces."""
-    mesh = families.torus(400, 200, shape="triangles", jitter=0.3)
+    """Large enough for every parallel loop to be cut into pieces, and for pages to be made ahead."""
+    mesh = families.torus(440, 220, shape="triangles", jitter=0.3)
     default, given = conformal_structure(surface_of(mesh)), conformal_structure(surface_of(mesh), threads=threads)
     assert_same_bits(default, given)
 

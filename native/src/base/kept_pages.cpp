@@ -5,8 +5,12 @@
 #include <mutex>
 #include <new>
 #include <set>
+#include <system_error>
 #include <vector>
 
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -37,11 +41,42 @@ char* new_room(std::size_t bytes) {
   return given + before;
 }
 
+bool has_threads() {
+#ifdef _OPENMP
+  return omp_get_max_threads() > 1;
+#else
+  return false;
+#endif
+}
+
 class KeptRuns {
  public:
-  void keep() {
+  /// @param ahead bytes that make_one() is to make
+  void keep(std::size_t ahead) {
     const std::lock_guard lock(mutex_);
     ++keepers_;
+    wanted_ += whole_pages(ahead);
+  }
+
+  // Keeps a new page, written once. @return whether more are wanted
+  bool make_one() {
+    constexpr std::size_t kSmallPage = 4096;  // or more: then some are written twice
+    char* const room = new_room(kLargePage);
+    for (std::size_t byte = 0; byte < kLargePage; byte += kSmallPage) room[byte] = 0;
+    const std::lock_guard lock(mutex_);
+    if (wanted_ == 0) {
+      munmap(room, kLargePage);
+      return false;
+    }
+    wanted_ -= kLargePage;
+    keep_or_free({room, kLargePage});
+    return wanted_ > 0;
+  }
+
+  // Whatever another computation still wants is made as it is used.
+  void stop_making() {
+    const std::lock_guard lock(mutex_);
+    wanted_ = 0;
   }
 
   void stop_keeping() {
@@ -78,7 +113,8 @@ class KeptRuns {
  private:
   // Moves kept pages to where there are none yet, those given last first, as far as they go.
   void fill(char* room, std::size_t bytes) {
-    for (std::size_t filled = 0; filled < bytes && !kept_.empty();) {
+    std::size_t filled = 0;
+    while (filled < bytes && !kept_.empty()) {
       Run& last = kept_.back();
       const std::size_t part = std::min(last.bytes, bytes - filled);
       char* const to = room + filled;
@@ -89,6 +125,7 @@ class KeptRuns {
       if (last.bytes == 0) kept_.pop_back();
       move(from, part, to);
     }
+    wanted_ -= std::min(wanted_, bytes - filled);  // the system makes the rest as it is used
   }
 
   void keep_or_free(const Run& run) noexcept {
@@ -113,6 +150,7 @@ class KeptRuns {
 
   std::mutex mutex_;
   int keepers_ = 0;
+  std::size_t wanted_ = 0;  // bytes that are still to be made ahead
   std::vector<Run> kept_;
   std::set<char*> seams_;  // in memory that is in use: where runs meet, as the system moves no two at once
 };
@@ -130,8 +168,33 @@ void advise_large_pages(void* memory, std::size_t bytes) {
   if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 }
 
-KeptPages::KeptPages() { pages().keep(); }
-KeptPages::~KeptPages() { pages().stop_keeping(); }
+KeptPages::KeptPages(std::size_t ahead) {
+  constexpr std::size_t kLeast = 8 * kLargePage;  // for less no thread is begun
+  const bool makes = ahead >= kLeast && has_threads();
+  pages().keep(makes ? ahead : 0);
+  if (!makes) return;
+  try {
+    ahead_ = std::thread([this] {
+      try {
+        while (!over_.load() && pages().make_one()) {
+        }
+      } catch (const std::bad_alloc&) {
+        // whoever needs the memory will say so
+      }
+    });
+  } catch (const std::system_error&) {
+    // no more threads: pages are made as they are used
+  }
+}
+
+KeptPages::~KeptPages() {
+  over_ = true;
+  if (ahead_.joinable()) {
+    ahead_.join();
+    pages().stop_making();
+  }
+  pages().stop_keeping();
+}
 
 void* take_pages(std::size_t bytes) { return pages().take(whole_pages(bytes)); }
 void give_pages(void* memory, std::size_t bytes) noexcept {
@@ -141,7 +204,7 @@ void give_pages(void* memory, std::size_t bytes) noexcept {
 #else
 
 void advise_large_pages(void*, std::size_t) {}
-KeptPages::KeptPages() = default;
+KeptPages::KeptPages(std::size_t) {}
 KeptPages::~KeptPages() = default;
 void* take_pages(std::size_t bytes) { return ::operator new(bytes, std::align_val_t(kLargePage)); }
 void give_pages(void* memory, std::size_t) noexcept { ::operator delete(memory, std::align_val_t(kLargePage)); }

@@ -14,6 +14,9 @@
 namespace holomorph::mesh {
 namespace {
 
+// Bytes of large arrays, of nearly 40.
+constexpr std::size_t kAheadPerCorner = 32;
+
 void make_room(Surface& surface) {
   const Polygons& mesh = surface.polygons;
   const std::size_t corners = mesh.corner_vertices.size(), faces = mesh.face_offsets.size() - 1;
@@ -117,7 +120,7 @@ Polygons narrowed(GivenPolygons given) {
 
 // @pre check_polygons has passed
 Surface surface_of(Polygons polygons) {
-  const KeptPages pages;
+  const KeptPages pages(kAheadPerCorner * polygons.corner_vertices.size());
   Surface surface;
   surface.polygons = std::move(polygons);
   const Polygons& mesh = surface.polygons;

@@ -2,6 +2,7 @@
 
 #include "base/beside.h"
 #include "base/errors.h"
+#include "base/kept_pages.h"
 #include "mesh/components.h"
 #include "pipeline/paper_forms.h"
 #include "pipeline/streamed_forms.h"
@@ -9,6 +10,9 @@
 
 namespace holomorph::pipeline {
 namespace {
+
+// Bytes of large arrays with any solver; multigrid takes nearly 300.
+constexpr std::size_t kAheadPerTriangle = 160;
 
 int checked_genus(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
   const int boundaries = mesh::boundary_count(half_edges);
@@ -66,6 +70,7 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
                                        std::optional<topology::DualBases> given, std::optional<PaperLevels> levels) {
   const ThreadCount threads(options.threads);
   const bool paper = options.solver == "paper";
+  const KeptPages pages(kAheadPerTriangle * surface.triangles.size());
   ConformalStructure result;
 
   progress.stage("half-edges", 0.0, 0.05);
