@@ -3,9 +3,7 @@
 #include <chrono>
 #include <system_error>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "base/thread_count.h"
 
 namespace holomorph {
 namespace {
@@ -13,18 +11,10 @@ namespace {
 // How often the caller's function may be asked while nothing else is done.
 constexpr std::chrono::milliseconds kPause(10);
 
-bool has_threads() {
-#ifdef _OPENMP
-  return omp_get_max_threads() > 1;
-#else
-  return false;
-#endif
-}
-
 }  // namespace
 
 Beside::Beside(Work work, Progress& progress) {
-  if (has_threads()) {
+  if (thread_count() > 1) {
     try {
       work_ = std::async(std::launch::async, [this, work] {
         Progress only_cancels([this](double, const std::string&) { return !unwanted_.load(); });

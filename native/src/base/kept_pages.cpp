@@ -8,9 +8,8 @@
 #include <system_error>
 #include <vector>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "base/thread_count.h"
+
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -39,14 +38,6 @@ char* new_room(std::size_t bytes) {
   if (before < kLargePage) munmap(given + before + bytes, kLargePage - before);
   advise_large_pages(given + before, bytes);
   return given + before;
-}
-
-bool has_threads() {
-#ifdef _OPENMP
-  return omp_get_max_threads() > 1;
-#else
-  return false;
-#endif
 }
 
 class KeptRuns {
@@ -170,7 +161,7 @@ void advise_large_pages(void* memory, std::size_t bytes) {
 
 KeptPages::KeptPages(std::size_t ahead) {
   constexpr std::size_t kLeast = 8 * kLargePage;  // for less no thread is begun
-  const bool makes = ahead >= kLeast && has_threads();
+  const bool makes = ahead >= kLeast && thread_count() > 1;
   pages().keep(makes ? ahead : 0);
   if (!makes) return;
   try {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include "base/thread_count.h"
+
 #if defined(__x86_64__) || defined(_M_X64)
 #include <immintrin.h>
 #endif
@@ -36,11 +35,7 @@ void wait_for_change(const std::atomic<T>& value, T old) {
 
 }  // namespace
 
-Workers::Workers() {
-#ifdef _OPENMP
-  count_ = std::max(1, omp_get_max_threads());
-#endif
-}
+Workers::Workers() : count_(std::max(1, thread_count())) {}
 
 Workers::~Workers() {
   end_.store(true, std::memory_order_release);
