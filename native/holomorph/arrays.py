@@ -39,7 +39,8 @@ def polygons(faces):
     """Corner vertices and face offsets of (#F, 3) or (#F, 4) integers, or of a list of lists of any sizes."""
     if isinstance(faces, np.ndarray) and faces.dtype != object:
         array = integer(faces, "faces", dimensions=2, columns=(3, 4))
-        return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=array.dtype)
+        kind = array.dtype if array.size <= np.iinfo(np.int32).max else np.int64  # too many are refused natively
+        return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=kind)
     faces = list(faces)
     try:
         sizes = np.fromiter(map(len, faces), dtype=np.int64, count=len(faces))

@@ -111,6 +111,23 @@ print(before, megabytes("VmRSS:"), megabytes("VmHWM:"))
     assert after < before + 0.2 * (peak - before)
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the most memory in use")
+def test_more_threads_take_little_more_memory():
+    """One thread makes no pages ahead; what two make, the computation takes."""
+    program = """
+import families
+import holomorph
+
+mesh = families.torus(800, 300, shape="triangles")
+surface = holomorph.Surface(mesh.vertices, mesh.corners.reshape(-1, 3))
+holomorph.conformal_structure(surface, solver="multigrid", threads=int(sys.argv[1]))
+with open("/proc/self/status") as status:
+    print(next(int(line.split()[1]) / 1024 for line in status if line.startswith("VmHWM:")))
+"""
+    one, two = (float(output_of(f"import sys\nsys.argv.append('{n}')\n{program}")[0]) for n in (1, 2))
+    assert two < one + 30  # megabytes
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="asks Linux to refuse memory")
 def test_too_little_memory_is_an_error():
     """Wherever it runs out, nothing else happens, and the same process computes again as soon as there is enough."""

@@ -1,4 +1,4 @@
-// A polygon mesh as plain arrays.
+// A polygon mesh as plain arrays, about which nothing has been checked.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct BasicPolygons {
   std::vector<Index> face_offsets;  ///< #F + 1; polygon f has corners face_offsets[f] .. face_offsets[f+1]-1
 };
 
-/// With the indices that all else is computed with.
+/// With the indices that everything is computed with.
 using Polygons = BasicPolygons<int>;
 /// With whatever indices a file or an application gives.
 using GivenPolygons = BasicPolygons<std::int64_t>;

@@ -14,7 +14,7 @@
 namespace holomorph::mesh {
 namespace {
 
-// Bytes of large arrays, of nearly 40.
+// Bytes of large arrays that are sure to be taken, of 40.
 constexpr std::size_t kAheadPerCorner = 32;
 
 void make_room(Surface& surface) {
@@ -143,7 +143,7 @@ Surface surface_of(Polygons polygons) {
     const auto [a, b] = surface.edges[e];
     surface.edge_lengths[e] = distance(mesh.vertices[a], mesh.vertices[b]);
   });
-  edges = {};
+  edges = {};  // the half-edges take its pages
   finish_records(surface);
   return surface;
 }

@@ -11,7 +11,7 @@
 namespace holomorph::pipeline {
 namespace {
 
-// Bytes of large arrays with any solver; multigrid takes nearly 300.
+// Bytes of large arrays that are sure to be taken, with any solver; multigrid takes nearly 300.
 constexpr std::size_t kAheadPerTriangle = 160;
 
 int checked_genus(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
