@@ -51,10 +51,10 @@ class Work:
 
 def solved(task, ask):
     """The kept solve of a `solve.Task`, or a new one, which is kept. Raises `holomorph.Error`."""
-    found = cache.find(task.key)
+    found = cache.find(task)
     if found is None:
         found = solve.solve(task, ask)
-        cache.keep(task.key, found)
+        cache.keep(task, found)
     return found
 
 

@@ -133,7 +133,7 @@ class Source:
         obj = self.target.find()
         if work.error is not None:
             return " ".join(str(work.error).split())
-        if obj is None or (time_has_passed and run.read(obj).fingerprint != self.target.polygons.fingerprint):
+        if obj is None or (time_has_passed and not run.read(obj).equals(self.target.polygons)):
             return "it was changed while its levels were made; please run it again"
         if not work.names:
             reasons = {" ".join(c.reason.split()) for c in work.solved.components}

@@ -199,7 +199,7 @@ class HOLOMORPH_OT_maps(WorkOperator, bpy.types.Operator):
     def waiting_faces(self):
         from . import cache, run
 
-        waiting = [task.polygons for task in run.tasks(self._targets) if cache.find(task.key) is None]
+        waiting = [task.polygons for task in run.tasks(self._targets) if cache.find(task) is None]
         return sum(len(p.face_offsets) - 1 for p in waiting)
 
     def _collect(self, context):

@@ -184,7 +184,7 @@ def write(context, targets, results, map_options, write_options, time_has_passed
                 outcome.refuse(target.name, target.refused)
             elif isinstance(result, refusals):
                 outcome.refuse(target.name, _sentence(result))
-            elif obj is None or (time_has_passed and read(obj).fingerprint != target.polygons.fingerprint):
+            elif obj is None or (time_has_passed and not read(obj).equals(target.polygons)):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")
             elif not result.done:
                 _report_all_skipped(outcome, obj, result, map_options)
