@@ -1,5 +1,6 @@
 #include "forms/harmonic_basis.h"
 
+#include "base/chunks.h"
 #include "base/page_allocator.h"
 #include "mesh/triangle_geometry.h"
 
@@ -18,7 +19,12 @@ using topology::forms_between;
 Eigen::MatrixXd zeros(const HalfEdges& mesh, Eigen::Index count) {
   Eigen::MatrixXd B(static_cast<Eigen::Index>(mesh.n_vertices()), count);
   advise_large_pages(B.data(), B.size() * sizeof(double));
-  B.setZero();
+  Workers workers;  // the system makes its pages in parallel
+  const int n = static_cast<int>(B.rows());
+  run_throwing(workers, chunk_count(n), [&](int chunk) {
+    const int begin = chunk * kChunk;
+    B.middleRows(begin, std::min(kChunk, n - begin)).setZero();
+  });
   return B;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -9,26 +10,31 @@
 
 namespace holomorph::topology {
 
-/// For each edge a list of (form, value), value != 0, ascending by form. Most are empty; these take one number each.
+/// For each edge a list of (form, value), value != 0, ascending by form. Most are empty: where all of a page of edges
+/// are, they take one number together.
 class EdgeRows {
  public:
   using Row = std::vector<std::pair<int, int>>;
 
-  std::size_t size() const { return place_.size(); }
-  void resize(std::size_t edges) { place_.resize(edges, 0); }
+  std::size_t size() const { return size_; }
+  void resize(std::size_t edges) {
+    size_ = edges;
+    page_of_.resize((edges + kPage - 1) / kPage, 0);
+  }
 
-  const Row& operator[](std::size_t edge) const { return rows_[place_[edge]]; }
+  const Row& operator[](std::size_t edge) const { return rows_[pages_[page_of_[edge / kPage]][edge % kPage]]; }
   /// The row, to be changed. References to rows are no longer valid after the first call for an edge.
   Row& edit(std::size_t edge) {
-    if (place_[edge] == 0) {
-      place_[edge] = static_cast<int>(rows_.size());
+    int& place = page(edge / kPage)[edge % kPage];
+    if (place == 0) {
+      place = static_cast<int>(rows_.size());
       rows_.emplace_back();
       edges_.push_back(static_cast<int>(edge));
     }
-    return rows_[place_[edge]];
+    return rows_[place];
   }
   void set(std::size_t edge, Row row) {
-    if (place_[edge] != 0 || !row.empty()) edit(edge) = std::move(row);
+    if (!row.empty() || !(*this)[edge].empty()) edit(edge) = std::move(row);
   }
 
   /// The edges whose rows are not empty, and perhaps some others; ascending.
@@ -39,8 +45,21 @@ class EdgeRows {
   }
 
  private:
-  Array<int> place_;          // #E of each edge's row; 0 is an empty one
-  std::vector<Row> rows_{1};  // that one, then those of `edges_`
+  static constexpr std::size_t kPage = 64;
+  using Page = std::array<int, kPage>;  // of each edge's row; 0 is an empty one
+
+  Page& page(std::size_t number) {
+    if (page_of_[number] == 0) {
+      page_of_[number] = static_cast<int>(pages_.size());
+      pages_.push_back({});
+    }
+    return pages_[page_of_[number]];
+  }
+
+  std::size_t size_ = 0;
+  std::vector<int> page_of_;    // of kPage edges each
+  std::vector<Page> pages_{1};  // one of empty rows, then those of edges_
+  std::vector<Row> rows_{1};    // an empty one, then those of edges_
   std::vector<int> edges_;
 };
 
