@@ -4,14 +4,14 @@
 Every solver of L x = b on the same surfaces, four right-hand sides, as many threads as the machine has cores: the
 library's multigrid, counted from the mesh's arrays on, against the others, counted from their assembled matrix. Each
 runs in a process of its own, so its peak memory is its own; the median of the runs counts. "again" is a later run in
-the same process, with its memory in place, from which the growth with the size is taken as well. The surfaces: marching
+the same process, with its memory in place. How multigrid's time grows from each size of a surface to the next is
+measured on both sizes in turn, for the machine may be faster or slower a few minutes later. The surfaces: marching
 tetrahedra of genus 2 (irregular), the same with cuts down to 0.001 of an edge (bad), a torus grid, smooth and
 stretched 20:1, and the mesh files named. CHOLMOD comes with OpenBLAS. Prints ratios against the better of CHOLMOD's
 two orderings.
 """
 
 import argparse
-import itertools
 import json
 import os
 import statistics
@@ -98,6 +98,16 @@ def compare(solvers, name, mesh, faces, options):
     return rows
 
 
+def growth(solvers, small, large, options):
+    """How many times as long the larger mesh takes: in new processes, and again in each of them. Medians of rounds."""
+    rounds = []
+    for _ in range(options.runs):
+        pair = [measured(solvers, mesh, "multigrid", options.tolerance) for mesh in (small, large)]
+        rounds.append([[seconds("multigrid", run), run["again"]] for run in pair])
+    of_small, of_large = np.median(rounds, axis=0)
+    return dict(zip(("new", "again"), of_large / of_small, strict=True))
+
+
 def print_table(rows):
     best, best_again = (
         min((r[key] for r in rows if r["method"] in CHOLMOD and key in r), default=np.nan)
@@ -114,16 +124,12 @@ def print_table(rows):
         )
 
 
-def print_growth(rows):
-    """How the time of multigrid grows from each size of a surface to the next."""
-    for name in dict.fromkeys(r["surface"] for r in rows):
-        sizes = [r for r in rows if (r["surface"], r["method"]) == (name, "multigrid")]
-        for small, large in itertools.pairwise(sizes):
-            faces, first, again = (large[key] / small[key] for key in ("faces", "seconds", "again"))
-            print(
-                f"{name}: {faces:.2f} times the faces of {small['faces']} take {again:.2f} times as long, "
-                f"{first:.2f} in new processes"
-            )
+def print_growth(small, row):
+    print(
+        f"{row['surface']}: {row['faces'] / small:.2f} times the faces of {small} take "
+        f"{row['growth']['again']:.2f} times as long, {row['growth']['new']:.2f} in new processes",
+        flush=True,
+    )
 
 
 def plot(rows, path):
@@ -164,22 +170,30 @@ def main():
         f"{'':38} {'seconds':>11}  {'/CHOLMOD':>8}  {'again':>10} {'/CHOLMOD':>7}  "
         f"{'asm':>6} {'set-up':>7} {'solve':>8}  {'iter.':>6}"
     )
-    rows = []
+    rows, smaller = [], {}
     with tempfile.TemporaryDirectory() as folder:
         for faces in options.faces:
             for name in options.surfaces:
                 vertices, triangles = SURFACES[name](faces)
                 mesh = write_ply(Path(folder) / f"{name}_{faces}.ply", vertices, triangles)
-                rows += compare(solvers, name, mesh, len(triangles), options)
-                print_table([r for r in rows if r["surface"] == name and r["faces"] == rows[-1]["faces"]])
-                mesh.unlink()
+                here = compare(solvers, name, mesh, len(triangles), options)
+                rows += here
+                print_table(here)
+                own = [r for r in here if r["method"] == "multigrid"]
+                if name in smaller:
+                    small, small_mesh = smaller[name]
+                    for row in own:
+                        row["growth"] = growth(solvers, small_mesh, mesh, options)
+                        print_growth(small, row)
+                    small_mesh.unlink()
+                smaller[name] = len(triangles), mesh
         for mesh in options.meshes:
             faces = measured(solvers, mesh, "multigrid", options.tolerance)["faces"]
-            rows += compare(solvers, mesh.stem[:14], mesh, faces, options)
-            print_table([r for r in rows if r["surface"] == mesh.stem[:14]])
+            here = compare(solvers, mesh.stem[:14], mesh, faces, options)
+            rows += here
+            print_table(here)
     options.json.parent.mkdir(parents=True, exist_ok=True)
     options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
-    print_growth(rows)
     if rows:
         plot(rows, options.plot)
 
