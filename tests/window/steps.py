@@ -9,6 +9,7 @@ import importlib
 import json
 import os
 import sys
+import threading
 import time
 import traceback
 from pathlib import Path
@@ -49,6 +50,24 @@ def note(method):
 
     setattr(operator, method, noted)
     return called
+
+
+def hold_back_the_worker():
+    """At the library's next question: however long the window takes to draw, ESC comes before the work is done. Returns
+    what lets it go on."""
+    work = importlib.import_module("holomorph_addon.jobs").Work
+    original, gate = work.ask, threading.Event()
+
+    def ask(self, fraction, stage):
+        gate.wait()
+        return original(self, fraction, stage)
+
+    def let_go():
+        work.ask = original
+        gate.set()
+
+    work.ask = ask
+    return let_go
 
 
 def wait_until(called):
@@ -209,6 +228,7 @@ def big_mesh():
         bpy.ops.ed.undo_push(message="Big")
     yield 1
     ended, shown = note("_end_modal"), note("_show_progress")
+    let_go = hold_back_the_worker()
     yield from press_button("VIEW_3D")
     yield from wait_until(shown)
     yield 0.2  # for it to be drawn
@@ -218,6 +238,8 @@ def big_mesh():
     tap("ESC")
     yield from wait_until(ended)
     seen["seconds to cancel"] = ended[0] - start
+    yield 0.5
+    let_go()
     yield 0.5
     seen["after ESC"] = maps("Big")
     yield from press_button("VIEW_3D")
