@@ -130,7 +130,13 @@ def test_any_difference_makes_another_task():
     moved[-1, 2] = np.nextafter(moved[-1, 2], 1)
     turned[:4] = np.roll(turned[:4], 1)
     solve = module("solve")
-    for change in ({"vertices": moved}, {"corner_vertices": turned}, {"vertices": polygons.vertices[:-1]}):
+    changes = (
+        {"vertices": moved},
+        {"vertices": polygons.vertices[:-1]},
+        {"corner_vertices": turned},
+        {"face_offsets": np.delete(polygons.face_offsets, 1)},
+    )
+    for change in changes:
         assert not task.equals(solve.Task(replace(polygons, **change)))
     other = module("choices").Choices(seams=np.array([[0, 1]]))
     assert not task.equals(replace(task, chosen=other))
