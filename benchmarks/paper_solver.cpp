@@ -78,8 +78,8 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   const auto surface = mesh::component(mesh::make_surface(mesh::read(arguments[1])), 0).surface;
   Progress silent;
-  const auto half_edges = mesh::half_edges(surface, silent);
-  const auto triangulation = mesh::intrinsic_triangulation(surface, half_edges);
+  const auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent));
+  const mesh::HalfEdges& half_edges = triangulation.half_edges;
   const auto weights = mesh::cotangent_weights(triangulation, silent);
   double collapsing = 0, levels_made = 0, homology = 0;
   timed(homology, [&] {

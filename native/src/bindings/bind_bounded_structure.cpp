@@ -28,10 +28,8 @@ py::array balanced(Bounded& s) {
 
 void bind_bounded_structure(py::module_& m) {
   bind_structure<BoundedStructure>(m, "BoundedStructure")
-      .def("homology_basis",
-           [](const Bounded& s) { return loops_of_vertices(s.value.half_edges, s.value.homology_basis); })
-      .def("boundary_loops",
-           [](const Bounded& s) { return loops_of_vertices(s.value.half_edges, s.value.boundary.loops); })
+      .def("homology_basis", [](const Bounded& s) { return loops_of_vertices(*s.surface, s.value.homology_basis); })
+      .def("boundary_loops", [](const Bounded& s) { return loops_of_vertices(*s.surface, s.value.boundary.loops); })
       .def("balanced_coefficients", &balanced)
       .def("pairing", [](const Bounded& s) { return copy(s.value.pairing); })
       .def("gram_matrices",

@@ -55,8 +55,7 @@ py::tuple harmonic_map(const Surface& surface, const Contiguous<double>& corner_
 
 void bind_conformal_structure(py::module_& m) {
   bind_structure<ConformalStructure>(m, "ConformalStructure")
-      .def("homology_basis",
-           [](const Closed& s) { return loops_of_vertices(s.value.half_edges, s.value.homology_basis); })
+      .def("homology_basis", [](const Closed& s) { return loops_of_vertices(*s.surface, s.value.homology_basis); })
       .def("balanced_coefficients", &balanced)
       .def("intersection_matrix", [](const Closed& s) { return copy(s.value.canonical.intersection); })
       .def("canonical_basis", [](const Closed& s) { return copy(s.value.canonical.cycles); })

@@ -21,12 +21,12 @@ void prepare_uv(Structure<Value>& s, const py::object& progress_function) {
   s.with_forms([](auto& forms, Progress& progress) { forms.prepare(progress); }, Progress(callback(progress_function)));
 }
 
-inline py::list loops_of_vertices(const mesh::HalfEdges& half_edges,
+inline py::list loops_of_vertices(const mesh::EdgeEnds& ends,
                                   const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
   py::list result;
   for (const auto& loop : loops) {
     std::vector<int> vertices;
-    for (const auto h : loop) vertices.push_back(mesh::from_vertex(half_edges, h));
+    for (const auto h : loop) vertices.push_back(mesh::from_vertex(ends, h));
     result.append(copy(vertices));
   }
   return result;
@@ -78,7 +78,8 @@ template <class Value>
 void cut_along(Structure<Value>& s, const std::vector<int>& edges, const std::vector<int>& names) {
   const py::gil_scoped_release unlocked;
   Progress silent;
-  s.value.sheets = uv::corner_sheets(*s.surface, s.value.half_edges, edges, s.value.harmonic.classes, silent, names);
+  s.value.sheets = uv::corner_sheets(*s.surface, mesh::half_edges(*s.surface, silent), edges, s.value.harmonic.classes,
+                                     silent, names);
   s.value.seams = edges;
 }
 
@@ -93,10 +94,6 @@ py::class_<Structure<Value>, std::shared_ptr<Structure<Value>>> bind_structure(p
       .def("uv", &uv<Value>)
       .def("uv_solver", &uv_solver<Value>)
       .def("cut_along", &cut_along<Value>)
-      .def("averaged_star",
-           [](const S& s, const Contiguous<double>& form) {
-             return copy(forms::averaged_star(s.value.half_edges, s.surface->edge_lengths, values(form)));
-           })
       .def("seams", [](const S& s) { return copy(s.value.seams); })
       .def("solver", [](const S& s) { return report(s.value.solver); })
       .def("intrinsic", [](const S& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })

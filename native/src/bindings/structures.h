@@ -28,7 +28,7 @@ struct FormsForUv<pipeline::ConformalStructure> {
 };
 
 /// A result of the pipeline together with the surface that it belongs to, and the forms for UVs once they were asked
-/// for. `Value` has half_edges, harmonic, sheets, seams, solver, flip_count, mollification and seconds, and an overload
+/// for. `Value` has harmonic, sheets, seams, solver, flip_count, mollification and seconds, and an overload
 /// of pipeline::artist_forms.
 template <class Value>
 struct Structure {

@@ -8,16 +8,16 @@ namespace holomorph::forms {
 namespace {
 
 using mesh::edge_of;
+using mesh::EdgeEnds;
 using mesh::HalfedgeHandle;
 using mesh::HalfEdges;
 using mesh::next;
 using mesh::sign;
-using mesh::to_vertex;
 using topology::forms_between;
 
 // A column of values at the vertices for each right-hand side.
-Eigen::MatrixXd zeros(const HalfEdges& mesh, Eigen::Index count) {
-  Eigen::MatrixXd B(static_cast<Eigen::Index>(mesh.n_vertices()), count);
+Eigen::MatrixXd zeros(Eigen::Index vertices, Eigen::Index count) {
+  Eigen::MatrixXd B(vertices, count);
   advise_large_pages(B.data(), B.size() * sizeof(double));
   Workers workers;  // the system makes its pages in parallel
   const int n = static_cast<int>(B.rows());
@@ -30,16 +30,16 @@ Eigen::MatrixXd zeros(const HalfEdges& mesh, Eigen::Index count) {
 
 }  // namespace
 
-Eigen::MatrixXd codifferentials(const HalfEdges& mesh, std::span<const double> weights,
+Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
                                 const topology::IntegerForms& classes) {
-  return codifferentials(mesh, weights, classes, 0, classes.form_count);
+  return codifferentials(ends, weights, classes, 0, classes.form_count);
 }
 
-Eigen::MatrixXd codifferentials(const HalfEdges& mesh, std::span<const double> weights,
+Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
                                 const topology::IntegerForms& classes, int first, int count) {
-  Eigen::MatrixXd B = zeros(mesh, count);
+  Eigen::MatrixXd B = zeros(ends.vertex_count(), count);
   for (const int e : classes.rows.edges()) {
-    const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
+    const int head = ends.head(e), tail = ends.tail(e);
     for (const auto& [i, value] : forms_between(classes.rows[e], first, first + count)) {
       B(head, i - first) -= weights[e] * value;
       B(tail, i - first) += weights[e] * value;
@@ -48,30 +48,29 @@ Eigen::MatrixXd codifferentials(const HalfEdges& mesh, std::span<const double> w
   return B;
 }
 
-Eigen::MatrixXd codifferentials(const HalfEdges& mesh, std::span<const double> weights,
+Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
                                 const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations) {
-  Eigen::MatrixXd B = zeros(mesh, combinations.cols());
+  Eigen::MatrixXd B = zeros(ends.vertex_count(), combinations.cols());
   Eigen::RowVectorXd flux(combinations.cols());
   for (const int e : classes.rows.edges()) {
     flux.setZero();
     for (const auto& [i, value] : classes.rows[e]) flux += weights[e] * value * combinations.row(i);
-    B.row(to_vertex(mesh, HalfedgeHandle(2 * e))) -= flux;
-    B.row(to_vertex(mesh, HalfedgeHandle(2 * e + 1))) += flux;
+    B.row(ends.head(e)) -= flux;
+    B.row(ends.tail(e)) += flux;
   }
   return B;
 }
 
-ClosedForms harmonic_basis(const HalfEdges& mesh, std::span<const double> weights,
-                           const topology::IntegerForms& classes, solver::LaplaceSolver& solver,
-                           solver::Condition condition, Progress& progress) {
-  return {classes, solver.solve(codifferentials(mesh, weights, classes), condition, progress)};
+ClosedForms harmonic_basis(const EdgeEnds& ends, std::span<const double> weights, const topology::IntegerForms& classes,
+                           solver::LaplaceSolver& solver, solver::Condition condition, Progress& progress) {
+  return {classes, solver.solve(codifferentials(ends, weights, classes), condition, progress)};
 }
 
-RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end) {
+RowMajorMatrix edge_values(const EdgeEnds& ends, const ClosedForms& forms, int begin, int end) {
   const int count = static_cast<int>(forms.functions.cols());
   RowMajorMatrix values(end - begin, count);
   for (int e = begin; e < end; ++e) {
-    const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
+    const int head = ends.head(e), tail = ends.tail(e);
     auto row = values.row(e - begin);
     row = forms.functions.row(head) - forms.functions.row(tail);
     for (const auto& [i, value] : forms_between(forms.classes.rows[e], forms.first, forms.first + count))
@@ -80,32 +79,32 @@ RowMajorMatrix edge_values(const HalfEdges& mesh, const ClosedForms& forms, int 
   return values;
 }
 
-Eigen::VectorXd combination(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& c) {
+Eigen::VectorXd combination(const EdgeEnds& ends, const ClosedForms& forms, const Eigen::VectorXd& c) {
   const Eigen::VectorXd f = forms.functions * c;
-  Eigen::VectorXd values(static_cast<Eigen::Index>(mesh.n_edges()));
-  for (int e = 0; e < static_cast<int>(values.size()); ++e) {
-    values[e] = f[to_vertex(mesh, HalfedgeHandle(2 * e))] - f[to_vertex(mesh, HalfedgeHandle(2 * e + 1))];
+  Eigen::VectorXd values(ends.edge_count());
+  for (int e = 0; e < ends.edge_count(); ++e) {
+    values[e] = f[ends.head(e)] - f[ends.tail(e)];
     for (const auto& [i, value] : forms.classes.rows[e]) values[e] += c[i] * value;
   }
   return values;
 }
 
-Eigen::MatrixXd class_products(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms) {
+Eigen::MatrixXd class_products(const EdgeEnds& ends, std::span<const double> weights, const ClosedForms& forms) {
   RowMajorMatrix products = RowMajorMatrix::Zero(forms.classes.form_count, forms.functions.cols());
   for (const int e : forms.classes.rows.edges()) {
-    const Eigen::RowVectorXd flux = weights[e] * edge_values(mesh, forms, e, e + 1).row(0);
+    const Eigen::RowVectorXd flux = weights[e] * edge_values(ends, forms, e, e + 1).row(0);
     for (const auto& [i, value] : forms.classes.rows[e]) products.row(i) += value * flux;
   }
   return products;
 }
 
-Eigen::MatrixXd periods(const HalfEdges& mesh, const ClosedForms& forms,
+Eigen::MatrixXd periods(const EdgeEnds& ends, const ClosedForms& forms,
                         const std::vector<std::vector<HalfedgeHandle>>& loops) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(loops.size()), forms.functions.cols());
   for (std::size_t i = 0; i < loops.size(); ++i) {
     for (const HalfedgeHandle h : loops[i]) {
       const int e = edge_of(h);
-      result.row(static_cast<Eigen::Index>(i)) += sign(h) * edge_values(mesh, forms, e, e + 1).row(0);
+      result.row(static_cast<Eigen::Index>(i)) += sign(h) * edge_values(ends, forms, e, e + 1).row(0);
     }
   }
   return result;

@@ -26,6 +26,10 @@ class HalfEdges {
   /// Without links: every one of them is still to be set.
   HalfEdges(std::size_t vertices, std::size_t edges, std::size_t faces)
       : vertices_(vertices), faces_(faces), half_edges_(2 * edges) {}
+  HalfEdges(HalfEdges&&) = default;
+  HalfEdges& operator=(HalfEdges&&) = default;
+  /// Copied by their name alone, in parallel.
+  HalfEdges copy() const;
 
   std::size_t n_vertices() const { return vertices_.size(); }
   std::size_t n_edges() const { return half_edges_.size() / 2; }

@@ -1,7 +1,6 @@
 #include "mesh/half_edges.h"
 
 #include <string>
-#include <unordered_map>
 
 #include "base/chunks.h"
 #include "base/errors.h"
@@ -46,23 +45,6 @@ std::unordered_map<int, int> first_sides_of_loops(const Surface& surface) {
   return first;
 }
 
-// A side runs along its edge if it starts at the lower vertex. At a loop both sides do: the first one runs along.
-class Sides {
- public:
-  explicit Sides(const Surface& surface) : surface_(surface), first_of_loop_(first_sides_of_loops(surface)) {}
-
-  HalfedgeHandle half_edge(int triangle, int side) const {
-    const Triple& v = surface_.triangles[triangle];
-    const int edge = surface_.triangle_edges[triangle][side], from = v[side], to = v[(side + 1) % 3];
-    const bool along = from != to ? from < to : first_of_loop_.at(edge) == 3 * triangle + side;
-    return HalfedgeHandle(2 * edge + (along ? 0 : 1));
-  }
-
- private:
-  const Surface& surface_;
-  std::unordered_map<int, int> first_of_loop_;
-};
-
 // Each triangle writes where no other does.
 void link_triangles(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   const Sides sides(surface);
@@ -70,7 +52,7 @@ void link_triangles(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   for_rows(workers, count, [&](int t) {
     for (const int e : surface.triangle_edges[std::min(t + kAhead, count - 1)]) mesh.prefetch_halfedges(EdgeHandle(e));
     const Triple& vertices = surface.triangles[t];
-    const HalfedgeHandle side[3] = {sides.half_edge(t, 0), sides.half_edge(t, 1), sides.half_edge(t, 2)};
+    const HalfedgeHandle side[3] = {sides(t, 0), sides(t, 1), sides(t, 2)};
     for (int i = 0; i < 3; ++i) {
       const int after = (i + 1) % 3;
       mesh.set_halfedge(side[i], side[after], VertexHandle(vertices[after]), FaceHandle(t));
@@ -114,6 +96,8 @@ int fan_size(const HalfEdges& mesh, int vertex) {
 
 }  // namespace
 
+Sides::Sides(const Surface& surface) : surface_(surface), first_of_loop_(first_sides_of_loops(surface)) {}
+
 HalfEdges half_edges(const Surface& surface, Progress& progress) {
   Workers workers;
   HalfEdges mesh(surface.vertex_count, surface.edges.size(), surface.triangles.size());
@@ -140,6 +124,18 @@ void refuse_pinched_vertices(const HalfEdges& mesh) {
   for (int v = 0; v < n; ++v) {
     if (fan_size(mesh, v) != leaving[v]) refuse(v);
   }
+}
+
+HalfEdges HalfEdges::copy() const {
+  HalfEdges result(n_vertices(), n_edges(), n_faces());
+  Workers workers;
+  const auto copy_rows = [&workers](const auto& from, auto& to) {
+    for_rows(workers, static_cast<int>(from.size()), [&](int i) { to[i] = from[i]; });
+  };
+  copy_rows(half_edges_, result.half_edges_);
+  copy_rows(faces_, result.faces_);
+  copy_rows(vertices_, result.vertices_);
+  return result;
 }
 
 void flip_links(HalfEdges& mesh, EdgeHandle e) {

@@ -2,6 +2,8 @@
 // intrinsic surfaces have such edges, and loops.
 #pragma once
 
+#include <unordered_map>
+
 #include "base/progress.h"
 #include "mesh/half_edge_links.h"
 #include "mesh/surface.h"
@@ -11,6 +13,25 @@ namespace holomorph::mesh {
 /// @throws InvalidMesh for a vertex at which two fans of faces touch on the boundary
 /// Cost: linear, in parallel.
 HalfEdges half_edges(const Surface& surface, Progress& progress);
+
+/// The half-edge that each side of a triangle is, known without links.
+class Sides {
+ public:
+  explicit Sides(const Surface& surface);
+
+  /// Side i from corner i to corner i + 1. It runs along its edge if it starts at the lower vertex. At a loop both
+  /// sides do: the first one runs along.
+  HalfedgeHandle operator()(int triangle, int i) const {
+    const Triple& v = surface_.triangles[triangle];
+    const int edge = surface_.triangle_edges[triangle][i], from = v[i], to = v[(i + 1) % 3];
+    const bool along = from != to ? from < to : first_of_loop_.at(edge) == 3 * triangle + i;
+    return HalfedgeHandle(2 * edge + (along ? 0 : 1));
+  }
+
+ private:
+  const Surface& surface_;
+  std::unordered_map<int, int> first_of_loop_;  // the first side, 3 t + i, of each edge from a vertex to itself
+};
 
 /// @throws InvalidMesh for the first vertex at which two fans of faces touch
 void refuse_pinched_vertices(const HalfEdges& mesh);

@@ -31,12 +31,12 @@ uv::UvArray combination(const forms::RowMajorMatrix& functions, const Eigen::Vec
   return result;
 }
 
-void write_edge_values(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+void write_edge_values(const mesh::EdgeEnds& ends, const forms::ClosedForms& forms,
                        Eigen::Ref<forms::RowMajorMatrix> rows) {
   const auto edges = static_cast<int>(rows.cols());
   for (int begin = 0, end; begin < edges; begin = end) {
     end = std::min(begin + kEdgeBlock, edges);
-    rows.middleCols(begin, end - begin) = forms::edge_values(half_edges, forms, begin, end).transpose();
+    rows.middleCols(begin, end - begin) = forms::edge_values(ends, forms, begin, end).transpose();
   }
 }
 
@@ -63,7 +63,7 @@ void ArtistForms::prepare_all(Progress& progress) {
   }
   harmonic.functions.resize(0, 0);
   given_up_ = true;
-  const auto plain = mesh::intrinsic_triangulation(surface_, structure_.half_edges);
+  const auto plain = mesh::intrinsic_triangulation(surface_, mesh::half_edges(surface_, progress));
   const auto weights = mesh::cotangent_weights(plain, progress);
 
   progress.stage("harmonic forms of the artist's triangles", 0.2, 1.0);
@@ -75,7 +75,7 @@ void ArtistForms::prepare_all(Progress& progress) {
 
 void ArtistForms::prepare_solver(Progress& progress) {
   progress.stage("artist's triangulation", 0.0, 0.3);
-  const auto plain = mesh::intrinsic_triangulation(surface_, structure_.half_edges);
+  const auto plain = mesh::intrinsic_triangulation(surface_, mesh::half_edges(surface_, progress));
   weights_ = mesh::cotangent_weights(plain, progress);
   auto laplacian = forms::laplacian(plain.half_edges, weights_, progress);
   progress.stage("solver of the artist's triangles", 0.3, 1.0);
@@ -100,7 +100,7 @@ uv::UvArray ArtistForms::function(const Eigen::VectorXcd& p, Progress& progress)
   const ThreadCount threads(options_.threads);
   progress.stage("harmonic forms of the map", 0.0, 1.0);
   const auto& classes = structure_.harmonic.classes;
-  const uv::UvArray result = solve(forms::codifferentials(structure_.half_edges, weights_, classes, parts), progress);
+  const uv::UvArray result = solve(forms::codifferentials(surface_, weights_, classes, parts), progress);
   progress.finish();
   return result;
 }
@@ -110,7 +110,7 @@ void ArtistForms::edge_values(double* values, Progress& progress) {
   const auto count = structure_.harmonic.classes.form_count, edges = static_cast<int>(surface_.edges.size());
   Eigen::Map<forms::RowMajorMatrix> result(values, count, edges);
   if (structure_.memory.keep_forms) {
-    write_edge_values(structure_.half_edges, structure_.harmonic, result);
+    write_edge_values(surface_, structure_.harmonic, result);
     return;
   }
   const ThreadCount threads(options_.threads);
@@ -119,9 +119,8 @@ void ArtistForms::edge_values(double* values, Progress& progress) {
   for (block.first = 0; block.first < count;) {
     const int width = std::min(structure_.memory.block, count - block.first);
     progress.part(static_cast<double>(block.first) / count, static_cast<double>(block.first + width) / count);
-    block.functions =
-        solve(forms::codifferentials(structure_.half_edges, weights_, block.classes, block.first, width), progress);
-    write_edge_values(structure_.half_edges, block, result.middleRows(block.first, width));
+    block.functions = solve(forms::codifferentials(surface_, weights_, block.classes, block.first, width), progress);
+    write_edge_values(surface_, block, result.middleRows(block.first, width));
     block.first += width;
   }
   block.functions.resize(0, 0);
@@ -133,7 +132,7 @@ uv::FormSamples ArtistForms::samples(Progress& progress) {
   if (!structure_.memory.keep_forms) return structure_.samples;
   prepare(progress);
   const auto triangles = uv::sample_triangles(surface_);
-  return {triangles, uv::values_on_sides(structure_.half_edges, structure_.harmonic, triangles)};
+  return {triangles, uv::values_on_sides(surface_, structure_.harmonic, triangles)};
 }
 
 HarmonicForms artist_forms(const mesh::Surface& surface, const BoundedStructure& structure, const Options& options,
@@ -145,7 +144,7 @@ HarmonicForms artist_forms(const mesh::Surface& surface, const BoundedStructure&
   Eigen::VectorXd least(here.size());
   least << structure.natural_gram.diagonal(), structure.dirichlet_gram.diagonal();
   if (is_negligible(here, least)) return {structure.harmonic, structure.solver};
-  const auto plain = mesh::intrinsic_triangulation(surface, structure.half_edges);
+  const auto plain = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, progress));
   const auto weights = mesh::cotangent_weights(plain, progress);
 
   progress.stage("harmonic forms of the artist's triangles", 0.2, 1.0);

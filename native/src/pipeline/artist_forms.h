@@ -23,7 +23,7 @@ HarmonicForms artist_forms(const mesh::Surface& surface, const BoundedStructure&
 uv::UvArray combination(const forms::RowMajorMatrix& functions, const Eigen::VectorXcd& p);
 
 /// Writes the values of these forms on all edges, one row each.
-void write_edge_values(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+void write_edge_values(const mesh::EdgeEnds& ends, const forms::ClosedForms& forms,
                        Eigen::Ref<forms::RowMajorMatrix> rows);
 
 /// The forms for UVs of a structure that has an overload of artist_forms, solved for when first asked for.
@@ -47,13 +47,13 @@ class KeptForms {
   void edge_values(double* values, Progress& progress) {
     prepare(progress);
     const auto count = forms_->forms.functions.cols(), edges = static_cast<Eigen::Index>(surface_.edges.size());
-    write_edge_values(structure_.half_edges, forms_->forms, Eigen::Map<forms::RowMajorMatrix>(values, count, edges));
+    write_edge_values(surface_, forms_->forms, Eigen::Map<forms::RowMajorMatrix>(values, count, edges));
   }
   /// What the balance needs.
   uv::FormSamples samples(Progress& progress) {
     prepare(progress);
     auto triangles = uv::sample_triangles(surface_);
-    auto values = uv::values_on_sides(structure_.half_edges, forms_->forms, triangles);
+    auto values = uv::values_on_sides(surface_, forms_->forms, triangles);
     return {std::move(triangles), std::move(values)};
   }
   const SolverReport& solver() const { return forms_->solver; }

@@ -26,10 +26,11 @@ auto all_loops(const mesh::HalfEdges& half_edges, const topology::FundamentalDom
 }
 
 // W = [[J_h, 0], [X, 1]] in these bases.
-topology::IntegerMatrix pairing(const BoundedStructure& result, const topology::IntegerForms& natural, int handles) {
+topology::IntegerMatrix pairing(const mesh::HalfEdges& half_edges, const mesh::BoundaryLoops& boundary,
+                                const topology::IntegerForms& natural, int handles) {
   auto relative = topology::first_forms(natural, handles, handles);
-  topology::add_loop_indicators(result.half_edges, result.boundary, relative);
-  const auto W = topology::pairing(result.half_edges, natural, relative);
+  topology::add_loop_indicators(half_edges, boundary, relative);
+  const auto W = topology::pairing(half_edges, natural, relative);
   [[maybe_unused]] const auto loops = W.rows() - handles;
   assert(W.topRightCorner(handles, loops).isZero() && W.bottomRightCorner(loops, loops).isIdentity());
   return W;
@@ -61,25 +62,25 @@ BoundedStructure bounded_structure(const mesh::Surface& surface, const Options& 
 
   progress.stage("half-edges", 0.0, 0.05);
   const int genus = checked_genus(surface);
-  result.half_edges = mesh::half_edges(surface, progress);
+  auto half_edges = mesh::half_edges(surface, progress);
 
   progress.stage("homology", 0.05, 0.15);
-  const auto domain = topology::fundamental_domain(surface, result.half_edges, progress);
+  const auto domain = topology::fundamental_domain(surface, half_edges, progress);
   result.boundary = domain.boundary;
-  result.homology_basis = all_loops(result.half_edges, domain);
-  result.seams = topology::cut_graph(result.half_edges, domain);
+  result.homology_basis = all_loops(half_edges, domain);
+  result.seams = topology::cut_graph(half_edges, domain);
   result.collapsed_triangles = mesh::triangles_on_one_loop(surface, result.boundary);
 
   progress.stage("cohomology", 0.15, 0.2);
-  auto natural_classes = topology::cohomology_basis(result.half_edges, domain);
-  topology::add_paths_between_loops(result.half_edges, domain, natural_classes);
-  result.pairing = pairing(result, natural_classes, 2 * genus);
+  auto natural_classes = topology::cohomology_basis(half_edges, domain);
+  topology::add_paths_between_loops(half_edges, domain, natural_classes);
+  result.pairing = pairing(half_edges, result.boundary, natural_classes, 2 * genus);
   auto classes =
       topology::beside(natural_classes, topology::first_forms(natural_classes, 2 * genus, natural_classes.form_count));
-  result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes, progress);
+  result.sheets = uv::corner_sheets(surface, half_edges, domain, classes, progress);
 
   progress.stage("intrinsic Delaunay", 0.2, 0.25);
-  auto intrinsic = mesh::intrinsic_triangulation(surface, result.half_edges);
+  auto intrinsic = mesh::intrinsic_triangulation(surface, std::move(half_edges));
   mesh::make_delaunay(intrinsic, progress);
   topology::carry_through(intrinsic.flips, natural_classes);
 
@@ -103,8 +104,8 @@ BoundedStructure bounded_structure(const mesh::Surface& surface, const Options& 
                             forms::residuals(intrinsic.half_edges, weights, solved.dirichlet, progress,
                                              mesh::boundary_vertices(result.boundary)));
   result.harmonic = {std::move(classes), side_by_side(solved)};
-  result.period_residual = largest_period_error(
-      forms::periods(result.half_edges, result.harmonic, result.homology_basis), result.pairing.rows());
+  result.period_residual =
+      largest_period_error(forms::periods(surface, result.harmonic, result.homology_basis), result.pairing.rows());
   result.pairing_residual = largest_pairing_error(intrinsic.half_edges, solved, result.pairing, progress);
   result.mollification = intrinsic.mollification;
   result.flip_count = static_cast<int>(intrinsic.flips.size());

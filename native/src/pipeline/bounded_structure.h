@@ -15,7 +15,6 @@ namespace holomorph::pipeline {
 /// n = 2g + b - 1 >= 1. The symmetric forms of the double are the natural forms, the antisymmetric ones the Dirichlet
 /// forms; the star exchanges them, so that the double itself is not needed.
 struct BoundedStructure {
-  mesh::HalfEdges half_edges;  ///< the artist's triangulation
   mesh::BoundaryLoops boundary;
   std::vector<std::vector<mesh::HalfedgeHandle>> homology_basis;  ///< n loops: 2g zeta_i, then boundary loops 1 .. b-1
   topology::IntegerMatrix pairing;  ///< W_ij = int h^N_i ^ h^D_j = [[J_h, 0], [X, 1]], |det| 1

@@ -23,15 +23,15 @@ int checked_genus(const mesh::Surface& surface, const mesh::HalfEdges& half_edge
 }
 
 // All forms at once: the Gram matrix is the full energy <h_i, h_j>, the residuals those of all of them.
-void keep(const mesh::IntrinsicTriangulation& intrinsic, std::span<const double> weights, HarmonicForms&& solved,
-          ConformalStructure& result, Progress& progress) {
+void keep(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& intrinsic, std::span<const double> weights,
+          HarmonicForms&& solved, ConformalStructure& result, Progress& progress) {
   const auto& mesh = intrinsic.half_edges;
   result.solver = std::move(solved.solver);
   progress.stage("certificates", 0.85, 0.95);
   result.gram_matrix = forms::gram_matrix(mesh, weights, solved.forms, progress);
   result.residuals = forms::residuals(mesh, weights, solved.forms, progress);
   result.harmonic.functions.swap(solved.forms.functions);
-  result.period_residual = period_residual(result.half_edges, result.harmonic, result.homology_basis);
+  result.period_residual = period_residual(surface, result.harmonic, result.homology_basis);
 }
 
 // A few forms at a time, of which nothing is left but what is asked of them.
@@ -39,8 +39,8 @@ void measure(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& i
              std::span<const double> weights, solver::LaplaceSolver& solver, topology::IntegerForms&& classes,
              ConformalStructure& result, Progress& progress) {
   forms::ClosedForms on_intrinsic{std::move(classes), {}};
-  auto streamed = streamed_forms(surface, result.half_edges, result.homology_basis, result.harmonic,
-                                 intrinsic.half_edges, weights, solver, on_intrinsic, result.memory, progress);
+  auto streamed = streamed_forms(surface, result.homology_basis, result.harmonic, intrinsic.half_edges, weights, solver,
+                                 on_intrinsic, result.memory, progress);
   result.solver = std::move(streamed.solver);
   result.gram_matrix = std::move(streamed.gram_matrix);
   result.asymmetry = streamed.asymmetry;
@@ -50,17 +50,19 @@ void measure(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& i
 }
 
 // Loops, dual classes, canonical basis and the cut (paper § 4, 5): nothing here needs the intrinsic triangulation or
-// the solver, nor these the topology, until forms are solved for. @return the classes
-topology::IntegerForms find_topology(const mesh::Surface& surface, std::optional<topology::DualBases> given,
-                                     ConformalStructure& result, Progress& progress) {
+// the solver, nor these the topology, until forms are solved for. The half-edges are its own: their memory is free for
+// the solver as soon as it is done. @return the classes
+topology::IntegerForms find_topology(const mesh::Surface& surface, mesh::HalfEdges half_edges,
+                                     std::optional<topology::DualBases> given, ConformalStructure& result,
+                                     Progress& progress) {
   progress.part(0, 0.8);
-  const auto domain = topology::fundamental_domain(surface, result.half_edges, progress);
-  result.homology_basis = given ? std::move(given->loops) : topology::homology_basis(result.half_edges, domain);
-  result.seams = topology::cut_graph(result.half_edges, domain);
+  const auto domain = topology::fundamental_domain(surface, half_edges, progress);
+  result.homology_basis = given ? std::move(given->loops) : topology::homology_basis(half_edges, domain);
+  result.seams = topology::cut_graph(half_edges, domain);
   progress.part(0.8, 1);
-  auto classes = given ? std::move(given->classes) : topology::cohomology_basis(result.half_edges, domain);
-  result.canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, progress));
-  result.sheets = uv::corner_sheets(surface, result.half_edges, domain, classes, progress);
+  auto classes = given ? std::move(given->classes) : topology::cohomology_basis(half_edges, domain);
+  result.canonical = topology::canonical_basis(topology::wedge_matrix(half_edges, classes, progress));
+  result.sheets = uv::corner_sheets(surface, half_edges, domain, classes, progress);
   return classes;
 }
 
@@ -74,8 +76,8 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   ConformalStructure result;
 
   progress.stage("half-edges", 0.0, 0.05);
-  result.half_edges = mesh::half_edges(surface, progress);
-  const int genus = checked_genus(surface, result.half_edges);
+  auto half_edges = mesh::half_edges(surface, progress);
+  const int genus = checked_genus(surface, half_edges);
   result.memory = plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), 2 * genus},
                               options.solver, options.memory_limit);
   if (paper) {
@@ -86,10 +88,12 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
 
   progress.stage("homology", paper ? 0.1 : 0.05, 0.2);
   topology::IntegerForms classes;
-  Beside homology([&](Progress& p) { classes = find_topology(surface, std::move(given), result, p); }, progress);
+  auto intrinsic = mesh::intrinsic_triangulation(surface, half_edges.copy());
+  Beside homology(
+      [&](Progress& p) { classes = find_topology(surface, std::move(half_edges), std::move(given), result, p); },
+      progress);
 
   progress.stage("intrinsic Delaunay", 0.2, 0.25);
-  auto intrinsic = mesh::intrinsic_triangulation(surface, result.half_edges);
   if (!paper) mesh::make_delaunay(intrinsic, progress);
   const auto weights = mesh::cotangent_weights(intrinsic, progress);
   intrinsic.forget_metric();
@@ -109,12 +113,12 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
   progress.stage("harmonic forms", 0.45, 0.85);
   result.harmonic.classes = std::move(classes);
   if (paper) {
-    keep(intrinsic, weights,
+    keep(surface, intrinsic, weights,
          paper_forms(*levels, intrinsic.half_edges, weights, laplacian, intrinsic_classes, progress), result, progress);
   } else if (result.memory.keep_forms) {
     auto solved = harmonic_forms(intrinsic.half_edges, weights, *solver, intrinsic_classes, result.memory, progress);
     solver.reset();
-    keep(intrinsic, weights, std::move(solved), result, progress);
+    keep(surface, intrinsic, weights, std::move(solved), result, progress);
   } else {
     measure(surface, intrinsic, weights, *solver, std::move(intrinsic_classes), result, progress);
     solver.reset();

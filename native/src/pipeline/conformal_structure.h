@@ -16,7 +16,6 @@ namespace holomorph::pipeline {
 
 /// Everything known about the conformal structure of one closed connected surface of genus g >= 1.
 struct ConformalStructure {
-  mesh::HalfEdges half_edges;                                     ///< the artist's triangulation
   std::vector<std::vector<mesh::HalfedgeHandle>> homology_basis;  ///< 2g loops zeta_i
   topology::CanonicalBasis canonical;
   forms::ClosedForms harmonic;  ///< dual to zeta: classes on the artist's edges, functions as solved; none if streamed

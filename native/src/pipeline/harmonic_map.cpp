@@ -113,7 +113,7 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
                          const Options& options, Progress& progress) {
   const ThreadCount threads(options.threads);
   progress.stage("level of detail", 0.0, 0.2);
-  const auto half_edges = mesh::half_edges(surface, progress);
+  auto half_edges = mesh::half_edges(surface, progress);
   check_topology(surface, half_edges);
   const auto held = mesh::boundary_vertices(mesh::boundary_loops(surface, half_edges));
   const double tolerance = kSameVector * corner_values.cwiseAbs().maxCoeff();
@@ -127,13 +127,13 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
     edge_values.row(static_cast<Eigen::Index>(e)) -= start.row(surface.edges[e][1]) - start.row(surface.edges[e][0]);
   }
-  const auto plain = mesh::intrinsic_triangulation(surface, half_edges);
+  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges));
   const auto weights = mesh::cotangent_weights(plain, progress);
 
   progress.stage("harmonic map of the level", 0.2, 1.0);
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
   const auto solver =
-      solver::make_solver(choice.method, forms::laplacian(half_edges, weights, progress), held, progress);
+      solver::make_solver(choice.method, forms::laplacian(plain.half_edges, weights, progress), held, progress);
   HarmonicMap result;
   result.moves = solved(*solver, codifferential(surface, weights, edge_values), !held.empty(), progress) - start;
   const Eigen::VectorXd areas = vertex_areas(surface, plain.lengths);

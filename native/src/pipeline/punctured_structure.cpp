@@ -120,7 +120,7 @@ PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures p
   result.punctures = placed(surface, given, std::move(punctures), result.closed);
   mesh::turn_diagonals_away(result.surface, result.punctures.vertices, result.punctures.names);
   result.half_edges = mesh::half_edges(result.surface, progress);
-  const auto triangulation = mesh::intrinsic_triangulation(result.surface, result.half_edges);
+  const auto triangulation = mesh::intrinsic_triangulation(result.surface, result.half_edges.copy());
   result.mollification = triangulation.mollification;
   result.stars =
       mesh::stars(result.half_edges, triangulation.lengths, result.punctures.vertices, result.punctures.names);

@@ -129,15 +129,15 @@ RectangleMap rectangle_map(const mesh::Surface& surface, const std::vector<int>&
   const ThreadCount threads(options.threads);
   RectangleMap result;
   progress.stage("half-edges", 0.0, 0.1);
-  result.half_edges = mesh::half_edges(surface, progress);
-  const auto boundary = checked_boundary(surface, result.half_edges);
-  const Sides four = sides(around(result.half_edges, boundary), corners, surface.vertex_count, names);
+  auto half_edges = mesh::half_edges(surface, progress);
+  const auto boundary = checked_boundary(surface, half_edges);
+  const Sides four = sides(around(half_edges, boundary), corners, surface.vertex_count, names);
   std::copy(corners.begin(), corners.end(), result.corners.begin());
   result.collapsed_triangles = collapsed_triangles(surface, four);
 
   progress.stage("intrinsic Delaunay", 0.1, 0.2);
-  const auto plain = mesh::intrinsic_triangulation(surface, result.half_edges);
-  auto delaunay = plain;
+  auto delaunay = mesh::intrinsic_triangulation(surface, half_edges.copy());
+  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges));
   mesh::make_delaunay(delaunay, progress);
   result.flip_count = static_cast<int>(delaunay.flips.size());
   result.mollification = plain.mollification;

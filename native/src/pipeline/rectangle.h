@@ -20,7 +20,6 @@ namespace holomorph::pipeline {
 /// 1 / E(v) <= m <= E(u), E(f) = f . L f: both are energies of admissible functions of the polyhedral surface, on its
 /// intrinsic Delaunay triangulation. The modulus is their geometric mean.
 struct RectangleMap {
-  mesh::HalfEdges half_edges;  ///< the artist's triangulation
   std::array<int, 4> corners;
   Eigen::VectorXd u, v;  ///< #V, on the artist's triangulation
   double modulus = 0, lower = 0, upper = 0;

@@ -4,11 +4,10 @@
 
 namespace holomorph::pipeline {
 
-StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                             const std::vector<std::vector<mesh::HalfedgeHandle>>& loops, forms::ClosedForms& artist,
-                             const mesh::HalfEdges& triangulation, std::span<const double> weights,
-                             solver::LaplaceSolver& solver, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
-                             Progress& progress) {
+StreamedForms streamed_forms(const mesh::Surface& surface, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops,
+                             forms::ClosedForms& artist, const mesh::HalfEdges& triangulation,
+                             std::span<const double> weights, solver::LaplaceSolver& solver,
+                             forms::ClosedForms& intrinsic, const MemoryPlan& plan, Progress& progress) {
   const int n = intrinsic.classes.form_count;
   StreamedForms result;
   Eigen::MatrixXd G(n, n);
@@ -24,9 +23,8 @@ StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges
     result.residuals.closedness = std::max(result.residuals.closedness, residuals.closedness);
     result.residuals.harmonicity = std::max(result.residuals.harmonicity, residuals.harmonicity);
     artist.functions.swap(intrinsic.functions);
-    result.period_residual = std::max(result.period_residual, period_residual(half_edges, artist, loops));
-    result.samples.on_sides.middleCols(first, width) =
-        uv::values_on_sides(half_edges, artist, result.samples.triangles);
+    result.period_residual = std::max(result.period_residual, period_residual(surface, artist, loops));
+    result.samples.on_sides.middleCols(first, width) = uv::values_on_sides(surface, artist, result.samples.triangles);
     artist.functions.swap(intrinsic.functions);
   };
   result.solver = solve_in_blocks(triangulation, weights, solver, intrinsic.classes, plan, progress, measure);
@@ -37,9 +35,9 @@ StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges
   return result;
 }
 
-double period_residual(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+double period_residual(const mesh::EdgeEnds& ends, const forms::ClosedForms& forms,
                        const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
-  Eigen::MatrixXd periods = forms::periods(half_edges, forms, loops);
+  Eigen::MatrixXd periods = forms::periods(ends, forms, loops);
   for (Eigen::Index j = 0; j < periods.cols(); ++j) periods(forms.first + j, j) -= 1;
   return periods.cwiseAbs().maxCoeff();
 }

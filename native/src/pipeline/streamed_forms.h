@@ -18,18 +18,17 @@ struct StreamedForms {
 };
 
 /// Solves for the harmonic forms block by block (plan.block at a time), measures each block and lets it go.
-/// @param surface,half_edges,loops,artist the artist's triangulation, the 2g loops and the classes on it
+/// @param surface,loops,artist the artist's triangulation, the 2g loops and the classes on it
 /// @param triangulation,weights,solver,intrinsic what is solved on, the solver of `plan`, and the classes there
 /// The functions of `artist` and `intrinsic` are those of the block at hand, and none at the end.
 /// Memory: that of `plan`. @throws SolverError, Cancelled
-StreamedForms streamed_forms(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                             const std::vector<std::vector<mesh::HalfedgeHandle>>& loops, forms::ClosedForms& artist,
-                             const mesh::HalfEdges& triangulation, std::span<const double> weights,
-                             solver::LaplaceSolver& solver, forms::ClosedForms& intrinsic, const MemoryPlan& plan,
-                             Progress& progress);
+StreamedForms streamed_forms(const mesh::Surface& surface, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops,
+                             forms::ClosedForms& artist, const mesh::HalfEdges& triangulation,
+                             std::span<const double> weights, solver::LaplaceSolver& solver,
+                             forms::ClosedForms& intrinsic, const MemoryPlan& plan, Progress& progress);
 
 /// Largest |int_{zeta_i} h_j - delta_ij| over all loops and these forms.
-double period_residual(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+double period_residual(const mesh::EdgeEnds& ends, const forms::ClosedForms& forms,
                        const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);
 
 }  // namespace holomorph::pipeline

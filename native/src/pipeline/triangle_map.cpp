@@ -5,6 +5,7 @@
 
 #include "base/errors.h"
 #include "mesh/boundary_loops.h"
+#include "mesh/edge_ends.h"
 #include "mesh/triangle_geometry.h"
 #include "pipeline/threads.h"
 
@@ -14,14 +15,14 @@ TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, P
   const ThreadCount threads(options.threads);
   TriangleMap result;
   progress.stage("boundary", 0.0, 0.3);
-  const auto half_edges = mesh::half_edges(surface, progress);
+  auto half_edges = mesh::half_edges(surface, progress);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
   const auto& loop = boundary.loops[0];  // the hole on its left: the surface has it the other way round
   if (loop.size() != 3)
     throw TopologyError("the boundary has " + std::to_string(loop.size()) + " edges; three are needed");
-  const auto triangulation = mesh::intrinsic_triangulation(surface, half_edges);
+  const auto triangulation = mesh::intrinsic_triangulation(surface, std::move(half_edges));
   result.mollification = triangulation.mollification;
-  const auto vertex = [&](int i) { return mesh::from_vertex(half_edges, loop[i]); };
+  const auto vertex = [&](int i) { return mesh::from_vertex(surface, loop[i]); };
   const auto length = [&](int i) { return triangulation.lengths[mesh::edge_of(loop[i])]; };
   // vertices 0, 2, 1 are counter-clockwise; a runs from 0 to 2, b from 2 to 1, c from 1 to 0
   const double a = length(2), b = length(1), c = length(0), scale = 1 / std::max({a, b, c});
@@ -34,7 +35,7 @@ TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, P
 
   progress.stage("harmonic map", 0.3, 1.0);
   const auto weights = mesh::cotangent_weights(triangulation, progress);
-  auto laplacian = forms::laplacian(half_edges, weights, progress);
+  auto laplacian = forms::laplacian(triangulation.half_edges, weights, progress);
   const std::vector<int> held{vertex(0), vertex(1), vertex(2)};
   if (surface.vertex_count > 3) {
     const auto L = laplacian.matrix();

@@ -45,14 +45,16 @@ std::vector<int> sample_triangles(const mesh::Surface& surface) {
   return samples;
 }
 
-forms::RowMajorMatrix values_on_sides(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const forms::ClosedForms& forms,
                                       const std::vector<int>& triangles) {
+  const mesh::Sides side(surface);
   forms::RowMajorMatrix values(2 * static_cast<Eigen::Index>(triangles.size()), forms.functions.cols());
   Eigen::Index row = 0;
   for (const int t : triangles) {
-    mesh::HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(t));
-    for (int i = 0; i < 2; ++i, h = mesh::next(half_edges, h))
-      values.row(row++) = mesh::sign(h) * forms::edge_values(half_edges, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
+    for (const int i : {0, 1}) {
+      const mesh::HalfedgeHandle h = side(t, i);
+      values.row(row++) = mesh::sign(h) * forms::edge_values(surface, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
+    }
   }
   return values;
 }

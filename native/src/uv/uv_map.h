@@ -30,7 +30,7 @@ struct FormSamples {
   forms::RowMajorMatrix on_sides;  ///< (2 #triangles) x #forms, along sides 0 and 1 of each
 };
 std::vector<int> sample_triangles(const mesh::Surface& surface);
-forms::RowMajorMatrix values_on_sides(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
+forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const forms::ClosedForms& forms,
                                       const std::vector<int>& triangles);
 
 enum class Coefficients { complex, real };
