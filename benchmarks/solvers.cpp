@@ -13,15 +13,13 @@
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <random>
 #include <string>
 #include <thread>
 
 #include "base/kept_pages.h"
-#include "forms/harmonic_basis.h"
+#include "linear_system.h"
 #include "mesh/io/read.h"
 #include "solver/laplace_solver.h"
 
@@ -30,6 +28,9 @@ extern "C" void openblas_set_num_threads(int);
 namespace {
 
 using namespace holomorph;
+using benchmarks::assembled;
+using benchmarks::now;
+using benchmarks::right_hand_sides;
 using Matrix = Eigen::SparseMatrix<double>;
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -43,8 +44,6 @@ struct Result {
 };
 
 constexpr int kMostIterations = 100'000;
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // Of this program alone: getrusage counts what its parent had before it as well.
 double peak_bytes() {
@@ -62,23 +61,6 @@ void keep_memory() {
   static const KeptPages arrays;
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
-}
-
-solver::Laplacian assembled(const mesh::Surface& surface, bool delaunay) {
-  Progress silent;
-  auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent));
-  if (delaunay) mesh::make_delaunay(triangulation, silent);
-  const auto weights = mesh::cotangent_weights(triangulation, silent);
-  triangulation.forget_metric();
-  return forms::laplacian(triangulation.half_edges, weights, silent);
-}
-
-// Columns of sum 0, as those of d* eta are.
-Eigen::MatrixXd right_hand_sides(Eigen::Index n, int count) {
-  std::mt19937_64 generator(1);
-  std::normal_distribution<double> normal;
-  Eigen::MatrixXd B = Eigen::MatrixXd::NullaryExpr(n, count, [&] { return normal(generator); });
-  return B.rowwise() - B.colwise().mean();
 }
 
 double largest_residual(const Matrix& L, const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) {

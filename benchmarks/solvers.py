@@ -5,8 +5,9 @@ Every solver of L x = b on the same surfaces, four right-hand sides, as many thr
 library's multigrid, counted from the mesh's arrays on, against the others, counted from their assembled matrix. Each
 runs in a process of its own, so its peak memory is its own; the median of the runs counts. "again" is a later run in
 the same process, with its memory in place. How multigrid's time grows from each size of a surface to the next is
-measured on both sizes in turn, for the machine may be faster or slower a few minutes later. The surfaces: marching
-tetrahedra of genus 2 (irregular), the same with cuts down to 0.001 of an edge (bad), a torus grid, smooth and
+measured on both sizes in turn, for the machine may be faster or slower a few minutes later; how much of that is the
+size of the caches, by as many systems of the smaller size, of which each does an iteration in turn. The surfaces:
+marching tetrahedra of genus 2 (irregular), the same with cuts down to 0.001 of an edge (bad), a torus grid, smooth and
 stretched 20:1, and the mesh files named. CHOLMOD comes with OpenBLAS. Prints ratios against the better of CHOLMOD's
 two orderings.
 """
@@ -108,6 +109,20 @@ def growth(solvers, small, large, options):
     return dict(zip(("new", "again"), of_large / of_small, strict=True))
 
 
+def growth_of_iteration(in_turn, small, large, systems, options):
+    """How many times as long an iteration on the larger mesh takes as one on the smaller, and as many `systems` of the
+    smaller, an iteration of each in turn."""
+    of_small, of_large = (
+        json.loads(output_of([in_turn, mesh, str(count), str(options.runs)]))
+        for mesh, count in ((small, systems), (large, 1))
+    )
+    return {
+        "systems": systems,
+        "iteration": of_large["alone"] / of_small["alone"],
+        "in_turn": systems * of_small["in_turn"] / of_small["alone"],
+    }
+
+
 def print_table(rows):
     best, best_again = (
         min((r[key] for r in rows if r["method"] in CHOLMOD and key in r), default=np.nan)
@@ -127,7 +142,9 @@ def print_table(rows):
 def print_growth(small, row):
     print(
         f"{row['surface']}: {row['faces'] / small:.2f} times the faces of {small} take "
-        f"{row['growth']['again']:.2f} times as long, {row['growth']['new']:.2f} in new processes",
+        f"{row['growth']['again']:.2f} times as long, {row['growth']['new']:.2f} in new processes; "
+        f"an iteration {row['growth']['iteration']:.2f} times, of {row['growth']['systems']} systems of {small} faces "
+        f"in turn {row['growth']['in_turn']:.2f} times",
         flush=True,
     )
 
@@ -164,7 +181,7 @@ def main():
     parser.add_argument("--json", type=Path, default=ROOT / "build" / "solvers.json")
     parser.add_argument("--plot", type=Path, default=ROOT / "build" / "solvers.png")
     options = parser.parse_args()
-    solvers = program("solvers")
+    solvers, in_turn = program("solvers"), program("systems_in_turn")
     print(f"{os.cpu_count()} cores, {RIGHT_HAND_SIDES} right-hand sides, relative residual {options.tolerance:g}")
     print(
         f"{'':38} {'seconds':>11}  {'/CHOLMOD':>8}  {'again':>10} {'/CHOLMOD':>7}  "
@@ -184,6 +201,8 @@ def main():
                     small, small_mesh = smaller[name]
                     for row in own:
                         row["growth"] = growth(solvers, small_mesh, mesh, options)
+                        systems = round(len(triangles) / small)
+                        row["growth"] |= growth_of_iteration(in_turn, small_mesh, mesh, systems, options)
                         print_growth(small, row)
                     small_mesh.unlink()
                 smaller[name] = len(triangles), mesh
