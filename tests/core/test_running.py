@@ -111,6 +111,40 @@ print(before, megabytes("VmRSS:"), megabytes("VmHWM:"))
     assert after < before + 0.2 * (peak - before)
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the memory in use, and glibc to keep none")
+def test_a_result_keeps_functions_classes_and_sheets_alone():
+    """Half-edges, 42 bytes per triangle, are made again where they are asked for."""
+    program = """
+import ctypes
+import gc
+import families
+import holomorph
+
+
+def megabytes():
+    gc.collect()
+    ctypes.CDLL("libc.so.6").malloc_trim(0)
+    with open("/proc/self/status") as status:
+        return next(int(line.split()[1]) / 1024 for line in status if line.startswith("VmRSS:"))
+
+
+def surface(n):
+    mesh = families.torus(n, 300, shape="triangles")
+    return holomorph.Surface(mesh.vertices, mesh.corners.reshape(-1, 3))
+
+
+holomorph.conformal_structure(surface(200), solver="multigrid")
+large = surface(800)
+before = megabytes()
+structure = holomorph.conformal_structure(large, solver="multigrid")
+print(len(large.triangles), (megabytes() - before) * 2**20)
+"""
+    triangles, kept = map(float, output_of(program)[0].split())
+    assert (
+        16 * triangles < kept < 36 * triangles
+    )  # 8 of the functions, 12 of the sheets at corners, some of the classes
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the most memory in use")
 def test_more_threads_take_little_more_memory():
     """One thread makes no pages ahead; what two make, the computation takes."""

@@ -28,7 +28,7 @@ class HalfEdges {
       : vertices_(vertices), faces_(faces), half_edges_(2 * edges) {}
   HalfEdges(HalfEdges&&) = default;
   HalfEdges& operator=(HalfEdges&&) = default;
-  /// Copied by their name alone, in parallel.
+  /// Made in parallel; copies are large, so none is made without being named.
   HalfEdges copy() const;
 
   std::size_t n_vertices() const { return vertices_.size(); }

@@ -86,9 +86,10 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
     given = std::move(levels->bases);
   }
 
+  auto intrinsic = mesh::intrinsic_triangulation(surface, half_edges.copy());
+
   progress.stage("homology", paper ? 0.1 : 0.05, 0.2);
   topology::IntegerForms classes;
-  auto intrinsic = mesh::intrinsic_triangulation(surface, half_edges.copy());
   Beside homology(
       [&](Progress& p) { classes = find_topology(surface, std::move(half_edges), std::move(given), result, p); },
       progress);
