@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // systems_in_turn MESH SYSTEMS ROUNDS: a line of JSON with the seconds of one iteration of multigrid, four right-hand
-// sides, of a system that is solved alone, and of one of so many equal systems of which each does an iteration in turn:
-// no larger than the first, they have its working set out of the caches when it is used again, as a system so many
-// times larger has. Medians of the rounds.
+// sides, of a system that is solved alone, and of one of so many equal systems of which each does an iteration in turn.
+// When a system's turn comes again, the others have put its arrays out of the caches, as a system so many times larger
+// does with its own. Medians of the rounds.
 #include <algorithm>
 #include <condition_variable>
 #include <cstdio>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "linear_system.h"
 #include "mesh/io/read.h"
@@ -18,6 +20,7 @@ namespace {
 
 using namespace holomorph;
 constexpr int kRightHandSides = 4;
+constexpr double kResidual = 1e-10;
 
 // Threads of which one at a time goes on, until it passes the turn to the next.
 class Turn {
@@ -31,8 +34,9 @@ class Turn {
   void pass(int i) {
     const std::lock_guard lock(mutex_);
     const auto count = static_cast<int>(going_.size());
-    do turn_ = (turn_ + 1) % count;
-    while (!going_[turn_] && turn_ != i);
+    do {
+      turn_ = (turn_ + 1) % count;
+    } while (!going_[turn_] && turn_ != i);
     changed_.notify_all();
   }
   void end(int i) {
@@ -66,7 +70,7 @@ struct System {
   /// @return iterations, after each of which `report` is called
   int solve(const std::function<void()>& report) {
     Workers workers;
-    solver::BlockSolve<kRightHandSides> block(hierarchy, 1e-10, workers);
+    solver::BlockSolve<kRightHandSides> block(hierarchy, kResidual, workers);
     const std::vector<solver::Condition> conditions(kRightHandSides, solver::Condition::natural);
     block.solve(B, conditions, 0, kRightHandSides, X, [&](double) { report(); });
     return block.iterations();

@@ -140,9 +140,8 @@ structure = holomorph.conformal_structure(large, solver="multigrid")
 print(len(large.triangles), (megabytes() - before) * 2**20)
 """
     triangles, kept = map(float, output_of(program)[0].split())
-    assert (
-        16 * triangles < kept < 36 * triangles
-    )  # 8 of the functions, 12 of the sheets at corners, some of the classes
+    # Bytes: 8 of the functions, 12 of the sheets at corners, some of the classes.
+    assert 16 * triangles < kept < 36 * triangles
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the most memory in use")

@@ -28,8 +28,8 @@ struct FormsForUv<pipeline::ConformalStructure> {
 };
 
 /// A result of the pipeline together with the surface that it belongs to, and the forms for UVs once they were asked
-/// for. `Value` has harmonic, sheets, seams, solver, flip_count, mollification and seconds, and an overload
-/// of pipeline::artist_forms.
+/// for. `Value` has harmonic, sheets, seams, solver, flip_count, mollification and seconds, and an overload of
+/// pipeline::artist_forms.
 template <class Value>
 struct Structure {
   using Forms = typename FormsForUv<Value>::Type;

@@ -84,8 +84,8 @@ ConformalStructure conformal_structure(const mesh::Surface& surface, const Optio
     progress.stage("progressive mesh", 0.05, 0.1);
     if (!levels) levels = paper_levels(surface, progress);
     given = std::move(levels->bases);
+    progress.stage("half-edges", 0.1, 0.1);
   }
-
   auto intrinsic = mesh::intrinsic_triangulation(surface, half_edges.copy());
 
   progress.stage("homology", paper ? 0.1 : 0.05, 0.2);
