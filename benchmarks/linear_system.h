@@ -17,8 +17,8 @@ inline double now() {
 
 /// The cotan Laplacian of the surface's triangles, or of the intrinsic Delaunay triangulation.
 inline solver::Laplacian assembled(const mesh::Surface& surface, bool delaunay) {
-  Progress silent;
-  auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent));
+  Execution silent;
+  auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent), silent.workers());
   if (delaunay) mesh::make_delaunay(triangulation, silent);
   const auto weights = mesh::cotangent_weights(triangulation, silent);
   triangulation.forget_metric();

@@ -58,7 +58,7 @@ void print_run(const System& system, Eigen::MatrixXd X, solver::Scaling scaling)
 void print_paper(const System& system, const pipeline::PaperLevels& levels, solver::Scaling scaling) {
   pipeline::PaperOptions options;
   options.scaling = scaling;
-  Progress silent;
+  Execution silent;
   double seconds = 0;
   const auto start = timed(seconds, [&] { return pipeline::paper_estimation(levels, options, silent); });
   std::cout << "{\"levels_seconds\": " << seconds << ", \"levels\": [";
@@ -76,9 +76,10 @@ void print_paper(const System& system, const pipeline::PaperLevels& levels, solv
 
 int main(int count, char** arguments) {
   if (count != 2) return 2;
-  const auto surface = mesh::component(mesh::make_surface(mesh::read(arguments[1])), 0).surface;
-  Progress silent;
-  const auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent));
+  Execution silent;
+  const auto surface = mesh::component(mesh::make_surface(mesh::read(arguments[1]), silent), 0, silent).surface;
+  const auto triangulation =
+      mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent), silent.workers());
   const mesh::HalfEdges& half_edges = triangulation.half_edges;
   const auto weights = mesh::cotangent_weights(triangulation, silent);
   double collapsing = 0, levels_made = 0, homology = 0;
@@ -90,7 +91,7 @@ int main(int count, char** arguments) {
   timed(collapsing, [&] { return progressive::progressive_mesh(surface, progressive::Order::quadric, silent); });
   const auto levels = timed(levels_made, [&] { return pipeline::paper_levels(surface, silent); });
   const System system{forms::laplacian(half_edges, weights, silent),
-                      forms::codifferentials(half_edges, weights, levels.bases.classes)};
+                      forms::codifferentials(half_edges, weights, levels.bases.classes, silent.workers())};
   std::cout << "{\"faces\": " << surface.triangles.size() << ", \"right_hand_sides\": " << system.B.cols()
             << ", \"homology_of_surface\": " << homology << ", \"progressive_mesh\": " << collapsing
             << ", \"homology_of_base\": " << levels_made - collapsing << ", \"plain\": ";

@@ -89,11 +89,11 @@ double meshoptimizer_seconds(const mesh::Surface& surface, std::size_t faces_lef
 }
 
 void measure(const char* path) {
-  const mesh::Surface surface = mesh::make_surface(mesh::read(path));
+  Execution silent;
+  const mesh::Surface surface = mesh::make_surface(mesh::read(path), silent);
   const std::size_t faces = surface.triangles.size();
   const int runs = faces < 200000 ? 7 : 3;
   progressive::ProgressiveMesh mesh;
-  Progress silent;
   const double quadric =
       median_seconds(runs, [&] { mesh = progressive_mesh(surface, progressive::Order::quadric, silent); });
   const double restore = median_seconds(runs, [&] { (void)restored(mesh); });

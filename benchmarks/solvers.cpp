@@ -70,7 +70,7 @@ double largest_residual(const Matrix& L, const Eigen::MatrixXd& X, const Eigen::
 Result library(const mesh::Surface& surface, solver::Method method, int count, double tolerance, Matrix& L,
                Eigen::MatrixXd& B, Eigen::MatrixXd& X) {
   Result result;
-  Progress silent;
+  Execution silent;
   const double start = now();
   solver::Laplacian given = assembled(surface, true);
   result.assembly = now() - start;
@@ -238,7 +238,8 @@ int main(int argc, char** argv) {
   const std::string method = argv[2];
   const int count = std::stoi(argv[3]), runs = argc == 6 ? std::stoi(argv[5]) : 1;
   if (method.rfind("cholmod", 0) == 0) openblas_set_num_threads(static_cast<int>(std::thread::hardware_concurrency()));
-  const auto surface = mesh::make_surface(mesh::read(argv[1]));
+  Execution silent;
+  const auto surface = mesh::make_surface(mesh::read(argv[1]), silent);
   if (method.rfind("matrix=", 0) == 0) {
     const Matrix L = assembled(surface, false).matrix();
     write_matrix(method.substr(7), L, right_hand_sides(L.rows(), count));

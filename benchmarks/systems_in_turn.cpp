@@ -61,7 +61,7 @@ struct System {
 
   explicit System(const mesh::Surface& surface) {
     Workers workers;
-    Progress silent;
+    Execution silent;
     B = benchmarks::right_hand_sides(surface.vertex_count, kRightHandSides);
     X.resize(B.rows(), B.cols());
     solver::make_hierarchy(benchmarks::assembled(surface, true), {}, workers, silent, hierarchy);
@@ -121,7 +121,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: systems_in_turn MESH SYSTEMS ROUNDS\n");
     return 2;
   }
-  const auto surface = mesh::make_surface(mesh::read(argv[1]));
+  Execution silent;
+  const auto surface = mesh::make_surface(mesh::read(argv[1]), silent);
   const int count = std::stoi(argv[2]), rounds = std::stoi(argv[3]);
   std::vector<System> systems;
   for (int i = 0; i < count; ++i) systems.emplace_back(surface);

@@ -20,7 +20,7 @@ class Frame:
 def frame(surface, uv, rotation=0.0):
     """The `Frame` of a (#C, 2) map of the surface's polygon corners, turned by `rotation` (radians, counter-clockwise)
     about 0."""
-    return Frame(*_native.frame(surface._native, _corners(uv, len(surface.corner_vertices)), float(rotation)))
+    return Frame(*_native.frame(surface._native, _corners(uv, len(surface.corner_vertices)), float(rotation), 0))
 
 
 def place(uv, factor, origin, target, placed, rows=None):
@@ -43,7 +43,7 @@ def place(uv, factor, origin, target, placed, rows=None):
     if rows.size and (rows.min() < 0 or rows.max() >= len(placed)):
         raise ValueError(f"rows has an entry outside of 0 to {len(placed) - 1}")
     if len(uv):
-        _native.place(uv, complex(factor), complex(origin), complex(target), rows, placed)
+        _native.place(uv, complex(factor), complex(origin), complex(target), rows, placed, 0)
 
 
 def _corners(uv, count):

@@ -89,7 +89,7 @@ class PuncturedStructure(Structure):
 
     def quality(self, uv):
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
-        return Quality(*_native.quality(self._triangulation, self._checked_uv(uv)))
+        return Quality(*_native.quality(self._triangulation, self._checked_uv(uv), 0))
 
     def averaged_star(self, form):
         """As for other results, on the triangles of `edges`."""

@@ -142,7 +142,7 @@ class Structure:
 
     def quality(self, uv):
         """`Quality` of a (#C, 2) UV map on the surface's triangles."""
-        return Quality(*_native.quality(self._component._native, self._checked_uv(uv)))
+        return Quality(*_native.quality(self._component._native, self._checked_uv(uv), 0))
 
     def averaged_star(self, form):
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an

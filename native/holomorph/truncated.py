@@ -137,7 +137,7 @@ class TruncatedStructure(PuncturedStructure):
 
     def quality(self, uv):
         """`Quality` of a (#C, 2) UV map on the surface's triangles."""
-        return Quality(*_native.quality(self._component._native, self._checked_uv(uv)))
+        return Quality(*_native.quality(self._component._native, self._checked_uv(uv), 0))
 
     def sphere_map(self):
         """(#V, 3) points of the unit sphere; see `PuncturedStructure.sphere_map`."""

@@ -8,8 +8,6 @@
 #include <system_error>
 #include <vector>
 
-#include "base/thread_count.h"
-
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
@@ -159,9 +157,9 @@ void advise_large_pages(void* memory, std::size_t bytes) {
   if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 }
 
-KeptPages::KeptPages(std::size_t ahead) {
+KeptPages::KeptPages(std::size_t ahead, int threads) {
   constexpr std::size_t kLeast = 8 * kLargePage;  // for less no thread is begun
-  const bool makes = ahead >= kLeast && thread_count() > 1;
+  const bool makes = ahead >= kLeast && threads > 1;
   pages().keep(makes ? ahead : 0);
   if (!makes) return;
   try {
@@ -195,7 +193,7 @@ void give_pages(void* memory, std::size_t bytes) noexcept {
 #else
 
 void advise_large_pages(void*, std::size_t) {}
-KeptPages::KeptPages(std::size_t) {}
+KeptPages::KeptPages(std::size_t, int) {}
 KeptPages::~KeptPages() = default;
 void* take_pages(std::size_t bytes) { return ::operator new(bytes, std::align_val_t(kLargePage)); }
 void give_pages(void* memory, std::size_t) noexcept { ::operator delete(memory, std::align_val_t(kLargePage)); }

@@ -17,8 +17,9 @@ inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
 class KeptPages {
  public:
   /// @param ahead bytes that the computation is sure to take: a thread of its own has the system make them while the
-  /// others still compute, as far as they have not been taken before; none where the computation has one thread only
-  explicit KeptPages(std::size_t ahead = 0);
+  /// others still compute, as far as they have not been taken before
+  /// @param threads of the computation; with one nothing is made ahead
+  explicit KeptPages(std::size_t ahead = 0, int threads = 1);
   ~KeptPages();
   KeptPages(const KeptPages&) = delete;
   KeptPages& operator=(const KeptPages&) = delete;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <system_error>
 
-#include "base/thread_count.h"
-
 #if defined(__x86_64__) || defined(_M_X64)
 #include <immintrin.h>
 #endif
@@ -35,7 +33,8 @@ void wait_for_change(const std::atomic<T>& value, T old) {
 
 }  // namespace
 
-Workers::Workers() : count_(std::max(1, thread_count())) {}
+Workers::Workers(int threads)
+    : count_(threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {}
 
 Workers::~Workers() {
   end_.store(true, std::memory_order_release);

@@ -8,15 +8,14 @@
 
 namespace holomorph {
 
-/// A cycle of multigrid is some thirty short loops. OpenMP's threads meet at the end of each, and where the machine has
-/// other work, every meeting waits for whichever of them is not running: six times slower with two threads than with
-/// one, measured. Here the calling thread takes chunks itself and waits only for chunks that another has begun, so that
-/// a thread which comes late costs nothing.
+/// A cycle of multigrid is some thirty short loops. Where all threads meet at the end of each, as with OpenMP, every
+/// meeting waits for whichever of them is not running. Here the calling thread takes chunks itself and waits only for
+/// chunks that another has begun, so that a thread which comes late costs nothing.
 class Workers {
  public:
-  /// As many threads as OpenMP would take, the calling one included; fewer where the system has no more. They are made
-  /// when the first loop is long enough to be shared.
-  Workers();
+  /// @param threads the calling one included; 0: one for each processor. They are made when the first loop is long
+  /// enough to be shared; fewer where the system has no more.
+  explicit Workers(int threads = 0);
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -25,7 +24,7 @@ class Workers {
   int count() const { return count_; }
 
   /// task(thread, chunk) for each of `chunks` chunks, once, on any thread and in any order; returns when all are done.
-  /// Only from the thread that made this. @pre task does not throw; chunks < 2^24
+  /// From one thread at a time, and not from a task. @pre task does not throw; chunks < 2^24
   /// @param too_few chunks to wake a thread for
   template <class Task>
   void run(int chunks, const Task& task, int too_few = kTooFew) {

@@ -9,9 +9,9 @@ using Bounded = Structure<BoundedStructure>;
 
 std::shared_ptr<Bounded> compute(std::shared_ptr<mesh::Surface> surface, const std::string& boundary,
                                  const std::string& solver, int threads, std::int64_t memory_limit,
-                                 const py::object& progress) {
+                                 const py::object& execution) {
   const pipeline::Options chosen{solver, threads, memory_limit, boundary};
-  return make_structure<BoundedStructure>(surface, chosen, progress, [&](const auto& options, auto& p) {
+  return make_structure<BoundedStructure>(surface, chosen, execution, [&](const auto& options, auto& p) {
     return pipeline::bounded_structure(*surface, options, p);
   });
 }

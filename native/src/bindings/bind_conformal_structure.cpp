@@ -10,18 +10,18 @@ using pipeline::ConformalStructure;
 using Closed = Structure<ConformalStructure>;
 
 std::shared_ptr<Closed> compute(std::shared_ptr<Surface> surface, const std::string& solver, int threads,
-                                std::int64_t memory_limit, const py::object& progress) {
+                                std::int64_t memory_limit, const py::object& execution) {
   return make_structure<ConformalStructure>(
-      surface, {solver, threads, memory_limit}, progress,
+      surface, {solver, threads, memory_limit}, execution,
       [&](const auto& options, auto& p) { return pipeline::conformal_structure(*surface, options, p); });
 }
 
 // Of a level of a progressive mesh, in the classes of its base; `surface` is the surface of that level.
 std::shared_ptr<Closed> compute_level(const progressive::ProgressiveMesh& mesh, int splits,
                                       std::shared_ptr<Surface> surface, const std::string& solver, int threads,
-                                      std::int64_t memory_limit, const py::object& progress) {
+                                      std::int64_t memory_limit, const py::object& execution) {
   return make_structure<ConformalStructure>(
-      surface, {solver, threads, memory_limit}, progress, [&](const auto& options, auto& p) {
+      surface, {solver, threads, memory_limit}, execution, [&](const auto& options, auto& p) {
         if (options.solver == "paper") {
           return pipeline::conformal_structure(*surface, options, p, {},
                                                pipeline::paper_levels(mesh, splits, *surface));
@@ -42,11 +42,11 @@ py::tuple harmonic_map(const Surface& surface, const Contiguous<double>& corner_
                        int threads, const py::object& progress_function) {
   using Rows = forms::RowMajorMatrix;
   const Rows given = Eigen::Map<const Rows>(corner_values.data(), corner_values.shape(0), corner_values.shape(1));
-  Progress progress(callback(progress_function));
+  Execution execution(threads, callback(progress_function));
   pipeline::HarmonicMap map;
   {
     const py::gil_scoped_release unlocked;
-    map = pipeline::harmonic_map(surface, given, {solver, threads}, progress);
+    map = pipeline::harmonic_map(surface, given, {solver, threads}, execution);
   }
   return py::make_tuple(copy(map.moves), report(map.solver));
 }

@@ -13,7 +13,7 @@ using Problem = pipeline::LaplaceProblem;
 std::shared_ptr<Problem> make(const mesh::Surface& surface, const std::vector<int>& held, const std::string& solver,
                               int threads) {
   const py::gil_scoped_release unlocked;
-  Progress silent;
+  Execution silent;
   return std::make_shared<Problem>(pipeline::laplace_problem(surface, held, {solver, threads}, silent));
 }
 
@@ -26,7 +26,7 @@ py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bo
     for (const bool held : holds) {
       conditions.push_back(held ? solver::Condition::dirichlet : solver::Condition::natural);
     }
-    Progress silent;
+    Execution silent;
     X = problem.solver->solve(B, conditions, silent);
   }
   return give_matrix(std::move(X));

@@ -20,10 +20,10 @@ using SurfacePointer = std::shared_ptr<mesh::Surface>;
 Pointer make(const mesh::Surface& surface, const std::string& order, const std::string& corner_type,
              const py::bytes& corner_data, const py::object& progress_function) {
   const std::string_view data = corner_data;
-  Progress progress(callback(progress_function));
+  Execution execution(0, callback(progress_function));
   const py::gil_scoped_release unlocked;
   const auto which = order == "quadric" ? progressive::Order::quadric : progressive::Order::independent;
-  auto mesh = std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, progress));
+  auto mesh = std::make_shared<ProgressiveMesh>(progressive_mesh(surface, which, execution));
   mesh->corner_type = corner_type;
   mesh->corner_data.assign(data.begin(), data.end());
   return mesh;
@@ -46,12 +46,14 @@ py::bytes to_bytes(const ProgressiveMesh& mesh) {
 
 SurfacePointer level(const ProgressiveMesh& mesh, int splits) {
   const py::gil_scoped_release unlocked;
-  return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(mesh, splits)));
+  Execution execution;
+  return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(mesh, splits), execution));
 }
 
 SurfacePointer restored(const ProgressiveMesh& mesh) {
   const py::gil_scoped_release unlocked;
-  return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::restored(mesh)));
+  Execution execution;
+  return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::restored(mesh), execution));
 }
 
 // Columns v_s, v_l, v_r, slot_l, slot_r.

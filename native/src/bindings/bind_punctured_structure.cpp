@@ -19,17 +19,18 @@ std::shared_ptr<PuncturedStructure> compute(const mesh::Surface& surface, const 
                                             const std::vector<std::complex<double>>& residues,
                                             const std::vector<int>& names, const std::string& solver, int threads,
                                             const py::object& progress_function) {
-  Progress progress(callback(progress_function));
+  Execution execution(threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
   return std::make_shared<PuncturedStructure>(
-      pipeline::punctured_structure(surface, {vertices, residues, names}, {solver, threads}, progress));
+      pipeline::punctured_structure(surface, {vertices, residues, names}, {solver, threads}, execution));
 }
 
 py::array uv(const PuncturedStructure& s, const Eigen::VectorXcd& c) {
   uv::UvArray result;
   {
     const py::gil_scoped_release unlocked;
-    result = pipeline::uv_map(s, c);
+    Workers workers;
+    result = pipeline::uv_map(s, c, workers);
   }
   return give_matrix(std::move(result));
 }
@@ -42,7 +43,7 @@ void cut_along(PuncturedStructure& s, std::vector<int> edges, const std::vector<
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  Progress silent;
+  Execution silent;
   s.sheets = uv::corner_sheets(s.surface, s.half_edges, edges, s.classes, silent, names);
   s.seams = std::move(edges);
 }

@@ -19,16 +19,16 @@ using pipeline::TriangleMap;
 std::shared_ptr<RectangleMap> compute(const mesh::Surface& surface, const std::vector<int>& corners,
                                       const std::vector<int>& names, const std::string& solver, int threads,
                                       const py::object& progress_function) {
-  Progress progress(callback(progress_function));
+  Execution execution(threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
-  return std::make_shared<RectangleMap>(pipeline::rectangle_map(surface, corners, names, {solver, threads}, progress));
+  return std::make_shared<RectangleMap>(pipeline::rectangle_map(surface, corners, names, {solver, threads}, execution));
 }
 
 std::shared_ptr<TriangleMap> triangle(const mesh::Surface& surface, const std::string& solver, int threads,
                                       const py::object& progress_function) {
-  Progress progress(callback(progress_function));
+  Execution execution(threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
-  return std::make_shared<TriangleMap>(pipeline::triangle_map(surface, {solver, threads}, progress));
+  return std::make_shared<TriangleMap>(pipeline::triangle_map(surface, {solver, threads}, execution));
 }
 
 py::tuple report(const pipeline::SolverReport& solver) {
@@ -37,7 +37,7 @@ py::tuple report(const pipeline::SolverReport& solver) {
 
 // Of a form on the edges of any surface.
 py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
-  Progress silent;
+  Execution silent;
   return copy(forms::averaged_star(mesh::half_edges(surface, silent), surface.edge_lengths, values(form)));
 }
 

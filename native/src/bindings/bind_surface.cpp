@@ -21,7 +21,8 @@ SurfacePointer from_polygons(const Contiguous<double>& vertices, const Contiguou
                              const Contiguous<Index>& face_offsets) {
   mesh::BasicPolygons<Index> polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
   const py::gil_scoped_release unlocked;
-  return std::make_shared<Surface>(mesh::make_surface(std::move(polygons)));
+  Execution execution;
+  return std::make_shared<Surface>(mesh::make_surface(std::move(polygons), execution));
 }
 
 SurfacePointer from_edge_lengths(int vertex_count, const Contiguous<std::int64_t>& faces,
@@ -29,19 +30,22 @@ SurfacePointer from_edge_lengths(int vertex_count, const Contiguous<std::int64_t
   const auto f = rows<std::int64_t, 3>(faces), names = rows<std::int64_t, 3>(face_edges);
   const auto l = rows<double, 3>(lengths);
   const py::gil_scoped_release unlocked;
-  return std::make_shared<Surface>(mesh::make_intrinsic_surface(vertex_count, f, l, names));
+  Execution execution;
+  return std::make_shared<Surface>(mesh::make_intrinsic_surface(vertex_count, f, l, names, execution));
 }
 
 SurfacePointer read(const std::filesystem::path& path) {
   const py::gil_scoped_release unlocked;
-  return std::make_shared<Surface>(mesh::make_surface(mesh::read(path)));
+  Execution execution;
+  return std::make_shared<Surface>(mesh::make_surface(mesh::read(path), execution));
 }
 
 py::tuple component(const Surface& surface, int which) {
   mesh::Component part;
   {
     const py::gil_scoped_release unlocked;
-    part = mesh::component(surface, which);
+    Execution execution;
+    part = mesh::component(surface, which, execution);
   }
   auto vertices = copy(part.vertex_index), faces = copy(part.face_index), corners = copy(part.corner_index);
   return py::make_tuple(std::make_shared<Surface>(std::move(part.surface)), vertices, faces, corners);
@@ -73,8 +77,16 @@ void bind_surface(py::module_& m) {
       .def_static("read", &read)
       .def("component", &component)
       .def("topology", &topology)
-      .def("area", &mesh::area)
-      .def("mollification", [](const Surface& s) { return mesh::smallest_increment(s); })
+      .def("area",
+           [](const Surface& s) {
+             Workers workers;
+             return mesh::area(s, workers);
+           })
+      .def("mollification",
+           [](const Surface& s) {
+             Workers workers;
+             return mesh::smallest_increment(s, workers);
+           })
       .def_readonly("component_count", &Surface::component_count)
       .def_readonly("vertex_count", &Surface::vertex_count)
       .def_readonly("polygon_edge_count", &Surface::polygon_edge_count)

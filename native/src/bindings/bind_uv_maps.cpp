@@ -12,33 +12,37 @@ using Complex = std::complex<double>;
 
 Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
 
-py::tuple quality(const mesh::Surface& surface, const Contiguous<double>& uv) {
+py::tuple quality(const mesh::Surface& surface, const Contiguous<double>& uv, int threads) {
   uv::Quality q;
   {
     const py::gil_scoped_release unlocked;
-    q = uv::quality(surface, corners(uv));
+    Workers workers(threads);
+    q = uv::quality(surface, corners(uv), workers);
   }
   const py::array flipped = give(std::move(q.flipped)).attr("view")("bool");
   return py::make_tuple(give(std::move(q.angle)), give(std::move(q.area)), flipped, q.mean_angle, q.density_ratio,
                         q.median_density);
 }
 
-py::tuple frame(const mesh::Surface& surface, const Contiguous<double>& uv, double rotation) {
+py::tuple frame(const mesh::Surface& surface, const Contiguous<double>& uv, double rotation, int threads) {
   uv::Frame found;
   {
     const py::gil_scoped_release unlocked;
-    found = uv::frame(surface, corners(uv), rotation);
+    Workers workers(threads);
+    found = uv::frame(surface, corners(uv), rotation, workers);
   }
   return py::make_tuple(found.low, found.high, found.area);
 }
 
 // The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
 void place(const Contiguous<double>& uv, Complex factor, Complex origin, Complex target,
-           const py::array_t<int, py::array::c_style>& rows, py::array_t<float, py::array::c_style> placed) {
+           const py::array_t<int, py::array::c_style>& rows, py::array_t<float, py::array::c_style> placed,
+           int threads) {
   float* const values = placed.mutable_data();
   const int* const at = rows.size() == 0 ? nullptr : rows.data();
   const py::gil_scoped_release unlocked;
-  uv::place(corners(uv), {factor, origin, target}, at, values);
+  Workers workers(threads);
+  uv::place(corners(uv), {factor, origin, target}, at, values, workers);
 }
 
 }  // namespace

@@ -5,12 +5,12 @@
 
 #include <string>
 
-#include "base/progress.h"
+#include "base/execution.h"
 
 namespace holomorph::bindings {
 
 /// None is no function. It is called with the interpreter's lock held, and answers False to cancel.
-inline Progress::Callback callback(const pybind11::object& progress) {
+inline Execution::Callback callback(const pybind11::object& progress) {
   if (progress.is_none()) return {};
   return [progress](double fraction, const std::string& stage) {
     const pybind11::gil_scoped_acquire locked;

@@ -9,8 +9,8 @@ namespace holomorph::bindings {
 template <class Value>
 py::tuple uv_solver(Structure<Value>& s) {
   pipeline::SolverReport solver;
-  s.with_forms([&](auto& forms, Progress& progress) {
-    forms.prepare(progress);
+  s.with_forms([&](auto& forms, Execution& execution) {
+    forms.prepare(execution);
     solver = forms.solver();
   });
   return report(solver);
@@ -18,7 +18,7 @@ py::tuple uv_solver(Structure<Value>& s) {
 
 template <class Value>
 void prepare_uv(Structure<Value>& s, const py::object& progress_function) {
-  s.with_forms([](auto& forms, Progress& progress) { forms.prepare(progress); }, Progress(callback(progress_function)));
+  s.with_forms([](auto& forms, Execution& execution) { forms.prepare(execution); }, callback(progress_function));
 }
 
 inline py::list loops_of_vertices(const mesh::EdgeEnds& ends,
@@ -47,7 +47,7 @@ py::array harmonic_forms(Structure<Value>& s) {
                  8 * count * edges);
   py::array_t<double> values({count, edges});
   double* data = values.mutable_data();
-  s.with_forms([&](auto& forms, Progress& progress) { forms.edge_values(data, progress); });
+  s.with_forms([&](auto& forms, Execution& execution) { forms.edge_values(data, execution); });
   return read_only(std::move(values));
 }
 
@@ -56,8 +56,9 @@ py::array uv(Structure<Value>& s, const Eigen::VectorXcd& coefficients) {
   // NumPy takes large arrays on large pages.
   py::array_t<double> result({static_cast<py::ssize_t>(s.surface->polygons.corner_vertices.size()), py::ssize_t{2}});
   Eigen::Map<uv::UvArray> corners(result.mutable_data(), result.shape(0), 2);
-  s.with_forms([&](auto& forms, Progress& progress) {
-    uv::write_uv_map(*s.surface, s.value.sheets, forms.function(coefficients, progress), coefficients, corners);
+  s.with_forms([&](auto& forms, Execution& execution) {
+    uv::write_uv_map(*s.surface, s.value.sheets, forms.function(coefficients, execution), coefficients, corners,
+                     execution.workers());
   });
   return read_only(std::move(result));
 }
@@ -66,9 +67,9 @@ template <class Value>
 Eigen::VectorXcd balanced_coefficients(Structure<Value>& s, const Eigen::MatrixXcd& basis,
                                        const Eigen::MatrixXd& area_form, uv::Coefficients kind) {
   Eigen::VectorXcd c;
-  s.with_forms([&](auto& forms, Progress& progress) {
-    const auto samples = basis.cols() > 1 ? forms.samples(progress) : uv::FormSamples();
-    c = uv::balanced_coefficients(*s.surface, samples, basis, area_form, kind);
+  s.with_forms([&](auto& forms, Execution& execution) {
+    const auto samples = basis.cols() > 1 ? forms.samples(execution) : uv::FormSamples();
+    c = uv::balanced_coefficients(*s.surface, samples, basis, area_form, kind, execution.workers());
   });
   return c;
 }
@@ -77,7 +78,7 @@ Eigen::VectorXcd balanced_coefficients(Structure<Value>& s, const Eigen::MatrixX
 template <class Value>
 void cut_along(Structure<Value>& s, const std::vector<int>& edges, const std::vector<int>& names) {
   const py::gil_scoped_release unlocked;
-  Progress silent;
+  Execution silent;
   s.value.sheets = uv::corner_sheets(*s.surface, mesh::half_edges(*s.surface, silent), edges, s.value.harmonic.classes,
                                      silent, names);
   s.value.seams = edges;

@@ -40,26 +40,27 @@ struct Structure {
   std::mutex mutex;
   std::optional<Forms> forms;
 
-  /// `use(forms, progress)` without the interpreter's lock, one call at a time.
+  /// `use(forms, execution)` without the interpreter's lock, one call at a time.
   template <class Use>
-  void with_forms(Use use, Progress progress = Progress()) {
+  void with_forms(Use use, Execution::Callback callback = {}) {
+    Execution execution(options.threads, std::move(callback));
     const py::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> one_at_a_time(mutex);
     if (!forms) forms.emplace(*surface, value, options);
-    use(*forms, progress);
+    use(*forms, execution);
   }
 };
 
-/// Runs `compute(options, progress)` without the interpreter's lock and keeps its value with the surface.
+/// Runs `compute(options, execution)` without the interpreter's lock and keeps its value with the surface.
 template <class Value, class Compute>
 std::shared_ptr<Structure<Value>> make_structure(std::shared_ptr<mesh::Surface> surface,
                                                  const pipeline::Options& options, const py::object& progress_function,
                                                  Compute compute) {
-  Progress progress(callback(progress_function));
+  Execution execution(options.threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
   auto structure = std::make_shared<Structure<Value>>();
   structure->options = options;
-  structure->value = compute(options, progress);
+  structure->value = compute(options, execution);
   structure->surface = std::move(surface);
   return structure;
 }

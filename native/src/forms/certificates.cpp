@@ -27,8 +27,8 @@ int block_count(std::size_t elements) { return static_cast<int>((elements + kBlo
 
 // Runs `work(slot, begin, end)` on all blocks, batch by batch, and `collect(slot)` after each in order.
 template <class Work, class Collect>
-void for_blocks(std::size_t elements, Progress& progress, double from, double to, Work work, Collect collect) {
-  Workers workers;
+void for_blocks(std::size_t elements, Execution& execution, double from, double to, Work work, Collect collect) {
+  Workers& workers = execution.workers();
   const int blocks = block_count(elements);
   for (int first = 0; first < blocks; first += kBatch) {
     const int count = std::min(kBatch, blocks - first);
@@ -37,7 +37,7 @@ void for_blocks(std::size_t elements, Progress& progress, double from, double to
       work(slot, static_cast<int>(begin), static_cast<int>(std::min(elements, begin + kBlock)));
     });
     for (int slot = 0; slot < count; ++slot) collect(slot);
-    progress.report(from + (to - from) * (first + count) / blocks);
+    execution.report(from + (to - from) * (first + count) / blocks);
   }
 }
 
@@ -107,13 +107,13 @@ void measure_vertices(const HalfEdges& mesh, std::span<const double> weights, co
 }
 
 template <int N, class Measure>
-double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& progress, double from, double to,
+double relative_maximum(std::size_t elements, Eigen::Index forms, Execution& execution, double from, double to,
                         Measure measure) {
   const Row<N> zero = Row<N>::Zero(forms);
   std::array<Maxima<N>, kBatch> slots;
   Maxima<N> total{zero, zero};
   for_blocks(
-      elements, progress, from, to,
+      elements, execution, from, to,
       [&](int slot, int begin, int end) {
         slots[slot] = {zero, zero};
         measure(begin, end, slots[slot]);
@@ -127,13 +127,13 @@ double relative_maximum(std::size_t elements, Eigen::Index forms, Progress& prog
 // For few forms; many are better multiplied block by block.
 template <int N>
 Eigen::MatrixXd gram_matrix_of(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                               Progress& progress) {
+                               Execution& execution) {
   constexpr int n = N;
   using Square = Eigen::Matrix<double, N, N>;
   std::array<Square, kBatch> slots;
   Square G = Square::Zero(n, n);
   for_blocks(
-      weights.size(), progress, 0.0, 1.0,
+      weights.size(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
         slots[slot] = Square::Zero(n, n);
         Row<N> value(n);
@@ -150,7 +150,7 @@ Eigen::MatrixXd gram_matrix_of(const HalfEdges& mesh, std::span<const double> we
 // A triangle adds cot / 2 h^2 for each side, cot that of the angle opposite.
 template <int N>
 Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
-                            Progress& progress) {
+                            Execution& execution) {
   const auto n = forms.functions.cols();
   const int first = forms.first, count = static_cast<int>(n);
   const auto add_side = [&](int e, double cotangent, Row<N>& value, Row<N>& sum) {
@@ -163,7 +163,7 @@ Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, 
   std::array<Row<N>, kBatch> slots;
   Row<N> total = Row<N>::Zero(n);
   for_blocks(
-      surface.triangle_edges.size(), progress, 0.0, 1.0,
+      surface.triangle_edges.size(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
         Row<N> value(n), sum = Row<N>::Zero(n);
         for (int t = begin; t < end; ++t) {
@@ -182,26 +182,26 @@ Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, 
 
 template <int N>
 Residuals residuals_of(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                       Progress& progress, const std::vector<char>& is_held) {
+                       Execution& execution, const std::vector<char>& is_held) {
   const auto n = forms.functions.cols();
   const auto faces = [&](int begin, int end, Maxima<N>& maxima) { measure_faces<N>(mesh, forms, begin, end, maxima); };
   const auto vertices = [&](int begin, int end, Maxima<N>& maxima) {
     measure_vertices<N>(mesh, weights, forms, is_held, begin, end, maxima);
   };
-  return {relative_maximum<N>(mesh.n_faces(), n, progress, 0.0, 0.5, faces),
-          relative_maximum<N>(mesh.n_vertices(), n, progress, 0.5, 1.0, vertices)};
+  return {relative_maximum<N>(mesh.n_faces(), n, execution, 0.0, 0.5, faces),
+          relative_maximum<N>(mesh.n_vertices(), n, execution, 0.5, 1.0, vertices)};
 }
 
 }  // namespace
 
 Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                            Progress& progress) {
+                            Execution& execution) {
   const auto n = forms.functions.cols();
-  if (n == 2) return gram_matrix_of<2>(mesh, weights, forms, progress);
+  if (n == 2) return gram_matrix_of<2>(mesh, weights, forms, execution);
   std::array<Eigen::MatrixXd, kBatch> slots;
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
   for_blocks(
-      weights.size(), progress, 0.0, 1.0,
+      weights.size(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
         const RowMajorMatrix h = edge_values(mesh, forms, begin, end);
         const auto k = Eigen::Map<const Eigen::VectorXd>(weights.data() + begin, end - begin);
@@ -212,17 +212,18 @@ Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, std::span<const double> weigh
 }
 
 Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
-                         Progress& progress) {
-  return forms.functions.cols() == 2 ? energies_of<2>(surface, mollification, forms, progress)
-                                     : energies_of<Eigen::Dynamic>(surface, mollification, forms, progress);
+                         Execution& execution) {
+  return forms.functions.cols() == 2 ? energies_of<2>(surface, mollification, forms, execution)
+                                     : energies_of<Eigen::Dynamic>(surface, mollification, forms, execution);
 }
 
-Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& w, Progress& progress) {
+Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& w,
+                       Execution& execution) {
   const auto n = forms.functions.cols();
   std::array<Eigen::RowVectorXd, kBatch> slots;
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(n);
   for_blocks(
-      mesh.n_faces(), progress, 0.0, 1.0,
+      mesh.n_faces(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
         slots[slot] = Eigen::RowVectorXd::Zero(n);
         for (int f = begin; f < end; ++f) {
@@ -236,11 +237,11 @@ Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Ei
 }
 
 Residuals residuals(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                    Progress& progress, const std::vector<int>& held) {
+                    Execution& execution, const std::vector<int>& held) {
   std::vector<char> is_held(mesh.n_vertices(), 0);
   for (const int v : held) is_held[v] = 1;
-  if (forms.functions.cols() == 2) return residuals_of<2>(mesh, weights, forms, progress, is_held);
-  return residuals_of<Eigen::Dynamic>(mesh, weights, forms, progress, is_held);
+  if (forms.functions.cols() == 2) return residuals_of<2>(mesh, weights, forms, execution, is_held);
+  return residuals_of<Eigen::Dynamic>(mesh, weights, forms, execution, is_held);
 }
 
 }  // namespace holomorph::forms

@@ -16,10 +16,10 @@ using mesh::sign;
 using topology::forms_between;
 
 // A column of values at the vertices for each right-hand side.
-Eigen::MatrixXd zeros(Eigen::Index vertices, Eigen::Index count) {
+Eigen::MatrixXd zeros(Eigen::Index vertices, Eigen::Index count, Workers& workers) {
   Eigen::MatrixXd B(vertices, count);
   advise_large_pages(B.data(), B.size() * sizeof(double));
-  Workers workers;  // the system makes its pages in parallel
+  // The system makes its pages in parallel.
   const int n = static_cast<int>(B.rows());
   run_throwing(workers, chunk_count(n), [&](int chunk) {
     const int begin = chunk * kChunk;
@@ -31,13 +31,13 @@ Eigen::MatrixXd zeros(Eigen::Index vertices, Eigen::Index count) {
 }  // namespace
 
 Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
-                                const topology::IntegerForms& classes) {
-  return codifferentials(ends, weights, classes, 0, classes.form_count);
+                                const topology::IntegerForms& classes, Workers& workers) {
+  return codifferentials(ends, weights, classes, 0, classes.form_count, workers);
 }
 
 Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
-                                const topology::IntegerForms& classes, int first, int count) {
-  Eigen::MatrixXd B = zeros(ends.vertex_count(), count);
+                                const topology::IntegerForms& classes, int first, int count, Workers& workers) {
+  Eigen::MatrixXd B = zeros(ends.vertex_count(), count, workers);
   for (const int e : classes.rows.edges()) {
     const int head = ends.head(e), tail = ends.tail(e);
     for (const auto& [i, value] : forms_between(classes.rows[e], first, first + count)) {
@@ -49,8 +49,9 @@ Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> we
 }
 
 Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> weights,
-                                const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations) {
-  Eigen::MatrixXd B = zeros(ends.vertex_count(), combinations.cols());
+                                const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations,
+                                Workers& workers) {
+  Eigen::MatrixXd B = zeros(ends.vertex_count(), combinations.cols(), workers);
   Eigen::RowVectorXd flux(combinations.cols());
   for (const int e : classes.rows.edges()) {
     flux.setZero();
@@ -62,8 +63,8 @@ Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> we
 }
 
 ClosedForms harmonic_basis(const EdgeEnds& ends, std::span<const double> weights, const topology::IntegerForms& classes,
-                           solver::LaplaceSolver& solver, solver::Condition condition, Progress& progress) {
-  return {classes, solver.solve(codifferentials(ends, weights, classes), condition, progress)};
+                           solver::LaplaceSolver& solver, solver::Condition condition, Execution& execution) {
+  return {classes, solver.solve(codifferentials(ends, weights, classes, execution.workers()), condition, execution)};
 }
 
 RowMajorMatrix edge_values(const EdgeEnds& ends, const ClosedForms& forms, int begin, int end) {

@@ -131,11 +131,11 @@ void close_gaps(const std::vector<int>& start, solver::Laplacian& L) {
 }  // namespace
 
 // A chunk has room for all edges at its vertices, and is filled by one thread.
-solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weights, Progress& progress) {
+solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weights, Execution& execution) {
   const int n = static_cast<int>(mesh.n_vertices());
-  Workers workers;
+  Workers& workers = execution.workers();
   const std::vector<int> start = chunk_starts(mesh, workers);
-  progress.report(0.2);
+  execution.report(0.2);
   solver::Laplacian L{Array<int>(n + 1), Array<int>(start.back()), Array<double>(start.back())};
   int* const rows = L.columns.data();
   double* const values = L.weights.data();
@@ -149,7 +149,7 @@ solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weigh
       ends[v] = place;
     }
   });
-  progress.report(0.9);
+  execution.report(0.9);
   close_gaps(start, L);
   return L;
 }

@@ -58,12 +58,12 @@ double relative_residual(const HalfEdges& mesh, std::span<const double> weights,
 }  // namespace
 
 ThirdKind third_kind(const HalfEdges& mesh, std::span<const double> weights, const Singularities& s,
-                     solver::LaplaceSolver& solver, const std::vector<int>& held, Progress& progress) {
+                     solver::LaplaceSolver& solver, const std::vector<int>& held, Execution& execution) {
   const auto m = s.residues.cols();
   const Eigen::MatrixXd B = right_hand_sides(mesh, s);
   std::vector<solver::Condition> conditions(2 * m, solver::Condition::natural);
   if (!held.empty()) std::fill(conditions.begin() + m, conditions.end(), solver::Condition::dirichlet);
-  const Eigen::MatrixXd X = solver.solve(B, conditions, progress);
+  const Eigen::MatrixXd X = solver.solve(B, conditions, execution);
   return {s.part.u + X.leftCols(m), s.part.v + X.rightCols(m), relative_residual(mesh, weights, B, X, held)};
 }
 

@@ -33,7 +33,7 @@ struct ThirdKind {
 /// harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
 ThirdKind third_kind(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                      const Singularities& singularities, solver::LaplaceSolver& solver, const std::vector<int>& held,
-                     Progress& progress);
+                     Execution& execution);
 
 /// C, #forms x m: u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v is.
 /// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the puncture).

@@ -8,7 +8,7 @@ namespace {
 
 // Rebuilds an intrinsic component from its triangles as given (before any was reversed), edges by name.
 Surface intrinsic_part(const Surface& parent, const std::vector<int>& faces, const std::vector<int>& new_vertex,
-                       int vertex_count) {
+                       int vertex_count, Execution& execution) {
   std::vector<char> reversed(parent.triangles.size(), 0);
   for (const int f : parent.repairs.reversed_faces) reversed[f] = 1;
   std::vector<std::array<std::int64_t, 3>> triangles, names;
@@ -27,12 +27,12 @@ Surface intrinsic_part(const Surface& parent, const std::vector<int>& faces, con
     names.push_back(name);
     lengths.push_back(length);
   }
-  return make_intrinsic_surface(vertex_count, triangles, lengths, names);
+  return make_intrinsic_surface(vertex_count, triangles, lengths, names, execution);
 }
 
 }  // namespace
 
-Component component(const Surface& parent, int which) {
+Component component(const Surface& parent, int which, Execution& execution) {
   Component part;
   const Polygons& mesh = parent.polygons;
   std::vector<int> new_vertex(parent.vertex_count, -1);
@@ -50,7 +50,8 @@ Component component(const Surface& parent, int which) {
     part.vertex_index.push_back(v);
   }
   if (parent.intrinsic()) {
-    part.surface = intrinsic_part(parent, part.face_index, new_vertex, static_cast<int>(part.vertex_index.size()));
+    const int vertex_count = static_cast<int>(part.vertex_index.size());
+    part.surface = intrinsic_part(parent, part.face_index, new_vertex, vertex_count, execution);
     return part;
   }
   Polygons polygons;
@@ -61,7 +62,7 @@ Component component(const Surface& parent, int which) {
       polygons.corner_vertices.push_back(new_vertex[mesh.corner_vertices[c]]);
     polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
   }
-  part.surface = make_surface(std::move(polygons));
+  part.surface = make_surface(std::move(polygons), execution);
   return part;
 }
 

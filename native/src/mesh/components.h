@@ -14,7 +14,7 @@ struct Component {
   std::vector<int> vertex_index, face_index, corner_index;  ///< of each element in the parent
 };
 
-Component component(const Surface& surface, int which);
+Component component(const Surface& surface, int which, Execution& execution);
 
 /// Euler characteristic of a connected surface, its isolated vertices not counted.
 int euler_characteristic(const Surface& surface);

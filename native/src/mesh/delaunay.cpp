@@ -177,20 +177,20 @@ void append_flips(const std::vector<Flipper>& flippers, std::vector<Flip>& flips
 
 }  // namespace
 
-void make_delaunay(IntrinsicTriangulation& t, Progress& progress) {
-  Workers workers;
+void make_delaunay(IntrinsicTriangulation& t, Execution& execution) {
+  Workers& workers = execution.workers();
   EdgeMarks marks(t.half_edges.n_edges());
   auto [regions, rest] = find_work(t, marks, workers);
-  progress.report(0.2);
+  execution.report(0.2);
   run_throwing(workers, kRegions, [&regions = regions](int i) { regions[i].run([](std::size_t) {}); });
-  progress.report(0.7);
+  execution.report(0.7);
   for (const Flipper& region : regions) {
     for (const int e : region.between) {
       if (marks.enqueue(e)) rest.stack.push_back(e);
     }
   }
   const double total = std::max(1.0, static_cast<double>(rest.stack.size()));
-  rest.run([&](std::size_t left) { progress.report(std::max(0.7, 1.0 - 0.3 * static_cast<double>(left) / total)); });
+  rest.run([&](std::size_t left) { execution.report(std::max(0.7, 1.0 - 0.3 * static_cast<double>(left) / total)); });
   regions.push_back(std::move(rest));
   append_flips(regions, t.flips);
 }

@@ -16,7 +16,7 @@ std::vector<int> second_numbers(int count, IsBoundary is_boundary) {
 
 }  // namespace
 
-DoubleCover double_cover(const HalfEdges& mesh) {
+DoubleCover double_cover(const HalfEdges& mesh, Execution& execution) {
   DoubleCover result;
   const int V = static_cast<int>(mesh.n_vertices()), E = static_cast<int>(mesh.n_edges());
   const int F = static_cast<int>(mesh.n_faces());
@@ -45,8 +45,7 @@ DoubleCover double_cover(const HalfEdges& mesh) {
       both.triangle_edges[F + f][2 - i] = dual_edge[edge_of(h)];
     }
   }
-  Progress silent;
-  result.half_edges = half_edges(both, silent);
+  result.half_edges = half_edges(both, execution);
 
   result.first.resize(mesh.n_halfedges());
   result.second.resize(mesh.n_halfedges());

@@ -17,6 +17,6 @@ struct DoubleCover {
 };
 
 /// @pre orientable, with boundary. Cost: linear.
-DoubleCover double_cover(const HalfEdges& half_edges);
+DoubleCover double_cover(const HalfEdges& half_edges, Execution& execution);
 
 }  // namespace holomorph::mesh

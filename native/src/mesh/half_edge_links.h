@@ -9,6 +9,7 @@
 
 #include "base/page_allocator.h"
 #include "base/prefetch.h"
+#include "base/workers.h"
 
 namespace holomorph::mesh {
 
@@ -29,7 +30,7 @@ class HalfEdges {
   HalfEdges(HalfEdges&&) = default;
   HalfEdges& operator=(HalfEdges&&) = default;
   /// Made in parallel; copies are large, so none is made without being named.
-  HalfEdges copy() const;
+  HalfEdges copy(Workers& workers) const;
 
   std::size_t n_vertices() const { return vertices_.size(); }
   std::size_t n_edges() const { return half_edges_.size() / 2; }

@@ -98,24 +98,23 @@ int fan_size(const HalfEdges& mesh, int vertex) {
 
 Sides::Sides(const Surface& surface) : surface_(surface), first_of_loop_(first_sides_of_loops(surface)) {}
 
-HalfEdges half_edges(const Surface& surface, Progress& progress) {
-  Workers workers;
+HalfEdges half_edges(const Surface& surface, Execution& execution) {
+  Workers& workers = execution.workers();
   HalfEdges mesh(surface.vertex_count, surface.edges.size(), surface.triangles.size());
   const bool closed = mesh.n_halfedges() == 3 * mesh.n_faces();
   link_vertices(mesh, surface, workers);
-  progress.report(0.2);
+  execution.report(0.2);
   if (!closed) set_outside(mesh, surface, workers);
   link_triangles(mesh, surface, workers);
-  progress.report(0.9);
+  execution.report(0.9);
   if (!closed) link_boundary(mesh);
-  progress.report(1.0);
+  execution.report(1.0);
   return mesh;
 }
 
 // Every half-edge is in one fan, so that the fans of the vertices are all there are if together they have them all.
-void refuse_pinched_vertices(const HalfEdges& mesh) {
+void refuse_pinched_vertices(const HalfEdges& mesh, Workers& workers) {
   const int n = static_cast<int>(mesh.n_vertices());
-  Workers workers;
   const auto met = sum_over_rows(workers, n, std::size_t{0},
                                  [&](int v, std::size_t& sum) { sum += static_cast<std::size_t>(fan_size(mesh, v)); });
   if (met == mesh.n_halfedges()) return;
@@ -126,9 +125,8 @@ void refuse_pinched_vertices(const HalfEdges& mesh) {
   }
 }
 
-HalfEdges HalfEdges::copy() const {
+HalfEdges HalfEdges::copy(Workers& workers) const {
   HalfEdges result(n_vertices(), n_edges(), n_faces());
-  Workers workers;
   const auto copy_rows = [&workers](const auto& from, auto& to) {
     for_rows(workers, static_cast<int>(from.size()), [&](int i) { to[i] = from[i]; });
   };

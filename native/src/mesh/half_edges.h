@@ -4,7 +4,7 @@
 
 #include <unordered_map>
 
-#include "base/progress.h"
+#include "base/execution.h"
 #include "mesh/half_edge_links.h"
 #include "mesh/surface.h"
 
@@ -12,7 +12,7 @@ namespace holomorph::mesh {
 
 /// @throws InvalidMesh for a vertex at which two fans of faces touch on the boundary
 /// Cost: linear, in parallel.
-HalfEdges half_edges(const Surface& surface, Progress& progress);
+HalfEdges half_edges(const Surface& surface, Execution& execution);
 
 /// The half-edge that each side of a triangle is, known without links.
 class Sides {
@@ -34,7 +34,7 @@ class Sides {
 };
 
 /// @throws InvalidMesh for the first vertex at which two fans of faces touch
-void refuse_pinched_vertices(const HalfEdges& mesh);
+void refuse_pinched_vertices(const HalfEdges& mesh, Workers& workers);
 
 /// +1 where `h` runs along its edge, -1 where it runs back.
 inline int sign(HalfedgeHandle h) { return h.idx() & 1 ? -1 : 1; }

@@ -135,7 +135,7 @@ void reverse_triangles(Surface& surface) {
 }  // namespace
 
 Surface make_intrinsic_surface(int vertex_count, const Names& faces, const std::vector<std::array<double, 3>>& lengths,
-                               const Names& face_edges) {
+                               const Names& face_edges, Execution& execution) {
   check_input(vertex_count, faces, lengths, face_edges);
   Surface surface;
   surface.vertex_count = vertex_count;
@@ -159,7 +159,7 @@ Surface make_intrinsic_surface(int vertex_count, const Names& faces, const std::
   surface.polygon_edge_count = static_cast<int>(surface.edges.size());
   record_orientation(surface, orient(static_cast<int>(faces.size()), builder.meetings));
   reverse_triangles(surface);
-  finish_records(surface);
+  finish_records(surface, execution);
   return surface;
 }
 

@@ -35,9 +35,8 @@ bool set_all_cotangents(IntrinsicTriangulation& t, Workers& workers) {
 }  // namespace
 
 // The increment with which (a + x) + (b + x) - (c + x) >= slack holds in every triangle.
-double smallest_increment(const Surface& surface) {
+double smallest_increment(const Surface& surface, Workers& workers) {
   const auto& l = surface.edge_lengths;
-  Workers workers;
   const int triangles = static_cast<int>(surface.triangle_edges.size());
   const int first_degenerate = first_row(workers, triangles, [&](int t) {
     const auto& [i, j, k] = surface.triangle_edges[t];
@@ -62,30 +61,28 @@ void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
   t.cotangents[h2.idx()] = cotangent(c, a, b, area);
 }
 
-IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges) {
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
   IntrinsicTriangulation result;
   result.half_edges = std::move(half_edges);
   result.lengths.resize(surface.edge_lengths.size());
-  Workers workers;
   for_rows(workers, static_cast<int>(result.lengths.size()),
            [&](int e) { result.lengths[e] = surface.edge_lengths[e]; });
   if (set_all_cotangents(result, workers)) {
-    result.mollification = smallest_increment(surface);
+    result.mollification = smallest_increment(surface, workers);
     for (double& l : result.lengths) l += result.mollification;
     set_all_cotangents(result, workers);
   }
   return result;
 }
 
-Array<double> cotangent_weights(const IntrinsicTriangulation& t, Progress& progress) {
-  Workers workers;
+Array<double> cotangent_weights(const IntrinsicTriangulation& t, Execution& execution) {
   Array<double> weights;
   weights.reserve(t.lengths.size());
   advise_large_pages(weights.data(), t.lengths.size() * sizeof(double));
   weights.resize(t.lengths.size());
-  for_rows(workers, static_cast<int>(weights.size()),
+  for_rows(execution.workers(), static_cast<int>(weights.size()),
            [&](int e) { weights[e] = 0.5 * t.cotangents[2 * e] + 0.5 * t.cotangents[2 * e + 1]; });
-  progress.report(1.0);
+  execution.report(1.0);
   return weights;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "base/progress.h"
+#include "base/execution.h"
 #include "mesh/half_edges.h"
 
 namespace holomorph::mesh {
@@ -30,13 +30,13 @@ struct IntrinsicTriangulation {
 };
 
 /// 0 if no triangle is degenerate; else the increment of all lengths that intrinsic_triangulation takes.
-double smallest_increment(const Surface& surface);
+double smallest_increment(const Surface& surface, Workers& workers);
 
 /// The artist's triangulation in its own metric. Where a triangle is degenerate, all lengths grow by the smallest
 /// common amount that leaves every triangle a slack of 1e-6 times the mean length (Sharp & Crane 2020,
 /// doi:10.1111/cgf.14069, section 4.5).
 /// @param half_edges of the surface
-IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges);
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers);
 
 /// Flips edges until every interior edge is Delaunay, cot + cot >= 0 up to rounding (Fisher et al. 2007,
 /// doi:10.1007/s00607-007-0249-8). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
@@ -44,12 +44,12 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges
 /// limit.
 /// Cost: linear in the number of flips, which is about a fifth of the edges of irregular meshes; in parallel where
 /// faces with near numbers are near each other, with the same result at any number of threads.
-void make_delaunay(IntrinsicTriangulation& triangulation, Progress& progress);
+void make_delaunay(IntrinsicTriangulation& triangulation, Execution& execution);
 
 /// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are.
 void set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
 
 /// #E weights k = (cot a + cot b) / 2 (paper Eq. 3).
-Array<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Progress& progress);
+Array<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Execution& execution);
 
 }  // namespace holomorph::mesh

@@ -92,9 +92,8 @@ template <class Index>
 }
 
 template <class Index>
-void check(const BasicPolygons<Index>& mesh) {
+void check(const BasicPolygons<Index>& mesh, Workers& workers) {
   check_sizes(mesh);
-  Workers workers;
   const int vertices = static_cast<int>(mesh.vertices.size()), faces = static_cast<int>(mesh.face_offsets.size()) - 1;
   const int bad_vertex = first_row(workers, vertices, [&](int v) { return !is_finite(mesh.vertices[v]); });
   if (bad_vertex < vertices) refuse_vertex(mesh.vertices[bad_vertex], bad_vertex);
@@ -104,7 +103,7 @@ void check(const BasicPolygons<Index>& mesh) {
 
 }  // namespace
 
-void check_polygons(const Polygons& mesh) { check(mesh); }
-void check_polygons(const GivenPolygons& mesh) { check(mesh); }
+void check_polygons(const Polygons& mesh, Workers& workers) { check(mesh, workers); }
+void check_polygons(const GivenPolygons& mesh, Workers& workers) { check(mesh, workers); }
 
 }  // namespace holomorph::mesh

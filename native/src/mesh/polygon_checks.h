@@ -1,6 +1,7 @@
 // Checks of single polygons, before anything walks the mesh.
 #pragma once
 
+#include "base/workers.h"
 #include "mesh/polygons.h"
 
 namespace holomorph::mesh {
@@ -8,7 +9,7 @@ namespace holomorph::mesh {
 /// Refuses, with the first bad element: no faces, offsets that do not fit, fewer than 3 corners, an index that is
 /// negative or too large, a vertex twice in a face, a position that is NaN or infinite, too many elements for 32 bits.
 /// @throws InvalidMesh
-void check_polygons(const Polygons& polygons);
-void check_polygons(const GivenPolygons& polygons);
+void check_polygons(const Polygons& polygons, Workers& workers);
+void check_polygons(const GivenPolygons& polygons, Workers& workers);
 
 }  // namespace holomorph::mesh

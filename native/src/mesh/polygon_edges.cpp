@@ -177,8 +177,7 @@ std::vector<int> corner_faces(const Polygons& mesh) {
   return face_of;
 }
 
-PolygonEdges polygon_edges(const Polygons& mesh) {
-  Workers workers;
+PolygonEdges polygon_edges(const Polygons& mesh, Workers& workers) {
   Blocks blocks(mesh, workers);
   const std::vector<int> first = first_edges(mesh, blocks, workers);
   PolygonEdges result;

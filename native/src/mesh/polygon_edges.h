@@ -18,7 +18,7 @@ struct PolygonEdges {
 /// @pre check_polygons has passed.
 /// Cost: linear, in parallel.
 /// @throws InvalidMesh for an edge of more than two faces, and for two faces with the same vertices.
-PolygonEdges polygon_edges(const Polygons& polygons);
+PolygonEdges polygon_edges(const Polygons& polygons, Workers& workers);
 
 /// #V: equal numbers at the vertices of one boundary loop, -1 in the interior.
 std::vector<int> boundary_loop_of_vertex(const PolygonEdges& edges, int vertex_count);

@@ -119,13 +119,14 @@ Polygons narrowed(GivenPolygons given) {
 }
 
 // @pre check_polygons has passed
-Surface surface_of(Polygons polygons) {
-  const KeptPages pages(kAheadPerCorner * polygons.corner_vertices.size());
+Surface surface_of(Polygons polygons, Execution& execution) {
+  Workers& workers = execution.workers();
+  const KeptPages pages(kAheadPerCorner * polygons.corner_vertices.size(), workers.count());
   Surface surface;
   surface.polygons = std::move(polygons);
   const Polygons& mesh = surface.polygons;
   surface.vertex_count = static_cast<int>(mesh.vertices.size());
-  PolygonEdges edges = polygon_edges(mesh);
+  PolygonEdges edges = polygon_edges(mesh, workers);
   surface.polygon_edge_count = static_cast<int>(edges.edges.size());
   const Orientation orientation =
       edges.oriented ? oriented_as_given(mesh, edges.edges)
@@ -135,7 +136,6 @@ Surface surface_of(Polygons polygons) {
   surface.edges = std::move(edges.edges);
   record_orientation(surface, orientation);
   make_room(surface);
-  Workers workers;
   for_rows(workers, surface.polygon_edge_count,
            [&](int e) { surface.edge_face_count[e] = edges.edge_sides[e][1] < 0 ? 1 : 2; });
   cut_polygons(surface, edges, loop_of_vertex, orientation.reversed, workers);
@@ -144,24 +144,23 @@ Surface surface_of(Polygons polygons) {
     surface.edge_lengths[e] = distance(mesh.vertices[a], mesh.vertices[b]);
   });
   edges = {};  // the half-edges take its pages
-  finish_records(surface);
+  finish_records(surface, execution);
   return surface;
 }
 
 }  // namespace
 
-Surface make_surface(Polygons polygons) {
-  check_polygons(polygons);
-  return surface_of(std::move(polygons));
+Surface make_surface(Polygons polygons, Execution& execution) {
+  check_polygons(polygons, execution.workers());
+  return surface_of(std::move(polygons), execution);
 }
 
-Surface make_surface(GivenPolygons polygons) {
-  check_polygons(polygons);
-  return surface_of(narrowed(std::move(polygons)));
+Surface make_surface(GivenPolygons polygons, Execution& execution) {
+  check_polygons(polygons, execution.workers());
+  return surface_of(narrowed(std::move(polygons)), execution);
 }
 
-double area(const Surface& surface) {
-  Workers workers;
+double area(const Surface& surface, Workers& workers) {
   return sum_over_rows(workers, static_cast<int>(surface.triangles.size()), 0.0, [&surface](int t, double& sum) {
     const auto& [a, b, c] = surface.triangle_edges[t];
     const auto& l = surface.edge_lengths;

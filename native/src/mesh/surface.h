@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/execution.h"
 #include "base/page_allocator.h"
 #include "mesh/polygons.h"
 
@@ -46,8 +47,8 @@ struct Surface {
 /// 1997); at the boundary diagonals end at interior vertices where they can.
 /// @throws InvalidMesh, TopologyError (non-orientable), naming the first bad element.
 /// Cost: linear in the number of corners, cubic in the size of a polygon up to 64 corners.
-Surface make_surface(Polygons polygons);
-Surface make_surface(GivenPolygons polygons);
+Surface make_surface(Polygons polygons, Execution& execution);
+Surface make_surface(GivenPolygons polygons, Execution& execution);
 
 /// An intrinsic surface: triangles and the lengths of their edges, without positions.
 /// @param faces #F vertices; a vertex may come twice in a triangle
@@ -55,9 +56,9 @@ Surface make_surface(GivenPolygons polygons);
 /// @param face_edges #F edge names, entry i opposite corner i; empty: edges are told apart by their ends
 Surface make_intrinsic_surface(int vertex_count, const std::vector<std::array<std::int64_t, 3>>& faces,
                                const std::vector<std::array<double, 3>>& lengths,
-                               const std::vector<std::array<std::int64_t, 3>>& face_edges);
+                               const std::vector<std::array<std::int64_t, 3>>& face_edges, Execution& execution);
 
 /// Sum of the areas of the triangles.
-double area(const Surface& surface);
+double area(const Surface& surface, Workers& workers);
 
 }  // namespace holomorph::mesh

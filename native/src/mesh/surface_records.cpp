@@ -18,12 +18,11 @@ void record_isolated_vertices(Surface& surface, const HalfEdges& mesh) {
   }
 }
 
-void record_zero_areas(Surface& surface) {
+void record_zero_areas(Surface& surface, Workers& workers) {
   const auto is_zero = [&surface](int t) {
     const auto& [i, j, k] = surface.triangle_edges[t];
     return is_degenerate(surface.edge_lengths[i], surface.edge_lengths[j], surface.edge_lengths[k]);
   };
-  Workers workers;
   const int triangles = static_cast<int>(surface.triangles.size());
   const int count = sum_over_rows(workers, triangles, 0, [&](int t, int& sum) { sum += is_zero(t); });
   if (count == triangles) throw InvalidMesh("all faces have zero area (face 0 is the first)");
@@ -49,11 +48,10 @@ void record_orientation(Surface& surface, const Orientation& orientation) {
   }
 }
 
-void finish_records(Surface& surface) {
-  record_zero_areas(surface);
-  Progress silent;
-  const HalfEdges mesh = half_edges(surface, silent);
-  refuse_pinched_vertices(mesh);
+void finish_records(Surface& surface, Execution& execution) {
+  record_zero_areas(surface, execution.workers());
+  const HalfEdges mesh = half_edges(surface, execution);
+  refuse_pinched_vertices(mesh, execution.workers());
   record_isolated_vertices(surface, mesh);
 }
 

@@ -11,6 +11,6 @@ void record_orientation(Surface& surface, const Orientation& orientation);
 
 /// Isolated vertices, zero areas; refuses non-manifold vertices and a surface without area.
 /// @throws InvalidMesh
-void finish_records(Surface& surface);
+void finish_records(Surface& surface, Execution& execution);
 
 }  // namespace holomorph::mesh

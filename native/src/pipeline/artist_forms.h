@@ -17,10 +17,10 @@ namespace holomorph::pipeline {
 /// (relative; their energy on the artist's triangles bounds the gain from above), they are taken as they are.
 /// @throws SolverError, Cancelled
 HarmonicForms artist_forms(const mesh::Surface& surface, const BoundedStructure& structure, const Options& options,
-                           Progress& progress);
+                           Execution& execution);
 
 /// sum_k p_k f_k, #V x 2: real and imaginary part.
-uv::UvArray combination(const forms::RowMajorMatrix& functions, const Eigen::VectorXcd& p);
+uv::UvArray combination(const forms::RowMajorMatrix& functions, const Eigen::VectorXcd& p, Workers& workers);
 
 /// Writes the values of these forms on all edges, one row each.
 void write_edge_values(const mesh::EdgeEnds& ends, const forms::ClosedForms& forms,
@@ -35,23 +35,23 @@ class KeptForms {
       : surface_(surface), structure_(structure), options_(options) {}
 
   /// Does what all calls below need; they do it themselves otherwise.
-  void prepare(Progress& progress) {
-    if (!forms_) forms_ = artist_forms(surface_, structure_, options_, progress);
+  void prepare(Execution& execution) {
+    if (!forms_) forms_ = artist_forms(surface_, structure_, options_, execution);
   }
   /// sum_k p_k f_k, #V x 2: real and imaginary part.
-  uv::UvArray function(const Eigen::VectorXcd& p, Progress& progress) {
-    prepare(progress);
-    return combination(forms_->forms.functions, p);
+  uv::UvArray function(const Eigen::VectorXcd& p, Execution& execution) {
+    prepare(execution);
+    return combination(forms_->forms.functions, p, execution.workers());
   }
   /// Writes the values of all forms on the edges, #forms x #E row by row, to `values`.
-  void edge_values(double* values, Progress& progress) {
-    prepare(progress);
+  void edge_values(double* values, Execution& execution) {
+    prepare(execution);
     const auto count = forms_->forms.functions.cols(), edges = static_cast<Eigen::Index>(surface_.edges.size());
     write_edge_values(surface_, forms_->forms, Eigen::Map<forms::RowMajorMatrix>(values, count, edges));
   }
   /// What the balance needs.
-  uv::FormSamples samples(Progress& progress) {
-    prepare(progress);
+  uv::FormSamples samples(Execution& execution) {
+    prepare(execution);
     auto triangles = uv::sample_triangles(surface_);
     auto values = uv::values_on_sides(surface_, forms_->forms, triangles);
     return {std::move(triangles), std::move(values)};
@@ -73,16 +73,16 @@ class ArtistForms {
   ArtistForms(const mesh::Surface& surface, ConformalStructure& structure, const Options& options)
       : surface_(surface), structure_(structure), options_(options) {}
 
-  void prepare(Progress& progress);
-  uv::UvArray function(const Eigen::VectorXcd& p, Progress& progress);
-  void edge_values(double* values, Progress& progress);
-  uv::FormSamples samples(Progress& progress);
+  void prepare(Execution& execution);
+  uv::UvArray function(const Eigen::VectorXcd& p, Execution& execution);
+  void edge_values(double* values, Execution& execution);
+  uv::FormSamples samples(Execution& execution);
   const SolverReport& solver() const { return report_; }
 
  private:
-  void prepare_all(Progress& progress);
-  void prepare_solver(Progress& progress);
-  forms::RowMajorMatrix solve(const Eigen::MatrixXd& right_hand_sides, Progress& progress);
+  void prepare_all(Execution& execution);
+  void prepare_solver(Execution& execution);
+  forms::RowMajorMatrix solve(const Eigen::MatrixXd& right_hand_sides, Execution& execution);
 
   const mesh::Surface& surface_;
   ConformalStructure& structure_;

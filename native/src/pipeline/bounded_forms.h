@@ -27,6 +27,6 @@ forms::RowMajorMatrix side_by_side(const BoundedForms& forms);
 /// @throws SolverError, Cancelled
 BoundedForms bounded_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                            solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
-                           const mesh::BoundaryLoops& boundary, const Options& options, Progress& progress);
+                           const mesh::BoundaryLoops& boundary, const Options& options, Execution& execution);
 
 }  // namespace holomorph::pipeline

@@ -5,7 +5,6 @@
 
 #include "base/errors.h"
 #include "mesh/components.h"
-#include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 namespace {
@@ -43,11 +42,11 @@ double largest_period_error(const Eigen::MatrixXd& periods, Eigen::Index natural
 // W measured on one combination of the Dirichlet forms, with coefficients 1 and -1 in turn: cost #T n instead of #T
 // n^2.
 double largest_pairing_error(const mesh::HalfEdges& half_edges, const BoundedForms& forms,
-                             const topology::IntegerMatrix& W, Progress& progress) {
+                             const topology::IntegerMatrix& W, Execution& execution) {
   Eigen::VectorXd c = Eigen::VectorXd::Ones(W.cols());
   for (Eigen::Index j = 1; j < c.size(); j += 2) c[j] = -1;
   const Eigen::VectorXd form = forms::combination(half_edges, forms.dirichlet, c);
-  return (forms::wedges(half_edges, forms.natural, form, progress) - W.cast<double>() * c).cwiseAbs().maxCoeff();
+  return (forms::wedges(half_edges, forms.natural, form, execution) - W.cast<double>() * c).cwiseAbs().maxCoeff();
 }
 
 forms::Residuals larger(const forms::Residuals& a, const forms::Residuals& b) {
@@ -56,61 +55,60 @@ forms::Residuals larger(const forms::Residuals& a, const forms::Residuals& b) {
 
 }  // namespace
 
-BoundedStructure bounded_structure(const mesh::Surface& surface, const Options& options, Progress& progress) {
-  const ThreadCount threads(options.threads);
+BoundedStructure bounded_structure(const mesh::Surface& surface, const Options& options, Execution& execution) {
   BoundedStructure result;
 
-  progress.stage("half-edges", 0.0, 0.05);
+  execution.stage("half-edges", 0.0, 0.05);
   const int genus = checked_genus(surface);
-  auto half_edges = mesh::half_edges(surface, progress);
+  auto half_edges = mesh::half_edges(surface, execution);
 
-  progress.stage("homology", 0.05, 0.15);
-  const auto domain = topology::fundamental_domain(surface, half_edges, progress);
+  execution.stage("homology", 0.05, 0.15);
+  const auto domain = topology::fundamental_domain(surface, half_edges, execution);
   result.boundary = domain.boundary;
   result.homology_basis = all_loops(half_edges, domain);
   result.seams = topology::cut_graph(half_edges, domain);
   result.collapsed_triangles = mesh::triangles_on_one_loop(surface, result.boundary);
 
-  progress.stage("cohomology", 0.15, 0.2);
+  execution.stage("cohomology", 0.15, 0.2);
   auto natural_classes = topology::cohomology_basis(half_edges, domain);
   topology::add_paths_between_loops(half_edges, domain, natural_classes);
   result.pairing = pairing(half_edges, result.boundary, natural_classes, 2 * genus);
   auto classes =
       topology::beside(natural_classes, topology::first_forms(natural_classes, 2 * genus, natural_classes.form_count));
-  result.sheets = uv::corner_sheets(surface, half_edges, domain, classes, progress);
+  result.sheets = uv::corner_sheets(surface, half_edges, domain, classes, execution);
 
-  progress.stage("intrinsic Delaunay", 0.2, 0.25);
-  auto intrinsic = mesh::intrinsic_triangulation(surface, std::move(half_edges));
-  mesh::make_delaunay(intrinsic, progress);
+  execution.stage("intrinsic Delaunay", 0.2, 0.25);
+  auto intrinsic = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
+  mesh::make_delaunay(intrinsic, execution);
   topology::carry_through(intrinsic.flips, natural_classes);
 
-  progress.stage("Laplacian", 0.25, 0.3);
-  const auto weights = mesh::cotangent_weights(intrinsic, progress);
+  execution.stage("Laplacian", 0.25, 0.3);
+  const auto weights = mesh::cotangent_weights(intrinsic, execution);
   intrinsic.forget_metric();
-  auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
+  auto laplacian = forms::laplacian(intrinsic.half_edges, weights, execution);
 
-  progress.stage("harmonic forms", 0.3, 0.85);
+  execution.stage("harmonic forms", 0.3, 0.85);
   auto solved = bounded_forms(intrinsic.half_edges, weights, std::move(laplacian), natural_classes, result.boundary,
-                              options, progress);
+                              options, execution);
   result.solver = solved.solver;
 
-  progress.stage("holomorphic forms", 0.85, 0.92);
-  result.natural_gram = forms::gram_matrix(intrinsic.half_edges, weights, solved.natural, progress);
-  result.dirichlet_gram = forms::gram_matrix(intrinsic.half_edges, weights, solved.dirichlet, progress);
+  execution.stage("holomorphic forms", 0.85, 0.92);
+  result.natural_gram = forms::gram_matrix(intrinsic.half_edges, weights, solved.natural, execution);
+  result.dirichlet_gram = forms::gram_matrix(intrinsic.half_edges, weights, solved.dirichlet, execution);
   result.holomorphic = conformal::bounded_basis(result.natural_gram, result.dirichlet_gram, result.pairing, genus);
 
-  progress.stage("certificates", 0.92, 1.0);
-  result.residuals = larger(forms::residuals(intrinsic.half_edges, weights, solved.natural, progress),
-                            forms::residuals(intrinsic.half_edges, weights, solved.dirichlet, progress,
+  execution.stage("certificates", 0.92, 1.0);
+  result.residuals = larger(forms::residuals(intrinsic.half_edges, weights, solved.natural, execution),
+                            forms::residuals(intrinsic.half_edges, weights, solved.dirichlet, execution,
                                              mesh::boundary_vertices(result.boundary)));
   result.harmonic = {std::move(classes), side_by_side(solved)};
   result.period_residual =
       largest_period_error(forms::periods(surface, result.harmonic, result.homology_basis), result.pairing.rows());
-  result.pairing_residual = largest_pairing_error(intrinsic.half_edges, solved, result.pairing, progress);
+  result.pairing_residual = largest_pairing_error(intrinsic.half_edges, solved, result.pairing, execution);
   result.mollification = intrinsic.mollification;
   result.flip_count = static_cast<int>(intrinsic.flips.size());
-  progress.finish();
-  result.seconds = progress.seconds();
+  execution.finish();
+  result.seconds = execution.seconds();
   return result;
 }
 

@@ -35,6 +35,6 @@ struct BoundedStructure {
 
 /// @pre connected, no isolated vertices (mesh::component makes it so)
 /// @throws TopologyError for a closed surface or a disk, naming genus and boundary count; SolverError; Cancelled
-BoundedStructure bounded_structure(const mesh::Surface& surface, const Options& options, Progress& progress);
+BoundedStructure bounded_structure(const mesh::Surface& surface, const Options& options, Execution& execution);
 
 }  // namespace holomorph::pipeline

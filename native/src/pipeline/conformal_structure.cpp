@@ -1,12 +1,11 @@
 #include "pipeline/conformal_structure.h"
 
-#include "base/beside.h"
+#include "base/background_task.h"
 #include "base/errors.h"
 #include "base/kept_pages.h"
 #include "mesh/components.h"
 #include "pipeline/paper_forms.h"
 #include "pipeline/streamed_forms.h"
-#include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 namespace {
@@ -24,12 +23,12 @@ int checked_genus(const mesh::Surface& surface, const mesh::HalfEdges& half_edge
 
 // All forms at once: the Gram matrix is the full energy <h_i, h_j>, the residuals those of all of them.
 void keep(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& intrinsic, std::span<const double> weights,
-          HarmonicForms&& solved, ConformalStructure& result, Progress& progress) {
+          HarmonicForms&& solved, ConformalStructure& result, Execution& execution) {
   const auto& mesh = intrinsic.half_edges;
   result.solver = std::move(solved.solver);
-  progress.stage("certificates", 0.85, 0.95);
-  result.gram_matrix = forms::gram_matrix(mesh, weights, solved.forms, progress);
-  result.residuals = forms::residuals(mesh, weights, solved.forms, progress);
+  execution.stage("certificates", 0.85, 0.95);
+  result.gram_matrix = forms::gram_matrix(mesh, weights, solved.forms, execution);
+  result.residuals = forms::residuals(mesh, weights, solved.forms, execution);
   result.harmonic.functions.swap(solved.forms.functions);
   result.period_residual = period_residual(surface, result.harmonic, result.homology_basis);
 }
@@ -37,10 +36,10 @@ void keep(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& intr
 // A few forms at a time, of which nothing is left but what is asked of them.
 void measure(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& intrinsic,
              std::span<const double> weights, solver::LaplaceSolver& solver, topology::IntegerForms&& classes,
-             ConformalStructure& result, Progress& progress) {
+             ConformalStructure& result, Execution& execution) {
   forms::ClosedForms on_intrinsic{std::move(classes), {}};
   auto streamed = streamed_forms(surface, result.homology_basis, result.harmonic, intrinsic.half_edges, weights, solver,
-                                 on_intrinsic, result.memory, progress);
+                                 on_intrinsic, result.memory, execution);
   result.solver = std::move(streamed.solver);
   result.gram_matrix = std::move(streamed.gram_matrix);
   result.asymmetry = streamed.asymmetry;
@@ -54,83 +53,83 @@ void measure(const mesh::Surface& surface, const mesh::IntrinsicTriangulation& i
 // the solver as soon as it is done. @return the classes
 topology::IntegerForms find_topology(const mesh::Surface& surface, mesh::HalfEdges half_edges,
                                      std::optional<topology::DualBases> given, ConformalStructure& result,
-                                     Progress& progress) {
-  progress.part(0, 0.8);
-  const auto domain = topology::fundamental_domain(surface, half_edges, progress);
+                                     Execution& execution) {
+  execution.part(0, 0.8);
+  const auto domain = topology::fundamental_domain(surface, half_edges, execution);
   result.homology_basis = given ? std::move(given->loops) : topology::homology_basis(half_edges, domain);
   result.seams = topology::cut_graph(half_edges, domain);
-  progress.part(0.8, 1);
+  execution.part(0.8, 1);
   auto classes = given ? std::move(given->classes) : topology::cohomology_basis(half_edges, domain);
-  result.canonical = topology::canonical_basis(topology::wedge_matrix(half_edges, classes, progress));
-  result.sheets = uv::corner_sheets(surface, half_edges, domain, classes, progress);
+  result.canonical = topology::canonical_basis(topology::wedge_matrix(half_edges, classes, execution));
+  result.sheets = uv::corner_sheets(surface, half_edges, domain, classes, execution);
   return classes;
 }
 
 }  // namespace
 
-ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress,
+ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Execution& execution,
                                        std::optional<topology::DualBases> given, std::optional<PaperLevels> levels) {
-  const ThreadCount threads(options.threads);
   const bool paper = options.solver == "paper";
-  const KeptPages pages(kAheadPerTriangle * surface.triangles.size());
+  const KeptPages pages(kAheadPerTriangle * surface.triangles.size(), execution.threads());
   ConformalStructure result;
 
-  progress.stage("half-edges", 0.0, 0.05);
-  auto half_edges = mesh::half_edges(surface, progress);
+  execution.stage("half-edges", 0.0, 0.05);
+  auto half_edges = mesh::half_edges(surface, execution);
   const int genus = checked_genus(surface, half_edges);
   result.memory = plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), 2 * genus},
                               options.solver, options.memory_limit);
   if (paper) {
-    progress.stage("progressive mesh", 0.05, 0.1);
-    if (!levels) levels = paper_levels(surface, progress);
+    execution.stage("progressive mesh", 0.05, 0.1);
+    if (!levels) levels = paper_levels(surface, execution);
     given = std::move(levels->bases);
-    progress.stage("half-edges", 0.1, 0.1);
+    execution.stage("half-edges", 0.1, 0.1);
   }
-  auto intrinsic = mesh::intrinsic_triangulation(surface, half_edges.copy());
+  auto intrinsic = mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
 
-  progress.stage("homology", paper ? 0.1 : 0.05, 0.2);
+  execution.stage("homology", paper ? 0.1 : 0.05, 0.2);
   topology::IntegerForms classes;
-  Beside homology(
-      [&](Progress& p) { classes = find_topology(surface, std::move(half_edges), std::move(given), result, p); },
-      progress);
+  BackgroundTask homology(
+      [&](Execution& p) { classes = find_topology(surface, std::move(half_edges), std::move(given), result, p); },
+      execution);
 
-  progress.stage("intrinsic Delaunay", 0.2, 0.25);
-  if (!paper) mesh::make_delaunay(intrinsic, progress);
-  const auto weights = mesh::cotangent_weights(intrinsic, progress);
+  execution.stage("intrinsic Delaunay", 0.2, 0.25);
+  if (!paper) mesh::make_delaunay(intrinsic, execution);
+  const auto weights = mesh::cotangent_weights(intrinsic, execution);
   intrinsic.forget_metric();
 
-  progress.stage("Laplacian", 0.25, 0.3);
-  auto laplacian = forms::laplacian(intrinsic.half_edges, weights, progress);
+  execution.stage("Laplacian", 0.25, 0.3);
+  auto laplacian = forms::laplacian(intrinsic.half_edges, weights, execution);
 
-  progress.stage("solver", 0.3, 0.45);
+  execution.stage("solver", 0.3, 0.45);
   std::unique_ptr<solver::LaplaceSolver> solver;
-  if (!paper) solver = solver::make_solver(result.memory.choice.method, std::move(laplacian), {}, progress);
+  if (!paper) solver = solver::make_solver(result.memory.choice.method, std::move(laplacian), {}, execution);
 
-  progress.stage("homology", 0.45, 0.45);
-  homology.wait(progress);
+  execution.stage("homology", 0.45, 0.45);
+  homology.wait(execution);
   auto intrinsic_classes = classes;
   topology::carry_through(intrinsic.flips, intrinsic_classes);
 
-  progress.stage("harmonic forms", 0.45, 0.85);
+  execution.stage("harmonic forms", 0.45, 0.85);
   result.harmonic.classes = std::move(classes);
   if (paper) {
     keep(surface, intrinsic, weights,
-         paper_forms(*levels, intrinsic.half_edges, weights, laplacian, intrinsic_classes, progress), result, progress);
+         paper_forms(*levels, intrinsic.half_edges, weights, laplacian, intrinsic_classes, execution), result,
+         execution);
   } else if (result.memory.keep_forms) {
-    auto solved = harmonic_forms(intrinsic.half_edges, weights, *solver, intrinsic_classes, result.memory, progress);
+    auto solved = harmonic_forms(intrinsic.half_edges, weights, *solver, intrinsic_classes, result.memory, execution);
     solver.reset();
-    keep(surface, intrinsic, weights, std::move(solved), result, progress);
+    keep(surface, intrinsic, weights, std::move(solved), result, execution);
   } else {
-    measure(surface, intrinsic, weights, *solver, std::move(intrinsic_classes), result, progress);
+    measure(surface, intrinsic, weights, *solver, std::move(intrinsic_classes), result, execution);
     solver.reset();
   }
 
-  progress.stage("holomorphic forms", 0.95, 1.0);
+  execution.stage("holomorphic forms", 0.95, 1.0);
   result.holomorphic = conformal::holomorphic_basis(result.gram_matrix, result.canonical);
   result.mollification = intrinsic.mollification;
   result.flip_count = static_cast<int>(intrinsic.flips.size());
-  progress.finish();
-  result.seconds = progress.seconds();
+  execution.finish();
+  result.seconds = execution.seconds();
   return result;
 }
 

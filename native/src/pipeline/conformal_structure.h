@@ -41,7 +41,7 @@ struct ConformalStructure {
 /// to the artist's triangulation
 /// @pre connected, no isolated vertices (mesh::component makes it so)
 /// @throws TopologyError for genus 0 or a boundary, naming both; SolverError; Cancelled
-ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Progress& progress,
+ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Execution& execution,
                                        std::optional<topology::DualBases> given = {},
                                        std::optional<PaperLevels> levels = {});
 

@@ -52,16 +52,16 @@ forms::RowMajorMatrix symmetrised(const Eigen::MatrixXd& f, const DoubleCover& c
 
 BoundedForms double_cover_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                 const IntegerForms& classes, const mesh::BoundaryLoops& boundary,
-                                const Options& options, Progress& progress) {
+                                const Options& options, Execution& execution) {
   const int n = classes.form_count, handles = n - (boundary.count() - 1);
-  const DoubleCover cover = mesh::double_cover(half_edges);
+  const DoubleCover cover = mesh::double_cover(half_edges, execution);
   auto relative = topology::first_forms(classes, handles, handles);
   topology::add_loop_indicators(half_edges, boundary, relative);
   const IntegerForms both = topology::beside(extended(half_edges, cover, classes, 1),  //
                                              extended(half_edges, cover, relative, -1));
   const auto double_weights = weights_of_double(half_edges, cover, weights);
-  auto laplacian = forms::laplacian(cover.half_edges, double_weights, progress);
-  const auto solved = harmonic_forms(cover.half_edges, double_weights, std::move(laplacian), both, options, progress);
+  auto laplacian = forms::laplacian(cover.half_edges, double_weights, execution);
+  const auto solved = harmonic_forms(cover.half_edges, double_weights, std::move(laplacian), both, options, execution);
 
   BoundedForms result;
   result.natural = {classes, symmetrised(solved.forms.functions.leftCols(n), cover, 1)};

@@ -13,6 +13,6 @@ namespace holomorph::pipeline {
 /// @throws SolverError, Cancelled
 BoundedForms double_cover_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                 const topology::IntegerForms& classes, const mesh::BoundaryLoops& boundary,
-                                const Options& options, Progress& progress);
+                                const Options& options, Execution& execution);
 
 }  // namespace holomorph::pipeline

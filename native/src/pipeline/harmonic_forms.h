@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/execution.h"
 #include "forms/harmonic_basis.h"
 #include "pipeline/memory_plan.h"
 
@@ -44,7 +44,7 @@ using TakeFunctions = std::function<void(int first, forms::RowMajorMatrix&& func
 /// @param solver that of the plan. @throws SolverError, Cancelled
 SolverReport solve_in_blocks(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
-                             const MemoryPlan& plan, Progress& progress, const TakeFunctions& take);
+                             const MemoryPlan& plan, Execution& execution, const TakeFunctions& take);
 
 struct HarmonicForms {
   forms::ClosedForms forms;
@@ -55,11 +55,11 @@ struct HarmonicForms {
 /// @throws SolverError, Cancelled
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::LaplaceSolver& solver, const topology::IntegerForms& classes,
-                             const MemoryPlan& plan, Progress& progress);
+                             const MemoryPlan& plan, Execution& execution);
 
 /// The same with the solver that `options` asks for; its memory is free again at the end.
 HarmonicForms harmonic_forms(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                              solver::Laplacian&& laplacian, const topology::IntegerForms& classes,
-                             const Options& options, Progress& progress);
+                             const Options& options, Execution& execution);
 
 }  // namespace holomorph::pipeline

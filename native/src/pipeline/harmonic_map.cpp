@@ -8,7 +8,6 @@
 #include "mesh/boundary_loops.h"
 #include "mesh/components.h"
 #include "mesh/triangle_geometry.h"
-#include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 namespace {
@@ -98,22 +97,21 @@ Eigen::VectorXd vertex_areas(const mesh::Surface& surface, std::span<const doubl
 }
 
 // All columns with the natural condition, or with a boundary those of v, the odd ones, with v held there.
-Eigen::MatrixXd solved(solver::LaplaceSolver& solver, const Eigen::MatrixXd& B, bool bounded, Progress& progress) {
-  if (!bounded) return solver.solve(B, solver::Condition::natural, progress);
+Eigen::MatrixXd solved(solver::LaplaceSolver& solver, const Eigen::MatrixXd& B, bool bounded, Execution& execution) {
+  if (!bounded) return solver.solve(B, solver::Condition::natural, execution);
   Eigen::MatrixXd x(B.rows(), B.cols());
   const auto u = Eigen::seq(0, Eigen::last, 2), v = Eigen::seq(1, Eigen::last, 2);
-  x(Eigen::all, u) = solver.solve(B(Eigen::all, u), solver::Condition::natural, progress);
-  x(Eigen::all, v) = solver.solve(B(Eigen::all, v), solver::Condition::dirichlet, progress);
+  x(Eigen::all, u) = solver.solve(B(Eigen::all, u), solver::Condition::natural, execution);
+  x(Eigen::all, v) = solver.solve(B(Eigen::all, v), solver::Condition::dirichlet, execution);
   return x;
 }
 
 }  // namespace
 
 HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatrix& corner_values,
-                         const Options& options, Progress& progress) {
-  const ThreadCount threads(options.threads);
-  progress.stage("level of detail", 0.0, 0.2);
-  auto half_edges = mesh::half_edges(surface, progress);
+                         const Options& options, Execution& execution) {
+  execution.stage("level of detail", 0.0, 0.2);
+  auto half_edges = mesh::half_edges(surface, execution);
   check_topology(surface, half_edges);
   const auto held = mesh::boundary_vertices(mesh::boundary_loops(surface, half_edges));
   const double tolerance = kSameVector * corner_values.cwiseAbs().maxCoeff();
@@ -127,21 +125,21 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
     edge_values.row(static_cast<Eigen::Index>(e)) -= start.row(surface.edges[e][1]) - start.row(surface.edges[e][0]);
   }
-  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges));
-  const auto weights = mesh::cotangent_weights(plain, progress);
+  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
+  const auto weights = mesh::cotangent_weights(plain, execution);
 
-  progress.stage("harmonic map of the level", 0.2, 1.0);
+  execution.stage("harmonic map of the level", 0.2, 1.0);
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
   const auto solver =
-      solver::make_solver(choice.method, forms::laplacian(plain.half_edges, weights, progress), held, progress);
+      solver::make_solver(choice.method, forms::laplacian(plain.half_edges, weights, execution), held, execution);
   HarmonicMap result;
-  result.moves = solved(*solver, codifferential(surface, weights, edge_values), !held.empty(), progress) - start;
+  result.moves = solved(*solver, codifferential(surface, weights, edge_values), !held.empty(), execution) - start;
   const Eigen::VectorXd areas = vertex_areas(surface, plain.lengths);
   Eigen::RowVectorXd mean = areas.transpose() * result.moves / areas.sum();
   if (!held.empty()) mean(Eigen::seq(1, Eigen::last, 2)).setZero();
   result.moves.rowwise() -= mean;
   result.solver = solver_report(*solver, choice);
-  progress.finish();
+  execution.finish();
   return result;
 }
 

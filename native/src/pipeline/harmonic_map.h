@@ -21,6 +21,6 @@ struct HarmonicMap {
 /// which v changes; TopologyError unless the surface is connected and has handles or two boundary loops; SolverError;
 /// Cancelled
 HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatrix& corner_values,
-                         const Options& options, Progress& progress);
+                         const Options& options, Execution& execution);
 
 }  // namespace holomorph::pipeline

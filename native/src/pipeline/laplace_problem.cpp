@@ -1,18 +1,17 @@
 #include "pipeline/laplace_problem.h"
 
 #include "mesh/intrinsic_triangulation.h"
-#include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 
 LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& held, const Options& options,
-                               Progress& progress) {
-  const ThreadCount threads(options.threads);
-  auto triangulation = mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, progress));
-  mesh::make_delaunay(triangulation, progress);
+                               Execution& execution) {
+  auto triangulation =
+      mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  mesh::make_delaunay(triangulation, execution);
   const mesh::HalfEdges& half_edges = triangulation.half_edges;
   LaplaceProblem result;
-  result.weights = mesh::cotangent_weights(triangulation, progress);
+  result.weights = mesh::cotangent_weights(triangulation, execution);
   triangulation.forget_metric();
   for (int e = 0; e < static_cast<int>(half_edges.n_edges()); ++e) {
     result.ends.push_back({mesh::to_vertex(half_edges, mesh::HalfedgeHandle(2 * e + 1)),
@@ -20,7 +19,7 @@ LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<i
   }
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, 1);
   result.solver =
-      solver::make_solver(choice.method, forms::laplacian(half_edges, result.weights, progress), held, progress);
+      solver::make_solver(choice.method, forms::laplacian(half_edges, result.weights, execution), held, execution);
   return result;
 }
 

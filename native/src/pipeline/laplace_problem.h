@@ -19,6 +19,6 @@ struct LaplaceProblem {
 /// @param held vertices, at 0 for right-hand sides with the condition dirichlet
 /// @throws SolverError, Cancelled
 LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& held, const Options& options,
-                               Progress& progress);
+                               Execution& execution);
 
 }  // namespace holomorph::pipeline

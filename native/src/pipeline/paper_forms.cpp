@@ -15,8 +15,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 class PaperSolve {
  public:
-  PaperSolve(const PaperLevels& levels, const PaperOptions& options, Progress& progress)
-      : levels_(levels), options_(options), progress_(progress), work_(faces(levels.splits)) {
+  PaperSolve(const PaperLevels& levels, const PaperOptions& options, Execution& execution)
+      : levels_(levels), options_(options), execution_(execution), work_(faces(levels.splits)) {
     for (const int k : thresholds(levels, options)) work_ += faces(k);
   }
 
@@ -68,9 +68,9 @@ class PaperSolve {
     options.scaling = options_.scaling;
     options.residual = residual;
     const double part = faces(splits) / work_;
-    progress_.report(done_);
-    const auto report = solver::conjugate_gradients(L, B, X, options, workers_, [&](double reached) {
-      progress_.report(done_ + part * std::clamp(std::log10(reached) / std::log10(residual), 0.0, 1.0));
+    execution_.report(done_);
+    const auto report = solver::conjugate_gradients(L, B, X, options, execution_.workers(), [&](double reached) {
+      execution_.report(done_ + part * std::clamp(std::log10(reached) / std::log10(residual), 0.0, 1.0));
     });
     done_ += part;
     reports_.push_back({static_cast<std::int64_t>(faces(splits)), report.iterations, seconds_since(start)});
@@ -87,8 +87,7 @@ class PaperSolve {
 
   const PaperLevels& levels_;
   const PaperOptions& options_;
-  Progress& progress_;
-  Workers workers_;
+  Execution& execution_;
   std::vector<LevelReport> reports_;
   double work_ = 0;  // in faces of all levels
   double done_ = 0;  // part of it
@@ -107,16 +106,16 @@ std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& optio
   return {splits.rbegin(), splits.rend()};
 }
 
-PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Progress& progress) {
-  PaperSolve solve(levels, options, progress);
+PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution) {
+  PaperSolve solve(levels, options, execution);
   PaperForms result{solve.estimate(), {}};
   result.solver = solve.report({});
   return result;
 }
 
 PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
-                       const PaperOptions& options, Progress& progress) {
-  PaperSolve solve(levels, options, progress);
+                       const PaperOptions& options, Execution& execution) {
+  PaperSolve solve(levels, options, execution);
   PaperForms result{solve.estimate(), {}};
   result.solver = solve.report(solve.improve_surface(laplacian, B, result.functions));
   return result;
@@ -124,9 +123,9 @@ PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& lapla
 
 HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges, std::span<const double> weights,
                           const solver::Laplacian& laplacian, const topology::IntegerForms& classes,
-                          Progress& progress) {
-  const auto B = forms::codifferentials(half_edges, weights, classes);
-  auto result = paper_forms(levels, laplacian, B, {}, progress);
+                          Execution& execution) {
+  const auto B = forms::codifferentials(half_edges, weights, classes, execution.workers());
+  auto result = paper_forms(levels, laplacian, B, {}, execution);
   return {{classes, std::move(result.functions)}, std::move(result.solver)};
 }
 

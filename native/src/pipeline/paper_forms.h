@@ -39,17 +39,17 @@ struct PaperForms {
 /// Steps 4 and 5: the estimation on M that the levels give; its report has all levels but M.
 /// A threshold's residual need not be small: what it gives differs from the finer level's solution by what simplifying
 /// has changed of the surface, some thousandths.
-PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Progress& progress);
+PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
 
 /// Steps 4 to 6: functions f of the harmonic forms eta + df, eta the classes of `levels.bases`.
 /// @param laplacian,B of the surface, in its own numbering: L f = B
 /// @throws SolverError if the residual is not reached; Cancelled
 PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
-                       const PaperOptions& options, Progress& progress);
+                       const PaperOptions& options, Execution& execution);
 
 /// The same on a surface's own triangulation. @param classes those of `levels.bases`
 HarmonicForms paper_forms(const PaperLevels& levels, const mesh::HalfEdges& half_edges, std::span<const double> weights,
                           const solver::Laplacian& laplacian, const topology::IntegerForms& classes,
-                          Progress& progress);
+                          Execution& execution);
 
 }  // namespace holomorph::pipeline

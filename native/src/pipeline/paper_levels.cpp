@@ -26,7 +26,7 @@ struct BaseBases {
 
 // Steps 2 and 3.
 BaseBases base_bases(const mesh::Surface& base) {
-  Progress silent;
+  Execution silent;
   const auto half_edges = mesh::half_edges(base, silent);
   const auto domain = topology::fundamental_domain(base, half_edges, silent);
   BaseBases result{{}, topology::cohomology_basis(half_edges, domain)};
@@ -86,7 +86,7 @@ solver::Laplacian assembled(const std::vector<int>& start, std::vector<Entry>& e
 
 }  // namespace
 
-PaperLevels paper_levels(const mesh::Surface& surface, Progress& progress) {
+PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
   if (surface.intrinsic()) {
     throw InvalidMesh(
         "the paper's solver needs positions, and this surface has edge lengths only; "
@@ -94,8 +94,8 @@ PaperLevels paper_levels(const mesh::Surface& surface, Progress& progress) {
   }
   PaperLevels levels;
   // The stage stays the caller's, who is asked all the same.
-  Progress silent([&](double done, const std::string&) {
-    progress.report(kCollapsing * done);
+  Execution silent(execution.threads(), [&](double done, const std::string&) {
+    execution.report(kCollapsing * done);
     return true;
   });
   levels.mesh = std::make_shared<const ProgressiveMesh>(progressive_mesh(surface, progressive::Order::quadric, silent));

@@ -23,7 +23,7 @@ struct PaperLevels {
 /// to the surface (step 5b), which is exact.
 /// @pre connected, closed, genus at least 1, no isolated vertices
 /// @throws InvalidMesh for an intrinsic surface, and where no triangulation of the polygons is without double edges
-PaperLevels paper_levels(const mesh::Surface& surface, Progress& progress);
+PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution);
 
 /// The same for a level of a progressive mesh that there is already, and that outlives the result.
 PaperLevels paper_levels(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);

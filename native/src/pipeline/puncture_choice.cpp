@@ -75,14 +75,15 @@ int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edg
 }
 
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                                   const std::vector<int>& vertices, bool closed, Progress& progress) {
+                                                   const std::vector<int>& vertices, bool closed,
+                                                   Execution& execution) {
   std::vector<std::complex<double>> residues(vertices.size(), 1.0);
   if (!closed || vertices.empty()) return residues;
   std::size_t last = vertices.size() - 1;
   if (vertices.size() > 2) {
     std::vector<double> sum(vertices.size(), 0.0);
     for (std::size_t from = 0; from < vertices.size(); ++from) {
-      progress.report(static_cast<double>(from) / static_cast<double>(vertices.size()));
+      execution.report(static_cast<double>(from) / static_cast<double>(vertices.size()));
       const std::vector<double> distance = mesh::graph_distances(half_edges, surface.edge_lengths, {vertices[from]});
       for (std::size_t i = 0; i < vertices.size(); ++i) sum[i] += distance[vertices[i]];
     }

@@ -29,7 +29,7 @@ int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edg
 /// @throws Cancelled
 /// Cost: of more than two on a closed surface, a search over the whole surface from each.
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                                   const std::vector<int>& vertices, bool closed, Progress& progress);
+                                                   const std::vector<int>& vertices, bool closed, Execution& execution);
 
 /// @throws TopologyError for vertices repeated or out of range, a single puncture of a closed surface, a number of
 /// residues that is not theirs, a residue that is 0 or not finite, or a sum that is not 0 on a closed surface

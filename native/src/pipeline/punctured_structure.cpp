@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "pipeline/threads.h"
 #include "topology/puncture_classes.h"
 
 namespace holomorph::pipeline {
@@ -85,14 +84,14 @@ double period_residual(const PuncturedStructure& s) {
 }
 
 // Largest |sum of theta_0 around a face| outside the stars over the largest value.
-double closedness(const PuncturedStructure& s, Progress& progress) {
+double closedness(const PuncturedStructure& s, Execution& execution) {
   std::vector<char> inside(s.half_edges.n_faces(), 0);
   for (const mesh::Star& star : s.stars) {
     for (const HalfedgeHandle h : star.link) inside[mesh::face_of(s.half_edges, h)] = 1;
   }
   double worst = 0, largest = 0;
   for (int f = 0; f < static_cast<int>(inside.size()); ++f) {
-    progress.step(f, inside.size());
+    execution.step(f, inside.size());
     if (inside[f]) continue;
     Complex sum = 0;
     HalfedgeHandle h = s.half_edges.halfedge_handle(mesh::FaceHandle(f));
@@ -109,82 +108,82 @@ double closedness(const PuncturedStructure& s, Progress& progress) {
 }  // namespace
 
 PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures punctures, const Options& options,
-                                       Progress& progress) {
-  const ThreadCount threads(options.threads);
+                                       Execution& execution) {
   PuncturedStructure result;
   result.surface = surface;
 
-  progress.stage("punctures", 0.0, 0.05);
-  const mesh::HalfEdges given = mesh::half_edges(surface, progress);
+  execution.stage("punctures", 0.0, 0.05);
+  const mesh::HalfEdges given = mesh::half_edges(surface, execution);
   result.closed = mesh::boundary_count(given) == 0;
   result.punctures = placed(surface, given, std::move(punctures), result.closed);
   mesh::turn_diagonals_away(result.surface, result.punctures.vertices, result.punctures.names);
-  result.half_edges = mesh::half_edges(result.surface, progress);
-  const auto triangulation = mesh::intrinsic_triangulation(result.surface, result.half_edges.copy());
+  result.half_edges = mesh::half_edges(result.surface, execution);
+  const auto triangulation =
+      mesh::intrinsic_triangulation(result.surface, result.half_edges.copy(execution.workers()), execution.workers());
   result.mollification = triangulation.mollification;
   result.stars =
       mesh::stars(result.half_edges, triangulation.lengths, result.punctures.vertices, result.punctures.names);
-  progress.stage("residues", 0.05, 0.1);
+  execution.stage("residues", 0.05, 0.1);
   auto& [vertices, residues, names] = result.punctures;  // found only now: vertices that cannot be are refused at once
-  if (residues.empty()) residues = default_residues(surface, given, vertices, result.closed, progress);
+  if (residues.empty()) residues = default_residues(surface, given, vertices, result.closed, execution);
 
-  progress.stage("homology", 0.1, 0.25);
-  const auto domain = topology::fundamental_domain(result.surface, result.half_edges, progress, result.stars);
+  execution.stage("homology", 0.1, 0.25);
+  const auto domain = topology::fundamental_domain(result.surface, result.half_edges, execution, result.stars);
   result.seams = seams(result.half_edges, domain, result.punctures, result.stars);
   auto classes = topology::cohomology_basis(result.half_edges, domain);
   if (!result.closed) topology::add_paths_between_loops(result.half_edges, domain, classes);
   forms::Singularities singularities;
   singularities.classes = topology::puncture_classes(result.half_edges, domain, result.stars);
   result.classes = topology::beside(classes, singularities.classes);
-  result.sheets = uv::corner_sheets(result.surface, result.half_edges, domain, result.classes, progress);
+  result.sheets = uv::corner_sheets(result.surface, result.half_edges, domain, result.classes, execution);
 
-  progress.stage("Laplacian", 0.25, 0.35);
-  const auto weights = mesh::cotangent_weights(triangulation, progress);
+  execution.stage("Laplacian", 0.25, 0.35);
+  const auto weights = mesh::cotangent_weights(triangulation, execution);
   const auto& lengths = triangulation.lengths;
   singularities.residues = real_columns(result.punctures.residues);
   singularities.part = forms::singular_part(result.half_edges, lengths, result.stars, singularities.residues);
   singularities.outer_weights = forms::outer_weights(result.half_edges, lengths, weights, result.stars);
-  auto laplacian = forms::laplacian(result.half_edges, weights, progress);
+  auto laplacian = forms::laplacian(result.half_edges, weights, execution);
 
-  progress.stage("differential of the third kind", 0.35, 0.6);
+  execution.stage("differential of the third kind", 0.35, 0.6);
   const auto held = mesh::boundary_vertices(domain.boundary);
   const auto choice =
       solver::choose_method(options.solver, laplacian.size(), classes.form_count + 2 * singularities.residues.cols());
-  const auto solver = solver::make_solver(choice.method, std::move(laplacian), held, progress);
-  const auto pair = forms::third_kind(result.half_edges, weights, singularities, *solver, held, progress);
+  const auto solver = solver::make_solver(choice.method, std::move(laplacian), held, execution);
+  const auto pair = forms::third_kind(result.half_edges, weights, singularities, *solver, held, execution);
   result.residuals.harmonicity = pair.harmonicity;
   result.at_vertex = joined(pair.u) + Complex(0, 1) * joined(pair.v);
 
-  progress.stage("harmonic forms", 0.6, 0.9);
+  execution.stage("harmonic forms", 0.6, 0.9);
   const int n = classes.form_count;
   result.harmonic = {classes, forms::RowMajorMatrix(surface.vertex_count, 0)};
   result.handle_part = Eigen::VectorXcd::Zero(n);
   result.periods = Eigen::MatrixXcd::Zero(n, 0);
   if (n > 0) {
     result.harmonic =
-        forms::harmonic_basis(result.half_edges, weights, classes, *solver, solver::Condition::natural, progress);
-    const Eigen::MatrixXd G = forms::gram_matrix(result.half_edges, weights, result.harmonic, progress);
+        forms::harmonic_basis(result.half_edges, weights, classes, *solver, solver::Condition::natural, execution);
+    const Eigen::MatrixXd G = forms::gram_matrix(result.half_edges, weights, result.harmonic, execution);
     if (result.closed) {
-      const auto canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, progress));
+      const auto canonical = topology::canonical_basis(topology::wedge_matrix(result.half_edges, classes, execution));
       result.periods = conformal::holomorphic_basis(G, canonical).periods;
     }
     result.handle_part =
         -joined(forms::harmonic_part(result.half_edges, singularities, result.stars, result.harmonic, G));
     result.residuals.harmonicity =
         std::max(result.residuals.harmonicity,
-                 forms::residuals(result.half_edges, weights, result.harmonic, progress).harmonicity);
+                 forms::residuals(result.half_edges, weights, result.harmonic, execution).harmonicity);
   }
   result.solver = solver_report(*solver, choice);
 
-  progress.stage("certificates", 0.9, 1.0);
-  result.residuals.closedness = closedness(result, progress);
+  execution.stage("certificates", 0.9, 1.0);
+  result.residuals.closedness = closedness(result, execution);
   result.period_residual = period_residual(result);
-  progress.finish();
-  result.seconds = progress.seconds();
+  execution.finish();
+  result.seconds = execution.seconds();
   return result;
 }
 
-uv::UvArray uv_map(const PuncturedStructure& s, const Eigen::VectorXcd& c) {
+uv::UvArray uv_map(const PuncturedStructure& s, const Eigen::VectorXcd& c, Workers& workers) {
   const auto handles = s.handle_part.size();
   const auto holomorphic = c.tail(c.size() - 1);
   Eigen::VectorXcd p(s.classes.form_count);
@@ -193,7 +192,7 @@ uv::UvArray uv_map(const PuncturedStructure& s, const Eigen::VectorXcd& c) {
   const Eigen::VectorXcd at_vertex = c[0] * s.at_vertex + s.harmonic.functions.cast<Complex>() * p.head(handles);
   uv::UvArray values(at_vertex.size(), 2);
   values << at_vertex.real(), at_vertex.imag();
-  uv::UvArray uv = uv::uv_map(s.surface, s.sheets, values, p);
+  uv::UvArray uv = uv::uv_map(s.surface, s.sheets, values, p, workers);
   uv::place_apexes(s.surface, s.half_edges, s.stars, uv);
   return uv;
 }

@@ -43,11 +43,11 @@ struct PuncturedStructure {
 /// @pre connected, no isolated vertices
 /// @throws TopologyError for punctures or residues that do not fit; SolverError; Cancelled
 PuncturedStructure punctured_structure(const mesh::Surface& surface, Punctures punctures, const Options& options,
-                                       Progress& progress);
+                                       Execution& execution);
 
 /// #C x 2: UVs of sum_j c_j theta_j. In the stars of the punctures see uv::place_apexes.
 /// @param c 1 + periods.cols() complex coefficients
-uv::UvArray uv_map(const PuncturedStructure& structure, const Eigen::VectorXcd& c);
+uv::UvArray uv_map(const PuncturedStructure& structure, const Eigen::VectorXcd& c, Workers& workers);
 
 /// (1 + periods.cols()) x #E values of the forms along half-edge 2e; NaN for theta_0 on the spokes, where it is
 /// infinite.

@@ -7,7 +7,6 @@
 #include "base/errors.h"
 #include "mesh/components.h"
 #include "mesh/triangle_geometry.h"
-#include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 namespace {
@@ -80,13 +79,13 @@ struct Solved {
 };
 
 Solved solve(const mesh::IntrinsicTriangulation& triangulation, const Sides& sides, const Options& options, double from,
-             double to, Progress& progress) {
-  const auto weights = mesh::cotangent_weights(triangulation, progress);
-  const auto laplacian = forms::laplacian(triangulation.half_edges, weights, progress);
+             double to, Execution& execution) {
+  const auto weights = mesh::cotangent_weights(triangulation, execution);
+  const auto laplacian = forms::laplacian(triangulation.half_edges, weights, execution);
   const auto L = laplacian.matrix();
   Solved result{Eigen::MatrixXd(L.rows(), 2), {0, 0}, 0, {}};
   for (int axis = 0; axis < 2; ++axis) {
-    progress.stage(axis == 0 ? "width" : "height", from + (to - from) * axis / 2, from + (to - from) * (axis + 1) / 2);
+    execution.stage(axis == 0 ? "width" : "height", from + (to - from) * axis / 2, from + (to - from) * (axis + 1) / 2);
     // u: 0 on side 3, 1 on side 1; v: 0 on side 0, 1 on side 2
     const auto &zero = sides[axis == 0 ? 3 : 0], &one = sides[axis == 0 ? 1 : 2];
     std::vector<int> held = zero;
@@ -95,8 +94,8 @@ Solved solve(const mesh::IntrinsicTriangulation& triangulation, const Sides& sid
     for (const int v : one) f[v] = 1;
     auto matrix = laplacian;
     const auto choice = solver::choose_method(options.solver, L.rows(), 1);
-    const auto solver = solver::make_solver(choice.method, std::move(matrix), held, progress);
-    f += solver->solve(-(L * f), solver::Condition::dirichlet, progress).col(0);
+    const auto solver = solver::make_solver(choice.method, std::move(matrix), held, execution);
+    f += solver->solve(-(L * f), solver::Condition::dirichlet, execution).col(0);
     Eigen::VectorXd flux = L * f;
     const double largest = (L.cwiseAbs() * f.cwiseAbs()).maxCoeff();
     result.energy[axis] = f.dot(flux);
@@ -125,39 +124,38 @@ std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& 
 }  // namespace
 
 RectangleMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& names,
-                           const Options& options, Progress& progress) {
-  const ThreadCount threads(options.threads);
+                           const Options& options, Execution& execution) {
   RectangleMap result;
-  progress.stage("half-edges", 0.0, 0.1);
-  auto half_edges = mesh::half_edges(surface, progress);
+  execution.stage("half-edges", 0.0, 0.1);
+  auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = checked_boundary(surface, half_edges);
   const Sides four = sides(around(half_edges, boundary), corners, surface.vertex_count, names);
   std::copy(corners.begin(), corners.end(), result.corners.begin());
   result.collapsed_triangles = collapsed_triangles(surface, four);
 
-  progress.stage("intrinsic Delaunay", 0.1, 0.2);
-  auto delaunay = mesh::intrinsic_triangulation(surface, half_edges.copy());
-  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges));
-  mesh::make_delaunay(delaunay, progress);
+  execution.stage("intrinsic Delaunay", 0.1, 0.2);
+  auto delaunay = mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
+  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
+  mesh::make_delaunay(delaunay, execution);
   result.flip_count = static_cast<int>(delaunay.flips.size());
   result.mollification = plain.mollification;
-  const Solved sharp = solve(delaunay, four, options, 0.2, result.flip_count > 0 ? 0.6 : 1.0, progress);
+  const Solved sharp = solve(delaunay, four, options, 0.2, result.flip_count > 0 ? 0.6 : 1.0, execution);
   result.upper = sharp.energy[0];
   result.lower = 1 / sharp.energy[1];
   result.modulus = std::sqrt(result.upper * result.lower);
 
-  const Solved drawn = result.flip_count > 0 ? solve(plain, four, options, 0.6, 1.0, progress) : sharp;
+  const Solved drawn = result.flip_count > 0 ? solve(plain, four, options, 0.6, 1.0, execution) : sharp;
   result.u = drawn.functions.col(0);
   result.v = drawn.functions.col(1);
   result.harmonicity = std::max(sharp.harmonicity, drawn.harmonicity);
   result.solver = sharp.solver;
-  progress.finish();
-  result.seconds = progress.seconds();
+  execution.finish();
+  result.seconds = execution.seconds();
   return result;
 }
 
 std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface) {
-  Progress silent;
+  Execution silent;
   const auto half_edges = mesh::half_edges(surface, silent);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
   std::vector<double> turn(surface.vertex_count, std::numbers::pi);
@@ -179,12 +177,12 @@ std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface) {
 }
 
 int boundary_length(const mesh::Surface& surface) {
-  Progress silent;
+  Execution silent;
   return static_cast<int>(mesh::boundary_loops(surface, mesh::half_edges(surface, silent)).loops[0].size());
 }
 
 std::vector<int> quarter_corners(const mesh::Surface& surface) {
-  Progress silent;
+  Execution silent;
   const auto half_edges = mesh::half_edges(surface, silent);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
   const auto& loop = boundary.loops[0];  // the hole on its left: turned round at the end

@@ -37,7 +37,7 @@ struct RectangleMap {
 /// not in its order; SolverError; Cancelled
 /// Cost: four solves, of four matrices; two where no edge is turned.
 RectangleMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& names,
-                           const Options& options, Progress& progress);
+                           const Options& options, Execution& execution);
 
 /// The four corners of a disk whose boundary has exactly four vertices at which it turns by more than 45 degrees, all
 /// of them inwards, in its order from the lowest; nothing for other disks.

@@ -7,13 +7,13 @@ namespace holomorph::pipeline {
 StreamedForms streamed_forms(const mesh::Surface& surface, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops,
                              forms::ClosedForms& artist, const mesh::HalfEdges& triangulation,
                              std::span<const double> weights, solver::LaplaceSolver& solver,
-                             forms::ClosedForms& intrinsic, const MemoryPlan& plan, Progress& progress) {
+                             forms::ClosedForms& intrinsic, const MemoryPlan& plan, Execution& execution) {
   const int n = intrinsic.classes.form_count;
   StreamedForms result;
   Eigen::MatrixXd G(n, n);
   result.samples.triangles = uv::sample_triangles(surface);
   result.samples.on_sides.resize(2 * static_cast<Eigen::Index>(result.samples.triangles.size()), n);
-  Progress silent;
+  Execution silent;
   const auto measure = [&](int first, forms::RowMajorMatrix&& functions) {
     const auto width = functions.cols();
     intrinsic.first = artist.first = first;
@@ -27,7 +27,7 @@ StreamedForms streamed_forms(const mesh::Surface& surface, const std::vector<std
     result.samples.on_sides.middleCols(first, width) = uv::values_on_sides(surface, artist, result.samples.triangles);
     artist.functions.swap(intrinsic.functions);
   };
-  result.solver = solve_in_blocks(triangulation, weights, solver, intrinsic.classes, plan, progress, measure);
+  result.solver = solve_in_blocks(triangulation, weights, solver, intrinsic.classes, plan, execution, measure);
   intrinsic.functions.resize(0, 0);
   intrinsic.first = artist.first = 0;
   result.asymmetry = (G - G.transpose()).cwiseAbs().maxCoeff() / G.cwiseAbs().maxCoeff();

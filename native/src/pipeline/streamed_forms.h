@@ -25,7 +25,7 @@ struct StreamedForms {
 StreamedForms streamed_forms(const mesh::Surface& surface, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops,
                              forms::ClosedForms& artist, const mesh::HalfEdges& triangulation,
                              std::span<const double> weights, solver::LaplaceSolver& solver,
-                             forms::ClosedForms& intrinsic, const MemoryPlan& plan, Progress& progress);
+                             forms::ClosedForms& intrinsic, const MemoryPlan& plan, Execution& execution);
 
 /// Largest |int_{zeta_i} h_j - delta_ij| over all loops and these forms.
 double period_residual(const mesh::EdgeEnds& ends, const forms::ClosedForms& forms,

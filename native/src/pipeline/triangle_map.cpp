@@ -7,20 +7,18 @@
 #include "mesh/boundary_loops.h"
 #include "mesh/edge_ends.h"
 #include "mesh/triangle_geometry.h"
-#include "pipeline/threads.h"
 
 namespace holomorph::pipeline {
 
-TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, Progress& progress) {
-  const ThreadCount threads(options.threads);
+TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, Execution& execution) {
   TriangleMap result;
-  progress.stage("boundary", 0.0, 0.3);
-  auto half_edges = mesh::half_edges(surface, progress);
+  execution.stage("boundary", 0.0, 0.3);
+  auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
   const auto& loop = boundary.loops[0];  // the hole on its left: the surface has it the other way round
   if (loop.size() != 3)
     throw TopologyError("the boundary has " + std::to_string(loop.size()) + " edges; three are needed");
-  const auto triangulation = mesh::intrinsic_triangulation(surface, std::move(half_edges));
+  const auto triangulation = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
   result.mollification = triangulation.mollification;
   const auto vertex = [&](int i) { return mesh::from_vertex(surface, loop[i]); };
   const auto length = [&](int i) { return triangulation.lengths[mesh::edge_of(loop[i])]; };
@@ -33,9 +31,9 @@ TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, P
   const double area = mesh::triangle_area(a, b, c);
   z(vertex(1), 1) = mesh::is_degenerate(a, b, c) ? a * scale / 2 : 2 * area / a * scale;
 
-  progress.stage("harmonic map", 0.3, 1.0);
-  const auto weights = mesh::cotangent_weights(triangulation, progress);
-  auto laplacian = forms::laplacian(triangulation.half_edges, weights, progress);
+  execution.stage("harmonic map", 0.3, 1.0);
+  const auto weights = mesh::cotangent_weights(triangulation, execution);
+  auto laplacian = forms::laplacian(triangulation.half_edges, weights, execution);
   const std::vector<int> held{vertex(0), vertex(1), vertex(2)};
   if (surface.vertex_count > 3) {
     const auto L = laplacian.matrix();
@@ -43,8 +41,8 @@ TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, P
     const double largest = (L.cwiseAbs() * z.cwiseAbs()).maxCoeff();
     auto matrix = laplacian;
     const auto choice = solver::choose_method(options.solver, L.rows(), 2);
-    const auto solver = solver::make_solver(choice.method, std::move(matrix), held, progress);
-    z += solver->solve(B, solver::Condition::dirichlet, progress);
+    const auto solver = solver::make_solver(choice.method, std::move(matrix), held, execution);
+    z += solver->solve(B, solver::Condition::dirichlet, execution);
     Eigen::MatrixXd rest = L * z;
     for (const int v : held) rest.row(v).setZero();
     result.harmonicity = rest.cwiseAbs().maxCoeff() / largest;
@@ -54,8 +52,8 @@ TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, P
     result.solver.reason = "a single triangle";
   }
   result.points = z.col(0).cast<std::complex<double>>() + std::complex<double>(0, 1) * z.col(1);
-  progress.finish();
-  result.seconds = progress.seconds();
+  execution.finish();
+  result.seconds = execution.seconds();
   return result;
 }
 

@@ -23,6 +23,6 @@ struct TriangleMap {
 
 /// @pre a disk
 /// @throws TopologyError for a boundary of more than three edges; SolverError; Cancelled
-TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, Progress& progress);
+TriangleMap triangle_map(const mesh::Surface& surface, const Options& options, Execution& execution);
 
 }  // namespace holomorph::pipeline

@@ -69,8 +69,9 @@ void set_base(ProgressiveMesh& mesh, const std::vector<Triple>& triangles, std::
     polygons.corner_vertices.insert(polygons.corner_vertices.end(), t.begin(), t.end());
     polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
   }
+  Execution execution;
   try {
-    mesh.base = make_surface(std::move(polygons));
+    mesh.base = make_surface(std::move(polygons), execution);
   } catch (const Error& error) {
     require(false, std::string("its base: ") + error.what());
   }
@@ -90,8 +91,9 @@ void check(const ProgressiveMesh& mesh) {
   while (refinement.splits_made() < static_cast<int>(mesh.splits.size())) refinement.split();
   check_corners(mesh, refinement.triangles());
   if (mesh.face_offsets.empty()) return;
+  Execution execution;
   try {
-    (void)make_surface(restored(mesh));
+    (void)make_surface(restored(mesh), execution);
   } catch (const Error& error) {
     require(false, std::string("its polygons: ") + error.what());
   }

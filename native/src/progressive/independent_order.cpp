@@ -61,11 +61,11 @@ class IndependentOrder {
 
 }  // namespace
 
-void collapse_independent_sets(EdgeCollapse& mesh, Progress& progress) {
+void collapse_independent_sets(EdgeCollapse& mesh, Execution& execution) {
   mesh.reserve(mesh.vertex_count());
   IndependentOrder order(mesh);
   while (static_cast<double>(order.round(Geometry::checked)) > kLeastRemoved * static_cast<double>(order.left())) {
-    progress.report(mesh.part_gone());
+    execution.report(mesh.part_gone());
   }
   while (order.round(Geometry::ignored) > 0) {
   }

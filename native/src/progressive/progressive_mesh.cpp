@@ -42,7 +42,7 @@ class Recorder {
     });
   }
 
-  ProgressiveMesh record() const {
+  ProgressiveMesh record(Execution& execution) const {
     ProgressiveMesh mesh;
     mesh.vertex_index = vertices_;
     mesh.triangle_index = triangles_;
@@ -54,7 +54,7 @@ class Recorder {
       mesh.splits.push_back({at(c->v_s), at(c->v_l), at(c->v_r), slot(c->left), slot(c->right)});
     }
     mesh.base = make_surface(
-        triangle_polygons({mesh.positions.begin(), mesh.positions.begin() + base_vertices_}, base_faces()));
+        triangle_polygons({mesh.positions.begin(), mesh.positions.begin() + base_vertices_}, base_faces()), execution);
     record_polygons(mesh);
     return mesh;
   }
@@ -120,17 +120,18 @@ class Recorder {
 
 }  // namespace
 
-ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Progress& progress) {
-  progress.stage("edge collapses", 0.0, 1.0);
+ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Execution& execution) {
+  execution.stage("edge collapses", 0.0, 1.0);
   const auto turned = with_single_edges(given);
   const mesh::Surface& surface = turned ? *turned : given;
   EdgeCollapse collapse(surface);
-  order == Order::quadric ? collapse_by_quadrics(collapse, progress) : collapse_independent_sets(collapse, progress);
-  progress.finish();
+  order == Order::quadric ? collapse_by_quadrics(collapse, execution) : collapse_independent_sets(collapse, execution);
+  execution.finish();
+  Execution silent(execution.threads());
   const std::size_t count = collapse.collapses().size();
   for (std::size_t left_out = 0;; left_out = 2 * left_out + 1) {
     const Recorder recorder(surface, collapse.collapses(), count - std::min(count, left_out));
-    if (recorder.base_has_area()) return recorder.record();
+    if (recorder.base_has_area()) return recorder.record(silent);
   }
 }
 

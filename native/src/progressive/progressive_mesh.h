@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/execution.h"
 #include "mesh/surface.h"
 
 namespace holomorph::progressive {
@@ -56,7 +56,7 @@ struct ProgressiveMesh {
 /// Where a diagonal of the triangulation joins vertices that another edge joins too, it is turned.
 /// @throws InvalidMesh for an intrinsic surface, or if turning helps nothing; Cancelled. Deterministic, one thread,
 /// O(#T) apart from very large stars.
-ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Progress& progress);
+ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Execution& execution);
 
 /// Number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
 int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count);

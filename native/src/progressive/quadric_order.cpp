@@ -11,7 +11,7 @@ constexpr float kRefused = std::numeric_limits<float>::infinity();
 
 class QuadricOrder {
  public:
-  QuadricOrder(EdgeCollapse& mesh, Progress& progress) : mesh_(mesh), progress_(progress), queue_(mesh) {}
+  QuadricOrder(EdgeCollapse& mesh, Execution& execution) : mesh_(mesh), progress_(execution), queue_(mesh) {}
 
   void run(Geometry geometry) {
     geometry_ = geometry;
@@ -58,7 +58,7 @@ class QuadricOrder {
   }
 
   EdgeCollapse& mesh_;
-  Progress& progress_;
+  Execution& progress_;
   BucketQueue queue_;
   Geometry geometry_ = Geometry::checked;
   std::size_t batches_ = 0;
@@ -67,10 +67,10 @@ class QuadricOrder {
 
 }  // namespace
 
-void collapse_by_quadrics(EdgeCollapse& mesh, Progress& progress) {
+void collapse_by_quadrics(EdgeCollapse& mesh, Execution& execution) {
   mesh.compute_quadrics();
   mesh.reserve(mesh.vertex_count());
-  QuadricOrder order(mesh, progress);
+  QuadricOrder order(mesh, execution);
   order.run(Geometry::checked);
   // A refused vertex is tried again when its own star changes, not when a neighbour's does: so once more until nothing
   // is left. Each round but the last makes a collapse.

@@ -26,7 +26,7 @@ class BlockSolve {
 
   /// Solves for the columns first .. first + width - 1 of B, width <= K, and writes the same columns of X.
   /// @param conditions of all columns
-  /// @throws SolverError after 300 iterations or two corrections without progress; what `report` throws
+  /// @throws SolverError after 300 iterations or two corrections without execution; what `report` throws
   void solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first, int width,
              Solution& X, const Report& report);
 

@@ -22,12 +22,12 @@ constexpr int kMostRefinements = 4;
 constexpr double kRounding = 1e-14;
 
 // L without the row and column of one vertex, lower triangle: positive definite for a connected surface.
-Laplacian::Matrix pinned(const Eigen::Map<const Laplacian::Matrix>& L, Eigen::Index vertex, Progress& progress) {
+Laplacian::Matrix pinned(const Eigen::Map<const Laplacian::Matrix>& L, Eigen::Index vertex, Execution& execution) {
   const auto n = L.rows() - 1;
   Laplacian::Matrix lower(n, n);
   lower.reserve(L.nonZeros() / 2 + n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    progress.step(i, n, 0.0, 0.1);
+    execution.step(i, n, 0.0, 0.1);
     const Eigen::Index column = i < vertex ? i : i + 1;
     lower.startVec(i);
     for (Eigen::Map<const Laplacian::Matrix>::InnerIterator it(L, column); it; ++it) {
@@ -41,17 +41,17 @@ Laplacian::Matrix pinned(const Eigen::Map<const Laplacian::Matrix>& L, Eigen::In
 class DirectSolver final : public LaplaceSolver {
  public:
   // A held vertex is pinned where there is one: it is a single unknown less in both problems.
-  DirectSolver(Laplacian&& L, std::vector<int> held, Progress& progress) : L_(std::move(L)), held_(std::move(held)) {
+  DirectSolver(Laplacian&& L, std::vector<int> held, Execution& execution) : L_(std::move(L)), held_(std::move(held)) {
     pin_ = held_.empty() ? L_.size() - 1 : held_.back();
     std::vector<char> last(held_.empty() ? 0 : L_.size() - 1);
     for (const int v : held_) {
       if (v != pin_) last[v] = 1;
     }
-    factor_.compute(pinned(L_.matrix(), pin_, progress), std::move(last));
-    progress.report(0.8);
+    factor_.compute(pinned(L_.matrix(), pin_, execution), std::move(last));
+    execution.report(0.8);
   }
 
-  Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Progress& progress) override {
+  Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) override {
     Solution X(B.rows(), B.cols());
     const auto block = std::max<Eigen::Index>(kLeastBlock, kBlockEntries / B.rows());
     for (Eigen::Index first = 0, width = 1; first < B.cols(); first += width) {
@@ -60,7 +60,7 @@ class DirectSolver final : public LaplaceSolver {
       width = 1;
       while (width < std::min(block, B.cols() - first) && conditions[first + width] == condition_) ++width;
       done_ = 0.8 + 0.2 * static_cast<double>(first) / static_cast<double>(B.cols());
-      X.middleCols(first, width) = solve_block(B.middleCols(first, width), progress);
+      X.middleCols(first, width) = solve_block(B.middleCols(first, width), execution);
     }
     return X;
   }
@@ -68,13 +68,13 @@ class DirectSolver final : public LaplaceSolver {
   std::string name() const override { return "direct: " + SparseCholesky::name(); }
 
  private:
-  Eigen::MatrixXd solve_block(Eigen::MatrixXd B, Progress& progress) {
-    progress.report(done_);
+  Eigen::MatrixXd solve_block(Eigen::MatrixXd B, Execution& execution) {
+    execution.report(done_);
     if (condition_ == Condition::dirichlet) B(held_, Eigen::all).setZero();
     Eigen::MatrixXd X = apply(B), R = rest(X, B);
     double residual = relative(R, B);
     for (int step = 0; residual > kGoal && step < kMostRefinements; ++step) {
-      progress.report(done_);
+      execution.report(done_);
       const Eigen::MatrixXd better = X + apply(R);
       const Eigen::MatrixXd better_rest = rest(better, B);
       const double reached = relative(better_rest, B);
@@ -137,8 +137,8 @@ class DirectSolver final : public LaplaceSolver {
 
 }  // namespace
 
-std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int> held, Progress& progress) {
-  return std::make_unique<DirectSolver>(std::move(L), std::move(held), progress);
+std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int> held, Execution& execution) {
+  return std::make_unique<DirectSolver>(std::move(L), std::move(held), execution);
 }
 
 }  // namespace holomorph::solver

@@ -69,9 +69,9 @@ void for_going(const SparseRows& A, const Array<int>& coarse, int chunk, const B
 
 // None that goes is without a staying neighbour: it goes because of one.
 Array<Staying> staying_neighbours(const SparseRows& A, const Array<char>& held, const Array<int>& coarse,
-                                  Workers& workers, Progress& progress) {
+                                  Workers& workers, Execution& execution) {
   Array<Staying> result(A.size());
-  for_set_up_chunks(workers, A.size(), progress, [&](int, int chunk, int begin, int end) {
+  for_set_up_chunks(workers, A.size(), execution, [&](int, int chunk, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       result[i] = {{coarse[i], coarse[i], coarse[i]}, {1, 0, 0}, 1, 0};
     }
@@ -112,10 +112,10 @@ void write_mean(const Largest<Most>& sums, Entry* mean) {
 
 template <int Most>
 EqualRows means(const SparseRows& A, const Array<float>& largest, const Array<char>& held, const Array<int>& coarse,
-                std::vector<RowSums<float>>& scratch, Workers& workers, Progress& progress) {
-  const Array<Staying> staying = staying_neighbours(A, held, coarse, workers, progress);
+                std::vector<RowSums<float>>& scratch, Workers& workers, Execution& execution) {
+  const Array<Staying> staying = staying_neighbours(A, held, coarse, workers, execution);
   EqualRows result{Most, Array<Entry>(std::size_t{Most} * A.size())};
-  for_set_up_chunks(workers, A.size(), progress, [&](int thread, int chunk, int begin, int end) {
+  for_set_up_chunks(workers, A.size(), execution, [&](int thread, int chunk, int begin, int end) {
     RowSums<float>& room = scratch[thread];
     Entry* const mean = result.entry.data();
     for (int i = begin; i < end; ++i) {
@@ -161,9 +161,9 @@ Coarsening coarsening(const SparseRows& A, const Array<float>& largest, const Ar
 
 EqualRows interpolation(const SparseRows& A, const Array<float>& largest, const Array<char>& held,
                         const Array<int>& coarse, int most, std::vector<RowSums<float>>& scratch, Workers& workers,
-                        Progress& progress) {
+                        Execution& execution) {
   const auto by_most = most == 2 ? means<2> : means<3>;
-  return by_most(A, largest, held, coarse, scratch, workers, progress);
+  return by_most(A, largest, held, coarse, scratch, workers, execution);
 }
 
 }  // namespace holomorph::solver

@@ -36,6 +36,6 @@ Coarsening coarsening(const SparseRows& A, const Array<float>& largest, const Ar
 /// @param scratch one per thread, for rows as long as the coarse level
 EqualRows interpolation(const SparseRows& A, const Array<float>& largest, const Array<char>& held,
                         const Array<int>& coarse, int most, std::vector<RowSums<float>>& scratch, Workers& workers,
-                        Progress& progress);
+                        Execution& execution);
 
 }  // namespace holomorph::solver

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "base/progress.h"
+#include "base/execution.h"
 #include "solver/laplacian.h"
 
 namespace holomorph::solver {
@@ -38,9 +38,9 @@ class LaplaceSolver {
   /// @param B #V x #rhs; natural: each column sums to 0; dirichlet: the rows of held vertices are ignored
   /// @return #V x #rhs; natural: each column up to a constant; dirichlet: 0 at the held vertices, exactly
   /// @throws SolverError with the residual reached and the size of the system; Cancelled
-  virtual Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Progress& progress) = 0;
-  Solution solve(const Eigen::MatrixXd& B, Condition condition, Progress& progress) {
-    return solve(B, std::vector<Condition>(B.cols(), condition), progress);
+  virtual Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) = 0;
+  Solution solve(const Eigen::MatrixXd& B, Condition condition, Execution& execution) {
+    return solve(B, std::vector<Condition>(B.cols(), condition), execution);
   }
 
   /// What was used, e.g. "direct: CHOLMOD supernodal, AMD".
@@ -63,7 +63,7 @@ class LaplaceSolver {
 /// takes the held vertices last, so that one factorisation serves both conditions.
 /// @param held vertices, ascending and distinct; none for a closed surface, where dirichlet must not be asked for
 /// @throws SolverError if the factorisation fails; Cancelled before or after it
-std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int> held, Progress& progress);
+std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int> held, Execution& execution);
 
 /// Conjugate gradients for up to 8 right-hand sides at once, preconditioned by algebraic multigrid in single precision
 /// inside a correction in double precision: linear time and memory. Takes weights of any signs, fewer iterations
@@ -74,7 +74,7 @@ std::unique_ptr<LaplaceSolver> make_direct_solver(Laplacian&& L, std::vector<int
 /// Cost: about 0.6 us per vertex and 1.2 us per vertex and 4 right-hand sides on one thread; 0.35 KB per vertex
 /// for 4 right-hand sides.
 std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> held, double goal,
-                                                     Progress& progress);
+                                                     Execution& execution);
 
 enum class Method { direct, multigrid };
 
@@ -92,7 +92,7 @@ double factor_bytes(double unknowns);
 
 /// @param held vertices in any order; out of range: our bug
 /// @param goal of multigrid; the direct solver has none
-std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress,
+std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Execution& execution,
                                            double goal = kGoal);
 
 }  // namespace holomorph::solver

@@ -40,11 +40,11 @@ void note(const RowMeasures& row, double part, int i, const Array<char>& held, O
 }
 
 // The largest entry of each row, that of the diagonal included.
-Array<float> row_sizes(const Laplacian& L, Workers& workers, Progress& progress) {
+Array<float> row_sizes(const Laplacian& L, Workers& workers, Execution& execution) {
   const int n = L.size();
   const double* const value = L.weights.data();
   Array<float> sizes(n);
-  for_set_up_chunks(workers, n, progress, [&](int, int, int begin, int end) {
+  for_set_up_chunks(workers, n, execution, [&](int, int, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       double most = 0;
       for (int e = L.starts[i]; e < L.starts[i + 1]; ++e) most = std::max(most, std::abs(value[e]));
@@ -77,16 +77,16 @@ void sum_up_row(const Level& fine, int I, RowSums<double>& room, RowSums<double>
 
 }  // namespace
 
-Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& workers, Progress& progress) {
+Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& workers, Execution& execution) {
   const int n = L.size();
   const int *const start = L.starts.data(), *const column = L.columns.data();
   const double* const value = L.weights.data();
-  const Array<float> sizes = row_sizes(L, workers, progress);
+  const Array<float> sizes = row_sizes(L, workers, execution);
   Operator result;
   result.omega.resize(n);
   result.largest.resize(n);
   const std::size_t expected = L.columns.size() - n;  // each row has a diagonal
-  result.A = build_rows(n, expected, workers, progress, [&](int, int i, RowPart& part) {
+  result.A = build_rows(n, expected, workers, execution, [&](int, int i, RowPart& part) {
     part.make_room(start[i + 1] - start[i]);
     RowMeasures measures;
     for (auto e = start[i]; e < start[i + 1]; ++e) {
@@ -102,13 +102,13 @@ Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& w
 }
 
 Operator coarse_operator(const Level& fine, const Array<char>& held, std::vector<RowSums<double>>& scratch,
-                         Workers& workers, Progress& progress) {
+                         Workers& workers, Execution& execution) {
   const int n = fine.R.size();
   Operator result;
   result.omega.resize(n);
   result.largest.resize(n);
   const auto expected = fine.A.rows.entries().size();
-  result.A = build_rows(n, expected, workers, progress, [&](int thread, int I, RowPart& part) {
+  result.A = build_rows(n, expected, workers, execution, [&](int thread, int I, RowPart& part) {
     RowSums<double>& room = scratch[thread];
     RowSums<double>::Row sums = room.next();
     if (fine.P.each == 2) {

@@ -23,13 +23,13 @@ struct Operator {
 };
 
 /// The weights of L without those that are only rounding. @param held one flag per vertex, or empty for none
-Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& workers, Progress& progress);
+Operator finest_operator(const Laplacian& L, const Array<char>& held, Workers& workers, Execution& execution);
 
 /// P^T A P, summed in double precision; its diagonal follows from the other entries, as rows sum to 0.
 /// @param fine with A, P and R
 /// @param held of the coarse level
 /// @param scratch one per thread, for rows as long as the coarse level
 Operator coarse_operator(const Level& fine, const Array<char>& held, std::vector<RowSums<double>>& scratch,
-                         Workers& workers, Progress& progress);
+                         Workers& workers, Execution& execution);
 
 }  // namespace holomorph::solver

@@ -98,7 +98,7 @@ Coarsening coarsening_and_needs(Level& level, const Array<float>& largest, Worke
 // enough.
 // @param scratch one per thread, made on the finest level
 bool coarsen(Level& level, const Array<float>& largest, int most_means, Scratch& scratch, Level& next,
-             Operator& next_operator, Workers& workers, Progress& progress) {
+             Operator& next_operator, Workers& workers, Execution& execution) {
   const int n = level.A.size();
   if (n <= kCoarsest) return false;
   const auto [coarse, count] = coarsening_and_needs(level, largest, workers);
@@ -107,10 +107,10 @@ bool coarsen(Level& level, const Array<float>& largest, int most_means, Scratch&
     scratch.means.emplace_back(count);
     scratch.rows.emplace_back(count);
   }
-  level.P = interpolation(level.A, largest, level.held, coarse, most_means, scratch.means, workers, progress);
-  level.R = transposed(level.P, count, wave_chunks(n), workers, progress);
+  level.P = interpolation(level.A, largest, level.held, coarse, most_means, scratch.means, workers, execution);
+  level.R = transposed(level.P, count, wave_chunks(n), workers, execution);
   next.held = held_below(level.held, coarse, count);
-  next_operator = coarse_operator(level, next.held, scratch.rows, workers, progress);
+  next_operator = coarse_operator(level, next.held, scratch.rows, workers, execution);
   return true;
 }
 
@@ -125,14 +125,14 @@ double Hierarchy::operator_complexity() const {
   return sum / entries(levels[0]);
 }
 
-void make_hierarchy(Laplacian&& L, const std::vector<int>& held, Workers& workers, Progress& progress,
+void make_hierarchy(Laplacian&& L, const std::vector<int>& held, Workers& workers, Execution& execution,
                     Hierarchy& hierarchy) {
   Level level;
   const int n = L.size();
   if (!held.empty()) level.held.assign(n, 0);
   for (const int v : held) level.held[v] = 1;
-  Operator here = finest_operator(L, level.held, workers, progress);
-  hierarchy.rests = weight_rests(L, here.A, workers, progress);
+  Operator here = finest_operator(L, level.held, workers, execution);
+  hierarchy.rests = weight_rests(L, here.A, workers, execution);
   L = {};
   Scratch scratch;
   for (;;) {
@@ -140,10 +140,10 @@ void make_hierarchy(Laplacian&& L, const std::vector<int>& held, Workers& worker
     Level next;
     Operator next_operator;
     const int most = hierarchy.levels.empty() ? kFinestMeans : kCoarseMeans;
-    const bool last = !coarsen(level, here.largest, most, scratch, next, next_operator, workers, progress);
+    const bool last = !coarsen(level, here.largest, most, scratch, next, next_operator, workers, execution);
     hierarchy.levels.push_back(cycle_level(std::move(level.A.rows), std::move(level.P), std::move(level.R.rows),
                                            std::move(here.omega), level.needs_of_A, workers));
-    progress.report(0);
+    execution.report(0);
     if (last) break;
     level = std::move(next);
     here = std::move(next_operator);

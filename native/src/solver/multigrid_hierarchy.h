@@ -33,7 +33,7 @@ struct Hierarchy {
 ///
 /// The held vertices of a level are among those of the level above, and their values are means of theirs alone. So one
 /// hierarchy serves both conditions: functions that are 0 at the held vertices of a level are so on all.
-void make_hierarchy(Laplacian&& L, const std::vector<int>& held, Workers& workers, Progress& progress,
+void make_hierarchy(Laplacian&& L, const std::vector<int>& held, Workers& workers, Execution& execution,
                     Hierarchy& hierarchy);
 
 }  // namespace holomorph::solver

@@ -50,7 +50,7 @@ bool is_scattered(const Laplacian& L, Workers& workers) {
   return total(far) > kMostFar * total(all);
 }
 
-std::vector<int> breadth_first_order(const Laplacian& L, Progress& progress) {
+std::vector<int> breadth_first_order(const Laplacian& L, Execution& execution) {
   const int n = L.size();
   std::vector<int> order;
   order.reserve(n);
@@ -60,7 +60,7 @@ std::vector<int> breadth_first_order(const Laplacian& L, Progress& progress) {
     seen[first] = 1;
     order.push_back(first);
     for (std::size_t next = order.size() - 1; next < order.size(); ++next) {
-      if (next % kChunk == 0) progress.report(0);
+      if (next % kChunk == 0) execution.report(0);
       const int i = order[next];
       for (int e = L.starts[i]; e < L.starts[i + 1]; ++e) {
         const int j = L.columns[e];

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/chunks.h"
-#include "base/progress.h"
+#include "base/execution.h"
 #include "solver/laplace_solver.h"
 
 namespace holomorph::solver {
@@ -15,7 +15,7 @@ namespace holomorph::solver {
 bool is_scattered(const Laplacian& L, Workers& workers);
 
 /// All vertices, breadth first from vertex 0 (and from the next one that is left, where L is not connected).
-std::vector<int> breadth_first_order(const Laplacian& L, Progress& progress);
+std::vector<int> breadth_first_order(const Laplacian& L, Execution& execution);
 
 /// The same symmetric matrix in another order. @param order the old number of each new one, a permutation
 Laplacian renumbered(const Laplacian& L, const std::vector<int>& order);

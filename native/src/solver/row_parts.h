@@ -53,11 +53,11 @@ class CollectedRows {
 /// Builds a matrix with `rows` rows in parallel. make_row(thread, i, part) appends the entries of row i to `part`;
 /// which thread it is must not influence the row. @throws std::bad_alloc, Cancelled
 template <class MakeRow>
-SparseRows build_rows(int rows, std::size_t expected_entries, Workers& workers, Progress& progress,
+SparseRows build_rows(int rows, std::size_t expected_entries, Workers& workers, Execution& execution,
                       const MakeRow& make_row) {
   CollectedRows result(rows, expected_entries);
   std::vector<RowPart> parts(workers.count());
-  for_set_up_chunks(workers, rows, progress, [&](int thread, int chunk, int begin, int end) {
+  for_set_up_chunks(workers, rows, execution, [&](int thread, int chunk, int begin, int end) {
     RowPart& part = parts[thread];
     part.clear();
     for (int i = begin; i < end; ++i) {

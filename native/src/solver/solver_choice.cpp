@@ -46,13 +46,13 @@ Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Inde
 
 double factor_bytes(double unknowns) { return kFactorBytes * unknowns * std::log2(std::max(unknowns, 2.0)); }
 
-std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Progress& progress,
+std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> held, Execution& execution,
                                            double goal) {
   std::sort(held.begin(), held.end());
   held.erase(std::unique(held.begin(), held.end()), held.end());
   assert(held.empty() || (held.front() >= 0 && held.back() < L.size()));
-  return method == Method::direct ? make_direct_solver(std::move(L), std::move(held), progress)
-                                  : make_multigrid_solver(std::move(L), std::move(held), goal, progress);
+  return method == Method::direct ? make_direct_solver(std::move(L), std::move(held), execution)
+                                  : make_multigrid_solver(std::move(L), std::move(held), goal, execution);
 }
 
 }  // namespace holomorph::solver

@@ -12,9 +12,9 @@ constexpr int kColumns = 4096;
 struct ColumnRanges {
   std::vector<int> least, most;
 
-  ColumnRanges(const EqualRows& M, Workers& workers, Progress& progress)
+  ColumnRanges(const EqualRows& M, Workers& workers, Execution& execution)
       : least(wave_chunks(M.size())), most(wave_chunks(M.size())) {
-    for_set_up_chunks(workers, M.size(), progress, [&](int, int chunk, int begin, int end) {
+    for_set_up_chunks(workers, M.size(), execution, [&](int, int chunk, int begin, int end) {
       int low = M[begin]->column, high = low;
       for (const Entry* e = M[begin]; e != M[end]; ++e) {
         low = std::min(low, e->column);
@@ -43,22 +43,22 @@ void for_columns(const EqualRows& M, const ColumnRanges& ranges, int begin, int 
 
 // Calls body(begin, end) for blocks of columns, in parallel.
 template <class Body>
-void for_column_blocks(int columns, Workers& workers, Progress& progress, const Body& body) {
+void for_column_blocks(int columns, Workers& workers, Execution& execution, const Body& body) {
   // One thread has nothing to share; and where columns are anywhere, more blocks would be more passes.
   const int blocks = workers.count() == 1 ? 1 : std::min(columns / kColumns + 1, 8 * workers.count());
   const int width = (columns + blocks - 1) / blocks;
-  progress.report(0);
+  execution.report(0);
   workers.run(blocks, [&](int, int b) { body(std::min(b * width, columns), std::min((b + 1) * width, columns)); });
 }
 
 }  // namespace
 
 // Each block of columns is done by one thread, which looks through the chunks that have entries in it.
-SparseRows transposed(const EqualRows& M, int columns, int chunks, Workers& workers, Progress& progress) {
-  const ColumnRanges ranges(M, workers, progress);
+SparseRows transposed(const EqualRows& M, int columns, int chunks, Workers& workers, Execution& execution) {
+  const ColumnRanges ranges(M, workers, execution);
   Array<int> start(columns + std::size_t{1});  // of every row, if they followed each other
   start[0] = 0;
-  for_column_blocks(columns, workers, progress, [&](int begin, int end) {
+  for_column_blocks(columns, workers, execution, [&](int begin, int end) {
     std::fill(start.begin() + begin + 1, start.begin() + end + 1, 0);
     for_columns(M, ranges, begin, end, [&](int, const Entry& entry) { start[entry.column + 1] += entry.weight != 0; });
   });
@@ -76,7 +76,7 @@ SparseRows transposed(const EqualRows& M, int columns, int chunks, Workers& work
     });
   });
   Entry* const entries = R.rows.entries().data();
-  for_column_blocks(columns, workers, progress, [&](int begin, int end) {
+  for_column_blocks(columns, workers, execution, [&](int begin, int end) {
     // A zero has the column of the first entry of its row, which comes later and overwrites it.
     for_columns(M, ranges, begin, end, [&](int i, const Entry& entry) {
       int& next = R.place[entry.column].end;

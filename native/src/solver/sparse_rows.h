@@ -1,7 +1,7 @@
 // Sparse matrices in single precision while the hierarchy is set up.
 #pragma once
 
-#include "base/progress.h"
+#include "base/execution.h"
 #include "solver/equal_rows.h"
 #include "solver/grouped_rows.h"
 
@@ -23,12 +23,12 @@ struct SparseRows {
 };
 
 /// body(thread, chunk, begin, end) for the rows begin .. end-1 of every chunk of kWaveRows, in parallel; asks
-/// `progress` between batches of some 10 ms, so that cancelling is answered soon. Throws what the first body threw.
+/// `execution` between batches of some 10 ms, so that cancelling is answered soon. Throws what the first body threw.
 template <class Body>
-void for_set_up_chunks(Workers& workers, int rows, Progress& progress, const Body& body) {
+void for_set_up_chunks(Workers& workers, int rows, Execution& execution, const Body& body) {
   constexpr int kBatch = 256;
   for (int first = 0; first < wave_chunks(rows); first += kBatch) {
-    progress.report(0);
+    execution.report(0);
     run_throwing(workers, std::min(kBatch, wave_chunks(rows) - first), [&](int thread, int c) {
       const int begin = (first + c) * kWaveRows;
       body(thread, first + c, begin, std::min(begin + kWaveRows, rows));
@@ -38,6 +38,6 @@ void for_set_up_chunks(Workers& workers, int rows, Progress& progress, const Bod
 
 /// The transpose, without zeros, its rows in as many chunks of equal size; entries of a row in ascending order.
 /// Cost: two passes over the entries, in parallel where the columns of neighbouring rows are near each other.
-SparseRows transposed(const EqualRows& M, int columns, int chunks, Workers& workers, Progress& progress);
+SparseRows transposed(const EqualRows& M, int columns, int chunks, Workers& workers, Execution& execution);
 
 }  // namespace holomorph::solver

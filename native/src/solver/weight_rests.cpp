@@ -2,12 +2,12 @@
 
 namespace holomorph::solver {
 
-Array<float> weight_rests(const Laplacian& L, const SparseRows& A, Workers& workers, Progress& progress) {
+Array<float> weight_rests(const Laplacian& L, const SparseRows& A, Workers& workers, Execution& execution) {
   const int *const start = L.starts.data(), *const column = L.columns.data();
   const double* const weight = L.weights.data();
   Array<float> rests(A.rows.entries().size());
   float* const rest = rests.data();
-  for_set_up_chunks(workers, A.size(), progress, [&](int, int, int begin, int end) {
+  for_set_up_chunks(workers, A.size(), execution, [&](int, int, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       int e = start[i];  // columns ascend in both
       for (int k = A.place[i].begin; k < A.place[i].end; ++k, ++e) {

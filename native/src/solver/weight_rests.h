@@ -11,7 +11,7 @@ namespace holomorph::solver {
 /// of the memory of L, which is not needed beside them.
 /// @param A of finest_operator(L)
 /// @throws Cancelled
-Array<float> weight_rests(const Laplacian& L, const SparseRows& A, Workers& workers, Progress& progress);
+Array<float> weight_rests(const Laplacian& L, const SparseRows& A, Workers& workers, Execution& execution);
 
 /// The Laplacian that they stand for, its diagonal summed up anew. Cost: linear, one thread.
 Laplacian laplacian_of(const CycleLevel& finest, const Array<float>& rests);

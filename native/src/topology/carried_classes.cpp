@@ -128,7 +128,7 @@ std::vector<std::vector<int>> carry_loops(const progressive::ProgressiveMesh& me
 }
 
 DualBases carried_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level) {
-  Progress silent;
+  Execution silent;
   const HalfEdges half_edges = mesh::half_edges(mesh.base, silent);
   const FundamentalDomain domain = fundamental_domain(mesh.base, half_edges, silent);
   std::vector<std::vector<int>> loops;

@@ -34,8 +34,8 @@ class DualTree {
     domain.face_order.reserve(mesh.n_faces());
   }
 
-  void grow(const std::vector<mesh::Star>& stars, Progress& progress) {
-    const Array<int> taken_off = take_off_leaves(stars, progress);
+  void grow(const std::vector<mesh::Star>& stars, Execution& execution) {
+    const Array<int> taken_off = take_off_leaves(stars, execution);
     cut_core();
     root_core();
     domain_.face_order.insert(domain_.face_order.end(), taken_off.rbegin(), taken_off.rend());
@@ -60,7 +60,7 @@ class DualTree {
   };
 
   // The faces of stars first, so that none of them becomes the root. @return the faces, each before its parent
-  Array<int> take_off_leaves(const std::vector<mesh::Star>& stars, Progress& progress) {
+  Array<int> take_off_leaves(const std::vector<mesh::Star>& stars, Execution& execution) {
     const int faces = static_cast<int>(mesh_.n_faces());
     Array<Links> links(faces, {0, 0});
     for (int f = 0; f < faces; ++f) {
@@ -82,7 +82,7 @@ class DualTree {
       for (const HalfedgeHandle h : star.link) take_off(face_of(mesh_, h));
     }
     for (int f = 0; f < faces; ++f) {
-      progress.step(f, faces, 0.7, 1.0);
+      execution.step(f, faces, 0.7, 1.0);
       for (int leaf = f; links[leaf].count == 1;) leaf = take_off(leaf);
     }
     return taken_off;
@@ -151,13 +151,13 @@ class DualTree {
 
 }  // namespace
 
-FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress,
+FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Execution& execution,
                                      const std::vector<mesh::Star>& stars) {
   FundamentalDomain domain;
   domain.boundary = mesh::boundary_loops(surface, half_edges);
   const int root = domain.boundary.count() == 0 ? 0 : mesh::from_vertex(half_edges, domain.boundary.loops[0][0]);
-  const auto distance = grow_shortest_paths(surface, half_edges, stars, root, domain, progress);
-  DualTree(surface, half_edges, distance, domain).grow(stars, progress);
+  const auto distance = grow_shortest_paths(surface, half_edges, stars, root, domain, execution);
+  DualTree(surface, half_edges, distance, domain).grow(stars, execution);
   return domain;
 }
 

@@ -12,8 +12,8 @@
 
 #include <vector>
 
+#include "base/execution.h"
 #include "base/page_allocator.h"
-#include "base/progress.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/stars.h"
 
@@ -42,7 +42,7 @@ struct FundamentalDomain {
 /// leaf, and the surface without the stars is cut as if they were holes. @pre no spoke is a diagonal
 /// Cost: linear but for the logarithms of the queue of T (grow_shortest_paths) and of the sort of the edges that the
 /// dual loops cross.
-FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Progress& progress,
+FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Execution& execution,
                                      const std::vector<mesh::Star>& stars = {});
 
 /// The cut graph: the interior edges of G without its dangling ends, ascending. Cutting the surface along it leaves a

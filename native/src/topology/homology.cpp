@@ -107,7 +107,7 @@ IntegerMatrix pairing(const HalfEdges& mesh, const IntegerForms& a, const Intege
   return twice / 2;
 }
 
-IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Progress& progress) {
+IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Execution& execution) {
   const int n = forms.form_count;
   IntegerMatrix twice = IntegerMatrix::Zero(n, n);
   std::vector<int> faces;  // where some form is not 0
@@ -119,7 +119,7 @@ IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Pro
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    progress.step(i, faces.size(), 0.0, 0.5);
+    execution.step(i, faces.size(), 0.0, 0.5);
     const int f = faces[i];
     const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
     const int factor = sign(h0) * sign(h1);

@@ -34,7 +34,7 @@ void add_loop_indicators(const HalfEdges& half_edges, const mesh::BoundaryLoops&
 IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b);
 
 /// W_ij = int eta_i ^ eta_j, integer because both are classes of integers; exact on any triangulation they live on.
-IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Progress& progress);
+IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Execution& execution);
 
 /// Rows S with S W S^T = J = [[0, I], [-I, 0]], |det S| = 1: integer symplectic Gram-Schmidt.
 /// @param W antisymmetric, |det| 1. @throws holomorph::Error if an entry leaves 64 bits

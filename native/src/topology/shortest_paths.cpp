@@ -47,7 +47,7 @@ class ShortestPathTree {
     }
   }
 
-  void grow(int root, Progress& progress) {
+  void grow(int root, Execution& execution) {
     distance[root] = 0;
     queue_.push({0.0, root});
     while (!queue_.empty()) {
@@ -57,7 +57,7 @@ class ShortestPathTree {
       if (!star_of_.empty() && star_of_[v] >= 0) settle_star(v, stars_[star_of_[v]]);
       if (domain_.boundary.loop_of_vertex[v] >= 0) settle_loop(v);
       if (done_ % kReportEvery == 0)
-        progress.report(0.7 * static_cast<double>(done_) / static_cast<double>(distance.size()));
+        execution.report(0.7 * static_cast<double>(done_) / static_cast<double>(distance.size()));
     }
   }
 
@@ -129,9 +129,9 @@ class ShortestPathTree {
 
 Array<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
                                   const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
-                                  Progress& progress) {
+                                  Execution& execution) {
   ShortestPathTree tree(surface, half_edges, stars, domain);
-  tree.grow(root, progress);
+  tree.grow(root, execution);
   return std::move(tree.distance);
 }
 

@@ -14,6 +14,6 @@ namespace holomorph::topology {
 /// Cost: O(n log n), of which the logarithm is that of a bucket's few vertices.
 Array<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
                                   const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
-                                  Progress& progress);
+                                  Execution& execution);
 
 }  // namespace holomorph::topology

@@ -4,6 +4,7 @@
 #include <complex>
 #include <random>
 
+#include "base/chunks.h"
 #include "mesh/triangle_geometry.h"
 #include "uv/minimise.h"
 #include "uv/uv_map.h"
@@ -143,7 +144,7 @@ Candidate descend(const Parts& parts, Coefficients kind, VectorXd x, const doubl
   return {variance, std::move(x)};
 }
 
-VectorXcd lowest_variance(const Parts& parts, Coefficients kind) {
+VectorXcd lowest_variance(const Parts& parts, Coefficients kind, Workers& workers) {
   const auto lower = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
   const auto every = Eigen::seq(0, Eigen::last, kThinning);
   const Parts thinned{parts.M(every, Eigen::all), parts.N(every, Eigen::all)};
@@ -159,24 +160,24 @@ VectorXcd lowest_variance(const Parts& parts, Coefficients kind) {
     for (auto& value : candidate.x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
   }
   // Each descent is on its own, so the number of threads changes nothing.
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < starts; ++i)
+  run_throwing(workers, starts, [&](int i) {
     candidates[i] = descend(thinned, kind, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
+  });
   std::stable_sort(candidates.begin(), candidates.end(), lower);
   candidates.resize(kept);
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < kept; ++i)
+  run_throwing(workers, kept, [&](int i) {
     candidates[i] = descend(parts, kind, std::move(candidates[i].x), kFineFloors, kFineSteps);
+  });
   return as_complex(std::min_element(candidates.begin(), candidates.end(), lower)->x, kind);
 }
 
 }  // namespace
 
 VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis,
-                                const Eigen::MatrixXd& area_form, Coefficients kind) {
+                                const Eigen::MatrixXd& area_form, Coefficients kind, Workers& workers) {
   VectorXcd c = VectorXcd::Ones(basis.cols());
   if (basis.cols() > 1) {
-    c = lowest_variance(sampled_parts(surface, samples, basis), kind);
+    c = lowest_variance(sampled_parts(surface, samples, basis), kind, workers);
     Eigen::Index largest;
     c.cwiseAbs().maxCoeff(&largest);
     const Complex phase = std::conj(c[largest]) / std::abs(c[largest]);

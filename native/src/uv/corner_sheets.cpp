@@ -79,10 +79,10 @@ Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
 }
 
 // The sheet of the corner at which each half-edge starts, in its face; nothing is said of those without a face.
-Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table, Progress& progress) {
+Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table, Execution& execution) {
   Array<int> at_start(mesh.n_halfedges());
   for (std::size_t i = 0; i < walk.order.size(); ++i) {
-    progress.step(i, walk.order.size(), 0.5, 1.0);
+    execution.step(i, walk.order.size(), 0.5, 1.0);
     const int f = walk.order[i];
     HalfedgeHandle h = walk.to_parent[f];
     if (h.is_valid()) {  // both ends are on the sheets that they are on in the parent
@@ -115,18 +115,19 @@ CornerSheets of_corners(const mesh::Surface& surface, const mesh::HalfEdges& mes
 }  // namespace
 
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh,
-                           const topology::FundamentalDomain& domain, const IntegerForms& classes, Progress& progress) {
+                           const topology::FundamentalDomain& domain, const IntegerForms& classes,
+                           Execution& execution) {
   SheetTable table(classes);
-  const auto at_start = sheets_at_starts(mesh, {domain.face_order, domain.to_parent_face}, table, progress);
+  const auto at_start = sheets_at_starts(mesh, {domain.face_order, domain.to_parent_face}, table, execution);
   return of_corners(surface, mesh, at_start, std::move(table));
 }
 
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<int>& cut,
-                           const IntegerForms& classes, Progress& progress, const std::vector<int>& names) {
+                           const IntegerForms& classes, Execution& execution, const std::vector<int>& names) {
   std::vector<char> is_cut(surface.edges.size(), 0);
   for (const int e : cut) is_cut[e] = 1;
   SheetTable table(classes);
-  const auto at_start = sheets_at_starts(mesh, walk_around(mesh, is_cut), table, progress);
+  const auto at_start = sheets_at_starts(mesh, walk_around(mesh, is_cut), table, execution);
   for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
     const HalfedgeHandle h(2 * e), o = opposite(h);
     if (is_cut[e] || !mesh.face_handle(h).is_valid() || !mesh.face_handle(o).is_valid()) continue;

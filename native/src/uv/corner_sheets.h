@@ -19,7 +19,7 @@ struct CornerSheets {
 /// @pre D takes all diagonals, so that all triangles of a polygon lie on one sheet at each of its corners.
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                            const topology::FundamentalDomain& domain, const topology::IntegerForms& classes,
-                           Progress& progress);
+                           Execution& execution);
 
 /// The same for the caller's own cut: potentials on the pieces that are left when the surface is cut along the edges of
 /// `cut`, each with the sheet 0 at its first corner.
@@ -27,7 +27,7 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
 /// @param names what a vertex is called in messages; empty: its index
 /// @throws TopologyError if a class has a period in a piece, naming an edge where its potential jumps
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& cut,
-                           const topology::IntegerForms& classes, Progress& progress,
+                           const topology::IntegerForms& classes, Execution& execution,
                            const std::vector<int>& names = {});
 
 }  // namespace holomorph::uv

@@ -26,7 +26,7 @@ struct Extent {
 
 }  // namespace
 
-Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation) {
+Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation, Workers& workers) {
   const double cosine = std::cos(rotation), sine = std::sin(rotation);
   const auto add_triangle = [&](int t, Extent& extent) {
     double at[3][2];
@@ -43,14 +43,13 @@ Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, d
     extent.area +=
         0.5 * std::abs((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]));
   };
-  Workers workers;
   const Extent extent = sum_over_rows(workers, static_cast<int>(surface.triangles.size()), Extent(), add_triangle);
   return {{extent.low[0], extent.low[1]}, {extent.high[0], extent.high[1]}, extent.area};
 }
 
-void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed) {
+void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed,
+           Workers& workers) {
   const auto [factor, origin, target] = placement;
-  Workers workers;
   for_rows(workers, static_cast<int>(uv.rows()), [&, factor = factor, origin = origin, target = target](int c) {
     const double x = uv(c, 0) - origin.real(), y = uv(c, 1) - origin.imag();
     float* row = placed + 2 * static_cast<std::ptrdiff_t>(rows ? rows[c] : c);

@@ -14,7 +14,7 @@ struct Frame {
 
 /// The frame of the map turned by an angle about 0. @param uv #C x 2. @param rotation radians, counter-clockwise
 /// The area is summed in a fixed order. Cost: O(#T).
-Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation);
+Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation, Workers& workers);
 
 /// z goes to factor (z - origin) + target: moved to the middle first and rounded last, so that corners whose u or v
 /// are the same keep them so.
@@ -25,6 +25,7 @@ struct Placement {
 /// Writes the placed map, rounded to single precision, into a larger array of corners.
 /// @param uv #C x 2. @param rows #C row of `placed` of each corner, all different; null: row c of corner c
 /// @param placed two numbers in each row
-void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed);
+void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed,
+           Workers& workers);
 
 }  // namespace holomorph::uv

@@ -116,11 +116,10 @@ struct AngleSum {
 
 }  // namespace
 
-Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv) {
+Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, Workers& workers) {
   const std::size_t count = surface.triangles.size();
   Quality result{Array<double>(count), Array<double>(count), Array<char>(count)};
   Array<double> areas(count);
-  Workers workers;
   const auto measure = [&](int t, AngleSum& sum) {
     const auto& sides = surface.triangle_edges[t];
     const double a = surface.edge_lengths[sides[0]], b = surface.edge_lengths[sides[1]],

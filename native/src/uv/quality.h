@@ -19,6 +19,6 @@ struct Quality {
 };
 
 /// @param uv #C x 2. The sums are in a fixed order, so the bits do not depend on the number of threads. Cost: O(#T).
-Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv);
+Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, Workers& workers);
 
 }  // namespace holomorph::uv

@@ -15,14 +15,14 @@ using UvArray = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 /// cut the UV jump is a constant translation, an integer combination of the p_k.
 /// @param functions #V x 2g, the f_k. @return #C x 2
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
-               const Eigen::VectorXcd& p);
+               const Eigen::VectorXcd& p, Workers& workers);
 
 /// UV(corner) = at_vertex(vertex) + sum_k p_k P_k(corner): the same from any potentials, #V x 2.
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
-               const Eigen::VectorXcd& p);
+               const Eigen::VectorXcd& p, Workers& workers);
 /// The same into memory that there is, #C x 2.
 void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
-                  const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv);
+                  const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv, Workers& workers);
 
 /// What the balance below needs to know of the forms: their values on two sides of a few thousand triangles.
 struct FormSamples {
@@ -45,6 +45,6 @@ enum class Coefficients { complex, real };
 /// @param kind real on bounded surfaces, so that boundaries stay straight
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples,
                                        const Eigen::MatrixXcd& basis, const Eigen::MatrixXd& area_form,
-                                       Coefficients kind);
+                                       Coefficients kind, Workers& workers);
 
 }  // namespace holomorph::uv

@@ -1,10 +1,10 @@
-#include "base/progress.h"
+#include "base/execution.h"
 
 #include <algorithm>
 
 namespace holomorph {
 
-void Progress::stage(const std::string& name, double begin, double end) {
+void Execution::stage(const std::string& name, double begin, double end) {
   close_stage();
   name_ = name;
   begin_ = begin;
@@ -14,18 +14,18 @@ void Progress::stage(const std::string& name, double begin, double end) {
   if (callback_) call(begin);
 }
 
-void Progress::finish() {
+void Execution::finish() {
   if (callback_) call(1.0);
   close_stage();
 }
 
-void Progress::call(double fraction) {
+void Execution::call(double fraction) {
   reported_ = std::max(reported_, std::min(fraction, 1.0));
   last_call_ = Clock::now();
   if (!callback_(reported_, name_)) throw Cancelled("cancelled during " + name_);
 }
 
-void Progress::close_stage() {
+void Execution::close_stage() {
   if (name_.empty()) return;
   const double elapsed = std::chrono::duration<double>(Clock::now() - stage_start_).count();
   const auto same = std::find_if(seconds_.begin(), seconds_.end(), [&](const auto& s) { return s.first == name_; });

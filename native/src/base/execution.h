@@ -1,5 +1,4 @@
-// Progress, cancelling and timing of long work: one object is handed down through all stages of a computation, which
-// keep their memory as long as it lives.
+// What a computation runs with: its threads, its progress function, and whether it has been cancelled.
 #pragma once
 
 #include <chrono>
@@ -10,17 +9,23 @@
 
 #include "base/errors.h"
 #include "base/kept_pages.h"
+#include "base/workers.h"
 
 namespace holomorph {
 
-/// Reports how far the work has come, at most every 20 ms and never backwards, and throws Cancelled when the
-/// caller's function answers false. Not thread-safe: only the thread that began the work calls it, never a worker.
-class Progress {
+/// One object is handed down through all stages of a computation. It reports how far the work has come, at most every
+/// 20 ms and never backwards, and throws Cancelled when the caller's function answers false. Not thread-safe: only the
+/// thread that began the work calls it, never a worker.
+class Execution {
  public:
   /// `fraction` in [0, 1] of the whole work, `stage` a short name; the answer false cancels.
   using Callback = std::function<bool(double fraction, const std::string& stage)>;
 
-  explicit Progress(Callback callback = {}) : callback_(std::move(callback)) {}
+  /// @param threads of the loops, the calling one included; 0: one for each processor. No result depends on it.
+  explicit Execution(int threads = 0, Callback callback = {}) : callback_(std::move(callback)), workers_(threads) {}
+
+  Workers& workers() { return workers_; }
+  int threads() const { return workers_.count(); }
 
   /// Begins the stage that covers the fractions [begin, end] of the whole work, and ends the one before.
   void stage(const std::string& name, double begin, double end);
@@ -57,6 +62,7 @@ class Progress {
 
   KeptPages pages_;
   Callback callback_;
+  Workers workers_;
   std::string name_;
   double begin_ = 0, end_ = 0, part_begin_ = 0, part_end_ = 1, reported_ = 0;
   Clock::time_point stage_start_{}, last_call_{};
