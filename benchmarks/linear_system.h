@@ -6,7 +6,7 @@
 #include <chrono>
 #include <random>
 
-#include "forms/harmonic_basis.h"
+#include "forms/laplacian.h"
 #include "mesh/intrinsic_triangulation.h"
 
 namespace holomorph::benchmarks {

@@ -4,9 +4,10 @@
 #include <ctime>
 #include <iostream>
 
+#include "forms/codifferential.h"
 #include "mesh/components.h"
 #include "mesh/io/read.h"
-#include "pipeline/paper_forms.h"
+#include "multiresolution/paper_forms.h"
 
 namespace {
 
@@ -55,12 +56,12 @@ void print_run(const System& system, Eigen::MatrixXd X, solver::Scaling scaling)
   std::cout << ']';
 }
 
-void print_paper(const System& system, const pipeline::PaperLevels& levels, solver::Scaling scaling) {
-  pipeline::PaperOptions options;
+void print_paper(const System& system, const multiresolution::PaperLevels& levels, solver::Scaling scaling) {
+  multiresolution::PaperOptions options;
   options.scaling = scaling;
   Execution silent;
   double seconds = 0;
-  const auto start = timed(seconds, [&] { return pipeline::paper_estimation(levels, options, silent); });
+  const auto start = timed(seconds, [&] { return multiresolution::paper_estimation(levels, options, silent); });
   std::cout << "{\"levels_seconds\": " << seconds << ", \"levels\": [";
   const char* separator = "";
   for (const auto& level : start.solver.levels) {
@@ -89,7 +90,7 @@ int main(int count, char** arguments) {
     return topology::cohomology_basis(half_edges, domain);
   });
   timed(collapsing, [&] { return progressive::progressive_mesh(surface, progressive::Order::quadric, silent); });
-  const auto levels = timed(levels_made, [&] { return pipeline::paper_levels(surface, silent); });
+  const auto levels = timed(levels_made, [&] { return multiresolution::paper_levels(surface, silent); });
   const System system{forms::laplacian(half_edges, weights, silent),
                       forms::codifferentials(half_edges, weights, levels.bases.classes, silent.workers())};
   std::cout << "{\"faces\": " << surface.triangles.size() << ", \"right_hand_sides\": " << system.B.cols()

@@ -8,20 +8,21 @@ import numpy as np
 from . import arrays
 from ._native import TopologyError
 from .report import complex_pairs
-from .results import BoundedResiduals, Structure, checked_coefficients
+from .results import BoundedResiduals, FormStructure
 
 
 @dataclass(frozen=True, eq=False)
-class BoundedStructure(Structure):
+class BoundedStructure(FormStructure):
     """Result of `conformal_structure` for a surface of genus g with b >= 1 boundary loops. n = 2g + b - 1 >= 1 is the
     genus of its double (paper § 8).
 
-    Two families of n harmonic forms: the natural ones, in which nothing is held, and the Dirichlet ones, which vanish
+    Two families of n harmonic forms: the natural ones, in which nothing is fixed, and the Dirichlet ones, which vanish
     along the boundary. The star exchanges them: theta_i = h^N_i + i sum_j C#_ij h^D_j is holomorphic, and the imaginary
     part of every real combination is constant along each boundary loop, which becomes a straight line.
     """
 
     residuals_kind = BoundedResiduals
+    coefficient_type = np.float64
 
     @property
     def description(self):
@@ -34,12 +35,6 @@ class BoundedStructure(Structure):
         """Tuple of b integer arrays of vertices, the hole on the left. Loop 0 is the longest; the others follow by
         their lowest vertex, at which each loop starts."""
         return tuple(self._of_surface(loop) for loop in self._native.boundary_loops())
-
-    @cached_property
-    def homology_basis(self):
-        """Tuple of n integer arrays: 2g closed loops zeta_i of vertices, the first not repeated, then the boundary
-        loops 1 .. b-1."""
-        return tuple(self._of_surface(loop) for loop in self._native.homology_basis())
 
     @cached_property
     def pairing(self):
@@ -59,18 +54,9 @@ class BoundedStructure(Structure):
         return arrays.frozen(self._harmonic_forms[len(self.pairing) :])
 
     @cached_property
-    def _harmonic_forms(self):
-        return self._native.harmonic_forms()
-
-    @cached_property
-    def holomorphic_forms(self):
-        """(n, #E) complex: theta_i = h^N_i + i sum_j C#_ij h^D_j, C# the `star`."""
-        return arrays.frozen(self.natural_forms + 1j * (self.star @ self.dirichlet_forms))
-
-    @cached_property
     def gram_matrices(self):
         """(natural, Dirichlet), (n, n) each: L2 products of the forms, on the intrinsic triangulation."""
-        return self._native.gram_matrices()
+        return tuple(self._native.gram_matrices())
 
     @cached_property
     def projected_gram_matrices(self):
@@ -82,16 +68,6 @@ class BoundedStructure(Structure):
     def star(self):
         """(n, n) C#: the conjugate of h^N_i is sum_j C#_ij h^D_j; that of h^D_j is -sum_i (C#^-1)_ji h^N_i."""
         return self._native.projected()[2]
-
-    @cached_property
-    def period_matrix(self):
-        """(n, n) complex, of the double: symmetric, Im Omega > 0; (i/2) `capacity_matrix` on planar surfaces."""
-        return self._native.period_matrix()
-
-    @cached_property
-    def period_bounds(self):
-        """(lower, upper), (n, n) each: guaranteed bounds of Im Omega of the polyhedral double as quadratic forms."""
-        return self._native.period_bounds()
 
     @cached_property
     def collapsed_triangles(self):
@@ -157,25 +133,6 @@ class BoundedStructure(Structure):
             raise TopologyError(
                 f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops"
             )
-
-    # ---- UV maps ---------------------------------------------------------------------------------
-
-    def uv(self, coefficients):
-        """(#C, 2) UVs of the form sum_i c_i theta_i, from n real coefficients c. No solve: one small product.
-
-        v is the same number at all corners of a boundary loop; where a seam meets it, it jumps by a period. Across
-        every seam the UVs jump by a constant translation."""
-        c = checked_coefficients(coefficients, len(self.pairing), np.float64)
-        return self._native.uv(self._native.coefficients() @ c)
-
-    def balanced_coefficients(self):
-        """(n,) real coefficients of the combination whose texture density is most even (least variance of its
-        logarithm over the surface's area), scaled so that the UV area of the surface is 1."""
-        return self._balanced
-
-    @cached_property
-    def _balanced(self):
-        return self._native.balanced_coefficients()
 
     def invariants(self):
         """Period matrix of the double, capacities and modulus with their bounds, as plain data."""

@@ -29,7 +29,7 @@ class PlaneMap(Structure):
         return arrays.frozen(np.empty((0, len(self.edges)), dtype=np.complex128))
 
     def prepare_uv(self, progress=None):
-        """Nothing is left to do: the map is that of the artist's triangles."""
+        """Nothing is left to do: the map is that of the surface's own triangles."""
 
     @property
     def uv_solver(self):
@@ -120,7 +120,7 @@ class RectangleMap(PlaneMap):
 
     @cached_property
     def _plane(self):
-        return arrays.frozen((self._native.u() + 1j * self.modulus * self._native.v()).ravel())
+        return arrays.frozen(self._native.points().ravel())
 
     def invariants(self):
         """The corners, and the modulus with its bounds, as plain data."""
@@ -167,11 +167,11 @@ def automatic_map(surface, component, solver, threads, progress):
         round_map = disk(surface, component, [], [], *options)
     except TopologyError:
         if _native.boundary_length(component._native) == 3:
-            return result(TriangleMap, surface, component, _native.triangle_map(component._native, *options))
+            return result(TriangleMap, surface, component, _native.triangle_map(component._native, *options), threads)
         return _rectangle(surface, component, _native.quarter_corners(component._native), [], *options)
     if _density_ratio(round_map) <= UNEVEN:
         return round_map
-    maps = [round_map, result(PuncturedStructure, surface, component, round_map._native)]
+    maps = [round_map, result(PuncturedStructure, surface, component, round_map._native, threads)]
     if _native.boundary_length(component._native) > 3:
         maps.append(_rectangle(surface, component, _native.quarter_corners(component._native), [], *options))
     return min(maps, key=_density_ratio)
@@ -183,7 +183,7 @@ def _density_ratio(structure):
 
 def _rectangle(surface, component, corners, names, solver, threads, progress):
     native = _native.rectangle_map(component._native, corners, names, solver, threads, progress)
-    return result(RectangleMap, surface, component, native)
+    return result(RectangleMap, surface, component, native, threads)
 
 
 def rectangle(surface, component, chosen, solver, threads, progress):
@@ -194,5 +194,5 @@ def rectangle(surface, component, chosen, solver, threads, progress):
 
 def disk(surface, component, punctures, names, solver, threads, progress):
     """`DiskMap` of a disk with its one puncture."""
-    native = _native.punctured_structure(component._native, punctures, [], names, solver, threads, progress)
-    return result(DiskMap, surface, component, native)
+    native = _native.punctured_structure(component._native, punctures, [], names, solver, threads, 0, progress)
+    return result(DiskMap, surface, component, native, threads)

@@ -225,10 +225,12 @@ class ProgressiveMesh:
             )
         splits = self._split_count(n_faces)
         surface = self._level(splits)
-        native = _native.conformal_structure_of_level(
-            self._native, splits, surface._native, solver, threads, memory_limit, progress
-        )
-        return result(ConformalStructure, surface, surface, native)
+        level = self._native, splits, surface._native
+        if solver == "paper":
+            native = _native.paper_structure_of_level(*level, threads, memory_limit, progress)
+        else:
+            native = _native.conformal_structure_of_level(*level, solver, threads, memory_limit, progress)
+        return result(ConformalStructure, surface, surface, native, threads)
 
     def vertex_map(self, n_faces):
         """(#V,) vertex of ``level(n_faces)`` that each vertex of the original was collapsed into; -1 for isolated ones.

@@ -1,7 +1,7 @@
 """What the results of all kinds of surfaces have in common."""
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import numpy as np
@@ -111,43 +111,31 @@ class Structure:
     timings: dict
     _native: object = field(repr=False)
     _component: Surface = field(repr=False)
+    _threads: int = field(repr=False)
 
     @cached_property
     def edges(self):
-        """(#E, 2) vertices of the artist's triangulation, lower first; forms are values on these."""
-        return self._of_surface(self._component._native.edges)
+        """(#E, 2) vertices of the triangulation, lower first; forms are values on these. Its diagonals are flipped away
+        from punctures."""
+        return self._of_surface(self._triangulation.edges)
 
     @cached_property
-    def seams(self):
-        """(#S,) indices into `edges` of the cut graph, on the artist's edges only: cut open there, a disk is left."""
-        return self._native.seams()
+    def _triangulation(self):
+        return self._component._native
 
     @cached_property
     def flip_count(self):
-        """Edges turned to make the intrinsic triangulation Delaunay."""
+        """Edges flipped to make the intrinsic triangulation Delaunay."""
         return self._native.intrinsic()[0]
 
-    def prepare_uv(self, progress=None):
-        """Solves for the forms on the artist's own triangles, of which forms and UVs are made; done by itself when
-        first needed, and without work where no edge had to be turned.
-
-        Invariants come from the intrinsic Delaunay triangulation, but UVs with the least distortion on the artist's
-        triangles come from those triangles. `progress` as in `conformal_structure`."""
-        self._native.prepare_uv(progress)
-
-    @cached_property
-    def uv_solver(self):
-        """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
-        return SolverReport(*self._native.uv_solver())
-
     def quality(self, uv):
-        """`Quality` of a (#C, 2) UV map on the surface's triangles."""
-        return Quality(*_native.quality(self._component._native, self._checked_uv(uv), 0))
+        """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
+        return Quality(*_native.quality(self._triangulation, self._checked_uv(uv), self._threads))
 
     def averaged_star(self, form):
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
         edge. It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
-        return _native.averaged_star(self._component._native, self._checked_form(form))
+        return _native.averaged_star(self._triangulation, self._checked_form(form))
 
     def _checked_form(self, form):
         form = np.ascontiguousarray(form, dtype=np.float64)
@@ -172,6 +160,105 @@ class Structure:
     def _of_surface(self, vertices):
         """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
+
+
+@dataclass(frozen=True, eq=False)
+class FormStructure(Structure):
+    """Base of the results that have forms to combine: differentials made of real harmonic forms h_1 .. h_m, of which the
+    UV maps are real and imaginary parts of integrals."""
+
+    coefficient_type = np.complex128
+
+    @cached_property
+    def _triangulation(self):
+        return self._native.surface()
+
+    @cached_property
+    def homology_basis(self):
+        """Tuple of integer arrays: 2g closed loops zeta_i of vertices, the first not repeated (paper § 4), then, with b
+        boundary loops, the loops 1 .. b-1."""
+        return tuple(self._of_surface(loop) for loop in self._native.homology_basis())
+
+    @cached_property
+    def seams(self):
+        """(#S,) indices into `edges` of the cut graph, on the polygons' edges only: cut open there, a disk is left. With
+        punctures it ends there, and the edges at the punctures are seams, too."""
+        return self._native.seams()
+
+    @cached_property
+    def period_matrix(self):
+        """(n, n) complex Omega: symmetric, Im Omega > 0 (paper Eq. 13). Closed: the integral of theta_j over b_i. With
+        boundary that of the double: (i/2) `capacity_matrix` on planar surfaces."""
+        return self._native.period_matrix()
+
+    @cached_property
+    def period_bounds(self):
+        """(lower, upper), (n, n) each: guaranteed bounds of Im Omega of the polyhedral surface, with boundary of its
+        double, as quadratic forms."""
+        return self._native.period_bounds()
+
+    @cached_property
+    def memory(self):
+        """`MemoryPlan`: whether all forms are kept, and the memory that was reckoned with."""
+        return MemoryPlan(*self._native.memory())
+
+    def prepare_uv(self, progress=None):
+        """Solves for the forms on the surface's own triangles, of which forms and UVs are made; done by itself when
+        first needed, and without work where no edge had to be flipped.
+
+        Invariants come from the intrinsic Delaunay triangulation, but UVs with the least distortion on the surface's
+        triangles come from those triangles. `progress` as in `conformal_structure`."""
+        self._native.prepare_uv(progress)
+
+    @cached_property
+    def uv_solver(self):
+        """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
+        return SolverReport(*self._native.uv_solver())
+
+    @cached_property
+    def _differentials(self):
+        # (m, n) complex: column j is the j-th differential, written in the harmonic forms
+        return self._native.differentials()
+
+    @cached_property
+    def _harmonic_forms(self):
+        # (m, #E): all of them
+        count, edges = sum(self._native.families()) + self._native.families()[2], len(self.edges)
+        self._native.require_memory(f"the {count} harmonic forms on {edges} edges", 8 * count * edges)
+        return self._native.basis_forms()
+
+    @cached_property
+    def holomorphic_forms(self):
+        """(n, #E) complex, paper § 7. Closed: theta_j has the period 1 over a_j and 0 over the other a. With boundary:
+        theta_i = h^N_i + i sum_j C#_ij h^D_j. With punctures theta_0 comes first, NaN on the edges that end at one."""
+        n, edges = self._differentials.shape[1], len(self.edges)
+        # of the harmonic forms, and of two matrices of the size of the result
+        self._native.require_memory(f"the {n} holomorphic forms on {edges} edges", 3 * 16 * n * edges)
+        values = self._differentials.T @ self._harmonic_forms
+        values[:1, self._native.spokes()] = np.nan
+        return arrays.frozen(values)
+
+    def uv(self, coefficients):
+        """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
+        with boundary and without punctures. No solve: one small product; where the forms were not kept (`memory`), a
+        solve for this map alone.
+
+        Across every seam the UVs jump by a constant translation, without rotation or change of scale; only the edges at
+        a puncture, where each triangle has an apex of its own, are cut. On a boundary loop v is the same number at all
+        corners, up to a period where a seam meets it; with punctures for real coefficients and residues."""
+        c = checked_coefficients(coefficients, self._differentials.shape[1], self.coefficient_type)
+        return self._native.uv(self._differentials @ c)
+
+    def balanced_coefficients(self):
+        """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over
+        the surface's area), scaled so that the UV area of the surface is 1."""
+        return self._balanced
+
+    @cached_property
+    def _balanced(self):
+        is_real = self.coefficient_type is np.float64
+        c = self._native.balanced_coefficients(is_real)
+        return arrays.frozen(c.real.copy() if is_real else c)
 
 
 def check_options(solver, threads):
@@ -221,13 +308,13 @@ def own_vertices(surface, component, vertices, word):
     return own[given.astype(int)].tolist(), component.vertex_index.tolist()
 
 
-def result(kind, surface, component, native):
+def result(kind, surface, component, native, threads):
     """A `kind` of `Structure` made of what the native core computed."""
     seconds = dict(native.timings())
     seconds["total"] = sum(seconds.values())
-    return kind(
-        surface, SolverReport(*native.solver()), kind.residuals_kind(*native.residuals()), seconds, native, component
-    )
+    certificate = dict(zip(("closedness", "harmonicity", "periods", "pairing", "asymmetry"), native.certificate()))
+    residuals = kind.residuals_kind(**{entry.name: certificate[entry.name] for entry in fields(kind.residuals_kind)})
+    return kind(surface, SolverReport(*native.solver()), residuals, seconds, native, component, threads)
 
 
 def checked_coefficients(coefficients, count, kind):

@@ -50,12 +50,12 @@ def conformal_structure(
         by size and number of right-hand sides; the result's `solver` says what was taken and why. "paper" is the
         multiresolution algorithm of the paper (§ 9) for closed surfaces with positions, slower than the others and
         never chosen by "auto": conjugate gradients on the levels of a progressive mesh, whose base mesh gives loops and
-        classes. It turns no edges, so its invariants are those of the artist's triangles
+        classes. It flips no edges, so its invariants are those of the surface's own triangles
     threads : number of threads, None for one per core; the result has the same bits for any number
     memory_limit : bytes that may be in use at once, beside the surface itself. Where the harmonic forms do not all fit,
         they are solved for in blocks that do; the results are the same up to the solver's accuracy, but each call of
-        `uv` then solves for its own map. With punctures it is not looked at; on surfaces
-        with boundary all forms must fit. None: nothing is refused, and forms are kept up to 2 GB
+        `uv` then solves for its own map. On surfaces with boundary or punctures all forms
+        must fit. None: nothing is refused, and forms are kept up to 2 GB
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Returns
@@ -91,6 +91,8 @@ def conformal_structure(
 
 def _structure(surface, component, boundary, punctures, residues, rectangle_corners, options, memory_limit):
     genus, boundaries = component.genus, component.boundary_count
+    solver, threads, progress = options
+    limited = solver, threads, memory_limit, progress
     vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     chosen = vertices, _residues(residues), names
     is_chosen = any(map(len, chosen[:2]))
@@ -108,18 +110,17 @@ def _structure(surface, component, boundary, punctures, residues, rectangle_corn
         return automatic_map(surface, component, *options)
     if is_chosen or (genus == 0 and boundaries == 0):
         try:
-            native = _native.punctured_structure(component._native, *chosen, *options)
+            native = _native.punctured_structure(component._native, *chosen, *limited)
         except TopologyError:
             if is_chosen or component.vertices is None:
                 raise
             return coarse_log_map(surface, component, *options)  # the stars of any two vertices meet
-        return result(PuncturedStructure, surface, component, native)
-    limited = *options[:2], memory_limit, options[2]
-    if boundaries:
-        native = _native.bounded_structure(component._native, boundary, *limited)
-        return result(BoundedStructure, surface, component, native)
-    native = _native.conformal_structure(component._native, *limited)
-    return result(ConformalStructure, surface, component, native)
+        return result(PuncturedStructure, surface, component, native, threads)
+    if solver == "paper" and not boundaries:
+        native = _native.paper_structure(component._native, threads, memory_limit, progress)
+    else:
+        native = _native.conformal_structure(component._native, boundary == "double_cover", *limited)
+    return result(BoundedStructure if boundaries else ConformalStructure, surface, component, native, threads)
 
 
 def _residues(residues):

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _native, arrays
 from .punctured import PuncturedStructure
-from .results import Quality, result
+from .results import result
 from .surface import Surface
 
 CUT = 1 / 3  # of each edge at a puncture is cut off: less than half, as both its ends may be punctures
@@ -69,9 +69,9 @@ def coarse_log_map(surface, component, solver, threads, progress):
     punctures = far_corners(component.vertices)
     truncation = truncated(component, punctures)
     (refined,) = truncation.surface.components
-    native = _native.punctured_structure(refined._native, punctures, [], [], solver, threads, progress)
-    solved = result(PuncturedStructure, truncation.surface, refined, native)
-    own = solved.solver, solved.residuals, solved.timings, native, component, truncation, solved
+    native = _native.punctured_structure(refined._native, punctures, [], [], solver, threads, 0, progress)
+    solved = result(PuncturedStructure, truncation.surface, refined, native, threads)
+    own = solved.solver, solved.residuals, solved.timings, native, component, threads, truncation, solved
     return TruncatedStructure(surface, *own)
 
 
@@ -84,9 +84,8 @@ class TruncatedStructure(PuncturedStructure):
     _refined: PuncturedStructure = field(repr=False)
 
     @cached_property
-    def edges(self):
-        """(#E, 2) vertices of the artist's triangulation, lower first."""
-        return self._of_surface(self._component._native.edges)
+    def _triangulation(self):
+        return self._component._native
 
     @cached_property
     def holomorphic_forms(self):
@@ -134,10 +133,6 @@ class TruncatedStructure(PuncturedStructure):
         start, end = z[first[cut]], z[first[cut] + 1]
         result[cut] = start + (apex - a) / (b - a) * (end - start)
         return result.view(np.float64).reshape(-1, 2)
-
-    def quality(self, uv):
-        """`Quality` of a (#C, 2) UV map on the surface's triangles."""
-        return Quality(*_native.quality(self._component._native, self._checked_uv(uv), 0))
 
     def sphere_map(self):
         """(#V, 3) points of the unit sphere; see `PuncturedStructure.sphere_map`."""

@@ -3,18 +3,18 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "pipeline/laplace_problem.h"
+#include "structure/laplace_problem.h"
 
 namespace holomorph::bindings {
 namespace {
 
-using Problem = pipeline::LaplaceProblem;
+using Problem = structure::LaplaceProblem;
 
 std::shared_ptr<Problem> make(const mesh::Surface& surface, const std::vector<int>& held, const std::string& solver,
                               int threads) {
   const py::gil_scoped_release unlocked;
-  Execution silent;
-  return std::make_shared<Problem>(pipeline::laplace_problem(surface, held, {solver, threads}, silent));
+  Execution execution(threads);
+  return std::make_shared<Problem>(structure::laplace_problem(surface, held, {solver}, execution));
 }
 
 // @param holds one flag per column of B
@@ -26,8 +26,8 @@ py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bo
     for (const bool held : holds) {
       conditions.push_back(held ? solver::Condition::dirichlet : solver::Condition::natural);
     }
-    Execution silent;
-    X = problem.solver->solve(B, conditions, silent);
+    Execution execution(problem.threads);
+    X = problem.solver->solve(B, conditions, execution);
   }
   return give_matrix(std::move(X));
 }

@@ -53,8 +53,8 @@ py::tuple component(const Surface& surface, int which) {
 
 // (Euler characteristic, boundary loops, genus) of a connected surface.
 py::tuple topology(const Surface& surface) {
-  const int chi = mesh::euler_characteristic(surface), boundaries = mesh::boundary_count(surface);
-  return py::make_tuple(chi, boundaries, mesh::genus(chi, boundaries));
+  const auto type = mesh::topological_type(surface);
+  return py::make_tuple(mesh::euler_characteristic(surface), type.boundary_count, type.genus);
 }
 
 }  // namespace

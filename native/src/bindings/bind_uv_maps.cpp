@@ -2,6 +2,10 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "bindings/callback.h"
+#include "bindings/solver_report.h"
+#include "forms/averaged_star.h"
+#include "multiresolution/harmonic_map.h"
 #include "uv/placement.h"
 #include "uv/quality.h"
 
@@ -45,12 +49,34 @@ void place(const Contiguous<double>& uv, Complex factor, Complex origin, Complex
   uv::place(corners(uv), {factor, origin, target}, at, values, workers);
 }
 
+// Moves of the vertices, and the solver's report.
+py::tuple harmonic_map(const mesh::Surface& surface, const Contiguous<double>& corner_values, const std::string& solver,
+                       int threads, const py::object& progress_function) {
+  using Rows = forms::RowMajorMatrix;
+  const Rows given = Eigen::Map<const Rows>(corner_values.data(), corner_values.shape(0), corner_values.shape(1));
+  Execution execution(threads, callback(progress_function));
+  multiresolution::HarmonicMap map;
+  {
+    const py::gil_scoped_release unlocked;
+    map = multiresolution::harmonic_map(surface, given, {solver}, execution);
+  }
+  return py::make_tuple(copy(map.moves), report(map.solver));
+}
+
+// The star of a form on the edges of any surface.
+py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
+  Execution execution;
+  return copy(forms::averaged_star(mesh::half_edges(surface, execution), surface.edge_lengths, values(form)));
+}
+
 }  // namespace
 
 void bind_uv_maps(py::module_& m) {
   m.def("quality", &quality);
   m.def("frame", &frame);
   m.def("place", &place);
+  m.def("harmonic_map", &harmonic_map);
+  m.def("averaged_star", &averaged_star);
 }
 
 }  // namespace holomorph::bindings

@@ -6,12 +6,10 @@
 namespace holomorph::bindings {
 
 void bind_surface(pybind11::module_& m);
-void bind_conformal_structure(pybind11::module_& m);
-void bind_bounded_structure(pybind11::module_& m);
+void bind_structure(pybind11::module_& m);
 void bind_progressive_mesh(pybind11::module_& m);
 void bind_laplace_problem(pybind11::module_& m);
-void bind_punctured_structure(pybind11::module_& m);
-void bind_rectangle(pybind11::module_& m);
+void bind_plane_maps(pybind11::module_& m);
 void bind_uv_maps(pybind11::module_& m);
 
 }  // namespace holomorph::bindings

@@ -40,11 +40,9 @@ PYBIND11_MODULE(_native, m) {
                        "A linear system was not solved to the accuracy asked for, or does not fit into memory.");
   declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
   bindings::bind_surface(m);
-  bindings::bind_conformal_structure(m);
-  bindings::bind_bounded_structure(m);
+  bindings::bind_structure(m);
   bindings::bind_progressive_mesh(m);
   bindings::bind_laplace_problem(m);
-  bindings::bind_punctured_structure(m);
-  bindings::bind_rectangle(m);
+  bindings::bind_plane_maps(m);
   bindings::bind_uv_maps(m);
 }

@@ -1,26 +1,74 @@
 #include "conformal/holomorphic_basis.h"
 
 namespace holomorph::conformal {
+namespace {
 
+using Eigen::Index;
+using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
+using topology::IntegerMatrix;
 
-HolomorphicBasis holomorphic_basis(const MatrixXd& G_zeta, const topology::CanonicalBasis& basis) {
-  const auto g = G_zeta.rows() / 2;
-  const MatrixXd S = basis.classes.cast<double>();
-  const MatrixXd G = symmetric(S * G_zeta * S.transpose());  // of alpha_1..alpha_g, beta_1..beta_g
-  MatrixXd J = MatrixXd::Zero(2 * g, 2 * g);
-  J.topRightCorner(g, g).setIdentity();
-  J.bottomLeftCorner(g, g) = -MatrixXd::Identity(g, g);
-  const MatrixXd projected = projected_star(G, G, J).natural_gram;
+// The integer classes of the double: (s(x) + a(y)) / 2, x an integer combination of the N classes and y of the D
+// classes, s and a their symmetric and antisymmetric extension, x = E y mod 2, where E takes a handle class to itself
+// and d(1 on a loop) to 0. Rows (x, y) of a basis, in such an order that on planar surfaces it is canonical up to the
+// order, alpha_k = a(d_k) / 2, beta_k = -s(n_k).
+IntegerMatrix double_classes(Index n, Index handles) {
+  IntegerMatrix rows = IntegerMatrix::Zero(2 * n, 2 * n);
+  Index row = 0;
+  for (Index k = handles; k < n; ++k) {
+    rows(row++, n + k) = 1;
+    rows(row++, k) = -2;
+  }
+  for (Index k = 0; k < handles; ++k) {
+    rows(row, k) = 1;
+    rows(row++, n + k) = 1;
+    rows(row++, k) = 2;
+  }
+  return rows;
+}
 
+// The double carries the metric of both halves: its Gram matrix is (x G_N x^T + y G_D y^T) / 2, its wedge matrix
+// (x W y'^T - y W^T x'^T) / 2, integer and unimodular on the classes above. Rows (x, y) of a canonical basis.
+MatrixXd canonical_classes_of_double(const IntegerMatrix& W, Index handles) {
+  const Index n = W.rows();
+  const IntegerMatrix basis = double_classes(n, handles);
+  const IntegerMatrix xWy = basis.leftCols(n) * W * basis.rightCols(n).transpose();
+  return (topology::symplectic_basis((xWy - xWy.transpose()) / 2) * basis).cast<double>();
+}
+
+MatrixXd gram_of_double(const MatrixXd& classes, const MatrixXd& G_N, const MatrixXd& G_D) {
+  const Index n = G_N.rows();
+  const MatrixXd x = classes.leftCols(n), y = classes.rightCols(n);
+  return symmetric(x * G_N * x.transpose() + y * G_D * y.transpose()) / 2;
+}
+
+}  // namespace
+
+HolomorphicBasis closed_basis(const MatrixXd& G, const IntegerMatrix& W, const topology::CanonicalBasis& canonical) {
+  const auto g = G.rows() / 2;
+  const MatrixXd S = canonical.classes.cast<double>();
+  const auto in_canonical = [&S](const MatrixXd& gram) { return symmetric(S * gram * S.transpose()); };
   HolomorphicBasis result;
-  result.period_matrix = period_matrix(projected);
-  Eigen::MatrixXcd canonical(2 * g, g);  // int_{a_i} theta_j = delta_ij, int_{b_i} theta_j = Omega_ij
-  canonical << Eigen::MatrixXcd::Identity(g, g), result.period_matrix;
-  result.periods = S.transpose() * canonical;  // zeta = R^-1 (a, b), and R^-1 = S^T
-  const PeriodBounds bounds = period_bounds(G);
-  result.lower = bounds.lower;
-  result.upper = bounds.upper;
+  result.star = projected_star(G, G, W.cast<double>());
+  result.period_matrix = period_matrix(in_canonical(result.star.natural_gram));
+  MatrixXcd periods(2 * g, g);  // int_{a_i} theta_j = delta_ij, int_{b_i} theta_j = Omega_ij
+  periods << MatrixXcd::Identity(g, g), result.period_matrix;
+  result.differentials = S.transpose() * periods;  // zeta = R^-1 (a, b), and R^-1 = S^T
+  result.bounds = period_bounds(in_canonical(G));
+  return result;
+}
+
+HolomorphicBasis bounded_basis(const MatrixXd& G_N, const MatrixXd& G_D, const IntegerMatrix& W, int genus) {
+  const Index n = W.rows();
+  HolomorphicBasis result;
+  result.star = projected_star(G_N, G_D, W.cast<double>());
+  result.differentials.resize(2 * n, n);
+  result.differentials.topRows(n).setIdentity();
+  result.differentials.bottomRows(n) =
+      std::complex<double>(0, 1) * result.star.star.transpose().cast<std::complex<double>>();
+  const MatrixXd classes = canonical_classes_of_double(W, 2 * genus);
+  result.period_matrix = period_matrix(gram_of_double(classes, result.star.natural_gram, result.star.dirichlet_gram));
+  result.bounds = period_bounds(gram_of_double(classes, G_N, G_D));
   return result;
 }
 

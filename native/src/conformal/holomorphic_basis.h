@@ -1,4 +1,4 @@
-// From the Gram matrix of a harmonic basis to the holomorphic basis and the period matrix (paper § 7, § 9).
+// From the Gram matrices of harmonic forms to the holomorphic basis and the period matrix (paper § 7, § 9).
 #pragma once
 
 #include <Eigen/Core>
@@ -8,19 +8,30 @@
 
 namespace holomorph::conformal {
 
-/// Everything here is dense and small: 2g x 2g. Index order of the harmonic basis: dual to the homology basis zeta.
+/// Everything here is dense and small.
 ///
 /// The paper conjugates by averaging the face-wise star over the faces of an edge, which is not closed and tears. Here
-/// *h_i = sum_j C_ij h_j is found by the pairing (Gu & Yau 2003, doi:10.2312/SGP/SGP03/127-137): C = G J in the
-/// canonical basis. On a mesh C^2 = -1 holds only up to O(h^2), so C is projected, C# = C (-C^2)^(-1/2): then C#^2 =
-/// -1, Omega is symmetric, Im Omega > 0, and nothing depends on the basis.
+/// *h_i = sum_j C_ij h_j is found by the pairing (Gu & Yau 2003, doi:10.2312/SGP/SGP03/127-137), and projected so that
+/// C#^2 = -1: then Omega is symmetric, Im Omega > 0, and nothing depends on the basis.
 struct HolomorphicBasis {
-  Eigen::MatrixXcd periods;        ///< 2g x g: int_{zeta_k} theta_j, so theta_j = sum_k periods(k, j) h_k
-  Eigen::MatrixXcd period_matrix;  ///< Omega, g x g
-  Eigen::MatrixXd lower, upper;    ///< guaranteed bounds of Im Omega of the polyhedral surface, as quadratic forms
+  ProjectedStar star;              ///< in the given basis; with one family G_D# belongs to its conjugates
+  Eigen::MatrixXcd differentials;  ///< #forms x n: column j is theta_j, written in the harmonic forms
+  Eigen::MatrixXcd period_matrix;  ///< Omega, n x n
+  PeriodBounds bounds;             ///< guaranteed bounds of Im Omega of the polyhedral surface, as quadratic forms
 };
 
-/// @param G Gram matrix of the harmonic basis dual to zeta
-HolomorphicBasis holomorphic_basis(const Eigen::MatrixXd& G, const topology::CanonicalBasis& basis);
+/// Of a closed surface: theta_j has the period 1 over a_j and 0 over the other a, n = g.
+/// @param G 2g x 2g, of the harmonic basis dual to zeta. @param W its wedge matrix
+HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const topology::IntegerMatrix& W,
+                              const topology::CanonicalBasis& canonical);
+
+/// Of a surface with boundary, n = 2g + b - 1, the genus of the double. theta_i = h^N_i + i sum_j C#_ij h^D_j: real
+/// combinations of these are holomorphic forms whose imaginary part vanishes along the boundary, so that each loop
+/// becomes a straight line. Omega is that of the double, (i/2) Cap# on planar surfaces.
+/// @param G_N,G_D n x n, of the natural and the Dirichlet forms: first those of the 2g handle classes, the same in both
+/// families, then those of the b - 1 loops
+/// @param W n x n, W_ij = int h^N_i ^ h^D_j
+HolomorphicBasis bounded_basis(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd& G_D, const topology::IntegerMatrix& W,
+                               int genus);
 
 }  // namespace holomorph::conformal

@@ -1,9 +1,9 @@
-// gram_matrix, energies, wedges and residuals: sums and maxima over all edges, faces and vertices of all forms.
+#include "forms/certificates.h"
+
 #include <algorithm>
 #include <array>
 
 #include "base/chunks.h"
-#include "forms/harmonic_basis.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::forms {
@@ -84,12 +84,11 @@ void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, i
 
 // Vertices: |d* h| = |sum of k h over the half-edges that leave| against the sum of |k h|.
 template <int N>
-void measure_vertices(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                      const std::vector<char>& is_held, int begin, int end, Maxima<N>& maxima) {
+void measure_vertices(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms, int natural,
+                      const std::vector<char>& is_fixed, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
   Row<N> sum(n), size(n), value(n);
   for (int v = begin; v < end; ++v) {
-    if (is_held[v]) continue;
     sum.setZero();
     size.setZero();
     const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
@@ -101,6 +100,10 @@ void measure_vertices(const HalfEdges& mesh, std::span<const double> weights, co
       size += value.cwiseAbs();
       h = next(mesh, opposite(h));
     } while (h != start);
+    if (is_fixed[v]) {
+      sum.tail(n - natural).setZero();
+      size.tail(n - natural).setZero();
+    }
     maxima[0] = maxima[0].cwiseMax(sum.cwiseAbs());
     maxima[1] = maxima[1].cwiseMax(size);
   }
@@ -124,22 +127,19 @@ double relative_maximum(std::size_t elements, Eigen::Index forms, Execution& exe
   return (total[0].array() / total[1].array()).maxCoeff();
 }
 
-// For few forms; many are better multiplied block by block.
-template <int N>
-Eigen::MatrixXd gram_matrix_of(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                               Execution& execution) {
-  constexpr int n = N;
-  using Square = Eigen::Matrix<double, N, N>;
-  std::array<Square, kBatch> slots;
-  Square G = Square::Zero(n, n);
+// Two forms of one family; more are better multiplied block by block.
+Eigen::Matrix2d gram_matrix_of_two(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
+                                   Execution& execution) {
+  std::array<Eigen::Matrix2d, kBatch> slots;
+  Eigen::Matrix2d G = Eigen::Matrix2d::Zero();
   for_blocks(
       weights.size(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
-        slots[slot] = Square::Zero(n, n);
-        Row<N> value(n);
+        slots[slot].setZero();
+        Row<2> value;
         for (int e = begin; e < end; ++e) {
           value.setZero();
-          add_along<N>(mesh, forms, HalfedgeHandle(2 * e), 1.0, value);
+          add_along<2>(mesh, forms, HalfedgeHandle(2 * e), 1.0, value);
           slots[slot].noalias() += value.transpose() * (weights[e] * value);
         }
       },
@@ -182,11 +182,11 @@ Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, 
 
 template <int N>
 Residuals residuals_of(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                       Execution& execution, const std::vector<char>& is_held) {
+                       Execution& execution, int natural, const std::vector<char>& is_fixed) {
   const auto n = forms.functions.cols();
   const auto faces = [&](int begin, int end, Maxima<N>& maxima) { measure_faces<N>(mesh, forms, begin, end, maxima); };
   const auto vertices = [&](int begin, int end, Maxima<N>& maxima) {
-    measure_vertices<N>(mesh, weights, forms, is_held, begin, end, maxima);
+    measure_vertices<N>(mesh, weights, forms, natural, is_fixed, begin, end, maxima);
   };
   return {relative_maximum<N>(mesh.n_faces(), n, execution, 0.0, 0.5, faces),
           relative_maximum<N>(mesh.n_vertices(), n, execution, 0.5, 1.0, vertices)};
@@ -194,21 +194,30 @@ Residuals residuals_of(const HalfEdges& mesh, std::span<const double> weights, c
 
 }  // namespace
 
-Eigen::MatrixXd gram_matrix(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                            Execution& execution) {
-  const auto n = forms.functions.cols();
-  if (n == 2) return gram_matrix_of<2>(mesh, weights, forms, execution);
-  std::array<Eigen::MatrixXd, kBatch> slots;
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
+std::vector<Eigen::MatrixXd> gram_matrices(const HalfEdges& mesh, std::span<const double> weights,
+                                           const ClosedForms& forms, const std::vector<int>& families,
+                                           Execution& execution) {
+  if (families == std::vector<int>{2}) return {gram_matrix_of_two(mesh, weights, forms, execution)};
+  std::vector<Eigen::MatrixXd> G;
+  for (const int n : families) G.push_back(Eigen::MatrixXd::Zero(n, n));
+  std::array<std::vector<Eigen::MatrixXd>, kBatch> slots;
+  slots.fill(G);
   for_blocks(
       weights.size(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
-        const RowMajorMatrix h = edge_values(mesh, forms, begin, end);
+        const RowMajorMatrix values = edge_values(mesh, forms, begin, end);
         const auto k = Eigen::Map<const Eigen::VectorXd>(weights.data() + begin, end - begin);
-        slots[slot].noalias() = h.transpose() * (k.asDiagonal() * h);
+        int first = 0;
+        for (std::size_t i = 0; i < families.size(); first += families[i++]) {
+          const auto h = values.middleCols(first, families[i]);
+          slots[slot][i].noalias() = h.transpose() * (k.asDiagonal() * h);
+        }
       },
-      [&](int slot) { G += slots[slot]; });
-  return (G + G.transpose()) / 2;
+      [&](int slot) {
+        for (std::size_t i = 0; i < families.size(); ++i) G[i] += slots[slot][i];
+      });
+  for (Eigen::MatrixXd& matrix : G) matrix = (matrix + matrix.transpose().eval()) / 2;
+  return G;
 }
 
 Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
@@ -237,11 +246,11 @@ Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Ei
 }
 
 Residuals residuals(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                    Execution& execution, const std::vector<int>& held) {
-  std::vector<char> is_held(mesh.n_vertices(), 0);
-  for (const int v : held) is_held[v] = 1;
-  if (forms.functions.cols() == 2) return residuals_of<2>(mesh, weights, forms, execution, is_held);
-  return residuals_of<Eigen::Dynamic>(mesh, weights, forms, execution, is_held);
+                    Execution& execution, int natural, const std::vector<int>& fixed) {
+  std::vector<char> is_fixed(mesh.n_vertices(), 0);
+  for (const int v : fixed) is_fixed[v] = 1;
+  const auto of = forms.functions.cols() == 2 ? residuals_of<2> : residuals_of<Eigen::Dynamic>;
+  return of(mesh, weights, forms, execution, natural, is_fixed);
 }
 
 }  // namespace holomorph::forms

@@ -55,38 +55,43 @@ double mean_spoke(const HalfEdges& mesh, std::span<const double> lengths, const 
   return sum / static_cast<double>(star.size());
 }
 
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
 // Adds `flux` with the weights of the ends a, b, and `excess` with the normal derivatives of the hat functions.
-void add(const StarTriangle& t, int p, double flux_a, double flux_b, double excess, const Eigen::RowVectorXd& scale,
-         Eigen::MatrixXd& b) {
-  b.row(t.a) += flux_a * scale;
-  b.row(t.b) += flux_b * scale;
+void add(const StarTriangle& t, int p, int column, double flux_b, double flux, double excess, double scale,
+         Triplets& b) {
   const double at_b = -t.t0 / t.length / t.height, at_p = -1 / t.height;
-  b.row(p) += at_p * excess * scale;
-  b.row(t.a) -= (at_p + at_b) * excess * scale;
-  b.row(t.b) += at_b * excess * scale;
+  b.emplace_back(p, column, scale * at_p * excess);
+  b.emplace_back(t.a, column, scale * (flux - flux_b - (at_p + at_b) * excess));
+  b.emplace_back(t.b, column, scale * (flux_b + at_b * excess));
+}
+
+Eigen::SparseMatrix<double> assembled(const HalfEdges& mesh, std::size_t columns, const Triplets& entries) {
+  Eigen::SparseMatrix<double> result(static_cast<Eigen::Index>(mesh.n_vertices()), static_cast<Eigen::Index>(columns));
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
 }
 
 }  // namespace
 
-SingularPart singular_part(const HalfEdges& mesh, std::span<const double> lengths, const std::vector<mesh::Star>& stars,
-                           const Eigen::MatrixXd& residues) {
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.n_vertices()), residues.cols());
-  SingularPart part{zero, zero, zero, zero};
-  for (std::size_t i = 0; i < stars.size(); ++i) {
+SingularPart singular_part(const HalfEdges& mesh, std::span<const double> lengths,
+                           const std::vector<mesh::Star>& stars) {
+  Triplets u, v, b_u, b_v;
+  for (int i = 0; i < static_cast<int>(stars.size()); ++i) {
     const mesh::Star& star = stars[i];
-    const Eigen::RowVectorXd scale = residues.row(static_cast<Eigen::Index>(i)) / star.total_angle;
-    const double unit = mean_spoke(mesh, lengths, star);
+    const double scale = 1 / star.total_angle, unit = mean_spoke(mesh, lengths, star);
     double alpha = -star.angles[0];  // 0 at the end of link[0]
     for (std::size_t j = 0; j < star.size(); ++j) {
       const StarTriangle t(mesh, lengths, star.link[j], star.angles[j], unit);
       alpha += t.angle;
-      part.u.row(t.b) = alpha * scale;
-      part.v.row(t.b) = -t.log_b * scale;
-      add(t, star.vertex, t.angle - t.flux_of_log(), t.flux_of_log(), -t.excess_of_log(), scale, part.b_v);
-      add(t, star.vertex, t.log_ratio() - t.flux_of_angle(), t.flux_of_angle(), t.excess_of_angle(), scale, part.b_u);
+      u.emplace_back(t.b, i, alpha * scale);
+      v.emplace_back(t.b, i, -t.log_b * scale);
+      add(t, star.vertex, i, t.flux_of_log(), t.angle, -t.excess_of_log(), scale, b_v);
+      add(t, star.vertex, i, t.flux_of_angle(), t.log_ratio(), t.excess_of_angle(), scale, b_u);
     }
   }
-  return part;
+  const auto matrix = [&](const Triplets& entries) { return assembled(mesh, stars.size(), entries); };
+  return {matrix(u), matrix(v), matrix(b_u), matrix(b_v)};
 }
 
 Array<double> outer_weights(const HalfEdges& mesh, std::span<const double> lengths, Array<double> weights,

@@ -1,30 +1,30 @@
 // The singular part of a differential of the third kind in the stars of its punctures.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <span>
 #include <vector>
 
+#include "base/page_allocator.h"
 #include "mesh/stars.h"
 
 namespace holomorph::forms {
 
-/// Near a puncture of real residue s and total angle Theta, in polar coordinates (r, alpha) of its star,
-/// u_s = s alpha/Theta and v_s = -s log(r)/Theta: u_s + i v_s = s / (2 pi i) log z with z = (r e^(i alpha))^(2
-/// pi/Theta).
+/// Near a puncture of residue 1 and total angle Theta, in polar coordinates (r, alpha) of its star, u_s = alpha/Theta
+/// and v_s = -log(r)/Theta: u_s + i v_s = 1 / (2 pi i) log z with z = (r e^(i alpha))^(2 pi/Theta).
 ///
 /// b_u, b_v: the fluxes of u_s, v_s out of the star through its link, tested with the hat functions; and the difference
 /// between u_s, v_s and their linear interpolants on the straight link edges, tested with the normal derivatives of the
-/// hat functions, which makes the result second order. For each residue b_u sums to 0 and b_v to s; both test linear
+/// hat functions, which makes the result second order. Each column of b_u sums to 0 and of b_v to 1; both test linear
 /// functions exactly.
 struct SingularPart {
-  Eigen::MatrixXd u, v;      ///< #V x m, supported on the links; u jumps by s at the link edge link[0]
-  Eigen::MatrixXd b_u, b_v;  ///< #V x m
+  Eigen::SparseMatrix<double> u, v;      ///< #V x #stars, supported on the links; u jumps by 1 at the link edge link[0]
+  Eigen::SparseMatrix<double> b_u, b_v;  ///< #V x #stars, supported on the stars
 };
 
-/// @param lengths #E; @param residues #stars x m reals, a column for each differential
+/// @param lengths #E
 SingularPart singular_part(const mesh::HalfEdges& half_edges, std::span<const double> lengths,
-                           const std::vector<mesh::Star>& stars, const Eigen::MatrixXd& residues);
+                           const std::vector<mesh::Star>& stars);
 
 /// Weights k over the faces outside the stars: 0 on spokes, that of the outer face alone on link edges.
 Array<double> outer_weights(const mesh::HalfEdges& half_edges, std::span<const double> lengths, Array<double> weights,

@@ -3,84 +3,105 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "forms/codifferential.h"
+
 namespace holomorph::forms {
 namespace {
 
 using mesh::edge_of;
 using mesh::HalfedgeHandle;
 using mesh::HalfEdges;
-using mesh::sign;
+using mesh::next;
+using mesh::opposite;
 using mesh::to_vertex;
 
-// Values along half-edge 2e of the form d f + sum_i residues(i) n_i.
-Eigen::RowVectorXd along(const HalfEdges& mesh, const Singularities& s, const Eigen::MatrixXd& f, int e) {
-  Eigen::RowVectorXd value =
-      f.row(to_vertex(mesh, HalfedgeHandle(2 * e))) - f.row(to_vertex(mesh, HalfedgeHandle(2 * e + 1)));
-  for (const auto& [i, n] : s.classes.rows[e]) value += n * s.residues.row(i);
-  return value;
-}
-
-Eigen::RowVectorXd difference(const HalfEdges& mesh, const Eigen::MatrixXd& f, int e) {
-  return f.row(to_vertex(mesh, HalfedgeHandle(2 * e))) - f.row(to_vertex(mesh, HalfedgeHandle(2 * e + 1)));
-}
-
-// The right-hand sides, u in the first m columns, v in the others.
-Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Singularities& s) {
-  const auto m = s.residues.cols();
-  Eigen::MatrixXd B(s.part.u.rows(), 2 * m);
-  B << s.part.b_u, s.part.b_v;
-  Eigen::RowVectorXd flux(2 * m);
-  for (int e = 0; e < static_cast<int>(s.outer_weights.size()); ++e) {
-    flux << along(mesh, s, s.part.u, e), difference(mesh, s.part.v, e);
-    flux *= s.outer_weights[e];
-    B.row(to_vertex(mesh, HalfedgeHandle(2 * e))) -= flux;
-    B.row(to_vertex(mesh, HalfedgeHandle(2 * e + 1))) += flux;
+// Calls each(a, h) for every half-edge h that leaves a vertex a of a link.
+template <class Each>
+void leaving_links(const HalfEdges& mesh, const std::vector<mesh::Star>& stars, const Each& each) {
+  for (const mesh::Star& star : stars) {
+    for (const HalfedgeHandle link : star.link) {
+      HalfedgeHandle h = link;
+      do {
+        each(mesh::from_vertex(mesh, link), h);
+        h = next(mesh, opposite(h));
+      } while (h != link);
+    }
   }
+}
+
+// -d^T (k d f) over the faces outside the stars, f supported on the links: #V x m.
+Eigen::MatrixXd codifferential_of_links(const HalfEdges& mesh, const Poles& poles,
+                                        const Eigen::SparseMatrix<double>& f) {
+  const RowMajorMatrix values = f * poles.residues;
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(values.rows(), values.cols());
+  leaving_links(mesh, poles.stars, [&](int a, HalfedgeHandle h) {
+    const double k = poles.outer_weights[edge_of(h)];
+    B.row(a) -= k * values.row(a);
+    B.row(to_vertex(mesh, h)) += k * values.row(a);
+  });
   return B;
 }
 
-// Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at held vertices are no equations.
+// The right-hand sides, u in the first m columns, v in the others.
+Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Poles& poles, Workers& workers) {
+  const auto m = poles.residues.cols();
+  Eigen::MatrixXd B(poles.part.u.rows(), 2 * m);
+  B.leftCols(m) = poles.part.b_u * poles.residues + codifferential_of_links(mesh, poles, poles.part.u) +
+                  codifferentials(mesh, poles.outer_weights, poles.classes, workers);
+  B.rightCols(m) = poles.part.b_v * poles.residues + codifferential_of_links(mesh, poles, poles.part.v);
+  return B;
+}
+
+// Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at fixed vertices are no equations.
 double relative_residual(const HalfEdges& mesh, std::span<const double> weights, const Eigen::MatrixXd& B,
-                         const Eigen::MatrixXd& X, const std::vector<int>& held) {
-  Eigen::MatrixXd rest = B, size = B.cwiseAbs();
+                         const RowMajorMatrix& X, const std::vector<int>& fixed) {
+  RowMajorMatrix rest = B, size = B.cwiseAbs();
   for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
     const int head = to_vertex(mesh, HalfedgeHandle(2 * e)), tail = to_vertex(mesh, HalfedgeHandle(2 * e + 1));
-    const Eigen::RowVectorXd flux = weights[e] * difference(mesh, X, e);
-    rest.row(head) -= flux;
-    rest.row(tail) += flux;
-    size.row(head) += flux.cwiseAbs();
-    size.row(tail) += flux.cwiseAbs();
+    for (Eigen::Index j = 0; j < X.cols(); ++j) {
+      const double flux = weights[e] * (X(head, j) - X(tail, j));
+      rest(head, j) -= flux;
+      rest(tail, j) += flux;
+      size(head, j) += std::abs(flux);
+      size(tail, j) += std::abs(flux);
+    }
   }
-  for (const int v : held) rest.row(v).tail(rest.cols() / 2).setZero();
+  for (const int v : fixed) rest.row(v).tail(rest.cols() / 2).setZero();
   return (rest.cwiseAbs().colwise().maxCoeff().array() / size.colwise().maxCoeff().array()).maxCoeff();
 }
 
 }  // namespace
 
-ThirdKind third_kind(const HalfEdges& mesh, std::span<const double> weights, const Singularities& s,
-                     solver::LaplaceSolver& solver, const std::vector<int>& held, Execution& execution) {
-  const auto m = s.residues.cols();
-  const Eigen::MatrixXd B = right_hand_sides(mesh, s);
-  std::vector<solver::Condition> conditions(2 * m, solver::Condition::natural);
-  if (!held.empty()) std::fill(conditions.begin() + m, conditions.end(), solver::Condition::dirichlet);
-  const Eigen::MatrixXd X = solver.solve(B, conditions, execution);
-  return {s.part.u + X.leftCols(m), s.part.v + X.rightCols(m), relative_residual(mesh, weights, B, X, held)};
+Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed) {
+  Eigen::MatrixXd residues = Eigen::MatrixXd::Identity(stars, closed ? stars - 1 : stars);
+  if (closed) residues.bottomRows(1).setConstant(-1);
+  return residues;
 }
 
-Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Singularities& s, const std::vector<mesh::Star>& stars,
-                              const ClosedForms& harmonic, const Eigen::MatrixXd& gram_matrix) {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(gram_matrix.rows(), s.residues.cols());
-  for (int e = 0; e < static_cast<int>(s.outer_weights.size()); ++e) {
-    const Eigen::RowVectorXd u = along(mesh, s, s.part.u, e);
-    if (u.isZero(0)) continue;
-    P += s.outer_weights[e] * edge_values(mesh, harmonic, e, e + 1).transpose() * u;
-  }
-  for (const mesh::Star& star : stars) {
-    for (const HalfedgeHandle h : star.link) {
-      const HalfedgeHandle spoke = mesh::next(mesh, h);  // towards the puncture
-      const RowMajorMatrix inwards = sign(spoke) * edge_values(mesh, harmonic, edge_of(spoke), edge_of(spoke) + 1);
-      P += inwards.transpose() * s.part.b_u.row(to_vertex(mesh, h));
-    }
+PoleFunctions pole_functions(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
+                             solver::LaplaceSolver& solver, const std::vector<int>& fixed, Execution& execution) {
+  const auto m = poles.residues.cols();
+  const Eigen::MatrixXd B = right_hand_sides(mesh, poles, execution.workers());
+  std::vector<solver::Condition> conditions(2 * m, solver::Condition::natural);
+  if (!fixed.empty()) std::fill(conditions.begin() + m, conditions.end(), solver::Condition::dirichlet);
+  const RowMajorMatrix X = solver.solve(B, conditions, execution);
+  return {X.leftCols(m) + poles.part.u * poles.residues, X.rightCols(m) + poles.part.v * poles.residues,
+          relative_residual(mesh, weights, B, X, fixed)};
+}
+
+Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic,
+                              const Eigen::MatrixXd& gram_matrix) {
+  const auto n = gram_matrix.rows();
+  const auto along = [&](HalfedgeHandle h) -> Eigen::VectorXd {
+    const int e = edge_of(h);
+    return mesh::sign(h) * edge_values(mesh, harmonic, e, e + 1).row(0).head(n).transpose();
+  };
+  Eigen::MatrixXd P = class_products(mesh, poles.outer_weights, poles.classes, harmonic).leftCols(n).transpose();
+  const RowMajorMatrix u = poles.part.u * poles.residues, b_u = poles.part.b_u * poles.residues;
+  leaving_links(mesh, poles.stars,
+                [&](int a, HalfedgeHandle h) { P -= poles.outer_weights[edge_of(h)] * along(h) * u.row(a); });
+  for (const mesh::Star& star : poles.stars) {
+    for (const HalfedgeHandle h : star.link) P -= along(opposite(next(mesh, h))) * b_u.row(to_vertex(mesh, h));
   }
   return gram_matrix.llt().solve(P);
 }

@@ -7,39 +7,47 @@
 #pragma once
 
 #include <span>
-#include "forms/harmonic_basis.h"
+#include <vector>
+
+#include "base/execution.h"
+#include "forms/closed_forms.h"
 #include "forms/singular_part.h"
+#include "solver/laplace_solver.h"
 
 namespace holomorph::forms {
 
-/// u_s outside the stars: d(part.u) + sum_i residues(i) n_i.
-struct Singularities {
+/// m pole forms, each with the residue 1 at a puncture of its own. Outside the stars u_s = d(part.u residues) +
+/// classes.
+struct Poles {
+  std::vector<mesh::Star> stars;
+  Eigen::MatrixXd
+      residues;  ///< #stars x m: with boundary the identity; closed, where they sum to 0, -1 at the last star
+  topology::IntegerForms classes;  ///< m, of topology::puncture_classes
   SingularPart part;
-  topology::IntegerForms classes;  ///< n_i of the stars (topology::puncture_classes)
-  Eigen::MatrixXd residues;        ///< #stars x m reals; on a closed surface each column sums to 0
-  Array<double> outer_weights;     ///< #E
+  Array<double> outer_weights;  ///< #E, of singular_part.h
 };
 
-/// The form of u is d(u) + sum_i residues(i) n_i outside the stars; v is single-valued.
-struct ThirdKind {
-  Eigen::MatrixXd u, v;    ///< #V x m; at the punctures only f and g
+/// #stars x m residues of the pole forms.
+Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed);
+
+/// The form of u is d(u) + classes outside the stars; v is single-valued.
+struct PoleFunctions {
+  RowMajorMatrix u, v;     ///< #V x m; at the punctures only f and g
   double harmonicity = 0;  ///< largest residual of the equations at a vertex over the largest sum of |terms|
 };
 
 /// @param weights #E, of the triangulation that `solver` solves on
-/// @param held the vertices that the solver can hold: all of the boundary, where v = 0 and u is natural; none on a
+/// @param fixed the vertices that the solver can fix: all of the boundary, where v = 0 and u is natural; none on a
 /// closed surface
 /// @return pairs whose u has the periods of the classes: where there are harmonic forms not yet conjugate, see
 /// harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
-ThirdKind third_kind(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                     const Singularities& singularities, solver::LaplaceSolver& solver, const std::vector<int>& held,
-                     Execution& execution);
+PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const double> weights, const Poles& poles,
+                             solver::LaplaceSolver& solver, const std::vector<int>& fixed, Execution& execution);
 
 /// C, #forms x m: u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v is.
 /// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the puncture).
-/// @param harmonic,gram_matrix on the same triangulation; with boundary the natural forms, of all classes
-Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const Singularities& singularities,
-                              const std::vector<mesh::Star>& stars, const ClosedForms& harmonic,
+/// @param harmonic,gram_matrix on the same triangulation; with boundary the natural forms, the first of `harmonic`
+Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const Poles& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);
 
 }  // namespace holomorph::forms

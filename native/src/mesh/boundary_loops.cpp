@@ -39,6 +39,14 @@ BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& mesh) {
   return result;
 }
 
+std::vector<int> boundary_vertices(const HalfEdges& mesh) {
+  std::vector<int> vertices;
+  for (int v = 0; v < static_cast<int>(mesh.n_vertices()); ++v) {
+    if (mesh.is_boundary(VertexHandle(v))) vertices.push_back(v);
+  }
+  return vertices;
+}
+
 std::vector<int> boundary_vertices(const BoundaryLoops& boundary) {
   std::vector<int> vertices;
   for (int v = 0; v < static_cast<int>(boundary.loop_of_vertex.size()); ++v) {

@@ -19,7 +19,8 @@ struct BoundaryLoops {
 
 BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& half_edges);
 
-/// The vertices of all loops, ascending.
+/// The vertices of all loops, ascending; those of any triangulation of the surface.
+std::vector<int> boundary_vertices(const HalfEdges& half_edges);
 std::vector<int> boundary_vertices(const BoundaryLoops& boundary);
 
 /// Triangles all of whose corners lie on one loop, ascending: every map that makes the loop straight collapses them.

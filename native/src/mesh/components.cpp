@@ -91,6 +91,13 @@ int boundary_count(const Surface& surface) {
   return loops;
 }
 
-int genus(int euler_characteristic, int boundary_count) { return (2 - euler_characteristic - boundary_count) / 2; }
+std::string TopologicalType::text() const {
+  return "genus " + std::to_string(genus) + " and " + std::to_string(boundary_count) + " boundary loops";
+}
+
+TopologicalType topological_type(const Surface& surface) {
+  const int boundaries = boundary_count(surface);
+  return {(2 - euler_characteristic(surface) - boundaries) / 2, boundaries};
+}
 
 }  // namespace holomorph::mesh

@@ -1,6 +1,7 @@
 // Cutting a surface into its connected components.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mesh/surface.h"
@@ -22,7 +23,17 @@ int euler_characteristic(const Surface& surface);
 /// Number of boundary loops of a surface, without building its half-edges.
 int boundary_count(const Surface& surface);
 
-/// (2 - chi - boundary loops) / 2
-int genus(int euler_characteristic, int boundary_count);
+/// What a connected surface is up to homeomorphism.
+struct TopologicalType {
+  int genus = 0, boundary_count = 0;
+
+  bool closed() const { return boundary_count == 0; }
+  /// Genus of the double with boundary, 2g + b - 1; 2g of a closed surface: forms of a family.
+  int form_count() const { return 2 * genus + (closed() ? 0 : boundary_count - 1); }
+  /// "genus 1 and 2 boundary loops"
+  std::string text() const;
+};
+
+TopologicalType topological_type(const Surface& surface);
 
 }  // namespace holomorph::mesh

@@ -37,6 +37,7 @@ Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, co
       throw TopologyError("puncture " + name(vertex) + " lies on the boundary; an interior vertex is needed");
     const HalfedgeHandle outer = next(mesh, h);
     result.link.push_back(outer);
+    result.faces.push_back(face_of(mesh, outer));
     result.angles.push_back(apex_angle(mesh, lengths, outer));
     result.total_angle += result.angles.back();
     h = opposite(next(mesh, outer));
@@ -169,7 +170,7 @@ void mark_star(const Surface& surface, const HalfEdges& mesh, int vertex, std::v
   for (const int v : star_vertices(surface, mesh, vertex)) taken[v] = 1;
 }
 
-void turn_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names) {
+void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names) {
   if (surface.intrinsic()) return;  // triangles have no diagonals
   const std::vector<char> chosen = refuse_shared_polygons(surface, vertices, Names(names));
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {

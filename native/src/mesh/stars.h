@@ -13,7 +13,8 @@ namespace holomorph::mesh {
 struct Star {
   int vertex = 0;
   std::vector<HalfedgeHandle> link;  ///< opposite the vertex in each of its faces, counter-clockwise
-  std::vector<double> angles;        ///< at the vertex, of the face of each link half-edge, in radians
+  std::vector<int> faces;            ///< the face of each link half-edge
+  std::vector<double> angles;        ///< at the vertex, of each face, in radians
   double total_angle = 0;
 
   std::size_t size() const { return link.size(); }
@@ -35,6 +36,6 @@ void mark_star(const Surface& surface, const HalfEdges& half_edges, int vertex, 
 /// Turns the diagonals of polygons that end at one of the vertices, so that each polygon has one triangle there: then
 /// every spoke is an edge of the artist's. Edges keep their indices.
 /// @throws TopologyError if two of the vertices are corners of one polygon
-void turn_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names = {});
+void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names = {});
 
 }  // namespace holomorph::mesh

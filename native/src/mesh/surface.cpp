@@ -168,4 +168,14 @@ double area(const Surface& surface, Workers& workers) {
   });
 }
 
+std::vector<double> vertex_areas(const Surface& surface, std::span<const double> lengths) {
+  std::vector<double> areas(surface.vertex_count, 0.0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangle_edges[t];
+    const double area = triangle_area(lengths[a], lengths[b], lengths[c]);
+    for (const int v : surface.triangles[t]) areas[v] += area / 3;
+  }
+  return areas;
+}
+
 }  // namespace holomorph::mesh

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/execution.h"
@@ -60,5 +61,8 @@ Surface make_intrinsic_surface(int vertex_count, const std::vector<std::array<st
 
 /// Sum of the areas of the triangles.
 double area(const Surface& surface, Workers& workers);
+
+/// #V a third of the areas of the triangles at each vertex. @param lengths #E
+std::vector<double> vertex_areas(const Surface& surface, std::span<const double> lengths);
 
 }  // namespace holomorph::mesh

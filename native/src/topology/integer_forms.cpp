@@ -44,7 +44,7 @@ IntegerForms first_forms(const IntegerForms& forms, int count, int form_count) {
   return first;
 }
 
-void carry_through(const std::vector<mesh::Flip>& flips, IntegerForms& forms) {
+void pull_back(const std::vector<mesh::Flip>& flips, IntegerForms& forms) {
   static const IntegerForms::Row kZero;
   for (const auto& [edge, a, b] : flips) {
     const auto& row_a = forms.rows[mesh::edge_of(a)];

@@ -93,6 +93,6 @@ IntegerForms beside(const IntegerForms& a, const IntegerForms& b);
 IntegerForms first_forms(const IntegerForms& forms, int count, int form_count);
 
 /// The same closed forms on a triangulation that was flipped: exact, by closedness.
-void carry_through(const std::vector<mesh::Flip>& flips, IntegerForms& forms);
+void pull_back(const std::vector<mesh::Flip>& flips, IntegerForms& forms);
 
 }  // namespace holomorph::topology

@@ -8,16 +8,15 @@ namespace holomorph::uv {
 
 using Complex = std::complex<double>;
 
-void place_apexes(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<mesh::Star>& stars,
-                  UvArray& uv) {
+void place_apexes(const mesh::Surface& surface, const std::vector<mesh::Star>& stars, Eigen::Ref<UvArray> uv) {
   const auto& length = surface.edge_lengths;
   for (const mesh::Star& star : stars) {
-    for (const mesh::HalfedgeHandle link : star.link) {
-      const int t = mesh::face_of(mesh, link);
+    for (std::size_t j = 0; j < star.size(); ++j) {
+      const int t = star.faces[j];
       const auto& corner = surface.triangle_corners[t];
       const auto& edge = surface.triangle_edges[t];
       int side = 0;  // the one on the link
-      while (edge[side] != mesh::edge_of(link)) ++side;
+      while (edge[side] != mesh::edge_of(star.link[j])) ++side;
       const double l = length[edge[side]], to_b = length[edge[(side + 1) % 3]], to_a = length[edge[(side + 2) % 3]];
       const Complex z((l * l + (to_a - to_b) * (to_a + to_b)) / (2 * l * l),
                       2 * mesh::triangle_area(l, to_a, to_b) / (l * l));

@@ -11,9 +11,8 @@ namespace holomorph::uv {
 /// Gives each triangle of the stars an apex of its own: the similarity that takes the side of the link to its UVs takes
 /// the triangle (p, a, b) to apex = uv_a + z (uv_b - uv_a), z the place of p where a is 0 and b is 1. So the angles of
 /// these triangles are exact, their UVs finite, and the spokes are seams.
-/// @param surface,half_edges the triangulation of the stars, in which no diagonal ends at a puncture
+/// @param surface the triangulation of the stars, in which no diagonal ends at a puncture
 /// @param uv #C x 2, changed at the corners of the punctures only
-void place_apexes(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<mesh::Star>& stars,
-                  UvArray& uv);
+void place_apexes(const mesh::Surface& surface, const std::vector<mesh::Star>& stars, Eigen::Ref<UvArray> uv);
 
 }  // namespace holomorph::uv

@@ -174,17 +174,13 @@ VectorXcd lowest_variance(const Parts& parts, Coefficients kind, Workers& worker
 }  // namespace
 
 VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis,
-                                const Eigen::MatrixXd& area_form, Coefficients kind, Workers& workers) {
-  VectorXcd c = VectorXcd::Ones(basis.cols());
-  if (basis.cols() > 1) {
-    c = lowest_variance(sampled_parts(surface, samples, basis), kind, workers);
-    Eigen::Index largest;
-    c.cwiseAbs().maxCoeff(&largest);
-    const Complex phase = std::conj(c[largest]) / std::abs(c[largest]);
-    c *= phase;  // the phase is free: the largest coefficient is made positive
-  }
-  const double area = (c.adjoint() * area_form.cast<Complex>() * c)(0, 0).real();
-  return c / std::sqrt(area);
+                                Coefficients kind, Workers& workers) {
+  if (basis.cols() == 1) return VectorXcd::Ones(1);
+  VectorXcd c = lowest_variance(sampled_parts(surface, samples, basis), kind, workers);
+  Eigen::Index largest;
+  c.cwiseAbs().maxCoeff(&largest);
+  const Complex phase = std::conj(c[largest]) / std::abs(c[largest]);
+  return c * phase;  // the phase is free: the largest coefficient is made positive
 }
 
 }  // namespace holomorph::uv

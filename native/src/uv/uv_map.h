@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "forms/harmonic_basis.h"
+#include "forms/closed_forms.h"
 #include "uv/corner_sheets.h"
 
 namespace holomorph::uv {
@@ -37,14 +37,12 @@ enum class Coefficients { complex, real };
 
 /// Coefficients c, g numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most
 /// even: least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against distortion
-/// (balance.cpp), scaled so that the UV area is 1. The minimum is local, the best from several fixed starts; the same
+/// (balance.cpp); the scale is free. The minimum is local, the best from several fixed starts; the same
 /// input gives the same bits.
 /// @param samples not looked at where g = 1
-/// @param basis #forms x g, the theta_j in the forms. @param area_form g x g: the UV area of theta is c^* area_form c,
-/// on closed surfaces Im Omega, on bounded ones G_N#
+/// @param basis #forms x g, the theta_j in the forms
 /// @param kind real on bounded surfaces, so that boundaries stay straight
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples,
-                                       const Eigen::MatrixXcd& basis, const Eigen::MatrixXd& area_form,
-                                       Coefficients kind, Workers& workers);
+                                       const Eigen::MatrixXcd& basis, Coefficients kind, Workers& workers);
 
 }  // namespace holomorph::uv

@@ -1,0 +1,244 @@
+#include <pybind11/complex.h>
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <mutex>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "bindings/callback.h"
+#include "bindings/solver_report.h"
+#include "multiresolution/paper_structure.h"
+#include "plane/disk_map.h"
+#include "plane/sphere_map.h"
+#include "structure/conformal_structure.h"
+#include "structure/punctured_structure.h"
+#include "structure/uv_forms.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using structure::Options;
+using SurfacePointer = std::shared_ptr<mesh::Surface>;
+
+/// A structure for Python: the forms that UVs are made of come with it, solved for when first asked for.
+struct Structure {
+  Options options;
+  int threads = 0;
+  structure::Structure value;
+  std::mutex mutex;
+  std::unique_ptr<structure::UvForms> forms;
+
+  /// `use(forms, execution)` without the interpreter's lock, one call at a time.
+  template <class Use>
+  void with_forms(Use use, Execution::Callback callback = {}) {
+    const py::gil_scoped_release unlocked;
+    const std::lock_guard<std::mutex> one_at_a_time(mutex);
+    Execution execution(threads, std::move(callback));
+    use(*forms, execution);
+  }
+};
+using Pointer = std::shared_ptr<Structure>;
+
+// Runs `compute(options, execution)` without the interpreter's lock.
+template <class Compute>
+Pointer make(const Options& options, int threads, const py::object& progress_function, Compute compute) {
+  Execution execution(threads, callback(progress_function));
+  const py::gil_scoped_release unlocked;
+  auto made = std::make_shared<Structure>();
+  made->options = options;
+  made->threads = threads;
+  made->value = compute(options, execution);
+  made->forms = structure::uv_forms(made->value, made->options);
+  return made;
+}
+
+Pointer conformal(const SurfacePointer& surface, bool over_double, const std::string& solver, int threads,
+                  std::int64_t memory_limit, const py::object& progress) {
+  const auto boundary = over_double ? structure::Boundary::double_cover : structure::Boundary::natural;
+  return make({solver, memory_limit, boundary}, threads, progress, [&](const Options& options, Execution& execution) {
+    return structure::conformal_structure(surface, options, execution);
+  });
+}
+
+Pointer punctured(const SurfacePointer& surface, const std::vector<int>& vertices,
+                  const std::vector<std::complex<double>>& residues, const std::vector<int>& names,
+                  const std::string& solver, int threads, std::int64_t memory_limit, const py::object& progress) {
+  return make({solver, memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
+    return structure::punctured_structure(surface, {vertices, residues, names}, options, execution);
+  });
+}
+
+Pointer paper(const SurfacePointer& surface, int threads, std::int64_t memory_limit, const py::object& progress) {
+  return make({"auto", memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
+    return multiresolution::paper_structure(surface, options, execution);
+  });
+}
+
+// Of a level of a progressive mesh, in the classes of its base; `surface` is the surface of that level.
+Pointer conformal_of_level(const progressive::ProgressiveMesh& mesh, int splits, const SurfacePointer& surface,
+                           const std::string& solver, int threads, std::int64_t memory_limit,
+                           const py::object& progress) {
+  return make({solver, memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
+    return structure::conformal_structure(surface, options, execution, topology::carried_bases(mesh, splits, *surface));
+  });
+}
+
+Pointer paper_of_level(const progressive::ProgressiveMesh& mesh, int splits, const SurfacePointer& surface, int threads,
+                       std::int64_t memory_limit, const py::object& progress) {
+  return make({"auto", memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
+    return multiresolution::paper_structure(surface, options, execution,
+                                            multiresolution::paper_levels(mesh, splits, *surface));
+  });
+}
+
+void prepare_uv(Structure& s, const py::object& progress) {
+  s.with_forms([](auto& forms, Execution& execution) { forms.prepare(execution); }, callback(progress));
+}
+
+py::tuple uv_solver(Structure& s) {
+  s.with_forms([](auto& forms, Execution& execution) { forms.prepare(execution); });
+  return report(s.forms->solver());
+}
+
+// UVs of sum_k p_k h_k, #C x 2.
+py::array uv(Structure& s, const Eigen::VectorXcd& p) {
+  // NumPy takes large arrays on large pages.
+  py::array_t<double> result(
+      {static_cast<py::ssize_t>(s.value.surface->polygons.corner_vertices.size()), py::ssize_t{2}});
+  Eigen::Map<uv::UvArray> corners(result.mutable_data(), result.shape(0), 2);
+  s.with_forms([&](auto& forms, Execution& execution) {
+    structure::write_uv_map(s.value, forms.function(p, execution), p, corners, execution.workers());
+  });
+  return read_only(std::move(result));
+}
+
+// Values of all forms of the basis on the edges, #forms x #E.
+py::array basis_forms(Structure& s) {
+  py::array_t<double> values({static_cast<py::ssize_t>(s.value.topology.families.count()),
+                              static_cast<py::ssize_t>(s.value.surface->edges.size())});
+  Eigen::Map<forms::RowMajorMatrix> rows(values.mutable_data(), values.shape(0), values.shape(1));
+  s.with_forms([&](auto& forms, Execution& execution) { forms.write_edge_values(rows, execution); });
+  return read_only(std::move(values));
+}
+
+// @param real whether the coefficients are to be real, so that boundaries stay straight
+Eigen::VectorXcd balanced_coefficients(Structure& s, bool real) {
+  Eigen::VectorXcd c;
+  s.with_forms([&](auto& forms, Execution& execution) {
+    const auto& basis = s.value.differentials;
+    const auto samples = basis.cols() > 1 ? forms.samples(execution) : uv::FormSamples();
+    c = uv::balanced_coefficients(*s.value.surface, samples, basis,
+                                  real ? uv::Coefficients::real : uv::Coefficients::complex, execution.workers());
+    c /= std::sqrt(structure::uv_area(s.value, basis * c));
+  });
+  return c;
+}
+
+py::array disk_map(Structure& s) {
+  Eigen::VectorXcd z;
+  s.with_forms([&](auto& forms, Execution& execution) {
+    z = plane::disk_map(s.value, forms.function(s.value.differentials.col(0), execution));
+  });
+  return copy(z);
+}
+
+py::array sphere_map(Structure& s) {
+  plane::PointArray points;
+  s.with_forms([&](auto& forms, Execution& execution) {
+    plane::require_sphere(s.value);
+    points = plane::sphere_map(s.value, forms.function(s.value.differentials.col(0), execution));
+  });
+  return give_matrix(std::move(points));
+}
+
+void cut_along(Structure& s, const std::vector<int>& edges, const std::vector<int>& names) {
+  s.with_forms([&](auto&, Execution& execution) { structure::cut_along(s.value, edges, names, execution); });
+}
+
+py::list loops_of_vertices(const mesh::EdgeEnds& ends, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
+  py::list result;
+  for (const auto& loop : loops) {
+    std::vector<int> vertices;
+    for (const auto h : loop) vertices.push_back(mesh::from_vertex(ends, h));
+    result.append(copy(vertices));
+  }
+  return result;
+}
+
+py::list matrices(const std::vector<Eigen::MatrixXd>& list) {
+  py::list result;
+  for (const auto& matrix : list) result.append(copy(matrix));
+  return result;
+}
+
+}  // namespace
+
+void bind_structure(py::module_& m) {
+  py::class_<Structure, Pointer>(m, "Structure")
+      .def("prepare_uv", &prepare_uv)
+      .def("uv_solver", &uv_solver)
+      .def("uv", &uv)
+      .def("basis_forms", &basis_forms)
+      .def("balanced_coefficients", &balanced_coefficients)
+      .def("disk_map", &disk_map)
+      .def("sphere_map", &sphere_map)
+      .def("cut_along", &cut_along)
+      .def("require_memory", [](const Structure& s, const std::string& what,
+                                std::int64_t bytes) { structure::require_memory(what, bytes, s.options.memory_limit); })
+      .def("surface", [](const Structure& s) { return std::const_pointer_cast<mesh::Surface>(s.value.surface); })
+      .def("families",
+           [](const Structure& s) {
+             const auto& [natural, dirichlet, poles] = s.value.topology.families;
+             return py::make_tuple(natural, dirichlet, poles);
+           })
+      .def("differentials", [](const Structure& s) { return copy(s.value.differentials); })
+      .def("homology_basis",
+           [](const Structure& s) { return loops_of_vertices(*s.value.surface, s.value.topology.homology_basis); })
+      .def("boundary_loops",
+           [](const Structure& s) { return loops_of_vertices(*s.value.surface, s.value.topology.boundary.loops); })
+      .def("pairing", [](const Structure& s) { return copy(s.value.topology.pairing); })
+      .def("intersection_matrix", [](const Structure& s) { return copy(s.value.topology.canonical.intersection); })
+      .def("canonical_basis", [](const Structure& s) { return copy(s.value.topology.canonical.cycles); })
+      .def("seams", [](const Structure& s) { return copy(s.value.topology.seams); })
+      .def("punctures", [](const Structure& s) { return copy(s.value.punctures.vertices); })
+      .def("residues", [](const Structure& s) { return copy(s.value.punctures.residues); })
+      .def("spokes", [](const Structure& s) { return copy(structure::spokes(s.value)); })
+      .def("collapsed_triangles",
+           [](const Structure& s) {
+             return copy(mesh::triangles_on_one_loop(*s.value.surface, s.value.topology.boundary));
+           })
+      .def("gram_matrices", [](const Structure& s) { return matrices(s.value.gram); })
+      .def("projected",
+           [](const Structure& s) {
+             const auto& star = s.value.holomorphic.star;
+             return py::make_tuple(copy(star.natural_gram), copy(star.dirichlet_gram), copy(star.star));
+           })
+      .def("period_matrix", [](const Structure& s) { return copy(s.value.holomorphic.period_matrix); })
+      .def("period_bounds",
+           [](const Structure& s) {
+             const auto& bounds = s.value.holomorphic.bounds;
+             return py::make_tuple(copy(bounds.lower), copy(bounds.upper));
+           })
+      .def("certificate",
+           [](const Structure& s) {
+             const auto& [residuals, periods, pairing, asymmetry] = s.value.certificate;
+             return py::make_tuple(residuals.closedness, residuals.harmonicity, periods, pairing, asymmetry);
+           })
+      .def("memory",
+           [](const Structure& s) {
+             return py::make_tuple(s.value.memory.keep_forms, s.value.memory.block, s.value.memory.bytes);
+           })
+      .def("solver", [](const Structure& s) { return report(s.value.solver); })
+      .def("intrinsic", [](const Structure& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })
+      .def("timings", [](const Structure& s) { return s.value.seconds; })
+      .def_readonly("threads", &Structure::threads);
+  m.def("conformal_structure", &conformal);
+  m.def("punctured_structure", &punctured);
+  m.def("paper_structure", &paper);
+  m.def("conformal_structure_of_level", &conformal_of_level);
+  m.def("paper_structure_of_level", &paper_of_level);
+}
+
+}  // namespace holomorph::bindings

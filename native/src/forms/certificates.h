@@ -1,0 +1,40 @@
+// What is measured of harmonic forms: energies, residuals and wedge products, summed in a fixed order.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "base/execution.h"
+#include "forms/closed_forms.h"
+#include "mesh/half_edges.h"
+
+namespace holomorph::forms {
+
+/// G_ij = sum_e k_e h_i(e) h_j(e), exactly the L2 products of the piecewise constant forms, within each family of
+/// forms. Summed in a fixed order of blocks of edges, so the bits do not depend on the number of threads.
+/// @param families numbers of forms that follow one another; @return a matrix for each
+std::vector<Eigen::MatrixXd> gram_matrices(const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                                           const ClosedForms& forms, const std::vector<int>& families,
+                                           Execution& execution);
+
+/// <h_i, h_i> on the surface's own triangles: the diagonal of the Gram matrix there, summed by triangles.
+/// @param mollification added to every length. Cost: #T x #forms
+Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
+                         Execution& execution);
+
+/// Relative maxima over all forms: |sum of a form around a face| over its largest value; |d* h| at a vertex over the
+/// largest sum of |k h| at a vertex.
+struct Residuals {
+  double closedness = 0, harmonicity = 0;
+};
+
+/// @param fixed vertices at which d* h is asked of the first `natural` forms only: the others are prescribed there
+Residuals residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
+                    Execution& execution, int natural, const std::vector<int>& fixed);
+
+/// int h_i ^ w over the surface for all forms h_i and one form w, #E values along half-edge 2e.
+Eigen::VectorXd wedges(const mesh::HalfEdges& half_edges, const ClosedForms& forms, const Eigen::VectorXd& w,
+                       Execution& execution);
+
+}  // namespace holomorph::forms

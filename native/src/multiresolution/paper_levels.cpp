@@ -1,0 +1,187 @@
+#include "multiresolution/paper_levels.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/errors.h"
+#include "mesh/triangle_geometry.h"
+#include "multiresolution/polygon_paths.h"
+#include "progressive/single_edges.h"
+
+namespace holomorph::multiresolution {
+namespace {
+
+using progressive::ProgressiveMesh;
+
+// Least area of a triangle of a level in parts of the sum of its squared sides, 0.144 for an equilateral one. All its
+// cotangents shrink together, so that the matrix stays positive semi-definite.
+constexpr double kLeastLevelArea = 1e-3;
+// Of the time of paper_levels, for the progress function.
+constexpr double kCollapsing = 0.8;
+
+struct BaseBases {
+  std::vector<std::vector<int>> loops;  // of vertices of M0
+  topology::IntegerForms classes;
+};
+
+// Steps 2 and 3.
+BaseBases base_bases(const mesh::Surface& base) {
+  Execution silent;
+  const auto half_edges = mesh::half_edges(base, silent);
+  const auto domain = topology::fundamental_domain(base, half_edges, silent);
+  BaseBases result{{}, topology::cohomology_basis(half_edges, domain)};
+  for (const auto& loop : topology::homology_basis(half_edges, domain)) {
+    result.loops.emplace_back();
+    for (const auto h : loop) result.loops.back().push_back(mesh::from_vertex(half_edges, h));
+  }
+  return result;
+}
+
+// Cotangents / 2 of a triangle's angles, entry i opposite side i from corner i to the next.
+std::array<double, 3> side_weights(const std::array<std::array<double, 3>, 3>& corners) {
+  std::array<double, 3> length;
+  for (int i = 0; i < 3; ++i) length[i] = mesh::distance(corners[i], corners[(i + 1) % 3]);
+  const auto& [a, b, c] = length;
+  const double area = std::max(mesh::triangle_area(a, b, c), kLeastLevelArea * (a * a + b * b + c * c));
+  if (!(area > 0)) return {0, 0, 0};
+  return {mesh::cotangent(a, b, c, area) / 2, mesh::cotangent(b, c, a, area) / 2, mesh::cotangent(c, a, b, area) / 2};
+}
+
+struct Entry {
+  int column;
+  double weight;
+};
+
+// The matrix of sums of weights between rows: entries of each row lie behind one another, doubles among them.
+solver::Laplacian assembled(const std::vector<int>& start, std::vector<Entry>& entries) {
+  const int n = static_cast<int>(start.size()) - 1;
+  solver::Laplacian L{{0}, {}, {}};
+  L.columns.reserve(entries.size() / 2 + n);
+  L.weights.reserve(entries.size() / 2 + n);
+  const auto add = [&L](int column, double weight) {
+    L.columns.push_back(column);
+    L.weights.push_back(weight);
+  };
+  for (int i = 0; i < n; ++i) {
+    const auto begin = entries.begin() + start[i], end = entries.begin() + start[i + 1];
+    std::sort(begin, end, [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    double diagonal = 0;
+    for (auto e = begin; e != end; ++e) diagonal += e->weight;
+    bool placed = false;
+    for (auto e = begin; e != end;) {
+      const int column = e->column;
+      double weight = 0;
+      for (; e != end && e->column == column; ++e) weight += e->weight;
+      if (!placed && column > i) {
+        add(i, diagonal);
+        placed = true;
+      }
+      add(column, -weight);
+    }
+    if (!placed) add(i, diagonal);
+    L.starts.push_back(static_cast<int>(L.columns.size()));
+  }
+  return L;
+}
+
+}  // namespace
+
+PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
+  if (surface.intrinsic()) {
+    throw InvalidMesh(
+        "the paper's solver needs positions, and this surface has edge lengths only; "
+        "take one of auto, direct, multigrid");
+  }
+  PaperLevels levels;
+  // The stage stays the caller's, who is asked all the same.
+  Execution silent(execution.threads(), [&](double done, const std::string&) {
+    execution.report(kCollapsing * done);
+    return true;
+  });
+  levels.mesh = std::make_shared<const ProgressiveMesh>(progressive_mesh(surface, progressive::Order::quadric, silent));
+  const ProgressiveMesh& mesh = *levels.mesh;
+  levels.splits = static_cast<int>(mesh.splits.size());
+  levels.place.resize(mesh.vertex_index.size());
+  for (std::size_t p = 0; p < levels.place.size(); ++p) levels.place[mesh.vertex_index[p]] = static_cast<int>(p);
+  const auto turned = progressive::with_single_edges(surface);
+  const mesh::Surface& triangulation = turned ? *turned : surface;
+  levels.triangles.reserve(mesh.triangle_index.size());
+  for (const int t : mesh.triangle_index) {
+    levels.triangles.push_back(triangulation.triangles[t]);
+    for (int& v : levels.triangles.back()) v = levels.place[v];
+  }
+
+  BaseBases base = base_bases(mesh.base);
+  levels.base_classes = std::move(base.classes);
+  const std::vector<int> to_base = progressive::vertex_map(mesh, 0);
+  std::vector<int> map(levels.place.size());
+  for (std::size_t v = 0; v < map.size(); ++v) map[v] = to_base[levels.place[v]];
+  levels.bases.classes = topology::carry_classes(mesh.base, levels.base_classes, triangulation, map);
+  auto loops = topology::carry_loops(mesh, levels.splits, base.loops);
+  for (auto& loop : loops) {
+    for (int& v : loop) v = mesh.vertex_index[v];
+  }
+  if (turned) values_of_diagonals(surface, *turned, levels.bases.classes);
+  levels.bases.loops = loops_of_half_edges(surface, triangulation, loops);
+  return levels;
+}
+
+PaperLevels paper_levels(const ProgressiveMesh& mesh, int splits, const mesh::Surface& level) {
+  PaperLevels levels;
+  levels.mesh = {std::shared_ptr<void>(), &mesh};
+  levels.splits = splits;
+  levels.place.resize(static_cast<std::size_t>(level.vertex_count));
+  std::iota(levels.place.begin(), levels.place.end(), 0);
+  levels.triangles.assign(level.triangles.begin(), level.triangles.end());
+  levels.base_classes = base_bases(mesh.base).classes;
+  levels.bases = topology::carried_bases(mesh, splits, level);
+  return levels;
+}
+
+LevelSystem level_system(const PaperLevels& levels, int splits) {
+  const ProgressiveMesh& mesh = *levels.mesh;
+  const int n = mesh.base_vertex_count() + splits;
+  const std::size_t triangle_count = mesh.base.triangles.size() + 2 * static_cast<std::size_t>(splits);
+  const std::vector<int> to_level = progressive::vertex_map(mesh, splits), to_base = progressive::vertex_map(mesh, 0);
+  LevelSystem system;
+  system.faces = static_cast<std::int64_t>(triangle_count);
+
+  std::vector<int> row(static_cast<std::size_t>(n));
+  int next = 0;
+  for (const int p : levels.place) {
+    if (p < n) row[p] = next++;
+  }
+  for (const int p : levels.place) system.row_of_vertex.push_back(row[to_level[p]]);
+
+  // Each corner of a triangle has two entries in its row.
+  std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
+  for (std::size_t t = 0; t < triangle_count; ++t) {
+    for (const int v : levels.triangles[t]) start[row[to_level[v]] + 1] += 2;
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<int> end(start.begin(), start.end() - 1);
+  std::vector<Entry> entries(static_cast<std::size_t>(start.back()));
+  system.B = Eigen::MatrixXd::Zero(n, levels.base_classes.form_count);
+  for (std::size_t t = 0; t < triangle_count; ++t) {
+    mesh::Triple v = levels.triangles[t];
+    for (int& corner : v) corner = to_level[corner];
+    const auto weights = side_weights({mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]});
+    for (int i = 0; i < 3; ++i) {
+      const int tail = v[i], head = v[(i + 1) % 3];
+      entries[end[row[tail]]++] = {row[head], weights[i]};
+      entries[end[row[head]]++] = {row[tail], weights[i]};
+      const int a = to_base[tail], b = to_base[head];
+      if (a == b) continue;
+      const int edge = topology::edge_between(mesh.base.edges, a, b);
+      for (const auto& [form, value] : levels.base_classes.rows[edge]) {
+        const double flux = weights[i] * (a < b ? value : -value);
+        system.B(row[head], form) -= flux;
+        system.B(row[tail], form) += flux;
+      }
+    }
+  }
+  system.L = assembled(start, entries);
+  return system;
+}
+
+}  // namespace holomorph::multiresolution

@@ -1,0 +1,62 @@
+#include "multiresolution/paper_structure.h"
+
+#include "base/errors.h"
+#include "forms/codifferential.h"
+#include "forms/laplacian.h"
+#include "mesh/intrinsic_triangulation.h"
+#include "multiresolution/paper_forms.h"
+#include "structure/conformal_structure.h"
+
+namespace holomorph::multiresolution {
+namespace {
+
+// All forms are refined together, level by level, in about the memory of multigrid.
+structure::MemoryPlan planned(const mesh::Surface& surface, const structure::Options& options) {
+  const auto type = mesh::topological_type(surface);
+  if (!type.closed() || type.genus == 0) {
+    throw TopologyError("the paper's solver is for closed surfaces of genus 1 or more; the surface has " + type.text() +
+                        "; take one of auto, direct, multigrid");
+  }
+  auto plan =
+      structure::plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), type.form_count()},
+                             "multigrid", options.memory_limit, structure::Keeping::all);
+  plan.choice.reason = "asked for";
+  return plan;
+}
+
+}  // namespace
+
+structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
+                                     Execution& execution, std::optional<PaperLevels> levels) {
+  structure::Structure result;
+  result.surface = std::move(surface);
+  result.memory = planned(*result.surface, options);
+
+  execution.stage("progressive mesh", 0.0, 0.1);
+  if (!levels) levels = paper_levels(*result.surface, execution);
+
+  execution.stage("homology", 0.1, 0.2);
+  auto half_edges = mesh::half_edges(*result.surface, execution);
+  result.topology = structure::find_topology(*result.surface, half_edges, execution, std::move(levels->bases));
+
+  execution.stage("Laplacian", 0.2, 0.3);
+  const auto triangulation = mesh::intrinsic_triangulation(*result.surface, std::move(half_edges), execution.workers());
+  result.mollification = triangulation.mollification;
+  const auto weights = mesh::cotangent_weights(triangulation, execution);
+  const auto laplacian = forms::laplacian(triangulation.half_edges, weights, execution);
+
+  execution.stage("harmonic forms", 0.3, 0.85);
+  const auto& classes = result.topology.classes;
+  const auto B = forms::codifferentials(triangulation.half_edges, weights, classes, execution.workers());
+  auto solved = paper_forms(*levels, laplacian, B, {}, execution);
+  result.functions.swap(solved.functions);
+  result.solver = std::move(solved.solver);
+
+  execution.stage("certificates", 0.85, 1.0);
+  structure::complete(triangulation.half_edges, weights, classes, result, execution);
+  execution.finish();
+  result.seconds = execution.seconds();
+  return result;
+}
+
+}  // namespace holomorph::multiresolution

@@ -1,0 +1,21 @@
+// The paper's multiresolution algorithm as a whole (§ 9): the conformal structure of a closed surface by the levels of
+// a progressive mesh.
+#pragma once
+
+#include <optional>
+
+#include "multiresolution/paper_levels.h"
+#include "structure/options.h"
+#include "structure/structure.h"
+
+namespace holomorph::multiresolution {
+
+/// Loops and classes are those of the base mesh, carried to the surface; harmonic forms come from paper_forms. No edge
+/// is flipped: all that is computed belongs to the surface's own triangulation.
+/// @param levels a progressive mesh that there is already; by default it is made here
+/// @pre connected, no isolated vertices
+/// @throws TopologyError for genus 0 or a boundary; InvalidMesh for an intrinsic surface; SolverError; Cancelled
+structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
+                                     Execution& execution, std::optional<PaperLevels> levels = {});
+
+}  // namespace holomorph::multiresolution

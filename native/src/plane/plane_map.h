@@ -1,0 +1,29 @@
+// Maps of disks and spheres to the plane and the sphere: what their results have in common.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "structure/options.h"
+#include "structure/solver_report.h"
+
+namespace holomorph::plane {
+
+using structure::Options;
+
+/// One fixed map of a disk to the plane, continuous everywhere.
+struct PlaneMap {
+  Eigen::VectorXcd points;                   ///< #V
+  std::vector<int> corners;                  ///< of a rectangle: four vertices
+  double modulus = 0, lower = 0, upper = 0;  ///< of a rectangle: height over width, and its bounds
+  std::vector<int> collapsed_triangles;      ///< of a rectangle: triangles all of whose corners lie on one side
+  double harmonicity = 0;                    ///< largest |L f| at a free vertex over the largest sum of its terms
+  double mollification = 0;
+  int flip_count = 0;
+  structure::SolverReport solver;
+  std::vector<std::pair<std::string, double>> seconds;
+};
+
+}  // namespace holomorph::plane

@@ -1,0 +1,69 @@
+#include "plane/rectangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/intrinsic_triangulation.h"
+#include "plane/dirichlet_problem.h"
+#include "plane/rectangle_corners.h"
+
+namespace holomorph::plane {
+namespace {
+
+// u: 0 on side 3, 1 on side 1; v: 0 on side 0, 1 on side 2. Each has conditions, and so a system, of its own.
+struct Coordinates {
+  DirichletSolution u, v;
+  double harmonicity() const { return std::max(u.harmonicity, v.harmonicity); }
+};
+
+Coordinates coordinates(const mesh::IntrinsicTriangulation& triangulation, const Sides& sides, const Options& options,
+                        double from, double to, Execution& execution) {
+  const auto weights = mesh::cotangent_weights(triangulation, execution);
+  const auto one = [&](int zero_side, int one_side) {
+    std::vector<int> fixed = sides[zero_side];
+    fixed.insert(fixed.end(), sides[one_side].begin(), sides[one_side].end());
+    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(triangulation.half_edges.n_vertices()), 1);
+    for (const int v : sides[one_side]) f(v, 0) = 1;
+    return solve_dirichlet(triangulation.half_edges, weights, fixed, f, options, execution);
+  };
+  execution.stage("width", from, (from + to) / 2);
+  auto u = one(3, 1);
+  execution.stage("height", (from + to) / 2, to);
+  return {std::move(u), one(0, 2)};
+}
+
+}  // namespace
+
+PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& names,
+                       const Options& options, Execution& execution) {
+  PlaneMap result;
+  execution.stage("half-edges", 0.0, 0.1);
+  auto half_edges = mesh::half_edges(surface, execution);
+  const Sides sides = rectangle_sides(surface, half_edges, corners, names);
+  result.corners = corners;
+  result.collapsed_triangles = collapsed_triangles(surface, sides);
+
+  execution.stage("intrinsic Delaunay", 0.1, 0.2);
+  auto delaunay = mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
+  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
+  mesh::make_delaunay(delaunay, execution);
+  result.flip_count = static_cast<int>(delaunay.flips.size());
+  result.mollification = plain.mollification;
+  const bool flipped = result.flip_count > 0;
+  const Coordinates sharp = coordinates(delaunay, sides, options, 0.2, flipped ? 0.6 : 1.0, execution);
+  result.upper = sharp.u.energies[0];
+  result.lower = 1 / sharp.v.energies[0];
+  result.modulus = std::sqrt(result.upper * result.lower);
+
+  const Coordinates drawn = flipped ? coordinates(plain, sides, options, 0.6, 1.0, execution) : sharp;
+  result.points.resize(surface.vertex_count);
+  result.points.real() = drawn.u.functions.col(0);
+  result.points.imag() = result.modulus * drawn.v.functions.col(0);
+  result.harmonicity = std::max(sharp.harmonicity(), drawn.harmonicity());
+  result.solver = sharp.v.solver.residual > sharp.u.solver.residual ? sharp.v.solver : sharp.u.solver;
+  execution.finish();
+  result.seconds = execution.seconds();
+  return result;
+}
+
+}  // namespace holomorph::plane

@@ -1,0 +1,136 @@
+#include "plane/rectangle_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/errors.h"
+#include "mesh/components.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::plane {
+namespace {
+
+using mesh::HalfedgeHandle;
+
+// From this change of direction on, in radians, a boundary vertex is a corner.
+constexpr double kCorner = std::numbers::pi / 4;
+
+// The vertices of the boundary, the surface on its left, from the lowest.
+std::vector<int> around(const mesh::HalfEdges& half_edges, const mesh::BoundaryLoops& boundary) {
+  std::vector<int> vertices;
+  for (const HalfedgeHandle h : boundary.loops[0]) vertices.push_back(mesh::from_vertex(half_edges, h));
+  std::reverse(vertices.begin() + 1, vertices.end());
+  return vertices;
+}
+
+mesh::BoundaryLoops checked_boundary(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
+  auto boundary = mesh::boundary_loops(surface, half_edges);
+  const auto type = mesh::topological_type(surface);
+  if (type.genus == 0 && type.boundary_count == 1) return boundary;
+  throw TopologyError("the surface has " + type.text() + "; rectangle corners need a disk");
+}
+
+Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
+               const std::vector<int>& names) {
+  const auto name = [&](int v) { return std::to_string(names.empty() ? v : names[v]); };
+  if (corners.size() != 4)
+    throw TopologyError("there are " + std::to_string(corners.size()) + " rectangle corners; four are needed");
+  const int n = static_cast<int>(loop.size());
+  std::vector<int> place(vertex_count, -1);
+  for (int i = 0; i < n; ++i) place[loop[i]] = i;
+  std::array<int, 4> steps{};  // from corner 0
+  for (int i = 0; i < 4; ++i) {
+    const int v = corners[i];
+    if (v < 0 || v >= vertex_count)
+      throw TopologyError("rectangle corner " + std::to_string(v) + " is no vertex: there are " +
+                          std::to_string(vertex_count));
+    if (std::count(corners.begin(), corners.end(), v) > 1)
+      throw TopologyError("rectangle corner " + name(v) + " is given twice");
+    if (place[v] < 0) throw TopologyError("rectangle corner " + name(v) + " does not lie on the boundary");
+    steps[i] = (place[v] - place[corners[0]] + n) % n;
+  }
+  if (!std::is_sorted(steps.begin(), steps.end())) {
+    std::vector<int> order(corners);
+    std::sort(order.begin() + 1, order.end(), [&](int a, int b) {
+      return (place[a] - place[corners[0]] + n) % n < (place[b] - place[corners[0]] + n) % n;
+    });
+    std::string wanted;
+    for (const int v : order) wanted += (wanted.empty() ? "" : ", ") + name(v);
+    throw TopologyError(
+        "the rectangle corners are not in the order of the boundary, the surface on its left: that is " + wanted);
+  }
+  Sides result;
+  for (int i = 0; i < 4; ++i) {
+    const int end = i < 3 ? steps[i + 1] : n;
+    for (int s = steps[i]; s <= end; ++s) result[i].push_back(loop[(place[corners[0]] + s) % n]);
+  }
+  return result;
+}
+
+}  // namespace
+
+Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& corners,
+                      const std::vector<int>& names) {
+  const auto boundary = checked_boundary(surface, half_edges);
+  return sides_of(around(half_edges, boundary), corners, surface.vertex_count, names);
+}
+
+std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides) {
+  std::vector<int> on(surface.vertex_count, 0);  // a bit for each side
+  for (int i = 0; i < 4; ++i) {
+    for (const int v : sides[i]) on[v] |= 1 << i;
+  }
+  std::vector<int> result;
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    if (on[a] & on[b] & on[c]) result.push_back(t);
+  }
+  return result;
+}
+
+std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution) {
+  const auto half_edges = mesh::half_edges(surface, execution);
+  const auto boundary = mesh::boundary_loops(surface, half_edges);
+  std::vector<double> turn(surface.vertex_count, std::numbers::pi);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const auto length = [&](int side) { return surface.edge_lengths[surface.triangle_edges[t][(i + side) % 3]]; };
+      const double a = length(1), b = length(2), c = length(0);  // a opposite corner i
+      turn[surface.triangles[t][i]] -= std::atan2(4 * mesh::triangle_area(a, b, c), (b - a) * (b + a) + c * c);
+    }
+  }
+  std::vector<int> corners;
+  for (const int v : around(half_edges, boundary)) {
+    if (std::abs(turn[v]) <= kCorner) continue;
+    if (turn[v] < 0 || corners.size() == 4) return {};
+    corners.push_back(v);
+  }
+  if (corners.size() != 4) return {};
+  return corners;
+}
+
+int boundary_length(const mesh::Surface& surface, Execution& execution) {
+  return static_cast<int>(mesh::boundary_loops(surface, mesh::half_edges(surface, execution)).loops[0].size());
+}
+
+std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execution) {
+  const auto half_edges = mesh::half_edges(surface, execution);
+  const auto boundary = mesh::boundary_loops(surface, half_edges);
+  const auto& loop = boundary.loops[0];  // the hole on its left: turned round at the end
+  const int n = static_cast<int>(loop.size());
+  if (n < 4) throw TopologyError("the boundary has three edges; four are needed for four corners");
+  std::vector<double> until(n, 0.0);  // length from the first vertex to each
+  for (int i = 1; i < n; ++i) until[i] = until[i - 1] + surface.edge_lengths[mesh::edge_of(loop[i - 1])];
+  const double total = until.back() + surface.edge_lengths[mesh::edge_of(loop.back())];
+  std::vector<int> corners;
+  for (int k = 0, at = 0; k < 4; ++k, ++at) {
+    // the corners that are still to come need a vertex each
+    while (at < n - (4 - k) && std::abs(until[at + 1] - k * total / 4) < std::abs(until[at] - k * total / 4)) ++at;
+    corners.push_back(mesh::from_vertex(half_edges, loop[at]));
+  }
+  std::reverse(corners.begin() + 1, corners.end());
+  return corners;
+}
+
+}  // namespace holomorph::plane

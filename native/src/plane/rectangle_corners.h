@@ -1,0 +1,38 @@
+// The four corners of a disk that is to become a rectangle: which fit, and which are taken without a choice.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/boundary_loops.h"
+
+namespace holomorph::plane {
+
+/// The boundary vertices from corner i to the next, both included.
+using Sides = std::array<std::vector<int>, 4>;
+
+/// @param corners four vertices on the boundary, in its order, the surface on its left
+/// @param names what a vertex is called in messages; empty: its index
+/// @throws TopologyError for a surface that is no disk, corners that are repeated, out of range, not on the boundary or
+/// not in its order
+Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& corners,
+                      const std::vector<int>& names);
+
+/// Triangles all of whose corners lie on one side, ascending: a map that makes the side straight collapses them.
+std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides);
+
+/// The four corners of a disk whose boundary has exactly four vertices at which it turns by more than 45 degrees, all
+/// of them inwards, in its order from the lowest; nothing for other disks.
+std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution);
+
+/// Number of edges of the longest boundary loop.
+int boundary_length(const mesh::Surface& surface, Execution& execution);
+
+/// Four corners of a disk that has no clear ones: from the lowest boundary vertex on, those nearest to the quarters of
+/// the boundary's length.
+/// @throws TopologyError for a boundary of three edges
+std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execution);
+
+}  // namespace holomorph::plane

@@ -1,0 +1,47 @@
+#include "plane/sphere_map.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/errors.h"
+#include "mesh/edge_ends.h"
+
+namespace holomorph::plane {
+namespace {
+
+// The shift for which the mean of tanh(x + shift) is 0: it grows with the shift, so halving finds it.
+double balancing_shift(const Eigen::VectorXd& x, const Eigen::VectorXd& areas) {
+  double low = -x.maxCoeff(), high = -x.minCoeff();
+  for (double middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2)
+    ((x.array() + middle).tanh().matrix().dot(areas) < 0 ? low : high) = middle;
+  return (low + high) / 2;
+}
+
+}  // namespace
+
+void require_sphere(const structure::Structure& s) {
+  if (s.topology.type.closed() && s.topology.type.genus == 0 && s.stars.size() == 2) return;
+  throw TopologyError("only a closed surface of genus 0 with two punctures has a map to the sphere here");
+}
+
+PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function) {
+  // -log |z| = 2 pi v, and the height (1 - |z|^2) / (1 + |z|^2) is its hyperbolic tangent.
+  const Eigen::VectorXcd angle =
+      2 * std::numbers::pi / s.punctures.residues[0] * (function.col(0) + std::complex<double>(0, 1) * function.col(1));
+  const Eigen::VectorXd turn = angle.real();
+  Eigen::VectorXd rise = angle.imag();
+  auto areas = mesh::vertex_areas(*s.surface, s.surface->edge_lengths);
+  for (const mesh::Star& star : s.stars) {  // where no height is known
+    areas[star.vertex] = 0;
+    rise[star.vertex] = rise[mesh::from_vertex(*s.surface, mesh::opposite(star.link[0]))];
+  }
+  rise.array() += balancing_shift(rise, Eigen::Map<const Eigen::VectorXd>(areas.data(), rise.size()));
+  PointArray points(rise.size(), 3);
+  const Eigen::ArrayXd radius = rise.array().cosh().inverse();
+  points << radius * turn.array().cos(), radius * turn.array().sin(), rise.array().tanh();
+  points.row(s.stars[0].vertex) << 0, 0, 1;
+  points.row(s.stars[1].vertex) << 0, 0, -1;
+  return points;
+}
+
+}  // namespace holomorph::plane

@@ -1,0 +1,20 @@
+// The conformal map of a closed surface of genus 0 to the sphere.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "structure/structure.h"
+
+namespace holomorph::plane {
+
+using PointArray = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// #V x 3 points of the unit sphere, orientation kept: z = exp(2 pi i (u + iv)) of residue 1 is 0 at the first puncture
+/// and infinite at the second; inverse stereographic projection takes them to (0, 0, 1) and (0, 0, -1), after a scaling
+/// of z for which the mean height over the surface's area is 0.
+/// @throws TopologyError for another genus or number of punctures
+void require_sphere(const structure::Structure& structure);
+/// @param function #V x 2, that of theta_0 (structure::UvForms). @pre require_sphere
+PointArray sphere_map(const structure::Structure& structure, const uv::UvArray& function);
+
+}  // namespace holomorph::plane

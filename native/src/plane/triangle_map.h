@@ -1,0 +1,17 @@
+// Disks with three edges on their boundary and no room for a centre.
+#pragma once
+
+#include "base/execution.h"
+#include "mesh/surface.h"
+#include "plane/plane_map.h"
+
+namespace holomorph::plane {
+
+/// The harmonic map whose boundary is the triangle with the lengths of the three edges, its longest side 1,
+/// counter-clockwise, the lowest boundary vertex at 0 and the next one on the real axis. A single triangle goes to
+/// itself.
+/// @pre a disk
+/// @throws TopologyError for a boundary of more than three edges; SolverError; Cancelled
+PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Execution& execution);
+
+}  // namespace holomorph::plane

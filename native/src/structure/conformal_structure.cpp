@@ -1,0 +1,138 @@
+#include "structure/conformal_structure.h"
+
+#include "base/background_task.h"
+#include "base/errors.h"
+#include "base/kept_pages.h"
+#include "structure/double_cover.h"
+#include "structure/streamed_forms.h"
+
+namespace holomorph::structure {
+namespace {
+
+// Bytes of large arrays that are sure to be taken, with any solver; multigrid takes nearly 300.
+constexpr std::size_t kAheadPerTriangle = 160;
+
+mesh::TopologicalType checked_type(const mesh::Surface& surface) {
+  const auto type = mesh::topological_type(surface);
+  if (type.form_count() > 0) return type;
+  throw TopologyError("the surface has " + type.text() +
+                      "; a handle, or a second boundary loop, is needed for harmonic forms");
+}
+
+MemoryPlan planned(const mesh::Surface& surface, const mesh::TopologicalType& type, const Options& options) {
+  const int families = type.closed() ? 1 : 2;
+  return plan_memory(
+      {surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), families * type.form_count()},
+      options.solver, options.memory_limit, type.closed() ? Keeping::as_many_as_fit : Keeping::all);
+}
+
+// W measured on one combination of the Dirichlet forms, with coefficients 1 and -1 in turn: cost #T n instead of #T
+// n^2.
+double largest_pairing_error(const mesh::HalfEdges& mesh, const forms::ClosedForms& forms, const Topology& topology,
+                             Execution& execution) {
+  const auto n = topology.pairing.rows();
+  if (topology.families.dirichlet == 0) return 0;
+  Eigen::VectorXd signs = Eigen::VectorXd::Ones(n);
+  for (Eigen::Index j = 1; j < n; j += 2) signs[j] = -1;
+  Eigen::VectorXd c = Eigen::VectorXd::Zero(2 * n);
+  c.tail(n) = signs;
+  const Eigen::VectorXd products = forms::wedges(mesh, forms, forms::combination(mesh, forms, c), execution);
+  return (products.head(n) - topology.pairing.cast<double>() * signs).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface, const Options& options,
+                              Execution& execution, std::optional<topology::DualBases> given) {
+  const mesh::Surface& surface = *given_surface;
+  const KeptPages pages(kAheadPerTriangle * surface.triangles.size(), execution.threads());
+  Structure result;
+  result.surface = std::move(given_surface);
+
+  execution.stage("half-edges", 0.0, 0.05);
+  const auto type = checked_type(surface);
+  result.memory = planned(surface, type, options);
+  auto half_edges = mesh::half_edges(surface, execution);
+  auto triangulation =
+      mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
+
+  // Loops, dual classes and the cut (paper § 4, § 5) need no metric, and what follows no topology until forms are
+  // solved for.
+  execution.stage("homology", 0.05, 0.2);
+  BackgroundTask homology(
+      [&](Execution& own) {
+        result.topology = find_topology(surface, half_edges, own, std::move(given));
+        half_edges = mesh::HalfEdges();
+      },
+      execution);
+
+  execution.stage("intrinsic Delaunay", 0.2, 0.25);
+  const std::vector<int> fixed = mesh::boundary_vertices(triangulation.half_edges);
+  mesh::make_delaunay(triangulation, execution);
+  const auto weights = mesh::cotangent_weights(triangulation, execution);
+  triangulation.forget_metric();
+  result.mollification = triangulation.mollification;
+  result.flip_count = static_cast<int>(triangulation.flips.size());
+
+  execution.stage("solver", 0.25, 0.45);
+  std::optional<HarmonicSystems> systems;
+  if (options.boundary == Boundary::natural)
+    systems.emplace(triangulation.half_edges, weights, fixed, result.memory.choice, execution);
+
+  execution.stage("homology", 0.45, 0.45);
+  homology.wait(execution);
+  const int natural = result.topology.families.natural;
+  auto classes = topology::first_forms(result.topology.classes, natural, natural);
+  topology::pull_back(triangulation.flips, classes);
+  classes = harmonic_classes(result.topology, triangulation.half_edges, classes);
+
+  // Harmonic forms (§ 6).
+  execution.stage("harmonic forms", 0.45, 0.85);
+  if (!result.memory.keep_forms) {
+    measure_in_blocks(triangulation.half_edges, weights, *systems, std::move(classes), result, execution);
+  } else {
+    auto solved = systems ? systems->solve(classes, natural, result.memory.block, execution)
+                          : solve_on_double(triangulation.half_edges, weights, classes, natural, options, execution);
+    systems.reset();
+    result.functions.swap(solved.functions);
+    result.solver = std::move(solved.solver);
+    execution.stage("certificates", 0.85, 1.0);
+    complete(triangulation.half_edges, weights, classes, result, execution);
+  }
+  execution.finish();
+  result.seconds = execution.seconds();
+  return result;
+}
+
+void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+              const topology::IntegerForms& classes, Structure& result, Execution& execution) {
+  const Topology& topology = result.topology;
+  const Families& families = topology.families;
+  forms::ClosedForms forms{classes, {}};
+  forms.functions.swap(result.functions);
+  std::vector<int> sizes{families.natural};
+  if (families.dirichlet > 0) sizes.push_back(families.dirichlet);
+  execution.part(0, 0.3);
+  result.gram = forms::gram_matrices(triangulation, weights, forms, sizes, execution);
+  execution.part(0.3, 1);
+  result.certificate.residuals = forms::residuals(triangulation, weights, forms, execution, families.natural,
+                                                  mesh::boundary_vertices(topology.boundary));
+  result.certificate.pairing = largest_pairing_error(triangulation, forms, topology, execution);
+  // The loops run along edges of the surface itself, and so do its classes; the functions are the same.
+  add_loop_indicators(topology, forms.functions);
+  forms.classes = topology.classes;
+  result.certificate.periods = forms::period_residual(*result.surface, forms, topology.homology_basis);
+  result.functions.swap(forms.functions);
+  set_holomorphic_basis(result);
+}
+
+void set_holomorphic_basis(Structure& result) {
+  const Topology& topology = result.topology;
+  result.holomorphic =
+      topology.families.dirichlet > 0
+          ? conformal::bounded_basis(result.gram[0], result.gram[1], topology.pairing, topology.type.genus)
+          : conformal::closed_basis(result.gram[0], topology.pairing, topology.canonical);
+  result.differentials = result.holomorphic.differentials;
+}
+
+}  // namespace holomorph::structure

@@ -1,0 +1,32 @@
+// The whole method in its order (paper § 4 to § 9): read conformal_structure.cpp first.
+#pragma once
+
+#include <optional>
+
+#include "mesh/intrinsic_triangulation.h"
+#include "structure/options.h"
+#include "structure/structure.h"
+
+namespace holomorph::structure {
+
+/// Of a closed surface of genus g >= 1, or of genus g with b >= 1 boundary loops, n = 2g + b - 1 >= 1. With boundary
+/// the symmetric forms of the double are the natural forms, the antisymmetric ones the Dirichlet forms; the star
+/// exchanges them, so that the double itself is not needed.
+/// @param given loops zeta and their dual classes, as carried from another level of a progressive mesh; by default they
+/// are found on the surface
+/// @pre connected, no isolated vertices (mesh::component makes it so)
+/// @throws TopologyError for a sphere or a disk, naming genus and boundary count; SolverError; Cancelled
+Structure conformal_structure(std::shared_ptr<const mesh::Surface> surface, const Options& options,
+                              Execution& execution, std::optional<topology::DualBases> given = {});
+
+/// What follows from the harmonic forms: Gram matrices, star, holomorphic basis, period matrix (paper § 7, Eq. 13), and
+/// the certificate.
+/// @param triangulation,weights,classes what was solved on, and the classes there
+/// @param result with its topology and functions
+void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+              const topology::IntegerForms& classes, Structure& result, Execution& execution);
+
+/// The star, the holomorphic basis and the period matrix from the Gram matrices alone.
+void set_holomorphic_basis(Structure& result);
+
+}  // namespace holomorph::structure

@@ -1,0 +1,28 @@
+#include "structure/laplace_problem.h"
+
+#include "forms/laplacian.h"
+#include "mesh/intrinsic_triangulation.h"
+
+namespace holomorph::structure {
+
+LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& held, const Options& options,
+                               Execution& execution) {
+  auto triangulation =
+      mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  mesh::make_delaunay(triangulation, execution);
+  const mesh::HalfEdges& half_edges = triangulation.half_edges;
+  LaplaceProblem result;
+  result.threads = execution.threads();
+  result.weights = mesh::cotangent_weights(triangulation, execution);
+  triangulation.forget_metric();
+  for (int e = 0; e < static_cast<int>(half_edges.n_edges()); ++e) {
+    result.ends.push_back({mesh::to_vertex(half_edges, mesh::HalfedgeHandle(2 * e + 1)),
+                           mesh::to_vertex(half_edges, mesh::HalfedgeHandle(2 * e))});
+  }
+  const auto choice = solver::choose_method(options.solver, surface.vertex_count, 1);
+  result.solver =
+      solver::make_solver(choice.method, forms::laplacian(half_edges, result.weights, execution), held, execution);
+  return result;
+}
+
+}  // namespace holomorph::structure

@@ -1,0 +1,111 @@
+#include "structure/memory_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.h"
+
+namespace holomorph::structure {
+namespace {
+
+// Bytes, as measured on surfaces of 0.1 to 1.5 million triangles and rounded up.
+// Half-edges twice, lengths, weights, integer classes twice, fundamental domain, Laplacian: per edge.
+constexpr double kPerEdge = 400;
+// The hierarchy of multigrid, and its vectors for 8 right-hand sides at once: per vertex.
+constexpr double kMultigrid = 700;
+// One right-hand side, its solution, and the solution as a row-major function: per vertex.
+constexpr double kPerColumn = 24;
+// The direct solver's own copies of a block of right-hand sides: six of at least 4 vectors or half a million numbers.
+constexpr double kDirectCopies = 6 * 8, kDirectVectors = 4, kDirectEntries = 500'000;
+// Dense matrices of #forms x #forms that are there at once: of integers, the Gram matrix, its projection.
+constexpr double kDenseMatrices = 14;
+// Values on two sides of each of 3000 triangles, and both parts of the forms there for the balance.
+constexpr double kPerSample = 3000 * 8 * 6;
+// Blocks of the whole set of forms take this much where nothing is asked for.
+constexpr double kDefaultBlock = 2.5e8;
+// Multigrid runs on 8 right-hand sides at a time, on 4 or 2 where there are no more.
+constexpr int kLanes = 8;
+
+double solver_bytes(solver::Method method, const Extent& extent) {
+  const auto n = static_cast<double>(extent.vertices);
+  return method == solver::Method::direct
+             ? solver::factor_bytes(n) + kDirectCopies * std::max(kDirectVectors * n, kDirectEntries)
+             : kMultigrid * n;
+}
+
+// Everything but the forms.
+double fixed_bytes(solver::Method method, const Extent& extent) {
+  const auto forms = static_cast<double>(extent.forms);
+  return kPerEdge * static_cast<double>(extent.edges) + solver_bytes(method, extent) +
+         kDenseMatrices * 8 * forms * forms + kPerSample * forms;
+}
+
+// The solver asked for, or the one that "auto" chooses: multigrid if the factor and `forms` bytes more do not fit.
+solver::Choice choice_that_fits(const Extent& extent, const std::string& solver, double forms, std::int64_t limit) {
+  auto choice = solver::choose_method(solver, extent.vertices, extent.forms);
+  if (limit <= 0 || solver != "auto" || choice.method != solver::Method::direct) return choice;
+  const double direct = fixed_bytes(choice.method, extent), other = fixed_bytes(solver::Method::multigrid, extent);
+  if (direct + forms <= static_cast<double>(limit) || direct <= other) return choice;
+  return {solver::Method::multigrid, "the factor would not fit into memory_limit"};
+}
+
+// The largest number of right-hand sides whose block fits into `bytes`: a multiple of 8, or 4 or 2.
+int block_that_fits(double bytes, const Extent& extent) {
+  const double columns = std::min(std::floor(bytes / (kPerColumn * static_cast<double>(extent.vertices))),
+                                  static_cast<double>(extent.forms + kLanes - 1));
+  const int most = static_cast<int>(std::max(columns, 0.0));
+  if (most >= kLanes) return most - most % kLanes;
+  return most >= 4 ? 4 : most >= 2 ? 2 : 0;
+}
+
+std::string in_bytes(double bytes) { return std::to_string(static_cast<std::int64_t>(std::ceil(bytes))) + " bytes"; }
+
+// All right-hand sides, solutions and functions at once.
+double forms_bytes(const Extent& extent) {
+  return (8 + kPerColumn) * static_cast<double>(extent.vertices) * static_cast<double>(extent.forms);
+}
+
+std::string solving_for(const Extent& extent) {
+  return "solving for " + std::to_string(extent.forms) + " forms on " + std::to_string(extent.vertices) + " vertices";
+}
+
+}  // namespace
+
+MemoryPlan plan_memory(const Extent& extent, const std::string& solver, std::int64_t memory_limit, Keeping keeping) {
+  const auto n = static_cast<double>(extent.vertices);
+  const double kept = 8 * n * static_cast<double>(extent.forms), column = kPerColumn * n;
+  MemoryPlan plan;
+  if (keeping == Keeping::all) {
+    plan.choice = choice_that_fits(extent, solver, forms_bytes(extent), memory_limit);
+    plan.block = static_cast<int>(extent.forms);
+    plan.bytes = static_cast<std::int64_t>(fixed_bytes(plan.choice.method, extent) + forms_bytes(extent));
+    require_memory(solving_for(extent), plan.bytes, memory_limit);
+    return plan;
+  }
+  plan.choice = choice_that_fits(extent, solver, 2 * column, memory_limit);
+  const double limit = static_cast<double>(memory_limit), fixed = fixed_bytes(plan.choice.method, extent);
+  if (memory_limit <= 0) {
+    plan.keep_forms = kept <= static_cast<double>(kKeptBytes);
+    plan.block = std::max(kLanes, block_that_fits(kDefaultBlock, extent));
+  } else {
+    // Two small blocks beside all functions still make keeping them worthwhile.
+    plan.keep_forms = fixed + kept + kLanes * column <= limit;
+    plan.block = block_that_fits(std::min(limit - fixed - (plan.keep_forms ? kept : 0), kDefaultBlock), extent);
+    if (plan.block == 0) {
+      throw SolverError("memory_limit is " + std::to_string(memory_limit) + " bytes, but at least " +
+                        in_bytes(fixed + 2 * column) + " are needed to solve for two of the " +
+                        std::to_string(extent.forms) + " forms at a time on " + std::to_string(extent.vertices) +
+                        " vertices");
+    }
+  }
+  plan.bytes = static_cast<std::int64_t>(fixed + (plan.keep_forms ? kept : 0) + plan.block * column);
+  return plan;
+}
+
+void require_memory(const std::string& what, std::int64_t bytes, std::int64_t memory_limit) {
+  if (memory_limit <= 0 || bytes <= memory_limit) return;
+  throw SolverError(what + " would take " + std::to_string(bytes) + " bytes; memory_limit is " +
+                    std::to_string(memory_limit));
+}
+
+}  // namespace holomorph::structure

@@ -1,0 +1,33 @@
+// What is told of the solution of the linear systems.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solver/laplace_solver.h"
+
+namespace holomorph::structure {
+
+/// Conjugate gradients on one level of a progressive mesh.
+struct LevelReport {
+  std::int64_t faces = 0;
+  int iterations = 0;
+  double seconds = 0;  ///< with the assembly of the linear system
+};
+
+struct SolverReport {
+  std::string name, reason;
+  int iterations = 0;   ///< of multigrid, or the paper's on the surface; steps of refinement of the direct solver
+  double residual = 0;  ///< largest relative residual of the linear systems
+  std::vector<LevelReport> levels = {};  ///< of the paper's solver, the base mesh first
+};
+
+/// What a solver reports after its last solve.
+inline SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Choice& choice) {
+  const std::string remark = solver.remark();
+  return {
+      solver.name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver.iterations(), solver.residual(), {}};
+}
+
+}  // namespace holomorph::structure

@@ -1,0 +1,108 @@
+#include "structure/topology.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "topology/puncture_classes.h"
+
+namespace holomorph::structure {
+namespace {
+
+using mesh::HalfedgeHandle;
+using topology::FundamentalDomain;
+using topology::IntegerForms;
+
+// First the handles, then the boundary loops 1 .. b-1 with the hole on the left.
+auto all_loops(const mesh::HalfEdges& half_edges, const FundamentalDomain& domain) {
+  auto loops = topology::homology_basis(half_edges, domain);
+  if (domain.boundary.count() > 1)
+    loops.insert(loops.end(), domain.boundary.loops.begin() + 1, domain.boundary.loops.end());
+  return loops;
+}
+
+IntegerForms natural_classes(const mesh::HalfEdges& half_edges, const FundamentalDomain& domain) {
+  auto classes = topology::cohomology_basis(half_edges, domain);
+  if (domain.boundary.count() > 1) topology::add_paths_between_loops(half_edges, domain, classes);
+  return classes;
+}
+
+void set_pairing(const mesh::HalfEdges& half_edges, const IntegerForms& natural, Topology& result,
+                 Execution& execution) {
+  if (result.type.closed()) {
+    result.pairing = topology::wedge_matrix(half_edges, natural, execution);
+    if (result.type.genus > 0) result.canonical = topology::canonical_basis(result.pairing);
+    return;
+  }
+  auto relative = topology::first_forms(natural, 2 * result.type.genus, 2 * result.type.genus);
+  topology::add_loop_indicators(half_edges, result.boundary, relative);
+  result.pairing = topology::pairing(half_edges, natural, relative);
+  [[maybe_unused]] const auto handles = 2 * result.type.genus,
+                              loops = static_cast<int>(result.pairing.rows()) - handles;
+  assert(result.pairing.topRightCorner(handles, loops).isZero());
+  assert(result.pairing.bottomRightCorner(loops, loops).isIdentity());
+}
+
+// Those of the whole basis: what is a function alone has the class 0.
+IntegerForms all_classes(const mesh::HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms natural,
+                         const std::vector<mesh::Star>& stars, Topology& result) {
+  const int handles = 2 * result.type.genus;
+  Families& families = result.families;
+  families.natural = natural.form_count;
+  families.dirichlet = result.type.closed() ? 0 : natural.form_count;
+  if (families.dirichlet > 0)
+    natural = topology::beside(natural, topology::first_forms(natural, handles, families.dirichlet));
+  if (stars.empty()) return natural;
+  const auto poles = topology::puncture_classes(half_edges, domain, stars);
+  families.poles = poles.form_count;
+  return topology::beside(natural, topology::first_forms(poles, families.poles, 2 * families.poles));
+}
+
+void add_spokes(const mesh::HalfEdges& half_edges, const std::vector<mesh::Star>& stars, std::vector<int>& seams) {
+  for (const mesh::Star& star : stars) {
+    for (const HalfedgeHandle h : star.link) seams.push_back(mesh::edge_of(mesh::next(half_edges, h)));
+  }
+  std::sort(seams.begin(), seams.end());
+  seams.erase(std::unique(seams.begin(), seams.end()), seams.end());
+}
+
+}  // namespace
+
+Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Execution& execution,
+                       std::optional<topology::DualBases> given, const std::vector<mesh::Star>& stars) {
+  execution.part(0, 0.8);
+  const auto domain = topology::fundamental_domain(surface, half_edges, execution, stars);
+  execution.part(0.8, 1);
+  Topology result;
+  result.type = mesh::topological_type(surface);
+  result.boundary = domain.boundary;
+  result.homology_basis = given ? std::move(given->loops) : all_loops(half_edges, domain);
+  auto natural = given ? std::move(given->classes) : natural_classes(half_edges, domain);
+  std::vector<int> punctures;
+  for (const mesh::Star& star : stars) punctures.push_back(star.vertex);
+  result.seams = topology::cut_graph(half_edges, domain, punctures);
+  add_spokes(half_edges, stars, result.seams);
+  set_pairing(half_edges, natural, result, execution);
+  result.classes = all_classes(half_edges, domain, std::move(natural), stars, result);
+  result.sheets = uv::corner_sheets(surface, half_edges, domain, result.classes, execution);
+  return result;
+}
+
+IntegerForms harmonic_classes(const Topology& topology, const mesh::HalfEdges& half_edges,
+                              const IntegerForms& natural) {
+  if (topology.families.dirichlet == 0) return natural;
+  const int handles = 2 * topology.type.genus;
+  auto relative = topology::first_forms(natural, handles, handles);
+  topology::add_loop_indicators(half_edges, topology.boundary, relative);
+  return topology::beside(natural, relative);
+}
+
+void add_loop_indicators(const Topology& topology, Eigen::Ref<forms::RowMajorMatrix> functions) {
+  if (topology.families.dirichlet == 0) return;
+  const int first = topology.families.natural + 2 * topology.type.genus;
+  const auto& loop = topology.boundary.loop_of_vertex;
+  for (int v = 0; v < static_cast<int>(loop.size()); ++v) {
+    if (loop[v] > 0) functions(v, first + loop[v] - 1) += 1;
+  }
+}
+
+}  // namespace holomorph::structure
