@@ -8,6 +8,7 @@
 
 #include "forms/laplacian.h"
 #include "mesh/intrinsic_triangulation.h"
+#include "mesh/delaunay.h"
 
 namespace holomorph::benchmarks {
 

@@ -8,6 +8,9 @@
 #include "mesh/components.h"
 #include "mesh/io/read.h"
 #include "multiresolution/paper_forms.h"
+#include "mesh/make_surface.h"
+#include "progressive/simplify.h"
+#include "topology/fundamental_domain.h"
 
 namespace {
 

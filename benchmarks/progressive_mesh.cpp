@@ -18,6 +18,9 @@
 
 #include "mesh/io/read.h"
 #include "progressive/progressive_mesh.h"
+#include "mesh/make_surface.h"
+#include "progressive/levels.h"
+#include "progressive/simplify.h"
 
 namespace {
 

@@ -22,6 +22,7 @@
 #include "linear_system.h"
 #include "mesh/io/read.h"
 #include "solver/laplace_solver.h"
+#include "mesh/make_surface.h"
 
 extern "C" void openblas_set_num_threads(int);
 

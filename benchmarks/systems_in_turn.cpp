@@ -15,6 +15,7 @@
 #include "linear_system.h"
 #include "mesh/io/read.h"
 #include "solver/block_solve.h"
+#include "mesh/make_surface.h"
 
 namespace {
 

@@ -19,9 +19,11 @@ ROOM_BELOW = {
     "topology": ["progressive"],
     "forms": ["topology", "solver"],
     "conformal": ["forms"],
-    "uv": ["conformal"],
-    "pipeline": ["uv"],
-    "bindings": ["pipeline"],
+    "uv": ["forms"],
+    "structure": ["conformal", "uv"],
+    "plane": ["structure"],
+    "multiresolution": ["structure"],
+    "bindings": ["plane", "multiresolution"],
 }
 # The add-on's bottom and top; every other module is between them.
 ADDON_LEVEL = {"compatibility": 0, "native": 0, "operators": 2, "panel": 3, "__init__": 4, "headless": 5}
@@ -92,6 +94,32 @@ def test_includes_go_down():
             if not found:
                 wrong.append(f"{identify(path)} includes {include}")
     assert not wrong
+
+
+def test_files_have_no_circle():
+    """A source and the header of its name are one unit, as the linker sees them."""
+    unit = {path: str(path.relative_to(NATIVE).with_suffix("")) for path in cpp_files()}
+    graph = {name: set() for name in unit.values()}
+    for path, name in unit.items():
+        targets = {include.strip('"').removesuffix(".h") for include in includes(path) if include.startswith('"')}
+        graph[name] |= {target for target in targets if target in graph and target != name}
+    done = set()
+
+    def visit(name, trail):
+        assert name not in trail, " -> ".join([*trail, name])
+        if name not in done:
+            for target in sorted(graph[name]):
+                visit(target, [*trail, name])
+            done.add(name)
+
+    for name in graph:
+        visit(name, [])
+
+
+def test_each_source_has_its_header():
+    """Bindings are declared together: each defines one function."""
+    sources = [path for path in cpp_files() if path.suffix == ".cpp" and path.parent.name != "bindings"]
+    assert not [identify(path) for path in sources if not path.with_suffix(".h").exists()]
 
 
 def test_only_bindings_know_python_and_only_mesh_io_knows_files():

@@ -5,9 +5,12 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
+#include "mesh/make_surface.h"
 #include "progressive/corner_values.h"
 #include "progressive/file_format.h"
+#include "progressive/levels.h"
 #include "progressive/progressive_mesh.h"
+#include "progressive/simplify.h"
 #include "topology/carried_classes.h"
 
 namespace holomorph::bindings {

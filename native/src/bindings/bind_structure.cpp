@@ -15,6 +15,7 @@
 #include "structure/conformal_structure.h"
 #include "structure/punctured_structure.h"
 #include "structure/uv_forms.h"
+#include "uv/balance.h"
 
 namespace holomorph::bindings {
 namespace {

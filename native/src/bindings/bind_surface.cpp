@@ -7,8 +7,10 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "mesh/components.h"
+#include "mesh/intrinsic_surface.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "mesh/io/read.h"
+#include "mesh/make_surface.h"
 
 namespace holomorph::bindings {
 namespace {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "mesh/intrinsic_surface.h"
+#include "mesh/make_surface.h"
+
 namespace holomorph::mesh {
 namespace {
 

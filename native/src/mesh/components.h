@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/execution.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {

@@ -1,13 +1,14 @@
 // make_delaunay. Each face is in one region, and a region's edges are turned by one thread: those between two of its
 // faces, which they stay, as a flip gives the half-edges of two faces to the same two. What lies between regions
 // follows when all are done. No result depends on which thread takes which region.
+#include "mesh/delaunay.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 
 #include "base/chunks.h"
-#include "mesh/intrinsic_triangulation.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {

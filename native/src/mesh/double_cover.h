@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/execution.h"
 #include "mesh/half_edges.h"
 
 namespace holomorph::mesh {

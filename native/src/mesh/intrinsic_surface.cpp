@@ -1,4 +1,5 @@
-// make_intrinsic_surface: triangles and edge lengths, edges by name or by their ends.
+#include "mesh/intrinsic_surface.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,7 +9,6 @@
 #include "base/errors.h"
 #include "mesh/half_edges.h"
 #include "mesh/orientation.h"
-#include "mesh/surface.h"
 #include "mesh/surface_records.h"
 
 namespace holomorph::mesh {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/workers.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "base/execution.h"
 #include "base/page_allocator.h"
+#include "base/workers.h"
 #include "mesh/polygons.h"
 
 namespace holomorph::mesh {
@@ -42,22 +42,6 @@ struct Surface {
   bool intrinsic() const { return polygons.vertices.empty(); }
   bool is_diagonal(int edge) const { return edge >= polygon_edge_count; }
 };
-
-/// Checks, orients and triangulates a polygon mesh. Each polygon is cut along the diagonals that minimise the sum of
-/// its triangles' (a^2 + b^2 + c^2) / area, which for planar convex polygons is the Delaunay triangulation (Musin
-/// 1997); at the boundary diagonals end at interior vertices where they can.
-/// @throws InvalidMesh, TopologyError (non-orientable), naming the first bad element.
-/// Cost: linear in the number of corners, cubic in the size of a polygon up to 64 corners.
-Surface make_surface(Polygons polygons, Execution& execution);
-Surface make_surface(GivenPolygons polygons, Execution& execution);
-
-/// An intrinsic surface: triangles and the lengths of their edges, without positions.
-/// @param faces #F vertices; a vertex may come twice in a triangle
-/// @param lengths #F lengths, entry i opposite corner i; both triangles at an edge must agree to 1e-9
-/// @param face_edges #F edge names, entry i opposite corner i; empty: edges are told apart by their ends
-Surface make_intrinsic_surface(int vertex_count, const std::vector<std::array<std::int64_t, 3>>& faces,
-                               const std::vector<std::array<double, 3>>& lengths,
-                               const std::vector<std::array<std::int64_t, 3>>& face_edges, Execution& execution);
 
 /// Sum of the areas of the triangles.
 double area(const Surface& surface, Workers& workers);

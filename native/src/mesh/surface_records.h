@@ -1,6 +1,7 @@
 // What both kinds of surface record about themselves once their triangles and edges are known.
 #pragma once
 
+#include "base/execution.h"
 #include "mesh/orientation.h"
 #include "mesh/surface.h"
 

@@ -13,6 +13,7 @@
 // collapsed into: eta stays an integer class, and f(v_t) = f(v_s).
 #pragma once
 
+#include "base/execution.h"
 #include "multiresolution/paper_levels.h"
 #include "solver/conjugate_gradients.h"
 #include "structure/harmonic_systems.h"

@@ -6,7 +6,9 @@
 #include "base/errors.h"
 #include "mesh/triangle_geometry.h"
 #include "multiresolution/polygon_paths.h"
+#include "progressive/simplify.h"
 #include "progressive/single_edges.h"
+#include "topology/fundamental_domain.h"
 
 namespace holomorph::multiresolution {
 namespace {

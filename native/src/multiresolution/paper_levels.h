@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/execution.h"
 #include "progressive/progressive_mesh.h"
 #include "solver/laplace_solver.h"
 #include "topology/carried_classes.h"

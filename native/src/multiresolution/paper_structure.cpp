@@ -5,7 +5,7 @@
 #include "forms/laplacian.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "multiresolution/paper_forms.h"
-#include "structure/conformal_structure.h"
+#include "structure/invariants.h"
 
 namespace holomorph::multiresolution {
 namespace {

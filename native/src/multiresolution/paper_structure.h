@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "base/execution.h"
 #include "multiresolution/paper_levels.h"
 #include "structure/options.h"
 #include "structure/structure.h"

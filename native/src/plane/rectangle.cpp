@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/delaunay.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "plane/dirichlet_problem.h"
 #include "plane/rectangle_corners.h"

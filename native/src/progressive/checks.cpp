@@ -4,6 +4,8 @@
 #include <string>
 
 #include "base/errors.h"
+#include "mesh/make_surface.h"
+#include "progressive/levels.h"
 #include "progressive/refinement.h"
 
 namespace holomorph::progressive {

@@ -1,7 +1,7 @@
+#include "progressive/independent_order.h"
+
 #include <limits>
 #include <vector>
-
-#include "progressive/collapse_order.h"
 
 namespace holomorph::progressive {
 namespace {

@@ -1,19 +1,10 @@
 #include "progressive/progressive_mesh.h"
 
-#include <algorithm>
 #include <numeric>
 
-#include "mesh/triangle_geometry.h"
-#include "progressive/collapse_order.h"
-#include "progressive/refinement.h"
-#include "progressive/single_edges.h"
-
 namespace holomorph::progressive {
-namespace {
 
-using Faces = std::vector<Triple>;
-
-mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, const Faces& triangles) {
+mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, const std::vector<Triple>& triangles) {
   mesh::Polygons polygons{std::move(vertices), {}, {}};
   polygons.corner_vertices.reserve(3 * triangles.size());
   polygons.face_offsets.reserve(triangles.size() + 1);
@@ -23,116 +14,6 @@ mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, co
   }
   polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
   return polygons;
-}
-
-// Numbers vertices and triangles: those of the base first, then what each split brings.
-class Recorder {
- public:
-  Recorder(const mesh::Surface& surface, const std::vector<Collapse>& collapses, std::size_t count)
-      : surface_(surface), collapses_(collapses.begin(), collapses.begin() + static_cast<std::ptrdiff_t>(count)) {
-    number();
-  }
-
-  bool base_has_area() const {
-    const Faces faces = base_faces();
-    const auto at = [&](int v) { return surface_.polygons.vertices[vertices_[v]]; };
-    return std::any_of(faces.begin(), faces.end(), [&](const Triple& t) {
-      return !mesh::is_degenerate(mesh::distance(at(t[0]), at(t[1])), mesh::distance(at(t[1]), at(t[2])),
-                                  mesh::distance(at(t[2]), at(t[0])));
-    });
-  }
-
-  ProgressiveMesh record(Execution& execution) const {
-    ProgressiveMesh mesh;
-    mesh.vertex_index = vertices_;
-    mesh.triangle_index = triangles_;
-    for (const int v : vertices_) mesh.positions.push_back(surface_.polygons.vertices[v]);
-    mesh.splits.reserve(collapses_.size());
-    for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c) {
-      const auto at = [this](int v) { return v < 0 ? -1 : new_vertex_[v]; };
-      const auto slot = [](int side) { return static_cast<std::uint8_t>(side < 0 ? 0 : side & 3); };
-      mesh.splits.push_back({at(c->v_s), at(c->v_l), at(c->v_r), slot(c->left), slot(c->right)});
-    }
-    mesh.base = make_surface(
-        triangle_polygons({mesh.positions.begin(), mesh.positions.begin() + base_vertices_}, base_faces()), execution);
-    record_polygons(mesh);
-    return mesh;
-  }
-
- private:
-  void number() {
-    std::vector<char> gone(surface_.vertex_count, 0), triangle_gone(surface_.triangles.size(), 0);
-    for (const int v : surface_.repairs.isolated_vertices) gone[v] = 1;
-    for (const Collapse& c : collapses_) {
-      gone[c.v_t] = 1;
-      for (const int side : {c.left, c.right}) {
-        if (side >= 0) triangle_gone[side / 4] = 1;
-      }
-    }
-    for (int v = 0; v < surface_.vertex_count; ++v) {
-      if (!gone[v]) vertices_.push_back(v);
-    }
-    for (int t = 0; t < static_cast<int>(surface_.triangles.size()); ++t) {
-      if (!triangle_gone[t]) triangles_.push_back(t);
-    }
-    base_vertices_ = static_cast<std::ptrdiff_t>(vertices_.size());
-    base_triangles_ = triangles_.size();
-    for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c) {
-      vertices_.push_back(c->v_t);
-      for (const int side : {c->left, c->right}) {
-        if (side >= 0) triangles_.push_back(side / 4);
-      }
-    }
-    for (const int v : surface_.repairs.isolated_vertices) vertices_.push_back(v);
-    new_vertex_.resize(vertices_.size());
-    for (std::size_t i = 0; i < vertices_.size(); ++i) new_vertex_[vertices_[i]] = static_cast<int>(i);
-  }
-
-  // The triangles of the base, every vertex replaced by the one it was collapsed into.
-  Faces base_faces() const {
-    std::vector<int> root(vertices_.size());
-    std::iota(root.begin(), root.end(), 0);
-    for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c)
-      root[new_vertex_[c->v_t]] = root[new_vertex_[c->v_s]];
-    Faces faces;
-    for (std::size_t i = 0; i < base_triangles_; ++i) {
-      Triple t = surface_.triangles[triangles_[i]];
-      for (int& v : t) v = root[new_vertex_[v]];
-      faces.push_back(t);
-    }
-    return faces;
-  }
-
-  void record_polygons(ProgressiveMesh& mesh) const {
-    const auto& offsets = surface_.polygons.face_offsets;
-    if (offsets.size() != surface_.triangles.size() + 1) mesh.face_offsets.assign(offsets.begin(), offsets.end());
-    if (!mesh.face_offsets.empty() || !surface_.repairs.reversed_faces.empty()) {
-      for (const int t : triangles_) mesh.triangle_corners.push_back(surface_.triangle_corners[t]);
-    }
-  }
-
-  const mesh::Surface& surface_;
-  std::vector<Collapse> collapses_;
-  std::vector<int> vertices_, triangles_, new_vertex_;
-  std::ptrdiff_t base_vertices_ = 0;
-  std::size_t base_triangles_ = 0;
-};
-
-}  // namespace
-
-ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Execution& execution) {
-  execution.stage("edge collapses", 0.0, 1.0);
-  const auto turned = with_single_edges(given);
-  const mesh::Surface& surface = turned ? *turned : given;
-  EdgeCollapse collapse(surface);
-  order == Order::quadric ? collapse_by_quadrics(collapse, execution) : collapse_independent_sets(collapse, execution);
-  execution.finish();
-  Execution silent(execution.threads());
-  const std::size_t count = collapse.collapses().size();
-  for (std::size_t left_out = 0;; left_out = 2 * left_out + 1) {
-    const Recorder recorder(surface, collapse.collapses(), count - std::min(count, left_out));
-    if (recorder.base_has_area()) return recorder.record(silent);
-  }
 }
 
 int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count) {
@@ -146,35 +27,12 @@ int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count) {
   return splits;
 }
 
-mesh::Polygons level(const ProgressiveMesh& mesh, int splits) {
-  Refinement refinement(mesh, splits);
-  while (refinement.splits_made() < splits) refinement.split();
-  return triangle_polygons({mesh.positions.begin(), mesh.positions.begin() + mesh.base_vertex_count() + splits},
-                           refinement.triangles());
-}
-
 std::vector<Triple> original_corners(const ProgressiveMesh& mesh) {
   if (!mesh.triangle_corners.empty()) return mesh.triangle_corners;
   std::vector<Triple> corners;
   corners.reserve(mesh.triangle_index.size());
   for (const int t : mesh.triangle_index) corners.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   return corners;
-}
-
-mesh::Polygons restored(const ProgressiveMesh& mesh) {
-  Refinement refinement(mesh, static_cast<int>(mesh.splits.size()));
-  while (refinement.splits_made() < static_cast<int>(mesh.splits.size())) refinement.split();
-  const Faces triangles = refinement.triangles(), corners = original_corners(mesh);
-  mesh::Polygons polygons;
-  polygons.vertices.resize(mesh.positions.size());
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) polygons.vertices[mesh.vertex_index[v]] = mesh.positions[v];
-  polygons.face_offsets.assign(mesh.face_offsets.begin(), mesh.face_offsets.end());
-  for (int t = 0; mesh.face_offsets.empty() && t <= mesh.triangle_count(); ++t) polygons.face_offsets.push_back(3 * t);
-  polygons.corner_vertices.resize(static_cast<std::size_t>(polygons.face_offsets.back()));
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) polygons.corner_vertices[corners[t][i]] = mesh.vertex_index[triangles[t][i]];
-  }
-  return polygons;
 }
 
 std::vector<int> vertex_map(const ProgressiveMesh& mesh, int splits) {

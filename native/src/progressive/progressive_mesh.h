@@ -6,18 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/execution.h"
 #include "mesh/surface.h"
 
 namespace holomorph::progressive {
 
 using mesh::Triple;
-
-/// Which edges are collapsed first.
-enum class Order {
-  quadric,      ///< by quadric error (Garland & Heckbert 1997, doi:10.1145/258734.258849)
-  independent,  ///< by rounds; the vertices removed in one round are pairwise not adjacent
-};
 
 /// The vertex split {v_s, v_t, v_l, v_r, A}: v_t is the next vertex, the triangles {v_s, v_t, v_l} and {v_t, v_s, v_r}
 /// are the next triangles, and the triangles counter-clockwise from v_r to v_l around v_s move to v_t. v_s stays where
@@ -48,24 +41,11 @@ struct ProgressiveMesh {
   int triangle_count() const { return static_cast<int>(triangle_index.size()); }
 };
 
-/// Collapses edges until none is left that can be collapsed: genus 0 ends with 4 triangles, genus 1 with at most 20,
-/// for there are no larger irreducible triangulations (Lawrencenko 1987). Collapses obey the link condition (Dey
-/// et al. 1999), so that every level has the topology of the original and no two edges with the same ends; boundary
-/// vertices move along the boundary only. As long as possible no triangle turns by more than 75 degrees. Where that
-/// would leave a base without any area, the last collapses are left out.
-/// Where a diagonal of the triangulation joins vertices that another edge joins too, it is turned.
-/// @throws InvalidMesh for an intrinsic surface, or if turning helps nothing; Cancelled. Deterministic, one thread,
-/// O(#T) apart from very large stars.
-ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Execution& execution);
+/// Triangles as a polygon mesh.
+mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, const std::vector<Triple>& triangles);
 
 /// Number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
 int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count);
-
-/// A level as polygons, in the numbering of the progressive mesh. @param splits from 0 to all
-mesh::Polygons level(const ProgressiveMesh& mesh, int splits);
-
-/// The original polygons, bit for bit, rebuilt from the base by all the splits.
-mesh::Polygons restored(const ProgressiveMesh& mesh);
 
 /// The vertex of the level that each vertex of the finest one was collapsed into: the simplicial map M -> M_k.
 std::vector<int> vertex_map(const ProgressiveMesh& mesh, int splits);

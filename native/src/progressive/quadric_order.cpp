@@ -1,7 +1,8 @@
+#include "progressive/quadric_order.h"
+
 #include <limits>
 
 #include "progressive/bucket_queue.h"
-#include "progressive/collapse_order.h"
 
 namespace holomorph::progressive {
 namespace {

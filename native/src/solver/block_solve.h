@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "base/workers.h"
 #include "solver/multigrid_cycle.h"
 #include "solver/right_hand_sides.h"
 

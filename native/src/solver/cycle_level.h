@@ -1,6 +1,7 @@
 // A level of the multigrid hierarchy as the cycle goes through it.
 #pragma once
 
+#include "base/workers.h"
 #include "solver/grouped_rows.h"
 
 namespace holomorph::solver {

@@ -1,6 +1,7 @@
 // One step of coarsening: which vertices stay, and how a function on them is carried to the others.
 #pragma once
 
+#include "base/execution.h"
 #include "solver/row_sums.h"
 #include "solver/sparse_rows.h"
 

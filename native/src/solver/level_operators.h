@@ -1,6 +1,7 @@
 // The operators of the levels: the given matrix in single precision, and P^T A P.
 #pragma once
 
+#include "base/execution.h"
 #include "solver/interpolation.h"
 #include "solver/multigrid_hierarchy.h"
 

@@ -1,6 +1,7 @@
 // One V-cycle for K right-hand sides at once, in single precision: the preconditioner.
 #pragma once
 
+#include "base/workers.h"
 #include "solver/block_loops.h"
 #include "solver/multigrid_hierarchy.h"
 

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "base/execution.h"
 #include "solver/cycle_level.h"
 #include "solver/laplace_solver.h"
 

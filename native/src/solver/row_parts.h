@@ -4,6 +4,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/execution.h"
 #include "solver/sparse_rows.h"
 
 namespace holomorph::solver {

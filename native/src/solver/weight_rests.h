@@ -1,6 +1,7 @@
 // The weights of the Laplacian in double precision, kept as what single precision leaves of them.
 #pragma once
 
+#include "base/execution.h"
 #include "solver/cycle_level.h"
 #include "solver/laplacian.h"
 #include "solver/sparse_rows.h"

@@ -3,7 +3,9 @@
 #include "base/background_task.h"
 #include "base/errors.h"
 #include "base/kept_pages.h"
+#include "mesh/delaunay.h"
 #include "structure/double_cover.h"
+#include "structure/invariants.h"
 #include "structure/streamed_forms.h"
 
 namespace holomorph::structure {
@@ -24,20 +26,6 @@ MemoryPlan planned(const mesh::Surface& surface, const mesh::TopologicalType& ty
   return plan_memory(
       {surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), families * type.form_count()},
       options.solver, options.memory_limit, type.closed() ? Keeping::as_many_as_fit : Keeping::all);
-}
-
-// W measured on one combination of the Dirichlet forms, with coefficients 1 and -1 in turn: cost #T n instead of #T
-// n^2.
-double largest_pairing_error(const mesh::HalfEdges& mesh, const forms::ClosedForms& forms, const Topology& topology,
-                             Execution& execution) {
-  const auto n = topology.pairing.rows();
-  if (topology.families.dirichlet == 0) return 0;
-  Eigen::VectorXd signs = Eigen::VectorXd::Ones(n);
-  for (Eigen::Index j = 1; j < n; j += 2) signs[j] = -1;
-  Eigen::VectorXd c = Eigen::VectorXd::Zero(2 * n);
-  c.tail(n) = signs;
-  const Eigen::VectorXd products = forms::wedges(mesh, forms, forms::combination(mesh, forms, c), execution);
-  return (products.head(n) - topology.pairing.cast<double>() * signs).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -102,37 +90,6 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   execution.finish();
   result.seconds = execution.seconds();
   return result;
-}
-
-void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights,
-              const topology::IntegerForms& classes, Structure& result, Execution& execution) {
-  const Topology& topology = result.topology;
-  const Families& families = topology.families;
-  forms::ClosedForms forms{classes, {}};
-  forms.functions.swap(result.functions);
-  std::vector<int> sizes{families.natural};
-  if (families.dirichlet > 0) sizes.push_back(families.dirichlet);
-  execution.part(0, 0.3);
-  result.gram = forms::gram_matrices(triangulation, weights, forms, sizes, execution);
-  execution.part(0.3, 1);
-  result.certificate.residuals = forms::residuals(triangulation, weights, forms, execution, families.natural,
-                                                  mesh::boundary_vertices(topology.boundary));
-  result.certificate.pairing = largest_pairing_error(triangulation, forms, topology, execution);
-  // The loops run along edges of the surface itself, and so do its classes; the functions are the same.
-  add_loop_indicators(topology, forms.functions);
-  forms.classes = topology.classes;
-  result.certificate.periods = forms::period_residual(*result.surface, forms, topology.homology_basis);
-  result.functions.swap(forms.functions);
-  set_holomorphic_basis(result);
-}
-
-void set_holomorphic_basis(Structure& result) {
-  const Topology& topology = result.topology;
-  result.holomorphic =
-      topology.families.dirichlet > 0
-          ? conformal::bounded_basis(result.gram[0], result.gram[1], topology.pairing, topology.type.genus)
-          : conformal::closed_basis(result.gram[0], topology.pairing, topology.canonical);
-  result.differentials = result.holomorphic.differentials;
 }
 
 }  // namespace holomorph::structure

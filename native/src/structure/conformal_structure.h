@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "mesh/intrinsic_triangulation.h"
+#include "base/execution.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 
@@ -18,15 +18,5 @@ namespace holomorph::structure {
 /// @throws TopologyError for a sphere or a disk, naming genus and boundary count; SolverError; Cancelled
 Structure conformal_structure(std::shared_ptr<const mesh::Surface> surface, const Options& options,
                               Execution& execution, std::optional<topology::DualBases> given = {});
-
-/// What follows from the harmonic forms: Gram matrices, star, holomorphic basis, period matrix (paper § 7, Eq. 13), and
-/// the certificate.
-/// @param triangulation,weights,classes what was solved on, and the classes there
-/// @param result with its topology and functions
-void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights,
-              const topology::IntegerForms& classes, Structure& result, Execution& execution);
-
-/// The star, the holomorphic basis and the period matrix from the Gram matrices alone.
-void set_holomorphic_basis(Structure& result);
 
 }  // namespace holomorph::structure

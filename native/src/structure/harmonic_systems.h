@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/half_edges.h"
 #include "structure/memory_plan.h"

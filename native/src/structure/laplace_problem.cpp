@@ -1,6 +1,7 @@
 #include "structure/laplace_problem.h"
 
 #include "forms/laplacian.h"
+#include "mesh/delaunay.h"
 #include "mesh/intrinsic_triangulation.h"
 
 namespace holomorph::structure {

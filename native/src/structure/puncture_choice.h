@@ -4,6 +4,7 @@
 #include <complex>
 #include <vector>
 
+#include "base/execution.h"
 #include "mesh/half_edges.h"
 
 namespace holomorph::structure {

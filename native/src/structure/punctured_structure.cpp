@@ -5,8 +5,8 @@
 
 #include "forms/third_kind.h"
 #include "mesh/intrinsic_triangulation.h"
-#include "structure/conformal_structure.h"
 #include "structure/harmonic_systems.h"
+#include "structure/invariants.h"
 
 namespace holomorph::structure {
 namespace {

@@ -1,6 +1,7 @@
 // Surfaces with punctures: a differential of the third kind, and the holomorphic forms with it (paper § 11 names them).
 #pragma once
 
+#include "base/execution.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 

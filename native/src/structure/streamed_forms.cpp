@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "forms/codifferential.h"
-#include "structure/conformal_structure.h"
+#include "structure/invariants.h"
+#include "uv/balance.h"
 
 namespace holomorph::structure {
 

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "base/execution.h"
 #include "structure/harmonic_systems.h"
 #include "structure/structure.h"
 

@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/execution.h"
 #include "conformal/holomorphic_basis.h"
 #include "forms/certificates.h"
 #include "structure/memory_plan.h"
 #include "structure/puncture_choice.h"
 #include "structure/solver_report.h"
 #include "structure/topology.h"
+#include "uv/balance.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::structure {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "topology/fundamental_domain.h"
 #include "topology/puncture_classes.h"
 
 namespace holomorph::structure {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/components.h"
 #include "topology/carried_classes.h"

@@ -6,6 +6,7 @@
 #include "forms/codifferential.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "structure/double_cover.h"
+#include "uv/balance.h"
 
 namespace holomorph::structure {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/execution.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 

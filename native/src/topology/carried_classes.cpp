@@ -5,6 +5,7 @@
 
 #include "base/errors.h"
 #include "progressive/refinement.h"
+#include "topology/fundamental_domain.h"
 
 namespace holomorph::topology {
 namespace {

@@ -133,16 +133,4 @@ IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Exe
   return twice / 2;
 }
 
-CanonicalBasis canonical_basis(const IntegerMatrix& W) {
-  const auto g = W.rows() / 2;
-  CanonicalBasis basis;
-  basis.classes = symplectic_basis(W);
-  const IntegerMatrix& S = basis.classes;
-  IntegerMatrix JS(2 * g, 2 * g);
-  JS << S.bottomRows(g), -S.topRows(g);
-  basis.intersection = S.transpose() * JS;  // -W^-1 = S^T J S, because S W S^T = J
-  basis.cycles = -JS * W;                   // S^-T = -J S W, likewise
-  return basis;
-}
-
 }  // namespace holomorph::topology

@@ -4,12 +4,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "topology/fundamental_domain.h"
+#include "base/execution.h"
+#include "topology/domain.h"
 #include "topology/integer_forms.h"
+#include "topology/symplectic_basis.h"
 
 namespace holomorph::topology {
-
-using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// 2g closed loops zeta_i as half-edges one behind the other: e_i in its own direction, closed through T. The stretch
 /// that both paths to the root share is left out; it is walked to and fro.
@@ -35,17 +35,5 @@ IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const 
 
 /// W_ij = int eta_i ^ eta_j, integer because both are classes of integers; exact on any triangulation they live on.
 IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Execution& execution);
-
-/// Rows S with S W S^T = J = [[0, I], [-I, 0]], |det S| = 1: integer symplectic Gram-Schmidt.
-/// @param W antisymmetric, |det| 1. @throws holomorph::Error if an entry leaves 64 bits
-IntegerMatrix symplectic_basis(const IntegerMatrix& W);
-
-struct CanonicalBasis {
-  IntegerMatrix intersection;  ///< zeta_i . zeta_j = -W^-1
-  IntegerMatrix cycles;        ///< R: rows a_1..a_g, b_1..b_g written in the zeta; R intersection R^T = J
-  IntegerMatrix classes;       ///< S = R^-T: rows alpha_1..alpha_g, beta_1..beta_g written in the eta
-};
-
-CanonicalBasis canonical_basis(const IntegerMatrix& wedge);
 
 }  // namespace holomorph::topology

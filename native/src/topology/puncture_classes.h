@@ -1,7 +1,7 @@
 // Integer classes of a surface without the stars of its punctures.
 #pragma once
 
-#include "topology/fundamental_domain.h"
+#include "topology/domain.h"
 #include "topology/integer_forms.h"
 
 namespace holomorph::topology {

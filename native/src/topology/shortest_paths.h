@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "topology/fundamental_domain.h"
+#include "base/execution.h"
+#include "topology/domain.h"
 
 namespace holomorph::topology {
 

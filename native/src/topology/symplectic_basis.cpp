@@ -1,8 +1,9 @@
+#include "topology/symplectic_basis.h"
+
 #include <cstdlib>
 #include <utility>
 
 #include "base/errors.h"
-#include "topology/homology.h"
 
 namespace holomorph::topology {
 namespace {
@@ -87,5 +88,17 @@ class GramSchmidt {
 }  // namespace
 
 IntegerMatrix symplectic_basis(const IntegerMatrix& W) { return GramSchmidt(W).run(); }
+
+CanonicalBasis canonical_basis(const IntegerMatrix& W) {
+  const auto g = W.rows() / 2;
+  CanonicalBasis basis;
+  basis.classes = symplectic_basis(W);
+  const IntegerMatrix& S = basis.classes;
+  IntegerMatrix JS(2 * g, 2 * g);
+  JS << S.bottomRows(g), -S.topRows(g);
+  basis.intersection = S.transpose() * JS;  // -W^-1 = S^T J S, because S W S^T = J
+  basis.cycles = -JS * W;                   // S^-T = -J S W, likewise
+  return basis;
+}
 
 }  // namespace holomorph::topology

@@ -1,13 +1,14 @@
-// balanced_coefficients: the combination of holomorphic forms whose texture density is most even.
+#include "uv/balance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <random>
 
 #include "base/chunks.h"
+#include "mesh/half_edges.h"
 #include "mesh/triangle_geometry.h"
 #include "uv/minimise.h"
-#include "uv/uv_map.h"
 
 namespace holomorph::uv {
 namespace {

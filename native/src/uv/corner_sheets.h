@@ -4,7 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "topology/fundamental_domain.h"
+#include "base/execution.h"
+#include "topology/domain.h"
 #include "topology/integer_forms.h"
 
 namespace holomorph::uv {

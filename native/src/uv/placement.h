@@ -3,6 +3,7 @@
 
 #include <complex>
 
+#include "base/workers.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::uv {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/page_allocator.h"
+#include "base/workers.h"
 #include "uv/uv_map.h"
 
 namespace holomorph::uv {

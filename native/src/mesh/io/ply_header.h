@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/io/formats.h"
+#include "mesh/io/file_text.h"
 
 namespace holomorph::mesh::ply {
 

@@ -9,7 +9,10 @@
 #include <system_error>
 
 #include "base/errors.h"
-#include "mesh/io/formats.h"
+#include "mesh/io/read_obj.h"
+#include "mesh/io/read_off.h"
+#include "mesh/io/read_ply.h"
+#include "mesh/io/read_stl.h"
 
 namespace holomorph::mesh {
 
@@ -74,8 +77,6 @@ FileText load(const std::filesystem::path& path) {
 }
 
 }  // namespace
-
-void FileText::fail(std::string_view reason) const { throw InvalidMesh(name + ": " + std::string(reason)); }
 
 GivenPolygons read(const std::filesystem::path& path) {
   const auto& format = format_of(path);

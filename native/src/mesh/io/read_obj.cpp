@@ -1,9 +1,10 @@
 // Wavefront OBJ: `v x y z` and `f a b c ...` with a = vertex[/texture[/normal]], counted from 1, or from the end if <
 // 0.
+#include "mesh/io/read_obj.h"
+
 #include <array>
 #include <string>
 
-#include "mesh/io/formats.h"
 #include "mesh/io/scanner.h"
 
 namespace holomorph::mesh {

@@ -1,8 +1,9 @@
 // Object File Format: [ST][C][N]OFF, three counts, a line per vertex that starts with x y z, then n v_1 .. v_n per
 // face.
+#include "mesh/io/read_off.h"
+
 #include <string>
 
-#include "mesh/io/formats.h"
 #include "mesh/io/scanner.h"
 
 namespace holomorph::mesh {

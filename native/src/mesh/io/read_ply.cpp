@@ -1,13 +1,14 @@
 // PLY: a text header that declares elements and their properties, then the elements as text or binary.
 // Positions are `vertex.x y z`; polygons are `face.vertex_indices` (or `vertex_index`), or `tristrips`. The rest is
 // skipped.
+#include "mesh/io/read_ply.h"
+
 #include <bit>
 #include <cmath>
 #include <string>
 
 #include "base/errors.h"
 #include "mesh/io/byte_order.h"
-#include "mesh/io/formats.h"
 #include "mesh/io/ply_header.h"
 #include "mesh/io/scanner.h"
 

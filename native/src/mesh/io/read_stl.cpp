@@ -1,10 +1,11 @@
 // STL, text or binary: a list of triangles with coordinates. Corners with equal coordinates are welded to one vertex.
+#include "mesh/io/read_stl.h"
+
 #include <bit>
 #include <cstring>
 #include <string>
 
 #include "mesh/io/byte_order.h"
-#include "mesh/io/formats.h"
 #include "mesh/io/scanner.h"
 
 namespace holomorph::mesh {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/io/formats.h"
+#include "mesh/io/file_text.h"
 
 namespace holomorph::mesh {
 

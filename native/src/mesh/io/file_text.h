@@ -1,4 +1,4 @@
-// The four file formats, each from a whole file in memory; `read.h` chooses among them.
+// A whole file in memory, as the readers of the formats take it.
 #pragma once
 
 #include <string>
@@ -16,10 +16,5 @@ struct FileText {
   /// \throw InvalidMesh "name: reason"
   [[noreturn]] void fail(std::string_view reason) const;
 };
-
-GivenPolygons read_obj(const FileText& file);
-GivenPolygons read_off(const FileText& file);
-GivenPolygons read_ply(const FileText& file);
-GivenPolygons read_stl(const FileText& file);
 
 }  // namespace holomorph::mesh

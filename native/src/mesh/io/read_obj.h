@@ -1,0 +1,11 @@
+// Wavefront OBJ: vertices and polygons; everything else is skipped.
+#pragma once
+
+#include "mesh/io/file_text.h"
+
+namespace holomorph::mesh {
+
+/// @throws InvalidMesh "name: reason"
+GivenPolygons read_obj(const FileText& file);
+
+}  // namespace holomorph::mesh

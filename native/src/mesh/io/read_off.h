@@ -1,0 +1,11 @@
+// OFF: vertices and polygons.
+#pragma once
+
+#include "mesh/io/file_text.h"
+
+namespace holomorph::mesh {
+
+/// @throws InvalidMesh "name: reason"
+GivenPolygons read_off(const FileText& file);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,14 @@
+// Edge collapses by rounds of independent vertices, until none is left that can be made.
+#pragma once
+
+#include "base/execution.h"
+#include "progressive/edge_collapse.h"
+
+namespace holomorph::progressive {
+
+/// By rounds: in each, a maximal set of vertices that are pairwise not adjacent is collapsed, each along its shortest
+/// edge that keeps topology and normals.
+/// Reports the part of the vertices that are gone. @throws Cancelled
+void collapse_independent_sets(EdgeCollapse& mesh, Execution& execution);
+
+}  // namespace holomorph::progressive

@@ -1,0 +1,25 @@
+// From a surface to its progressive mesh.
+#pragma once
+
+#include "base/execution.h"
+#include "progressive/progressive_mesh.h"
+
+namespace holomorph::progressive {
+
+/// Which edges are collapsed first.
+enum class Order {
+  quadric,      ///< by quadric error (Garland & Heckbert 1997, doi:10.1145/258734.258849)
+  independent,  ///< by rounds; the vertices removed in one round are pairwise not adjacent
+};
+
+/// Collapses edges until none is left that can be collapsed: genus 0 ends with 4 triangles, genus 1 with at most 20,
+/// for there are no larger irreducible triangulations (Lawrencenko 1987). Collapses obey the link condition (Dey
+/// et al. 1999), so that every level has the topology of the original and no two edges with the same ends; boundary
+/// vertices move along the boundary only. As long as possible no triangle turns by more than 75 degrees. Where that
+/// would leave a base without any area, the last collapses are left out.
+/// Where a diagonal of the triangulation joins vertices that another edge joins too, it is turned.
+/// @throws InvalidMesh for an intrinsic surface, or if turning helps nothing; Cancelled. Deterministic, one thread,
+/// O(#T) apart from very large stars.
+ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Execution& execution);
+
+}  // namespace holomorph::progressive

@@ -1,0 +1,21 @@
+// What follows from the harmonic forms (paper § 7, § 9).
+#pragma once
+
+#include <span>
+
+#include "base/execution.h"
+#include "structure/structure.h"
+
+namespace holomorph::structure {
+
+/// What follows from the harmonic forms: Gram matrices, star, holomorphic basis, period matrix (paper § 7, Eq. 13), and
+/// the certificate.
+/// @param triangulation,weights,classes what was solved on, and the classes there
+/// @param result with its topology and functions
+void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+              const topology::IntegerForms& classes, Structure& result, Execution& execution);
+
+/// The star, the holomorphic basis and the period matrix from the Gram matrices alone.
+void set_holomorphic_basis(Structure& result);
+
+}  // namespace holomorph::structure
