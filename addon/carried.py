@@ -6,17 +6,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import compatibility, mesh_io
+from .compatibility import Values
 
-# Attributes that can be carried: how their values are named, how many numbers they are, of which type.
+# Types of attributes that are transferred, with the name, type and number of their values.
 KINDS = {
-    "FLOAT": ("value", 1, np.float32),
-    "INT": ("value", 1, np.int32),
-    "INT8": ("value", 1, np.int32),
-    "BOOLEAN": ("value", 1, bool),
-    "FLOAT_VECTOR": ("vector", 3, np.float32),
-    "FLOAT2": ("vector", 2, np.float32),
-    "FLOAT_COLOR": ("color", 4, np.float32),
-    "BYTE_COLOR": ("color", 4, np.float32),
+    "FLOAT": ("value", np.float32),
+    "INT": ("value", np.int32),
+    "INT8": ("value", np.int32),
+    "BOOLEAN": ("value", bool),
+    "FLOAT_VECTOR": ("vector", np.float32, 3),
+    "FLOAT2": ("vector", np.float32, 2),
+    "FLOAT_COLOR": ("color", np.float32, 4),
+    "BYTE_COLOR": ("color", np.float32, 4),
 }
 # Attributes that Blender keeps itself, or that are written as something else here.
 BUILT_IN = {"position", "material_index", "sharp_face", "shade_smooth", "id", "normal"}
@@ -58,14 +59,14 @@ def read(mesh, polygons):
     rendered = [layer.name for layer in mesh.uv_layers if layer.active_render]
     colour = mesh.color_attributes.active_color
     return Carried(
-        positions=mesh_io.read_values(compatibility.position_values(mesh), 3, np.float32),
+        positions=mesh_io.read_values(compatibility.position_values(mesh)),
         maps=maps,
         uv=uv,
         active=mesh.uv_layers.active.name if mesh.uv_layers.active else "",
         rendered=rendered[0] if rendered else "",
         attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_carried(a, maps)],
-        material=mesh_io.read_values((mesh.polygons, "material_index"), 1, np.int32),
-        smooth=mesh_io.read_values((mesh.polygons, "use_smooth"), 1, bool),
+        material=mesh_io.read_values(_material_indices(mesh)),
+        smooth=mesh_io.read_values(_smooth_flags(mesh)),
         marks={name: mesh_io.marked_edges(mesh, name) for name in EDGE_MARKS},
         colour=colour.name if colour else "",
     )
@@ -78,13 +79,12 @@ def write(mesh, carried, level, names):
     for index, name in enumerate(names):
         mesh_io.write_map(mesh, own, name, level.uv[:, index])
     _show(mesh, carried, names)
-    mesh_io.write_values((mesh.polygons, "material_index"), carried.material[surface.face_index])
-    mesh_io.write_values((mesh.polygons, "use_smooth"), carried.smooth[surface.face_index])
+    mesh_io.write_values(_material_indices(mesh), carried.material[surface.face_index])
+    mesh_io.write_values(_smooth_flags(mesh), carried.smooth[surface.face_index])
     rows = {"POINT": surface.vertex_index, "FACE": surface.face_index, "CORNER": level.corners}
     for attribute in carried.attributes:
-        prop = KINDS[attribute.kind][0]
         new = mesh.attributes.new(attribute.name, attribute.kind, attribute.domain)
-        mesh_io.write_values((mesh.attributes[new.name].data, prop), attribute.values[rows[attribute.domain]])
+        mesh_io.write_values(_attribute_values(mesh.attributes[new.name]), attribute.values[rows[attribute.domain]])
     for name, ends in carried.marks.items():
         if not len(ends):
             continue
@@ -116,11 +116,22 @@ def _is_carried(attribute, maps):
 
 
 def _read_attribute(attribute, polygons):
-    prop, width, kind = KINDS[attribute.data_type]
-    values = mesh_io.read_values((attribute.data, prop), width, kind)
+    values = mesh_io.read_values(_attribute_values(attribute))
     if attribute.domain == "CORNER":
         values = _of_corners(values, polygons)
     return Attribute(attribute.name, attribute.domain, attribute.data_type, values)
+
+
+def _attribute_values(attribute):
+    return Values(attribute.data, *KINDS[attribute.data_type])
+
+
+def _material_indices(mesh):
+    return Values(mesh.polygons, "material_index", np.int32)
+
+
+def _smooth_flags(mesh):
+    return Values(mesh.polygons, "use_smooth", bool)
 
 
 def _of_corners(values, polygons):
