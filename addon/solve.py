@@ -36,7 +36,7 @@ class SolvedComponent:
     reason: str = ""
     note: str = ""  # which choice was not followed, and why
     frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
-    qualities: dict = field(default_factory=dict, compare=False)  # of main maps, by their dials
+    main_maps: dict = field(default_factory=dict, compare=False)  # `maps.MainMap` by dials
 
     @property
     def form_count(self):

@@ -52,7 +52,7 @@ def test_the_map_is_conformal_up_to_linear_interpolation():
         obj = torus(around=24 * fineness, across=12 * fineness)
         run()
         quality = stored_report(obj)["components"][0]["main_map"]
-        assert quality["flipped"] == 0
+        assert quality["flipped_triangles"] == 0
         error.append(quality["mean_angle"] - 1)
     assert 0.4 < error[1] / error[0] < 0.6
 

@@ -1,6 +1,8 @@
 """What each kind of surface gets in Blender: straight boundaries, rectangles, disks, punctures; and choices that do not
 fit."""
 
+import json
+
 import bpy
 import numpy as np
 import pytest
@@ -86,6 +88,39 @@ def test_punctures_with_residues_on_a_torus():
     assert entry["punctures"] == [0, 840, 2000]
     assert entry["residues"] == [[1, 0], [1, 0], [-2, 0]]
     assert entry["main_map"]["mean_angle"] < 1.3
+
+
+def test_a_component_is_reported_as_by_the_package():
+    obj = torus_with_a_hole()
+    assert run(density=2.0, amounts=(0.5,) * 8) == {"FINISHED"}
+    (part,) = parts_of(obj)
+    package = module("native").load()
+    expected = package.report.component_report(part, package.conformal_structure(part))
+    entry = only_part(obj)
+    assert entry.keys() == expected.keys() and entry["main_map"].keys() == expected["main_map"].keys()
+    assert entry["main_map"]["coefficients"] == pytest.approx(0.5 * np.array(expected["main_map"]["coefficients"]))
+    measured = {"timings", "solver", "residuals", "main_map"}
+    assert {k: v for k, v in entry.items() if k not in measured} == json.loads(
+        json.dumps({k: v for k, v in expected.items() if k not in measured})
+    )
+    assert stored_report(obj)["dials"]["density"] == 2.0
+
+
+def test_a_skipped_component_has_its_reason(monkeypatch):
+    solve = module("solve")
+    solve_component = solve._solve_component
+
+    def without_spheres(library, surface, part, *rest):
+        if part.genus == 0:
+            return solve.SolvedComponent(part, None, None, reason="too round")
+        return solve_component(library, surface, part, *rest)
+
+    monkeypatch.setattr(solve, "_solve_component", without_spheres)
+    obj = two_parts("Two", torus_arrays(), sphere_arrays())
+    assert run() == {"FINISHED"}
+    (skipped,) = [c for c in stored_report(obj)["components"] if not c["done"]]
+    (part,) = [p for p in parts_of(obj) if p.genus == 0]
+    assert skipped == module("native").load().report.skipped_report(part, "too round")
 
 
 def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
