@@ -23,7 +23,7 @@ class Values(NamedTuple):
 
 
 def uv_values(layer):
-    """A UV layer's vectors (3.5 brought the fast collection)."""
+    """A UV layer's vectors (the fast collection is new in 3.5)."""
     if hasattr(layer, "uv"):
         return Values(layer.uv, "vector", np.float32, 2)
     return Values(layer.data, "uv", np.float32, 2)
@@ -69,7 +69,7 @@ def set_specular(shader, value):
 
 
 def keep_sharp_edges(mesh, angle):
-    """Leaves edges sharper than `angle` (radians) sharp in a smooth-shaded mesh (auto smooth went in 4.1)."""
+    """Keeps edges sharper than `angle` (radians) sharp in a smooth-shaded mesh (auto smooth was removed in 4.1)."""
     if hasattr(mesh, "use_auto_smooth"):
         mesh.use_auto_smooth = True
         mesh.auto_smooth_angle = angle
@@ -80,7 +80,7 @@ def keep_sharp_edges(mesh, angle):
 def objects_being_edited(context):
     """The mesh objects in edit mode; those that share a mesh count once."""
     objects = getattr(context, "objects_in_mode_unique_data", None)
-    if objects is None:  # background mode has no screen to ask
+    if objects is None:  # there is no screen in background mode
         objects = {o.data: o for o in context.view_layer.objects if o.mode == "EDIT"}.values()
     return [o for o in objects if o.type == "MESH"]
 
@@ -98,6 +98,6 @@ def copy_auto_smooth(source, target):
 
 
 def is_auto_smooth(modifier):
-    """Whether it is the modifier that Blender 4.1 and later put in the place of the mesh's own auto smooth."""
+    """Whether it is the modifier that replaces a mesh's auto smooth from Blender 4.1 on."""
     group = modifier.node_group if modifier.type == "NODES" else None
     return group is not None and group.name.startswith(("Auto Smooth", "Smooth by Angle"))

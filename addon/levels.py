@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The work of levels of detail, on arrays: no bpy in here, for it runs in a worker thread."""
+"""Levels of detail as arrays. No bpy here: it runs in a worker thread."""
 
 from dataclasses import dataclass, field
 
@@ -7,8 +7,8 @@ import numpy as np
 
 from . import jobs, maps, native
 
-SOLVE_PART = 0.5  # of the whole work, where a map has to be made first
-COLLAPSE_PART = 0.8  # of the rest; carrying the maps is the end
+SOLVE_PART = 0.5  # share of the whole work, where a map has to be made first
+COLLAPSE_PART = 0.8  # share of the rest; then the maps are transferred
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class LevelOptions:
 
 @dataclass(frozen=True)
 class Level:
-    """One level, its maps, and where the original's vertices went."""
+    """One level, its maps, and its vertex for each of the original's."""
 
     surface: object  # vertex_index and face_index into the original
     corners: np.ndarray  # (#C,) corner of the original whose data each corner has
@@ -46,7 +46,7 @@ class LevelsWork(jobs.Work):
     """
 
     task: object  # solve.Task
-    names: list  # of the maps that are carried
+    names: list  # names of the maps that are transferred
     uv: np.ndarray  # (#C, m, 2), in the order of the polygons' corners
     needs_map: bool
     options: LevelOptions

@@ -16,7 +16,7 @@ from .mesh_io import MAIN_MAP
 
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
-CENTRE = 0.5 + 0.5j  # of the UV square
+CENTRE = 0.5 + 0.5j  # the middle of the UV square
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class MapOptions:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a part comes to lie: it is multiplied by `factor`, `origin` goes to `target`."""
+    """Position of a part in the UV square: it is multiplied by `factor`, `origin` is moved to `target`."""
 
     factor: complex
     origin: complex
@@ -95,7 +95,7 @@ def _parts(solved, index):
 def coefficients(component, index, options):
     """The balanced combination with its dials for index 0, else the unit of form `index`.
 
-    Real where the balanced ones are: a turned share would bend the boundaries that are straight.
+    Real where the balanced ones are: a complex factor would bend the straight boundaries.
     """
     balanced = np.asarray(component.balanced)
     if index > 0:
@@ -115,7 +115,7 @@ def _raw(component, index, options):
 
 
 def _frame(component, index, options, uv=None):
-    """The frame of a map of one part, turned but not scaled; kept."""
+    """The frame of a map of one part, rotated but not scaled; cached."""
     dials = (options.amounts, options.turns) if index == 0 else ()
     key = (index, options.rotation, dials)
     if key not in component.frames:
@@ -144,14 +144,14 @@ def _places(parts, index, options, raw=None):
 
 @dataclass(frozen=True)
 class MainMap:
-    """What is kept of the main map; scale and rotation do not matter."""
+    """What is cached of the main map; scale and rotation do not matter."""
 
     report: dict  # `holomorph.report.map_report`
     length_ratio: float  # UV length per length on the surface, the median by area, as the library gives the map
 
 
 def main_map(component, options, uv=None):
-    """The `MainMap` of a component, kept for each setting of its dials."""
+    """The `MainMap` of a component, cached for each setting of its dials."""
     dials = (options.amounts, options.turns)
     if dials not in component.main_maps:
         uv = _raw(component, 0, options) if uv is None else uv
@@ -171,5 +171,5 @@ def squares_that_fit(solved, options):
 
 
 def _diagonal(points):
-    """Of the bounding box; column by column, which NumPy does much faster than all three at once."""
+    """The bounding box's diagonal; NumPy finds ranges of single columns much faster than of all at once."""
     return math.hypot(*(float(np.ptp(column)) for column in points.T))

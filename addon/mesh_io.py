@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Between Blender's meshes and arrays: the only room that calls foreach_get and foreach_set.
+"""Between Blender's meshes and arrays: the only module that calls foreach_get and foreach_set.
 
 Positions and UVs are double precision on our side and float32 on Blender's. Corners are in the order of
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
@@ -64,13 +64,13 @@ def _read_indices(values):
 def read_polygons(mesh, linear):
     """Copies the polygons out of `mesh`, positions multiplied by the 3x3 matrix `linear`.
 
-    The object's rotation and translation do not change angles, its scale and shear do. Nothing is checked
-    here: Blender's own ``validate`` would repair the artist's mesh, so the library judges the arrays.
+    The object's rotation and translation do not change angles, its scale and shear do. The library
+    checks the arrays: Blender's own ``validate`` would change the mesh.
     """
     positions = read_values(compatibility.position_values(mesh))
     vertices, linear = positions.astype(np.float64), np.asarray(linear, np.float64)
     if not np.array_equal(linear, np.eye(3)):
-        with np.errstate(all="ignore"):  # a NaN is the library's to name
+        with np.errstate(all="ignore"):  # the library names the vertex of a NaN
             vertices = vertices @ linear.T
     corner_vertices = _read_indices(compatibility.corner_vertex_values(mesh))
     starts = _read_indices(Values(mesh.polygons, "loop_start", np.uint32))

@@ -122,7 +122,7 @@ def test_every_vertex_keeps_its_uvs_and_every_edge_fits():
             assert difference <= forgiven
 
 
-def test_maps_with_dials_and_of_the_artist_are_carried_as_they_are():
+def test_maps_with_dials_and_of_the_artist_are_transferred_as_they_are():
     obj = torus(**FINE)
     artist = obj.data.uv_layers.new(name="Artist").name
     flat = positions(obj)[polygon_arrays(obj.data)[0]][:, :2]

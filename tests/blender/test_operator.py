@@ -233,14 +233,13 @@ def test_objects_that_share_a_mesh():
 
 @pytest.mark.parametrize(("scale", "told"), [((1, 1, 1), False), ((-2, 2, 2), False), ((1, 2, 1), True)])
 def test_another_scale_of_a_shared_mesh_is_told(scale, told):
-    run_module = module("run")
     first = torus("First")
     second = bpy.data.objects.new("Second", first.data)
     second.scale = scale
     second.rotation_euler = (0.4, 0.1, 2)
     bpy.context.scene.collection.objects.link(second)
     bpy.context.view_layer.update()
-    (target,) = run_module.collect([first, second])
+    (target,) = module("targets").collect([first, second])
     assert ("the scale of First counts" in target.note) == told
 
 

@@ -144,7 +144,7 @@ def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
         ([3, 7, 20, 30], {"use_selection": "RECTANGLE"}, "rectangle"),
     ],
 )
-def test_an_express_choice_that_does_not_fit_is_refused(picked, options, word):
+def test_an_explicit_choice_that_does_not_fit_is_refused(picked, options, word):
     obj = mesh_object("Sphere", *sphere_arrays())
     pick(obj, picked)
     before = everything(obj)
@@ -181,11 +181,11 @@ def test_the_papers_solver_is_for_the_parts_that_it_fits():
 def test_a_modifier_that_may_close_the_surface_is_told():
     obj = mesh_object("Tube", *tube_arrays())
     obj.modifiers.new("My Mirror", "MIRROR")
-    run_module, maps = module("run"), module("maps")
-    targets = run_module.collect([obj])
-    job = module("jobs").Job(run_module.tasks(targets))
+    run_module, targets = module("run"), module("targets")
+    found = targets.collect([obj])
+    job = module("jobs").Job(targets.tasks(found))
     job.run()
-    outcome = run_module.write(bpy.context, targets, job.results, maps.MapOptions(), run_module.WriteOptions())
+    outcome = run_module.write(bpy.context, found, job.results, module("maps").MapOptions(), run_module.WriteOptions())
     assert any("My Mirror" in note for note in outcome.notes)
 
 

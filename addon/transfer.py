@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mesh has besides its polygons, read from one mesh and written to a coarser one made of its vertices."""
+"""Transfers maps, materials, edge marks and attributes from a mesh to its levels of detail."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ import numpy as np
 from . import compatibility, mesh_io
 from .compatibility import Values
 
-# Types of attributes that are transferred, with the name, type and number of their values.
+# Types of attributes that are transferred: name, type and number of their values.
 KINDS = {
     "FLOAT": ("value", np.float32),
     "INT": ("value", np.int32),
@@ -19,7 +19,7 @@ KINDS = {
     "FLOAT_COLOR": ("color", np.float32, 4),
     "BYTE_COLOR": ("color", np.float32, 4),
 }
-# Attributes that Blender keeps itself, or that are written as something else here.
+# Attributes of Blender's own, or that are written in another way here.
 BUILT_IN = {"position", "material_index", "sharp_face", "shade_smooth", "id", "normal"}
 EDGE_MARKS = ("use_seam", "use_edge_sharp")
 
@@ -33,8 +33,8 @@ class Attribute:
 
 
 @dataclass(frozen=True)
-class Carried:
-    """Of one mesh; corners in the polygons' order."""
+class MeshData:
+    """What a mesh has besides its polygons; corners in the polygons' order."""
 
     positions: np.ndarray  # (#V, 3) float32, in the object's own frame
     maps: list  # names
@@ -49,7 +49,7 @@ class Carried:
 
 
 def read(mesh, polygons):
-    """Everything that levels take over from `mesh`. Its UV maps include ours that had no slot and are attributes."""
+    """All that levels get from `mesh`. Its maps include those of ours that are attributes for want of a UV map slot."""
     layers = [layer.name for layer in mesh.uv_layers]
     ours = [a.name for a in mesh.attributes if mesh_io.is_our_attribute(a) and a.name not in layers]
     maps = layers + ours
@@ -58,13 +58,13 @@ def read(mesh, polygons):
         uv[:, index] = _of_corners(mesh_io.read_map(mesh, name), polygons)
     rendered = [layer.name for layer in mesh.uv_layers if layer.active_render]
     colour = mesh.color_attributes.active_color
-    return Carried(
+    return MeshData(
         positions=mesh_io.read_values(compatibility.position_values(mesh)),
         maps=maps,
         uv=uv,
         active=mesh.uv_layers.active.name if mesh.uv_layers.active else "",
         rendered=rendered[0] if rendered else "",
-        attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_carried(a, maps)],
+        attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_transferred(a, maps)],
         material=mesh_io.read_values(_material_indices(mesh)),
         smooth=mesh_io.read_values(_smooth_flags(mesh)),
         marks={name: mesh_io.marked_edges(mesh, name) for name in EDGE_MARKS},
@@ -72,41 +72,41 @@ def read(mesh, polygons):
     )
 
 
-def write(mesh, carried, level, names):
-    """Gives `mesh`, which has the triangles of `level`, what they take over; `names` are those of the level's maps."""
+def write(mesh, data, level, names):
+    """Writes the data to `mesh`, which has the triangles of `level`; `names` are those of the level's maps."""
     surface = level.surface
-    own = mesh_io.Polygons(carried.positions, surface.corner_vertices, surface.face_offsets, None)
+    own = mesh_io.Polygons(data.positions, surface.corner_vertices, surface.face_offsets, None)
     for index, name in enumerate(names):
         mesh_io.write_map(mesh, own, name, level.uv[:, index])
-    _show(mesh, carried, names)
-    mesh_io.write_values(_material_indices(mesh), carried.material[surface.face_index])
-    mesh_io.write_values(_smooth_flags(mesh), carried.smooth[surface.face_index])
+    _show(mesh, data, names)
+    mesh_io.write_values(_material_indices(mesh), data.material[surface.face_index])
+    mesh_io.write_values(_smooth_flags(mesh), data.smooth[surface.face_index])
     rows = {"POINT": surface.vertex_index, "FACE": surface.face_index, "CORNER": level.corners}
-    for attribute in carried.attributes:
+    for attribute in data.attributes:
         new = mesh.attributes.new(attribute.name, attribute.kind, attribute.domain)
         mesh_io.write_values(_attribute_values(mesh.attributes[new.name]), attribute.values[rows[attribute.domain]])
-    for name, ends in carried.marks.items():
+    for name, ends in data.marks.items():
         if not len(ends):
             continue
         mapped = level.vertex_map[ends]
         mesh_io.mark_edges(mesh, name, mapped[(mapped[:, 0] != mapped[:, 1]) & (mapped >= 0).all(axis=1)])
-    if carried.colour in mesh.color_attributes:
-        mesh.color_attributes.active_color = mesh.color_attributes[carried.colour]
+    if data.colour in mesh.color_attributes:
+        mesh.color_attributes.active_color = mesh.color_attributes[data.colour]
     mesh.update()
 
 
-def _show(mesh, carried, names):
-    """The same active maps; where one had to be made, that one."""
-    added = [name for name in names if name not in carried.maps]
-    for name in (carried.active, *added):
+def _show(mesh, data, names):
+    """Makes the same maps active; where one had to be made, that one."""
+    added = [name for name in names if name not in data.maps]
+    for name in (data.active, *added):
         if name in mesh.uv_layers:
             mesh.uv_layers.active = mesh.uv_layers[name]
-    for name in (carried.rendered, *added):
+    for name in (data.rendered, *added):
         if name in mesh.uv_layers:
             mesh.uv_layers[name].active_render = True
 
 
-def _is_carried(attribute, maps):
+def _is_transferred(attribute, maps):
     name, built_in = attribute.name, attribute.name in BUILT_IN or attribute.name.startswith(".")
     return (
         attribute.domain in {"POINT", "FACE", "CORNER"}
