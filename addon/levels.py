@@ -42,7 +42,7 @@ class LevelsWork(jobs.Work):
     """Makes the levels of one mesh; a map of its own first where there is none.
 
     After `run`, `levels` has one entry for each level, finest first, each coarser than the one before; `names` are
-    those of their maps; `solved` is the solve that was needed. Or `error` is what the library refused.
+    those of their maps; `solved` is the solve that was needed. Or `error` is one of `native.refusals`.
     """
 
     task: object  # solve.Task
@@ -61,7 +61,7 @@ class LevelsWork(jobs.Work):
     def run(self):
         try:
             self._run()
-        except native.load().Error as error:
+        except native.refusals() as error:
             self.error = error
 
     def _run(self):

@@ -130,7 +130,7 @@ class MapProperties:
         soft_max=4.0,
     )
     turns: FloatVectorProperty(
-        name="Turn",
+        name="Phase",
         description="Phase of each form's share in the main map; not on parts with a boundary, which stays straight",
         size=DIALS,
         default=(0.0,) * DIALS,

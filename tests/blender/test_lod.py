@@ -308,6 +308,15 @@ def test_without_any_map_nothing_is_made(monkeypatch):
     assert [layer.name for layer in levels_of("Torus")[1].data.uv_layers] == ["Artist"]
 
 
+def test_too_little_memory_is_a_sentence(monkeypatch):
+    def too_large(*_):
+        raise MemoryError("there is not enough memory for a mesh of this size")
+
+    torus(**FINE)
+    monkeypatch.setattr(module("solve"), "solve", too_large)
+    refused("Torus: there is not enough memory for a mesh of this size")
+
+
 def test_an_irreducible_mesh_has_no_levels():
     """Császár's torus: 7 vertices, 14 triangles, and no edge that can be collapsed."""
     points = [[3, -3, 0], [-3, 3, 0], [-3, -3, 1], [3, 3, 1], [-1, -2, 3], [1, 2, 3], [0, 0, 15]]
