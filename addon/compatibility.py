@@ -12,8 +12,8 @@ UV_MAP_LIMIT = 8  # Blender's own: the ninth `uv_layers.new` returns None
 class Values(NamedTuple):
     """A property of all elements of a collection, `width` numbers for each.
 
-    `dtype` is Blender's own type of them: `foreach_get` and `foreach_set` convert any other one element by element,
-    which takes ten times as long. Indices are unsigned as properties and signed as attributes.
+    `dtype` is Blender's own type of them: any other one is converted element by element, which takes ten times as long.
+    Indices are unsigned as properties and signed as attributes.
     """
 
     elements: object
