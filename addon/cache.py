@@ -1,30 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Kept solves, so that the sliders of the redo panel cost one small matrix product and no solve.
+"""A cache of solves, so that the sliders of the redo panel cost one small matrix product and no solve.
 
-A solve is found again by what was solved, geometry and topology with the artist's choices: an object that was moved,
-renamed, undone or reopened has the same, one that was edited has not.
+The key is what was solved, geometry and topology with the choices on it: an object that was moved, renamed, undone or
+reopened has the same, one that was edited has not.
 """
 
-SIZE_LIMIT = 150_000_000  # doubles, 1.2 GB; the newest solve is always kept
+SIZE_LIMIT = 150_000_000  # doubles, 1.2 GB; the newest solve stays even if it is larger
 
-_kept = []  # pairs of a `solve.Task` and its `SolvedObject`; what was asked for last comes last
+_entries = []  # pairs of a `solve.Task` and its `SolvedObject`, the least recently used first
 
 
 def find(task):
-    """The kept `SolvedObject` of an equal task, or None."""
-    for place, (kept, solved) in enumerate(_kept):
-        if kept.equals(task):
-            _kept.append(_kept.pop(place))
+    """The `SolvedObject` of an equal task, or None."""
+    for place, (known, solved) in enumerate(_entries):
+        if known.equals(task):
+            _entries.append(_entries.pop(place))
             return solved
     return None
 
 
 def keep(task, solved):
-    """Keeps a solve and lets the oldest go until the rest fits in `SIZE_LIMIT`. @pre find(task) is None"""
-    _kept.append((task, solved))
-    while len(_kept) > 1 and sum(s.size for _, s in _kept) > SIZE_LIMIT:
-        _kept.pop(0)
+    """Adds a solve and drops the least recently used ones that exceed `SIZE_LIMIT`. @pre find(task) is None"""
+    _entries.append((task, solved))
+    while len(_entries) > 1 and sum(s.size for _, s in _entries) > SIZE_LIMIT:
+        _entries.pop(0)
 
 
 def clear():
-    _kept.clear()
+    _entries.clear()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the artist chose on a mesh (vertices, seams, method), and what it means for each connected part. No bpy here.
+"""What is chosen on a mesh (vertices, seams, method), and what it means for each connected part. No bpy here.
 
-A choice becomes keywords of `holomorph.conformal_structure`. Choices that were made expressly are the library's to
-refuse; those that were only found (a selection under "Automatic", seams) are dropped where they do not fit.
+A choice becomes keywords of `holomorph.conformal_structure`. Where an explicit choice does not fit, the library
+refuses it; an implicit one (a selection under "Automatic", seams) is dropped.
 """
 
 from dataclasses import dataclass, field
@@ -31,12 +31,12 @@ class Choices:
         return (*selected, self.seams.tobytes(), self.boundary, self.solver)
 
     @property
-    def is_express(self):
+    def is_explicit(self):
         return self.use in (PUNCTURES, RECTANGLE)
 
 
 def attempts(part, choices):
-    """Keywords for a connected part, the most wanted first; the later ones leave out what was only found. Vertices are
+    """Keywords for a connected part, the most wanted first; the later ones leave out implicit choices. Vertices are
     those of the whole mesh."""
     base = {"solver": choices.solver, "boundary": choices.boundary}
     selection = _selection(part, choices)
@@ -49,7 +49,7 @@ def attempts(part, choices):
         wanted.insert(0, base | cut)
     if selection:
         with_selection = [keywords | selection for keywords in wanted]
-        wanted = with_selection if choices.is_express else with_selection + wanted
+        wanted = with_selection if choices.is_explicit else with_selection + wanted
     return [_with_fitting_method(part, keywords) for keywords in wanted]
 
 
@@ -71,9 +71,9 @@ def name_vertices(keywords):
     return not keywords.keys().isdisjoint({"punctures", "rectangle_corners", "cut_edges"})
 
 
-def are_express(keywords, choices):
+def are_explicit(keywords, choices):
     """Whether the keywords hold what the library is to refuse where it does not fit."""
-    return choices.is_express and not keywords.keys().isdisjoint({"punctures", "rectangle_corners"})
+    return choices.is_explicit and not keywords.keys().isdisjoint({"punctures", "rectangle_corners"})
 
 
 def numbers(text):
@@ -91,8 +91,8 @@ def numbers(text):
 
 
 def stray_vertex(surface, choices):
-    """The first expressly chosen vertex that no face has, or None."""
-    chosen = np.asarray(choices.selected if choices.is_express else (), np.int64)
+    """The first explicitly chosen vertex that no face has, or None."""
+    chosen = np.asarray(choices.selected if choices.is_explicit else (), np.int64)
     if len(chosen) == 0:
         return None
     stray = chosen[~np.isin(chosen, surface.corner_vertices)]
@@ -113,7 +113,7 @@ def _selection(part, choices):
     if not choices.residues:
         return {"punctures": own}
     residues = np.asarray(choices.residues, complex)
-    # A wrong number of residues is the library's to refuse.
+    # The library refuses a wrong number of residues.
     return {"punctures": own, "residues": residues[is_own] if len(residues) == len(is_own) else residues}
 
 
@@ -123,7 +123,7 @@ def _are_corners_of_a_disk(part, vertices):
 
 
 def _boundary_edges(part):
-    """(starts, ends) of the boundary edges as the triangles beside them run, in vertices of the whole mesh."""
+    """(starts, ends) of the boundary edges, directed as in their triangles, in vertices of the whole mesh."""
     triangles = part.vertex_index[part.triangles].astype(np.int64)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     count = triangles.max() + 1

@@ -8,6 +8,7 @@ Ends with 0 if some component got its maps, otherwise with 1 and one sentence on
 
 import argparse
 import importlib.util
+import math
 import sys
 import time
 from pathlib import Path
@@ -16,7 +17,7 @@ import bpy
 
 PACKAGE = "holomorph_headless"  # the name under which this script loads the add-on that it lies in
 SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
-Z_UP_FROM_Y_UP = 1.5707963267948966  # radians about the x axis, as Blender's own importers turn OBJ files
+Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own importers rotate OBJ files
 
 
 class UsageError(Exception):
@@ -28,8 +29,8 @@ class Parser(argparse.ArgumentParser):
         raise UsageError(message)
 
 
-def addon_package():
-    """The add-on's modules, whether or not the add-on is installed and enabled in this Blender."""
+def module(name):
+    """One of the add-on's modules, whether or not the add-on is installed and enabled in this Blender."""
     if PACKAGE not in sys.modules:
         folder = Path(__file__).resolve().parent
         spec = importlib.util.spec_from_file_location(
@@ -37,7 +38,7 @@ def addon_package():
         )
         sys.modules[PACKAGE] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(sys.modules[PACKAGE])
-    return importlib.import_module
+    return importlib.import_module(f"{PACKAGE}.{name}")
 
 
 def _add_choices(parser):
@@ -48,7 +49,7 @@ def _add_choices(parser):
     group.add_argument("--selection", choices=("automatic", "punctures", "rectangle", "none"), default="none")
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
     group.add_argument("--boundary", choices=("natural", "double_cover"), default="natural")
-    group.add_argument("--solver", choices=("auto", "direct", "multigrid", "paper"), default="auto")
+    group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
 
 
 def parse(arguments):
@@ -65,7 +66,7 @@ def parse(arguments):
     parser.add_argument("--shown", type=int, default=0, help="the active map: 0 is the main one")
     parser.add_argument("--density", type=float, default=1.0, help="factor of all UV lengths")
     parser.add_argument("--margin", type=float, default=0.02, help="between parts, as a share of the UV square")
-    parser.add_argument("--rotation", type=float, default=0.0, help="degrees by which all maps are turned")
+    parser.add_argument("--rotation", type=float, default=0.0, help="rotation of all maps in degrees")
     parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
     parser.add_argument("--shape", action="store_true", help="store maps to the sphere and the disk as an attribute")
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
@@ -78,6 +79,12 @@ def parse(arguments):
     parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
     _add_choices(parser)
     options = parser.parse_args(arguments)
+    check(options)
+    return options
+
+
+def check(options):
+    """Raises `UsageError` for values that cannot be."""
     for path in (options.output, options.render, options.report):
         if path is not None and not path.resolve().parent.is_dir():
             raise UsageError(f"{path}: the folder {path.resolve().parent} does not exist")
@@ -91,10 +98,9 @@ def parse(arguments):
         raise UsageError("--puncture and --rectangle exclude each other")
     if options.resolution < 1 or options.samples < 1:
         raise UsageError("--resolution and --samples must be at least 1")
-    return options
 
 
-def import_mesh(options, holomorph, mesh_io):
+def import_mesh(options, holomorph):
     """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
     if not options.mesh.is_file():
         raise UsageError(f"{options.mesh}: no such file")
@@ -102,6 +108,7 @@ def import_mesh(options, holomorph, mesh_io):
     if not bpy.data.filepath:
         for obj in list(bpy.data.objects):
             bpy.data.objects.remove(obj)
+    mesh_io = module("mesh_io")
     mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
     mesh_io.shade_smooth(mesh, SHARP_ANGLE)
     obj = bpy.data.objects.new(mesh.name, mesh)
@@ -128,8 +135,11 @@ def objects_in_file(options):
     return meshes
 
 
-def request(options, choices, run):
+def request(options, holomorph):
     """What is asked of every object; vertices are named for a single one."""
+    choices = module("choices")
+    if options.solver not in holomorph.SOLVERS:
+        raise UsageError(f"--solver: {options.solver!r} is none of {', '.join(holomorph.SOLVERS)}")
     try:
         residues = choices.numbers(options.residues)
     except ValueError as error:
@@ -139,61 +149,69 @@ def request(options, choices, run):
         use, vertices = choices.PUNCTURES, tuple(options.puncture)
     elif options.rectangle:
         use, vertices = choices.RECTANGLE, tuple(options.rectangle)
-    return run.Request(use, vertices, residues, options.cut_at_seams, options.boundary, options.solver)
+    return module("targets").Request(use, vertices, residues, options.cut_at_seams, options.boundary, options.solver)
 
 
-def add_levels(options, load, outcome):
+def collect(options, holomorph):
+    """The targets: the mesh file, or the objects of the .blend."""
+    asked, targets = request(options, holomorph), module("targets")
+    if options.mesh is None:
+        objects = objects_in_file(options)
+        if asked.vertices is not None and len(objects) > 1:
+            raise UsageError("vertices are chosen on one object: name it with --object")
+        bpy.context.view_layer.update()  # the objects' matrices
+        return targets.collect(objects, asked)
+    try:
+        obj, positions = import_mesh(options, holomorph)
+    except holomorph.Error as error:
+        raise UsageError(str(error)) from error
+    return [targets.with_positions(target, positions) for target in targets.collect([obj], asked)]
+
+
+def make_maps(options, found):
+    """Solves the targets and writes their maps; returns the `run.Outcome`."""
+    maps, run, targets = module("maps"), module("run"), module("targets")
+    job = module("jobs").Job(targets.tasks(found))
+    job.run()
+    return run.write(
+        bpy.context,
+        found,
+        targets.align(found, job.results),
+        maps.MapOptions(options.forms, options.density, math.radians(options.rotation), margin=options.margin),
+        run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams, options.shape),
+    )
+
+
+def add_levels(options, outcome):
     """Levels of detail of every object that got maps; they are added to the report's entries."""
     if not options.levels:
         return []
-    lod, levels = load(f"{PACKAGE}.lod"), load(f"{PACKAGE}.levels")
-    wanted, made = levels.LevelOptions(options.levels, options.ratio), []
+    wanted, made = module("levels").LevelOptions(options.levels, options.ratio), []
     for entry in outcome.entries:
         if not entry["done"]:
             continue
         obj = bpy.data.objects[entry["object"]]
-        found, problem = lod.make_levels(bpy.context, obj, wanted, options.side_by_side)
+        found, problem = module("lod").make_levels(bpy.context, obj, wanted, options.side_by_side)
         entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
         outcome.problems += [f"{obj.name}: no levels of detail: {problem}"] if problem else []
         made += found
     return made
 
 
+def render(options, objects):
+    module("studio").render(objects, str(options.render.resolve()), options.resolution, options.samples)
+    if not options.render.is_file():
+        raise UsageError(f"{options.render}: the picture could not be written")
+
+
 def process(options):
     """Does the job; returns the sentences about what was not done."""
-    load = addon_package()
-    native = load(f"{PACKAGE}.native")
+    native, report = module("native"), module("report")
     if native.problem():
         raise UsageError(native.problem())
-    choices, jobs, maps, mesh_io, report, run = (
-        load(f"{PACKAGE}.{name}") for name in ("choices", "jobs", "maps", "mesh_io", "report", "run")
-    )
-    asked = request(options, choices, run)
-    holomorph = native.load()
     start = time.perf_counter()
-    if options.mesh is None:
-        objects = objects_in_file(options)
-        if asked.vertices is not None and len(objects) > 1:
-            raise UsageError("vertices are chosen on one object: name it with --object")
-        bpy.context.view_layer.update()  # the objects' matrices
-        targets = run.collect(objects, asked)
-    else:
-        try:
-            obj, positions = import_mesh(options, holomorph, mesh_io)
-        except holomorph.Error as error:
-            raise UsageError(str(error)) from error
-        objects = [obj]
-        targets = [run.with_positions(target, positions) for target in run.collect(objects, asked)]
-    job = jobs.Job(run.tasks(targets))
-    job.run()
-    outcome = run.write(
-        bpy.context,
-        targets,
-        run.align(targets, job.results),
-        maps.MapOptions(options.forms, options.density, options.rotation * Z_UP_FROM_Y_UP / 90, margin=options.margin),
-        run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams, options.shape),
-    )
-    levels = add_levels(options, load, outcome)
+    outcome = make_maps(options, collect(options, native.load()))
+    levels = add_levels(options, outcome)
     content = report.run_report(outcome.entries)
     content["seconds"] = time.perf_counter() - start
     if options.report is not None:
@@ -205,11 +223,7 @@ def process(options):
         path = str(options.output.resolve())
         bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
     if options.render is not None:
-        studio = load(f"{PACKAGE}.studio")
-        shown = [o for o in objects if o.name in outcome.done] + levels
-        studio.render(shown, str(options.render.resolve()), options.resolution, options.samples)
-        if not options.render.is_file():
-            raise UsageError(f"{options.render}: the picture could not be written")
+        render(options, [bpy.data.objects[name] for name in outcome.done] + levels)
     return outcome.problems + outcome.notes
 
 

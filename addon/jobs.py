@@ -7,13 +7,13 @@ from . import cache, native, solve
 
 
 class Work:
-    """What runs in a worker thread and can be asked to stop: after `cancel()` the thread ends at the library's next
-    question, and nothing more is solved or kept. A kind of work defines `run`."""
+    """What runs in a worker thread and can be cancelled: after `cancel()` the thread ends at the library's next call of
+    `ask`, and nothing more is solved or cached. Subclasses define `run`."""
 
     def __init__(self, progress=None):
         self.fraction = 0.0
         self.stage = ""
-        self.failure = None  # anything but holomorph.Error is our bug: raised again in the main thread
+        self.failure = None  # anything but holomorph.Error is a bug of ours
         self._progress = progress
         self._cancelled = threading.Event()
         self._thread = threading.Thread(target=self._guarded_run, name="holomorph")
@@ -37,11 +37,11 @@ class Work:
     def _guarded_run(self):
         try:
             self.run()
-        except BaseException as error:  # noqa: BLE001  carried to the main thread, not swallowed
+        except BaseException as error:  # noqa: BLE001  raised again by `wait` in the main thread
             self.failure = error
 
     def ask(self, fraction, stage):
-        """The library's question: how far it is, and whether to go on."""
+        """The library's progress callback: takes the fraction that is done, returns whether to go on."""
         self.fraction = fraction
         self.stage = stage
         if self._progress is not None:
@@ -50,7 +50,7 @@ class Work:
 
 
 def solved(task, ask):
-    """The kept solve of a `solve.Task`, or a new one, which is kept. Raises `holomorph.Error`."""
+    """The cached solve of a `solve.Task`, or a new one, which is cached. Raises `holomorph.Error`."""
     found = cache.find(task)
     if found is None:
         found = solve.solve(task, ask)

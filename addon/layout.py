@@ -2,8 +2,8 @@
 """The parts of an object side by side in the UV square: rectangles on shelves. Arrays only, no bpy.
 
 Shelf packing: rectangles by falling height, from left to right, a new row where the width is used up; the height of a
-row is that of its first. Of a fixed set of widths the one that fits the smallest square is taken. Nothing is turned,
-for loops that lie straight are to stay horizontal. Same sizes, same layout: ties go by index.
+row is that of its first. Of a fixed set of widths the one that fits the smallest square is taken. Nothing is rotated,
+so that straight boundaries stay horizontal. Same sizes, same layout: ties go by index.
 """
 
 import math
@@ -11,8 +11,8 @@ import math
 import numpy as np
 
 WIDTHS = 24  # tried, from the square of the total area upwards
-WIDEST = 2.0  # of these, in sides of that square
-MOST_GAP = 0.3  # of the side, all gaps beside each other: many parts get less than the margin asked for
+WIDEST = 2.0  # the largest of these widths, in sides of that square
+MOST_GAP = 0.3  # share of the side for all gaps of a row: with many parts the margin is less than the given one
 GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each round leaves a few per cent of the error
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The work of levels of detail, on arrays: no bpy in here, for it runs in a worker thread."""
+"""Levels of detail as arrays. No bpy here: it runs in a worker thread."""
 
 from dataclasses import dataclass, field
 
@@ -7,8 +7,8 @@ import numpy as np
 
 from . import jobs, maps, native
 
-SOLVE_PART = 0.5  # of the whole work, where a map has to be made first
-COLLAPSE_PART = 0.8  # of the rest; carrying the maps is the end
+SOLVE_PART = 0.5  # share of the whole work, where a map has to be made first
+COLLAPSE_PART = 0.8  # share of the rest; then the maps are transferred
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class LevelOptions:
 
 @dataclass(frozen=True)
 class Level:
-    """One level, its maps, and where the original's vertices went."""
+    """One level, its maps, and its vertex for each of the original's."""
 
     surface: object  # vertex_index and face_index into the original
     corners: np.ndarray  # (#C,) corner of the original whose data each corner has
@@ -42,11 +42,11 @@ class LevelsWork(jobs.Work):
     """Makes the levels of one mesh; a map of its own first where there is none.
 
     After `run`, `levels` has one entry for each level, finest first, each coarser than the one before; `names` are
-    those of their maps; `solved` is the solve that was needed. Or `error` is what the library refused.
+    those of their maps; `solved` is the solve that was needed. Or `error` is one of `native.refusals`.
     """
 
     task: object  # solve.Task
-    names: list  # of the maps that are carried
+    names: list  # names of the maps that are transferred
     uv: np.ndarray  # (#C, m, 2), in the order of the polygons' corners
     needs_map: bool
     options: LevelOptions
@@ -61,7 +61,7 @@ class LevelsWork(jobs.Work):
     def run(self):
         try:
             self._run()
-        except native.load().Error as error:
+        except native.refusals() as error:
             self.error = error
 
     def _run(self):

@@ -16,7 +16,7 @@ from .mesh_io import MAIN_MAP
 
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
-CENTRE = 0.5 + 0.5j  # of the UV square
+CENTRE = 0.5 + 0.5j  # the middle of the UV square
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class MapOptions:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a part comes to lie: it is multiplied by `factor`, `origin` goes to `target`."""
+    """Position of a part in the UV square: it is multiplied by `factor`, `origin` is moved to `target`."""
 
     factor: complex
     origin: complex
@@ -56,7 +56,7 @@ def map_values(solved, options):
         raw = [_raw(part, index, options) for part in parts]
         for part, uv, place in zip(parts, raw, _places(parts, index, options, raw)):
             if index == 0:
-                main_quality(part, options, uv)
+                main_map(part, options, uv)
             # The two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary.
             rows = None if part.surface is solved.surface else part.surface.corner_index
             write(uv, place.factor, place.origin, place.target, placed, rows)
@@ -95,7 +95,7 @@ def _parts(solved, index):
 def coefficients(component, index, options):
     """The balanced combination with its dials for index 0, else the unit of form `index`.
 
-    Real where the balanced ones are: a turned share would bend the boundaries that are straight.
+    Real where the balanced ones are: a complex factor would bend the straight boundaries.
     """
     balanced = np.asarray(component.balanced)
     if index > 0:
@@ -115,7 +115,7 @@ def _raw(component, index, options):
 
 
 def _frame(component, index, options, uv=None):
-    """The frame of a map of one part, turned but not scaled; kept."""
+    """The frame of a map of one part, rotated but not scaled; cached."""
     dials = (options.amounts, options.turns) if index == 0 else ()
     key = (index, options.rotation, dials)
     if key not in component.frames:
@@ -143,28 +143,22 @@ def _places(parts, index, options, raw=None):
 
 
 @dataclass(frozen=True)
-class MainQuality:
-    """Distortion of the main map; scale and rotation do not matter."""
+class MainMap:
+    """What is cached of the main map; scale and rotation do not matter."""
 
-    mean_angle: float
-    density_ratio: float
-    flipped: int  # triangles
+    report: dict  # `holomorph.report.map_report`
     length_ratio: float  # UV length per length on the surface, the median by area, as the library gives the map
 
 
-def main_quality(component, options, uv=None):
-    """The quality of the main map, kept for each setting of its dials."""
+def main_map(component, options, uv=None):
+    """The `MainMap` of a component, cached for each setting of its dials."""
     dials = (options.amounts, options.turns)
-    if dials not in component.qualities:
+    if dials not in component.main_maps:
         uv = _raw(component, 0, options) if uv is None else uv
         quality = component.structure.quality(uv)
-        component.qualities[dials] = MainQuality(
-            float(quality.mean_angle),
-            float(quality.density_ratio),
-            int(np.count_nonzero(quality.flipped)),
-            math.sqrt(quality.median_density),
-        )
-    return component.qualities[dials]
+        report = native.load().report.map_report(coefficients(component, 0, options), quality)
+        component.main_maps[dials] = MainMap(report, math.sqrt(quality.median_density))
+    return component.main_maps[dials]
 
 
 def squares_that_fit(solved, options):
@@ -172,10 +166,10 @@ def squares_that_fit(solved, options):
     sizes = [_diagonal(c.surface.vertices) for c in solved.done]
     largest = int(np.argmax(sizes))
     part, place = solved.done[largest], _places(solved.done, 0, options)[largest]
-    density = abs(place.factor) * main_quality(part, options).length_ratio * sizes[largest]
+    density = abs(place.factor) * main_map(part, options).length_ratio * sizes[largest]
     return min(max(2 * round(SQUARES_ACROSS / density / 2), 2), SQUARES_LIMIT) if density > 0 else SQUARES_ACROSS
 
 
 def _diagonal(points):
-    """Of the bounding box; column by column, which NumPy does much faster than all three at once."""
+    """The bounding box's diagonal; NumPy finds ranges of single columns much faster than of all at once."""
     return math.hypot(*(float(np.ptp(column)) for column in points.T))

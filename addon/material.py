@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The checker: a material that shows a map, put over the artist's materials without touching them.
+"""The checker: a material that shows a map, put over the mesh's own materials without touching them.
 
 The material slots are linked to the object while the checker is shown, so the mesh keeps its own materials
 and `remove_checker` brings them back. One value node scales both patterns: the procedural checker
@@ -30,7 +30,7 @@ def checker_material(map_name, is_attribute, scale):
         material[OURS] = True
         _build_nodes(material, map_name, is_attribute)
     nodes = material.node_tree.nodes
-    if all(n in nodes for n in (SCALE_NODE, IMAGE_NODE, SQUARES_NODE)):  # else an artist has rebuilt them
+    if all(n in nodes for n in (SCALE_NODE, IMAGE_NODE, SQUARES_NODE)):  # else the user has rebuilt them
         nodes[SCALE_NODE].outputs[0].default_value = scale
         nodes[IMAGE_NODE].image = _checker_image(material.name, scale)
         nodes[SQUARES_NODE].inputs[1].default_value = nodes[IMAGE_NODE].image[OURS]

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Between Blender's meshes and arrays: the only room that calls foreach_get and foreach_set.
+"""Between Blender's meshes and arrays: the only module that calls foreach_get and foreach_set.
 
 Positions and UVs are double precision on our side and float32 on Blender's. Corners are in the order of
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
 """
 
-import ctypes
 import re
 from dataclasses import dataclass
 
@@ -14,6 +13,7 @@ import bpy
 import numpy as np
 
 from . import compatibility
+from .compatibility import Values
 
 MAIN_MAP = "Holomorphic"
 SHAPE = "Holomorphic Shape"  # vector attribute of vertices
@@ -44,57 +44,37 @@ class Polygons:
         return all(np.array_equal(a, b) for a, b in pairs)
 
 
-def _get(values, width, dtype):
-    collection, name = values
-    array = np.empty(len(collection) * width, dtype)
-    collection.foreach_get(name, array)
-    return array
-
-
-def _integers(values, column):
-    """(n,) int32. From records, `foreach_get` takes ten times as long as a copy of their column: that is made where the
-    addresses of the elements say that they are records, and the values at both ends agree."""
-    elements, width, place = column
-    count = len(elements)
-    if compatibility.keeps_records() and count > 1:
-        ends = (0, 1, count - 1)
-        first, second, last = (elements[i].as_pointer() for i in ends)
-        size = width * ctypes.sizeof(ctypes.c_int32)
-        if (second - first, last - first) == (size, (count - 1) * size):
-            records = np.ctypeslib.as_array((ctypes.c_int32 * (width * count)).from_address(first))
-            array = records[place::width].copy()
-            if all(array[i] == getattr(elements[i], values[1]) for i in ends):
-                return array
-    return _get(values, 1, np.int32)
-
-
-def read_values(values, width, dtype):
-    """(n,) or, for a width above 1, (n, width) values; `values` is a collection and the name of a property."""
-    array = _get(values, width, dtype)
-    return array if width == 1 else array.reshape(-1, width)
+def read_values(values):
+    """(n,) or, for a width above 1, (n, width) array of `compatibility.Values`."""
+    array = np.empty(len(values.elements) * values.width, values.dtype)
+    values.elements.foreach_get(values.name, array)
+    return array if values.width == 1 else array.reshape(-1, values.width)
 
 
 def write_values(values, array):
-    """The reverse of `read_values`; `array` has the type of the property, or it is slow."""
-    collection, name = values
-    collection.foreach_set(name, np.ascontiguousarray(array).ravel())
+    """The reverse of `read_values`."""
+    values.elements.foreach_set(values.name, np.ascontiguousarray(array, values.dtype).ravel())
+
+
+def _read_indices(values):
+    """Vertices, loops or lengths as int32, which they fit: Blender has at most 2^31 of each."""
+    return read_values(values).view(np.int32)
 
 
 def read_polygons(mesh, linear):
     """Copies the polygons out of `mesh`, positions multiplied by the 3x3 matrix `linear`.
 
-    The object's rotation and translation do not change angles, its scale and shear do. Nothing is checked
-    here: Blender's own ``validate`` would repair the artist's mesh, so the library judges the arrays.
+    The object's rotation and translation do not change angles, its scale and shear do. The library
+    checks the arrays: Blender's own ``validate`` would change the mesh.
     """
-    positions = _get(compatibility.position_values(mesh), 3, np.float32).reshape(-1, 3)
+    positions = read_values(compatibility.position_values(mesh))
     vertices, linear = positions.astype(np.float64), np.asarray(linear, np.float64)
     if not np.array_equal(linear, np.eye(3)):
-        with np.errstate(all="ignore"):  # a NaN is the library's to name
+        with np.errstate(all="ignore"):  # the library names the vertex of a NaN
             vertices = vertices @ linear.T
-    corner_vertices = _integers(compatibility.corner_vertex_values(mesh), compatibility.corner_vertex_column(mesh))
-    start_column, size_column = compatibility.polygon_columns(mesh)
-    starts = _integers((mesh.polygons, "loop_start"), start_column)
-    sizes = _integers((mesh.polygons, "loop_total"), size_column)
+    corner_vertices = _read_indices(compatibility.corner_vertex_values(mesh))
+    starts = _read_indices(Values(mesh.polygons, "loop_start", np.uint32))
+    sizes = _read_indices(Values(mesh.polygons, "loop_total", np.uint32))
     offsets = np.zeros(len(starts) + 1, np.int32)
     np.cumsum(sizes, out=offsets[1:])
     loops = None
@@ -127,34 +107,36 @@ def remove_maps(mesh):
 
 def write_map(mesh, polygons, name, uv):
     """Writes (#C,2) float32 `uv` as a new UV map, or as a corner attribute when all slots are taken."""
-    values = np.ascontiguousarray(uv, np.float32)
     if polygons.loops is not None:
         scattered = np.zeros((len(mesh.loops), 2), np.float32)
-        scattered[polygons.loops] = values
-        values = scattered
+        scattered[polygons.loops] = uv
+        uv = scattered
     # References to layers do not survive the next `new`: look up by name, keep nothing.
     if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:
         layer = mesh.uv_layers.new(name=name, do_init=False)
-        collection, prop = compatibility.uv_values(layer)
-        collection.foreach_set(prop, values.ravel())
+        write_values(compatibility.uv_values(layer), uv)
         return WrittenMap(layer.name, "uv_map")
     attribute = mesh.attributes.new(name, "FLOAT2", "CORNER")
-    attribute.data.foreach_set("vector", values.ravel())
+    write_values(_attribute_vectors(attribute, 2), uv)
     return WrittenMap(attribute.name, "attribute")
 
 
 def write_shape(mesh, points):
     """Writes (#V,3) points as a vector attribute of the vertices."""
     attribute = mesh.attributes.new(SHAPE, "FLOAT_VECTOR", "POINT")
-    attribute.data.foreach_set("vector", np.ascontiguousarray(points, np.float32).ravel())
+    write_values(_attribute_vectors(attribute, 3), points)
+
+
+def _attribute_vectors(attribute, width):
+    return Values(attribute.data, "vector", np.float32, width)
 
 
 def read_map(mesh, name):
     """(#loops,2) float32 of a UV map or corner attribute."""
     layer = mesh.uv_layers.get(name)
     if layer is not None:
-        return _get(compatibility.uv_values(layer), 2, np.float32).reshape(-1, 2)
-    return _get((mesh.attributes[name].data, "vector"), 2, np.float32).reshape(-1, 2)
+        return read_values(compatibility.uv_values(layer))
+    return read_values(_attribute_vectors(mesh.attributes[name], 2))
 
 
 def show_map(mesh, name):
@@ -167,11 +149,15 @@ def show_map(mesh, name):
 
 def read_seams(mesh):
     """(#mesh edges,) bool."""
-    return _get((mesh.edges, "use_seam"), 1, bool)
+    return read_values(_marks(mesh, "use_seam"))
 
 
 def _edge_vertices(mesh):
-    return _get(compatibility.edge_vertex_values(mesh), 2, np.int32).reshape(-1, 2)
+    return _read_indices(compatibility.edge_vertex_values(mesh))
+
+
+def _marks(mesh, mark):
+    return Values(mesh.edges, mark, bool)
 
 
 def seam_vertices(mesh):
@@ -181,7 +167,7 @@ def seam_vertices(mesh):
 
 def selected_vertices(mesh):
     """(n,) selected vertices: in edit mode in the order in which they were picked, as far as Blender remembers it."""
-    selected = np.flatnonzero(_get((mesh.vertices, "select"), 1, bool))
+    selected = np.flatnonzero(read_values(Values(mesh.vertices, "select", bool)))
     if not mesh.is_editmode:
         return selected
     history = bmesh.from_edit_mesh(mesh).select_history
@@ -196,12 +182,12 @@ def are_neighbours(mesh, vertices):
 
 def marked_edges(mesh, mark):
     """(n, 2) vertices of the edges with this mark, "use_seam" or "use_edge_sharp"."""
-    return _edge_vertices(mesh)[_get((mesh.edges, mark), 1, bool)].astype(np.int64)
+    return _edge_vertices(mesh)[read_values(_marks(mesh, mark))].astype(np.int64)
 
 
 def mark_edges(mesh, mark, vertex_pairs):
     """Gives the edges between these (n, 2) vertices the mark, and no other edge."""
-    mesh.edges.foreach_set(mark, _edges_between(mesh, vertex_pairs))
+    write_values(_marks(mesh, mark), _edges_between(mesh, vertex_pairs))
 
 
 def _edges_between(mesh, vertex_pairs):
@@ -216,35 +202,33 @@ def add_seams(mesh, vertex_pairs):
     """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
     wanted = _edges_between(mesh, vertex_pairs)
     before = read_seams(mesh)
-    mesh.edges.foreach_set("use_seam", before | wanted)
+    write_values(_marks(mesh, "use_seam"), before | wanted)
     return int(np.count_nonzero(wanted & ~before))
 
 
 def new_mesh(name, vertices, corner_vertices, face_offsets):
     """A Blender mesh of these polygons, vertices and corners in their order."""
     mesh = bpy.data.meshes.new(name)
-    corners = np.ascontiguousarray(corner_vertices, np.int32)
-    offsets = np.ascontiguousarray(face_offsets, np.int32)
     mesh.vertices.add(len(vertices))
-    mesh.vertices.foreach_set("co", np.ascontiguousarray(vertices, np.float32).ravel())
-    mesh.loops.add(len(corners))
-    mesh.loops.foreach_set("vertex_index", corners)
-    mesh.polygons.add(len(offsets) - 1)
-    mesh.polygons.foreach_set("loop_start", offsets[:-1].copy())
-    mesh.polygons.foreach_set("loop_total", np.diff(offsets))  # needed before 4.1, accepted after
+    write_values(compatibility.position_values(mesh), vertices)
+    mesh.loops.add(len(corner_vertices))
+    write_values(Values(mesh.loops, "vertex_index", np.uint32), corner_vertices)
+    mesh.polygons.add(len(face_offsets) - 1)
+    write_values(Values(mesh.polygons, "loop_start", np.uint32), face_offsets[:-1])
+    write_values(Values(mesh.polygons, "loop_total", np.uint32), np.diff(face_offsets))  # needed before 4.1
     mesh.update(calc_edges=True)
     return mesh
 
 
 def shade_smooth(mesh, sharp_angle):
     """Smooth shading, edges sharper than `sharp_angle` (radians) excepted."""
-    mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
+    write_values(Values(mesh.polygons, "use_smooth", bool), np.ones(len(mesh.polygons), bool))
     compatibility.keep_sharp_edges(mesh, sharp_angle)
     mesh.update()
 
 
 def world_points(obj):
     """(#V,3) float64 positions of an object's mesh in the world."""
-    positions = _get(compatibility.position_values(obj.data), 3, np.float32).reshape(-1, 3)
+    positions = read_values(compatibility.position_values(obj.data))
     matrix = np.array(obj.matrix_world, np.float64)
     return positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]

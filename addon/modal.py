@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators have in common whose work runs in a worker thread while Blender's window stays alive."""
+"""Operators whose work runs in a worker thread while Blender's window stays alive."""
 
 import bpy
+
+from . import native
 
 MODAL_FACES = 20_000  # below, the work is too short to be worth a progress display
 TIMER_SECONDS = 0.05
@@ -10,14 +12,28 @@ TIMER_SECONDS = 0.05
 class WorkOperator:
     """A mixin for operators. One of them defines
 
+    why_not(context) : class method; why it cannot run here, one sentence, or ""
+    draw_options(layout) : its options in the redo panel
     prepare(context) : reads what the work needs, returns whether there is work
     make_work(progress) : a `jobs.Work` of what was read
-    waiting_faces() : how many polygons are waited for
+    waiting_faces() : how many polygons there are to solve
     finish(context, work, time_has_passed) : writes the results; the set that an operator returns
     """
 
+    @classmethod
+    def poll(cls, context):
+        sentence = native.problem() or cls.why_not(context)
+        if sentence:
+            cls.poll_message_set(sentence)
+        return not sentence
+
+    def draw(self, _context):
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        self.draw_options(self.layout)
+
     def execute(self, context):
-        """Works here and now: for scripts, small meshes, and the redo panel (where solves are kept)."""
+        """Works here and now: for scripts, small meshes, and the redo panel (where solves are cached)."""
         if not self.prepare(context):
             return {"CANCELLED"}
         return self._work_here(context)
@@ -36,7 +52,7 @@ class WorkOperator:
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        """Every event but ESC is held back until the worker is done, so the meshes stay as they were read."""
+        """Consumes every event but ESC until the worker is done, so the meshes stay as they were read."""
         if event.type == "ESC":
             self.cancel(context)
             self.report({"INFO"}, "Cancelled: nothing was changed")
@@ -53,8 +69,8 @@ class WorkOperator:
     def cancel(self, context):
         """ESC, or another file is loaded, or the program ends in the middle of the work.
 
-        The worker is not waited for: it may be inside a factorisation, which is not interrupted. It has nothing
-        of Blender's in its hands, and ends by itself at the library's next question.
+        The worker is not waited for: it may be inside a factorisation, which is not interrupted. It uses nothing
+        of Blender's, and ends by itself at the library's next progress call.
         """
         self._work.cancel()
         self._end_modal(context)

@@ -17,7 +17,7 @@ NAME = "holomorph"
 
 
 class NativeMissing(Exception):
-    """The native part cannot be used; the text is one sentence for the artist."""
+    """The native part cannot be used; the text is one sentence for the user."""
 
 
 def python_tag():
@@ -85,9 +85,9 @@ def problem():
 
 def load():
     """The module ``holomorph``; raises `NativeMissing`."""
-    module, sentence = _load()
+    module, reason = _load()
     if module is None:
-        raise NativeMissing(sentence)
+        raise NativeMissing(reason)
     return module
 
 
@@ -97,5 +97,10 @@ def forget():
 
 
 def refusals():
-    """The exceptions with which a mesh is refused; their sentences are for artists."""
+    """The exceptions with which a mesh is refused; their sentences are for the user."""
     return load().Error, MemoryError
+
+
+def sentence(error):
+    """What an exception says, on one line."""
+    return " ".join(str(error).split()) or type(error).__name__

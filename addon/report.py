@@ -3,10 +3,8 @@
 
 import functools
 import json
-import math
 
 import bpy
-import numpy as np
 
 from . import maps, native
 
@@ -15,46 +13,11 @@ SUMMARISED = 8  # parts that the panel shows
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
 MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
 COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
-LISTED = 20  # elements of a repair that the report names
 TEXT = "Holomorphic Report"
 
 
-def component_report(component, options):
-    """One connected part: topology, and either why it was skipped or what was computed."""
-    surface = component.surface
-    entry = {
-        "faces": len(surface.face_index),
-        "vertices": len(surface.vertex_index),
-        "genus": surface.genus,
-        "boundary_count": surface.boundary_count,
-        "done": component.structure is not None,
-    }
-    if component.note:
-        entry["not_followed"] = component.note
-    if component.structure is None:
-        return {**entry, "skipped": component.reason}
-    structure = component.structure
-    quality = maps.main_quality(component, options)
-    return {
-        **entry,
-        "description": structure.description,
-        "forms": component.form_count,
-        **structure.invariants(),
-        "residuals": structure.residuals,
-        "solver": structure.solver,
-        "timings": structure.timings,
-        "seam_edges": len(structure.seams),
-        "balanced_coefficients": component.balanced,
-        "main_map": {
-            "mean_angle": quality.mean_angle,
-            "density_ratio": quality.density_ratio,
-            "flipped": quality.flipped,
-        },
-    }
-
-
 def object_report(obj, solved, written, new_seams, options):
-    """One object: its maps as written and its components."""
+    """One object: its maps as written and the package's report of each component."""
     return {
         "object": obj.name,
         "mesh": obj.data.name,
@@ -62,11 +25,23 @@ def object_report(obj, solved, written, new_seams, options):
         "faces": len(solved.surface.face_offsets) - 1,
         "done": bool(solved.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
+        "dials": vars(options),
         "seams_added": new_seams,
-        "repairs": _repairs(solved.surface.repairs),
+        "repairs": native.load().report.repairs_report(solved.surface.repairs),
         "seconds": solved.seconds,
-        "components": [component_report(c, options) for c in solved.components],
+        "components": [_component_report(c, options) for c in solved.components],
     }
+
+
+def _component_report(component, options):
+    """The package's report of one component, and the choice that was not followed on it."""
+    package = native.load().report
+    if component.structure is None:
+        entry = package.skipped_report(component.surface, component.reason)
+    else:
+        main_map = maps.main_map(component, options).report
+        entry = package.component_report(component.surface, component.structure, main_map)
+    return entry | ({"not_followed": component.note} if component.note else {})
 
 
 def refusal_report(name, sentence):
@@ -75,8 +50,8 @@ def refusal_report(name, sentence):
 
 
 def as_json(value, indent=None):
-    """Standard JSON of NumPy arrays, dataclasses and numbers; what is not finite becomes null."""
-    return json.dumps(_plain(value), indent=indent, allow_nan=False)
+    """Standard JSON of a report."""
+    return json.dumps(value, indent=indent, allow_nan=False)
 
 
 def store_on_object(obj, entry):
@@ -139,40 +114,3 @@ def _result_lines(part):
     if part["genus"] == 1 and part["boundary_count"] == 0 and "period_matrix" in part:
         real, imaginary = part["period_matrix"][0][0]
         yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"
-
-
-def _repairs(repairs):
-    """Of long lists of elements the length and the beginning."""
-    return {
-        name: value if np.ndim(value) == 0 else {"count": len(value), "first": value[:LISTED]}
-        for name, value in vars(repairs).items()
-    }
-
-
-def _plain(value):
-    if isinstance(value, np.ndarray) and np.iscomplexobj(value):
-        return {"real": _plain(value.real), "imag": _plain(value.imag)}
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist())
-    if isinstance(value, dict):
-        return {str(k): _plain(v) for k, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(v) for v in value]
-    if isinstance(value, np.generic):
-        return _plain(value.item())
-    if isinstance(value, complex):
-        return {"real": _plain(value.real), "imag": _plain(value.imag)}
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if value is None or isinstance(value, (str, int)):
-        return value
-    return {k: _plain(getattr(value, k)) for k in _public_names(value)}
-
-
-def _public_names(value):
-    """The fields of a result object that is not a plain container."""
-    if hasattr(value, "__dataclass_fields__"):
-        return [k for k in value.__dataclass_fields__ if not k.startswith("_")]
-    if hasattr(value, "_fields"):
-        return value._fields
-    return [k for k in vars(value) if not k.startswith("_")]

@@ -36,16 +36,16 @@ class SolvedComponent:
     reason: str = ""
     note: str = ""  # which choice was not followed, and why
     frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
-    qualities: dict = field(default_factory=dict, compare=False)  # of main maps, by their dials
+    main_maps: dict = field(default_factory=dict, compare=False)  # `maps.MainMap` by dials
 
     @property
     def form_count(self):
-        """How many forms an artist can mix."""
+        """How many forms there are to mix."""
         return 0 if self.balanced is None else len(self.balanced)
 
     @property
     def area(self):
-        """Of the surface."""
+        """The area of the component's surface."""
         return self.surface.area
 
 
@@ -69,7 +69,7 @@ class SolvedObject:
 
     @property
     def size(self):
-        """About how many doubles the kept structures hold: the harmonic forms and the potentials."""
+        """About how many doubles the structures hold: the harmonic forms and the potentials."""
         return sum((4 * c.form_count + 4) * len(c.structure.edges) for c in self.done)
 
 
@@ -77,7 +77,7 @@ def solve(task, progress=None):
     """The conformal structure of every component.
 
     progress(fraction, stage) returning False cancels. Raises `holomorph.Error` for a mesh that cannot be treated as a
-    whole, and where an express choice of vertices does not fit the part they lie on.
+    whole, and where an explicit choice of vertices does not fit the part they lie on.
     """
     holomorph = native.load()
     start = time.perf_counter()
@@ -115,7 +115,7 @@ def _solve_component(holomorph, surface, part, chosen, progress):
     try:
         return _make(holomorph, surface, part, last, note, progress)
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
-        if choices.are_express(last, chosen):
+        if choices.are_explicit(last, chosen):
             raise
         return SolvedComponent(part, None, None, reason=str(error), note=note)
 
@@ -123,10 +123,10 @@ def _solve_component(holomorph, surface, part, chosen, progress):
 def _make(holomorph, surface, part, keywords, note, progress):
     target = part
     if choices.name_vertices(keywords):
-        # The part's faces with all of the mesh's vertices: then the library speaks of them by the artist's numbers.
+        # The part's faces with all of the mesh's vertices: then the library names vertices by the mesh's indices.
         corners = part.vertex_index[part.corner_vertices]
         target = holomorph.Surface.from_polygons(surface.vertices, corners, part.face_offsets)
     structure = holomorph.conformal_structure(target, progress=_scaled(progress, 0.0, UV_START), **keywords)
     structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
-    structure = replace(structure, surface=surface)  # likewise in its results
+    structure = replace(structure, surface=surface)  # so do its results
     return SolvedComponent(part, structure, structure.balanced_coefficients(), note=note)

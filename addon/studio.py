@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture of objects in a photo studio: their own scene, so that the artist's is left as it is."""
+"""A picture of objects in a photo studio: in a scene of its own, so that the user's stays as it is."""
 
 import bpy
 import numpy as np
@@ -11,7 +11,7 @@ VIEW = Vector((0.62, -1.0, 0.55))  # from the object towards the camera: three q
 LENS = 70.0  # millimetres, on a 36 mm sensor
 MARGIN = 1.12  # how much wider than the object the picture is
 BACKGROUND = (0.80, 0.81, 0.82)  # linear RGB
-FLOOR_GAP = 1e-3  # of the size: the floor does not cut into the object
+FLOOR_GAP = 1e-3  # share of the object's size: the floor does not intersect the object
 
 
 def render(objects, path, resolution, samples):
@@ -44,7 +44,7 @@ def _camera(scene, points):
     """The nearest camera on the line of sight that sees every point, framed tightly.
 
     With t the tangent of half the angle, a point (x, y, z) of camera axes is seen from (cx, cy, d) if
-    |x - cx| <= t (d - z), likewise y. For x this is cx >= max(x + t z) - t d and cx <= t d - max(-x + t z),
+    |x - cx| <= t (d - z), and for y. For x this is cx >= max(x + t z) - t d and cx <= t d - max(-x + t z),
     so d >= (max(x + t z) + max(-x + t z)) / (2 t), and cx is then in the middle.
     """
     data = bpy.data.cameras.new("Studio")

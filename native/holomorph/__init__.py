@@ -12,6 +12,7 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
+from . import report
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
@@ -21,7 +22,7 @@ from .levels import LevelOfDetail
 from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
-from .results import MemoryPlan, Quality, Residuals, SolverReport
+from .results import SOLVERS, MemoryPlan, Quality, Residuals, SolverReport
 from .structure import conformal_structure
 from .surface import Repairs, Surface
 
@@ -41,6 +42,7 @@ __all__ = [
     "RectangleMap",
     "Repairs",
     "Residuals",
+    "SOLVERS",
     "SolverError",
     "SolverReport",
     "Surface",
@@ -51,4 +53,5 @@ __all__ = [
     "double_cover",
     "frame",
     "place",
+    "report",
 ]

@@ -5,16 +5,16 @@ import json
 import sys
 
 from . import Error, Surface, __version__, conformal_structure
-from .report import component_report, skipped_report
-from .results import SOLVERS
+from .report import component_report, repairs_report, skipped_report
+from .results import SOLVERS, check_options
 
 
 def main(arguments=None):
-    """Computes every closed component of genus >= 1; exit 0 if some component was done, else 1 with one sentence."""
+    """Computes every component; exit 0 if some component was done, else 1 with one sentence."""
     parser = argparse.ArgumentParser(prog="python -m holomorph", description="Conformal structure of a mesh file.")
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")
-    parser.add_argument("--solver", choices=SOLVERS, default="auto", help="as in holomorph.conformal_structure")
+    parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
     parser.add_argument("--version", action="version", version=__version__)
     options = parser.parse_args(arguments)
@@ -37,24 +37,19 @@ def main(arguments=None):
 
 def mesh_report(path, threads=None, solver="auto"):
     """The report of all components of a mesh file, as plain data."""
+    check_options(solver, threads)
     surface = Surface.read(path)
     parts = []
     for part in surface.components:
         try:
-            parts.append(component_report(conformal_structure(part, solver=solver, threads=threads)))
+            parts.append(component_report(part, conformal_structure(part, solver=solver, threads=threads)))
         except Error as error:
             parts.append(skipped_report(part, error))
-    repairs = surface.repairs
     return {
         "holomorph": __version__,
         "mesh": str(path),
         "faces": len(surface.face_offsets) - 1,
-        "repairs": {
-            "reversed_faces": len(repairs.reversed_faces),
-            "zero_area_faces": len(repairs.zero_area_faces),
-            "isolated_vertices": len(repairs.isolated_vertices),
-            "mollification": repairs.mollification,
-        },
+        "repairs": repairs_report(surface.repairs),
         "components": parts,
     }
 

@@ -1,8 +1,10 @@
-"""Reports as plain data, ready for JSON. Complex numbers are pairs [real, imaginary]."""
+"""Reports as plain data, ready for JSON. Complex numbers are pairs [real, imaginary]; JSON knows no infinity."""
 
 import math
 
 import numpy as np
+
+LISTED = 20  # elements of a repair that a report names
 
 
 def complex_pairs(matrix):
@@ -12,42 +14,80 @@ def complex_pairs(matrix):
 
 
 def finite_or_none(number):
-    """None where a quality is infinite, because some UV triangle has collapsed: JSON knows no infinity."""
+    """None for an infinite number."""
     return number if math.isfinite(number) else None
 
 
-def component_report(structure):
-    """What is known about one component, with the quality of its balanced map."""
-    coefficients = structure.balanced_coefficients()
-    quality = structure.quality(structure.uv(coefficients))
-    surface = structure.surface
-    return {
-        "done": True,
-        "faces": len(surface.face_offsets) - 1,
-        "genus": surface.genus,
-        "boundary_count": surface.boundary_count,
-        "description": structure.description,
-        **structure.invariants(),
-        "residuals": vars(structure.residuals) | {"solver": structure.solver.residual},
-        "solver": vars(structure.solver),
-        "timings": structure.timings,
-        "intrinsic_flips": structure.flip_count,
-        "balanced": {
-            "coefficients": complex_pairs(coefficients) if np.iscomplexobj(coefficients) else coefficients.tolist(),
-            "mean_angle": finite_or_none(quality.mean_angle),
-            "density_ratio": finite_or_none(quality.density_ratio),
-            "flipped_triangles": int(quality.flipped.sum()),
-            "collapsed_triangles": int(quality.collapsed.sum()),
-        },
-    }
+def plain(value):
+    """Dictionaries, sequences, arrays and numbers as JSON has them: None for what is not finite."""
+    if isinstance(value, dict):
+        return {str(name): plain(entry) for name, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(entry) for entry in value]
+    if isinstance(value, (np.ndarray, np.generic)):
+        return plain(value.tolist())
+    if isinstance(value, complex):
+        return [finite_or_none(value.real), finite_or_none(value.imag)]
+    return finite_or_none(value) if isinstance(value, float) else value
 
 
-def skipped_report(surface, error):
-    """Why a component was not done."""
+def component_report(surface, structure, main_map=None):
+    """What is known about the connected `surface` and its `structure`.
+
+    main_map : `map_report` of the map that is shown first; by default that of the balanced coefficients
+    """
+    if main_map is None:
+        coefficients = structure.balanced_coefficients()
+        main_map = map_report(coefficients, structure.quality(structure.uv(coefficients)))
+    return plain(
+        {
+            "done": True,
+            **_topology(surface),
+            "description": structure.description,
+            "forms": len(main_map["coefficients"]),
+            **structure.invariants(),
+            "residuals": vars(structure.residuals) | {"solver": structure.solver.residual},
+            "solver": vars(structure.solver),
+            "timings": structure.timings,
+            "intrinsic_flips": structure.flip_count,
+            "seam_edges": len(structure.seams),
+            "main_map": main_map,
+        }
+    )
+
+
+def skipped_report(surface, reason):
+    """Why the connected `surface` was not done."""
+    return {"done": False, **_topology(surface), "reason": str(reason)}
+
+
+def map_report(coefficients, quality):
+    """A UV map: its coefficients and its `Quality`."""
+    return plain(
+        {
+            "coefficients": coefficients,
+            "mean_angle": quality.mean_angle,
+            "density_ratio": quality.density_ratio,
+            "flipped_triangles": np.count_nonzero(quality.flipped),
+            "collapsed_triangles": np.count_nonzero(quality.collapsed),
+        }
+    )
+
+
+def repairs_report(repairs):
+    """`Repairs`, with the number and the first of the elements of each kind."""
+    return plain(
+        {
+            name: value if np.ndim(value) == 0 else {"count": len(value), "first": value[:LISTED]}
+            for name, value in vars(repairs).items()
+        }
+    )
+
+
+def _topology(surface):
     return {
-        "done": False,
-        "faces": len(surface.face_offsets) - 1,
+        "faces": len(surface.face_index),
+        "vertices": len(surface.vertex_index),
         "genus": surface.genus,
         "boundary_count": surface.boundary_count,
-        "reason": str(error),
     }

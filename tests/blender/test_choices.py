@@ -6,7 +6,7 @@ import pytest
 from conftest import module
 from scenes import mesh_io, mesh_object, pick, sphere_arrays, torus, torus_arrays
 
-choices, native = module("choices"), module("native")
+choices, native, targets = module("choices"), module("native"), module("targets")
 
 
 def grid_arrays(count=6):
@@ -57,8 +57,8 @@ def test_what_was_only_found_is_left_out_in_the_end():
     wanted = choices.attempts(part, found)
     assert [("punctures" in w, "cut_edges" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
     assert all(w["boundary"] == "natural" for w in wanted)  # a disk has no forms
-    express = choices.Choices(choices.PUNCTURES, (24,), seams=seams)
-    assert [("punctures" in w, "cut_edges" in w) for w in choices.attempts(part, express)] == [(1, 1), (1, 0)]
+    explicit = choices.Choices(choices.PUNCTURES, (24,), seams=seams)
+    assert [("punctures" in w, "cut_edges" in w) for w in choices.attempts(part, explicit)] == [(1, 1), (1, 0)]
     assert choices.attempts(part, choices.Choices(choices.NONE, (24,))) == [{"solver": "auto", "boundary": "natural"}]
 
 
@@ -101,8 +101,7 @@ def test_choices_that_change_nothing_have_one_key():
 
 
 def collected(obj, use):
-    run = module("run")
-    (target,) = run.collect([obj], run.Request(use=use))
+    (target,) = targets.collect([obj], targets.Request(use=use))
     return target.chosen.selected
 
 
@@ -129,7 +128,7 @@ def test_selected_edges_and_everything_selected_are_no_choice():
 def test_a_loose_vertex_cannot_be_chosen():
     vertices, faces = sphere_arrays()
     obj = mesh_object("Sphere", [*vertices, (3, 3, 3)], faces)
-    task = module("run").tasks(module("run").collect([obj], module("run").Request(choices.PUNCTURES, (0, 162))))[0]
+    (task,) = targets.tasks(targets.collect([obj], targets.Request(choices.PUNCTURES, (0, 162))))
     with pytest.raises(native.load().InvalidMesh, match="vertex 162 belongs to no face"):
         module("solve").solve(task)
 

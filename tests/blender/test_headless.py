@@ -136,6 +136,7 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
         ([], "mesh file"),
         (["missing.obj"], "no such file"),
         (["--bogus"], "bogus"),
+        (["ring.obj", "--solver", "guess"], "'guess' is none of auto"),
         (["ring.obj", "--density", "-1"], "density"),
         (["ring.obj", "--forms", "many"], "forms"),
         (["ring.obj", "--levels", "2", "--ratio", "1.5"], "ratio"),

@@ -146,7 +146,8 @@ def test_any_difference_makes_another_task():
 def test_opening_a_file_forgets_the_solves():
     obj = torus()
     run()
-    (task,) = module("run").tasks(module("run").collect([obj]))
+    targets = module("targets")
+    (task,) = targets.tasks(targets.collect([obj]))
     assert module("cache").find(task)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     assert module("cache").find(task) is None

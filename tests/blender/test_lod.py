@@ -19,6 +19,7 @@ from scenes import (
     uv,
 )
 
+Values = module("compatibility").Values
 FINE = {"around": 48, "across": 24}  # 2304 triangles
 
 
@@ -37,7 +38,7 @@ def triangle_counts(name):
 
 
 def positions(obj):
-    return mesh_io.read_values(module("compatibility").position_values(obj.data), 3, np.float32)
+    return mesh_io.read_values(module("compatibility").position_values(obj.data))
 
 
 def at_vertices(obj, name="Holomorphic"):
@@ -121,12 +122,11 @@ def test_every_vertex_keeps_its_uvs_and_every_edge_fits():
             assert difference <= forgiven
 
 
-def test_maps_with_dials_and_of_the_artist_are_carried_as_they_are():
+def test_maps_with_dials_and_of_the_artist_are_transferred_as_they_are():
     obj = torus(**FINE)
     artist = obj.data.uv_layers.new(name="Artist").name
     flat = positions(obj)[polygon_arrays(obj.data)[0]][:, :2]
-    collection, prop = module("compatibility").uv_values(obj.data.uv_layers[artist])
-    mesh_io.write_values((collection, prop), flat)
+    mesh_io.write_values(module("compatibility").uv_values(obj.data.uv_layers[artist]), flat)
     run(density=3.0, rotation=0.4)
     obj.data.uv_layers.active = obj.data.uv_layers[artist]
     fine = at_vertices(obj)
@@ -146,27 +146,27 @@ def test_materials_smoothness_marks_and_attributes_stay():
         mesh.materials.append(bpy.data.materials.new(name))
     x = positions(obj)[:, 0]
     of_face = (x[polygon_arrays(mesh)[0]].reshape(-1, 4).mean(axis=1) > 0).astype(np.int32)
-    mesh_io.write_values((mesh.polygons, "material_index"), of_face)
-    mesh_io.write_values((mesh.polygons, "use_smooth"), of_face == 1)
+    mesh_io.write_values(Values(mesh.polygons, "material_index", np.int32), of_face)
+    mesh_io.write_values(Values(mesh.polygons, "use_smooth", bool), of_face == 1)
     around = np.stack([np.arange(48) * 24, np.roll(np.arange(48) * 24, -1)], axis=1)  # the outer circle
     mesh_io.mark_edges(mesh, "use_edge_sharp", around)
     mesh.attributes.new("Height", "FLOAT", "POINT")
-    mesh_io.write_values((mesh.attributes["Height"].data, "value"), x)
+    mesh_io.write_values(Values(mesh.attributes["Height"].data, "value", np.float32), x)
     mesh.attributes.new("Paint", "FLOAT_COLOR", "CORNER")
     colours = np.repeat(x[polygon_arrays(mesh)[0]][:, None], 4, axis=1).astype(np.float32)
-    mesh_io.write_values((mesh.attributes["Paint"].data, "color"), colours)
+    mesh_io.write_values(Values(mesh.attributes["Paint"].data, "color", np.float32, 4), colours)
     make(levels=2)
     for level in levels_of("Torus"):
         data = level.data
         x = positions(level)[:, 0]
         assert [slot.material.name for slot in level.material_slots] == ["Red", "Green"]
-        face = mesh_io.read_values((data.polygons, "material_index"), 1, np.int32)
-        smooth = mesh_io.read_values((data.polygons, "use_smooth"), 1, bool)
+        face = mesh_io.read_values(Values(data.polygons, "material_index", np.int32))
+        smooth = mesh_io.read_values(Values(data.polygons, "use_smooth", bool))
         middle = x[polygon_arrays(data)[0]].reshape(-1, 3).mean(axis=1)
         assert np.array_equal(smooth, face == 1)
         assert np.mean((middle > 0) == (face == 1)) > 0.85
-        assert np.array_equal(mesh_io.read_values((data.attributes["Height"].data, "value"), 1, np.float32), x)
-        paint = mesh_io.read_values((data.attributes["Paint"].data, "color"), 4, np.float32)
+        assert np.array_equal(mesh_io.read_values(Values(data.attributes["Height"].data, "value", np.float32)), x)
+        paint = mesh_io.read_values(Values(data.attributes["Paint"].data, "color", np.float32, 4))
         assert np.mean(paint[:, 0] == x[polygon_arrays(data)[0]]) > 0.9
         sharp = mesh_io.marked_edges(data, "use_edge_sharp")
         degree = np.bincount(sharp.ravel())
@@ -306,6 +306,15 @@ def test_without_any_map_nothing_is_made(monkeypatch):
     obj.data.uv_layers.new(name="Artist")
     make(levels=2)  # there is a map to carry
     assert [layer.name for layer in levels_of("Torus")[1].data.uv_layers] == ["Artist"]
+
+
+def test_too_little_memory_is_a_sentence(monkeypatch):
+    def too_large(*_):
+        raise MemoryError("there is not enough memory for a mesh of this size")
+
+    torus(**FINE)
+    monkeypatch.setattr(module("solve"), "solve", too_large)
+    refused("Torus: there is not enough memory for a mesh of this size")
 
 
 def test_an_irreducible_mesh_has_no_levels():

@@ -49,7 +49,7 @@ def test_primitive(name):
     for part, reported in zip(parts_of(obj), found):
         assert reported["done"] and reported["description"], reported
         assert uv_area(part, values) > 0.01 / len(found)
-        assert reported["main_map"]["flipped"] <= 0.1 * len(part.triangles)
+        assert reported["main_map"]["flipped_triangles"] <= 0.1 * len(part.triangles)
         if reported["boundary_count"] == 2:
             assert straightness(part, values[part.corner_index]) < 1e-6
 

@@ -25,6 +25,15 @@ def test_unregister_leaves_nothing(addon):
     assert hasattr(bpy.types, "HOLOMORPH_PT_view3d")
 
 
+def test_the_solvers_are_those_of_the_library():
+    items, native = module("properties").solver_items, module("native")
+    assert [name for name, *_ in items(None, None)] == list(native.load().SOLVERS)
+    assert module("properties").SOLVER_TEXTS.keys() == set(native.load().SOLVERS)
+    torus()
+    with pytest.raises(TypeError, match="guess"):
+        bpy.ops.uv.holomorphic_maps(solver="guess")
+
+
 @pytest.fixture
 def without_native_part(addon, monkeypatch):
     native = module("native")
@@ -47,6 +56,7 @@ def test_registration_survives_a_missing_native_part(without_native_part):
     assert not bpy.ops.uv.holomorphic_maps.poll()
     with pytest.raises(RuntimeError, match="not installed"):
         bpy.ops.uv.holomorphic_maps()
+    assert [name for name, *_ in module("properties").solver_items(None, None)] == ["auto"]
 
 
 def test_a_broken_native_part_is_named(addon, monkeypatch):

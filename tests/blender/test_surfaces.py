@@ -1,6 +1,8 @@
 """What each kind of surface gets in Blender: straight boundaries, rectangles, disks, punctures; and choices that do not
 fit."""
 
+import json
+
 import bpy
 import numpy as np
 import pytest
@@ -88,6 +90,39 @@ def test_punctures_with_residues_on_a_torus():
     assert entry["main_map"]["mean_angle"] < 1.3
 
 
+def test_a_component_is_reported_as_by_the_package():
+    obj = torus_with_a_hole()
+    assert run(density=2.0, amounts=(0.5,) * 8) == {"FINISHED"}
+    (part,) = parts_of(obj)
+    package = module("native").load()
+    expected = package.report.component_report(part, package.conformal_structure(part))
+    entry = only_part(obj)
+    assert entry.keys() == expected.keys() and entry["main_map"].keys() == expected["main_map"].keys()
+    assert entry["main_map"]["coefficients"] == pytest.approx(0.5 * np.array(expected["main_map"]["coefficients"]))
+    measured = {"timings", "solver", "residuals", "main_map"}
+    assert {k: v for k, v in entry.items() if k not in measured} == json.loads(
+        json.dumps({k: v for k, v in expected.items() if k not in measured})
+    )
+    assert stored_report(obj)["dials"]["density"] == 2.0
+
+
+def test_a_skipped_component_has_its_reason(monkeypatch):
+    solve = module("solve")
+    solve_component = solve._solve_component
+
+    def without_spheres(library, surface, part, *rest):
+        if part.genus == 0:
+            return solve.SolvedComponent(part, None, None, reason="too round")
+        return solve_component(library, surface, part, *rest)
+
+    monkeypatch.setattr(solve, "_solve_component", without_spheres)
+    obj = two_parts("Two", torus_arrays(), sphere_arrays())
+    assert run() == {"FINISHED"}
+    (skipped,) = [c for c in stored_report(obj)["components"] if not c["done"]]
+    (part,) = [p for p in parts_of(obj) if p.genus == 0]
+    assert skipped == module("native").load().report.skipped_report(part, "too round")
+
+
 def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
     obj = two_parts("Two", torus_arrays(), sphere_arrays())
     picked = [len(torus_arrays()[0]) + pole for pole in poles()]
@@ -109,7 +144,7 @@ def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
         ([3, 7, 20, 30], {"use_selection": "RECTANGLE"}, "rectangle"),
     ],
 )
-def test_an_express_choice_that_does_not_fit_is_refused(picked, options, word):
+def test_an_explicit_choice_that_does_not_fit_is_refused(picked, options, word):
     obj = mesh_object("Sphere", *sphere_arrays())
     pick(obj, picked)
     before = everything(obj)
@@ -146,11 +181,11 @@ def test_the_papers_solver_is_for_the_parts_that_it_fits():
 def test_a_modifier_that_may_close_the_surface_is_told():
     obj = mesh_object("Tube", *tube_arrays())
     obj.modifiers.new("My Mirror", "MIRROR")
-    run_module, maps = module("run"), module("maps")
-    targets = run_module.collect([obj])
-    job = module("jobs").Job(run_module.tasks(targets))
+    run_module, targets = module("run"), module("targets")
+    found = targets.collect([obj])
+    job = module("jobs").Job(targets.tasks(found))
     job.run()
-    outcome = run_module.write(bpy.context, targets, job.results, maps.MapOptions(), run_module.WriteOptions())
+    outcome = run_module.write(bpy.context, found, job.results, module("maps").MapOptions(), run_module.WriteOptions())
     assert any("My Mirror" in note for note in outcome.notes)
 
 

@@ -334,6 +334,8 @@ def test_command_reports_every_component(tmp_path):
     structure = conformal_structure(Surface.read(path).components[1])
     assert tau == structure.period_matrix[0, 0]
     assert all(value < 1e-8 for part in parts[1:] for value in part["residuals"].values())
+    assert [part["forms"] for part in parts] == [1, 1, 2]
+    assert json.loads(report.read_text())["repairs"]["reversed_faces"] == {"count": 0, "first": []}
 
 
 def test_command_prints_the_report_where_no_file_is_named(tmp_path):
@@ -357,6 +359,12 @@ def test_command_fails_with_one_sentence(name, content, message, tmp_path):
     assert result.returncode == 1
     assert message in result.stderr
     assert len(result.stderr.splitlines()) == 1
+
+
+def test_command_names_the_solvers_that_there_are(tmp_path):
+    result = run(write_obj(tmp_path / "torus.obj", families.torus(9, 6)), "--solver", "guess")
+    assert result.returncode == 1
+    assert result.stderr == "holomorph: solver is 'guess'; one of auto, direct, multigrid, paper is needed\n"
 
 
 def test_command_cannot_write_its_report(tmp_path):

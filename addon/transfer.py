@@ -1,24 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mesh has besides its polygons, read from one mesh and written to a coarser one made of its vertices."""
+"""Transfers maps, materials, edge marks and attributes from a mesh to its levels of detail."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
 from . import compatibility, mesh_io
+from .compatibility import Values
 
-# Attributes that can be carried: how their values are named, how many numbers they are, of which type.
+# Types of attributes that are transferred: name, type and number of their values.
 KINDS = {
-    "FLOAT": ("value", 1, np.float32),
-    "INT": ("value", 1, np.int32),
-    "INT8": ("value", 1, np.int32),
-    "BOOLEAN": ("value", 1, bool),
-    "FLOAT_VECTOR": ("vector", 3, np.float32),
-    "FLOAT2": ("vector", 2, np.float32),
-    "FLOAT_COLOR": ("color", 4, np.float32),
-    "BYTE_COLOR": ("color", 4, np.float32),
+    "FLOAT": ("value", np.float32),
+    "INT": ("value", np.int32),
+    "INT8": ("value", np.int32),
+    "BOOLEAN": ("value", bool),
+    "FLOAT_VECTOR": ("vector", np.float32, 3),
+    "FLOAT2": ("vector", np.float32, 2),
+    "FLOAT_COLOR": ("color", np.float32, 4),
+    "BYTE_COLOR": ("color", np.float32, 4),
 }
-# Attributes that Blender keeps itself, or that are written as something else here.
+# Attributes of Blender's own, or that are written in another way here.
 BUILT_IN = {"position", "material_index", "sharp_face", "shade_smooth", "id", "normal"}
 EDGE_MARKS = ("use_seam", "use_edge_sharp")
 
@@ -32,8 +33,8 @@ class Attribute:
 
 
 @dataclass(frozen=True)
-class Carried:
-    """Of one mesh; corners in the polygons' order."""
+class MeshData:
+    """What a mesh has besides its polygons; corners in the polygons' order."""
 
     positions: np.ndarray  # (#V, 3) float32, in the object's own frame
     maps: list  # names
@@ -48,7 +49,7 @@ class Carried:
 
 
 def read(mesh, polygons):
-    """Everything that levels take over from `mesh`. Its UV maps include ours that had no slot and are attributes."""
+    """All that levels get from `mesh`. Its maps include those of ours that are attributes for want of a UV map slot."""
     layers = [layer.name for layer in mesh.uv_layers]
     ours = [a.name for a in mesh.attributes if mesh_io.is_our_attribute(a) and a.name not in layers]
     maps = layers + ours
@@ -57,56 +58,55 @@ def read(mesh, polygons):
         uv[:, index] = _of_corners(mesh_io.read_map(mesh, name), polygons)
     rendered = [layer.name for layer in mesh.uv_layers if layer.active_render]
     colour = mesh.color_attributes.active_color
-    return Carried(
-        positions=mesh_io.read_values(compatibility.position_values(mesh), 3, np.float32),
+    return MeshData(
+        positions=mesh_io.read_values(compatibility.position_values(mesh)),
         maps=maps,
         uv=uv,
         active=mesh.uv_layers.active.name if mesh.uv_layers.active else "",
         rendered=rendered[0] if rendered else "",
-        attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_carried(a, maps)],
-        material=mesh_io.read_values((mesh.polygons, "material_index"), 1, np.int32),
-        smooth=mesh_io.read_values((mesh.polygons, "use_smooth"), 1, bool),
+        attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_transferred(a, maps)],
+        material=mesh_io.read_values(_material_indices(mesh)),
+        smooth=mesh_io.read_values(_smooth_flags(mesh)),
         marks={name: mesh_io.marked_edges(mesh, name) for name in EDGE_MARKS},
         colour=colour.name if colour else "",
     )
 
 
-def write(mesh, carried, level, names):
-    """Gives `mesh`, which has the triangles of `level`, what they take over; `names` are those of the level's maps."""
+def write(mesh, data, level, names):
+    """Writes the data to `mesh`, which has the triangles of `level`; `names` are those of the level's maps."""
     surface = level.surface
-    own = mesh_io.Polygons(carried.positions, surface.corner_vertices, surface.face_offsets, None)
+    own = mesh_io.Polygons(data.positions, surface.corner_vertices, surface.face_offsets, None)
     for index, name in enumerate(names):
         mesh_io.write_map(mesh, own, name, level.uv[:, index])
-    _show(mesh, carried, names)
-    mesh_io.write_values((mesh.polygons, "material_index"), carried.material[surface.face_index])
-    mesh_io.write_values((mesh.polygons, "use_smooth"), carried.smooth[surface.face_index])
+    _show(mesh, data, names)
+    mesh_io.write_values(_material_indices(mesh), data.material[surface.face_index])
+    mesh_io.write_values(_smooth_flags(mesh), data.smooth[surface.face_index])
     rows = {"POINT": surface.vertex_index, "FACE": surface.face_index, "CORNER": level.corners}
-    for attribute in carried.attributes:
-        prop = KINDS[attribute.kind][0]
+    for attribute in data.attributes:
         new = mesh.attributes.new(attribute.name, attribute.kind, attribute.domain)
-        mesh_io.write_values((mesh.attributes[new.name].data, prop), attribute.values[rows[attribute.domain]])
-    for name, ends in carried.marks.items():
+        mesh_io.write_values(_attribute_values(mesh.attributes[new.name]), attribute.values[rows[attribute.domain]])
+    for name, ends in data.marks.items():
         if not len(ends):
             continue
         mapped = level.vertex_map[ends]
         mesh_io.mark_edges(mesh, name, mapped[(mapped[:, 0] != mapped[:, 1]) & (mapped >= 0).all(axis=1)])
-    if carried.colour in mesh.color_attributes:
-        mesh.color_attributes.active_color = mesh.color_attributes[carried.colour]
+    if data.colour in mesh.color_attributes:
+        mesh.color_attributes.active_color = mesh.color_attributes[data.colour]
     mesh.update()
 
 
-def _show(mesh, carried, names):
-    """The same active maps; where one had to be made, that one."""
-    added = [name for name in names if name not in carried.maps]
-    for name in (carried.active, *added):
+def _show(mesh, data, names):
+    """Makes the same maps active; where one had to be made, that one."""
+    added = [name for name in names if name not in data.maps]
+    for name in (data.active, *added):
         if name in mesh.uv_layers:
             mesh.uv_layers.active = mesh.uv_layers[name]
-    for name in (carried.rendered, *added):
+    for name in (data.rendered, *added):
         if name in mesh.uv_layers:
             mesh.uv_layers[name].active_render = True
 
 
-def _is_carried(attribute, maps):
+def _is_transferred(attribute, maps):
     name, built_in = attribute.name, attribute.name in BUILT_IN or attribute.name.startswith(".")
     return (
         attribute.domain in {"POINT", "FACE", "CORNER"}
@@ -116,11 +116,22 @@ def _is_carried(attribute, maps):
 
 
 def _read_attribute(attribute, polygons):
-    prop, width, kind = KINDS[attribute.data_type]
-    values = mesh_io.read_values((attribute.data, prop), width, kind)
+    values = mesh_io.read_values(_attribute_values(attribute))
     if attribute.domain == "CORNER":
         values = _of_corners(values, polygons)
     return Attribute(attribute.name, attribute.domain, attribute.data_type, values)
+
+
+def _attribute_values(attribute):
+    return Values(attribute.data, *KINDS[attribute.data_type])
+
+
+def _material_indices(mesh):
+    return Values(mesh.polygons, "material_index", np.int32)
+
+
+def _smooth_flags(mesh):
+    return Values(mesh.polygons, "use_smooth", bool)
 
 
 def _of_corners(values, polygons):

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of the maps operator: as Blender's properties, their drawing, and the requests made of them."""
+
+import functools
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+
+from . import native
+
+DIALS = 8
+
+SELECTION_USES = (
+    (
+        "AUTOMATIC",
+        "Automatic",
+        "In edit mode: four selected boundary vertices of a disk become the corners of a rectangle, other single "
+        "vertices punctures. Selected edges and faces, and vertices that do not fit, are no choice",
+    ),
+    (
+        "PUNCTURES",
+        "Punctures",
+        "The texture runs around each selected vertex, and its density grows towards it without end: at least two on "
+        "a closed surface, one on a disk",
+    ),
+    (
+        "RECTANGLE",
+        "Rectangle",
+        "The four selected vertices on the boundary of a disk become the corners of an exact rectangle",
+    ),
+    ("NONE", "None", "The selection does not matter"),
+)
+BOUNDARIES = (
+    ("natural", "Natural", "Solve on the surface itself: fast"),
+    (
+        "double_cover",
+        "Double Cover",
+        "Glue two copies of the surface along the boundary and solve on the closed "
+        "double: the same result at more than twice the cost",
+    ),
+)
+SOLVER_TEXTS = {
+    "auto": ("Automatic", "By size and number of forms"),
+    "direct": ("Direct", "Sparse Cholesky factorisation"),
+    "multigrid": ("Multigrid", "Linear time and memory"),
+    "paper": ("Paper", "The published multiresolution method, on closed parts with handles: for comparison"),
+}
+DRAWN = (  # in groups
+    ("density", "margin", "rotation", "forms", "shown"),
+    ("checker", "checker_scale", "seams", "shape"),
+    ("use_selection", "residues", "cut_at_seams", "boundary", "solver"),
+)
+
+
+@functools.lru_cache(maxsize=1)
+def _items_of(names):
+    return [(name, *SOLVER_TEXTS.get(name, (name.title(), ""))) for name in names]
+
+
+def solver_items(_properties, _context):
+    """The library's solvers, the first one the default. Blender keeps no reference to the texts: `_items_of` does."""
+    return _items_of(("auto",) if native.problem() else native.load().SOLVERS)
+
+
+class MapProperties:
+    """A mixin for the maps operator."""
+
+    forms: IntProperty(
+        name="Form Maps",
+        description="At most so many maps of single forms, besides the main map; a closed surface of genus g has g, "
+        "one with b boundary loops 2 g + b - 1",
+        default=8,
+        min=0,
+        soft_max=32,
+    )
+    shown: IntProperty(
+        name="Shown Map",
+        description="The map that becomes active: 0 is the main map, 1 the first form",
+        default=0,
+        min=0,
+        soft_max=8,
+    )
+    density: FloatProperty(
+        name="Density",
+        description="Factor of all UV lengths; at 1 the parts fill the UV square together, with equal texel density",
+        default=1.0,
+        min=1e-4,
+        soft_min=0.1,
+        soft_max=10.0,
+    )
+    margin: FloatProperty(
+        name="Margin",
+        description="Distance between connected parts, as a share of the UV square; less where there are many",
+        default=0.02,
+        min=0.0,
+        max=0.2,
+    )
+    rotation: FloatProperty(
+        name="Rotation", description="Rotates every part of all maps", subtype="ANGLE", unit="ROTATION"
+    )
+    # Not remembered for the next object, which has a selection of its own.
+    use_selection: EnumProperty(
+        name="Use Selection",
+        description="What the selected vertices are",
+        items=SELECTION_USES,
+        default="AUTOMATIC",
+        options={"SKIP_SAVE"},
+    )
+    residues: StringProperty(
+        name="Residues",
+        description="One number for each puncture, in the order of selection, for example 1 1 -2; they sum to 0 on a "
+        "closed surface, and may be complex (1+0.5j). Empty: chosen by themselves",
+        default="",
+        options={"SKIP_SAVE"},
+    )
+    cut_at_seams: BoolProperty(
+        name="Use Seams as Cut",
+        description="Cut the maps along your seams where these make each part a disk; else the report says why not",
+        default=False,
+    )
+    boundary: EnumProperty(
+        name="Boundary", description="How surfaces with a boundary are solved", items=BOUNDARIES, default="natural"
+    )
+    solver: EnumProperty(name="Solver", description="How the linear systems are solved", items=solver_items, default=0)
+    amounts: FloatVectorProperty(
+        name="Amount",
+        description="Factor of each form's share in the main map; at 1 the density is most even",
+        size=DIALS,
+        default=(1.0,) * DIALS,
+        soft_min=0.0,
+        soft_max=4.0,
+    )
+    turns: FloatVectorProperty(
+        name="Phase",
+        description="Phase of each form's share in the main map; not on parts with a boundary, which stays straight",
+        size=DIALS,
+        default=(0.0,) * DIALS,
+        subtype="EULER",
+        unit="ROTATION",
+    )
+    checker: BoolProperty(
+        name="Checker",
+        description="Show the map with a checker; the mesh's own materials stay and can be brought back",
+        default=True,
+    )
+    checker_scale: FloatProperty(
+        name="Squares",
+        description="Checker squares per UV unit; 0 chooses a number that suits the object's size",
+        default=0.0,
+        min=0.0,
+        soft_max=200.0,
+    )
+    seams: BoolProperty(
+        name="Mark Seams",
+        description="Mark the edges where the maps are cut as seams; existing seams are kept",
+        default=False,
+    )
+    shape: BoolProperty(
+        name="Store Shape",
+        description="Store the conformal map to the unit sphere (parts without handles and holes) or to the unit disk "
+        "as a vector attribute of the vertices, for Geometry Nodes",
+        default=False,
+    )
+    form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    def draw_options(self, layout):
+        for group in DRAWN:
+            column = layout.column()
+            for name in group:
+                column.prop(self, name)
+        for index in range(min(self.form_count, DIALS)):
+            row = layout.row(align=True)
+            row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
+            row.prop(self, "turns", index=index, text="")
+
+    def request(self):
+        """The `targets.Request`; raises ValueError where the residues cannot be read."""
+        from . import choices, targets
+
+        return targets.Request(
+            use=self.use_selection,
+            residues=choices.numbers(self.residues),
+            cut_at_seams=self.cut_at_seams,
+            boundary=self.boundary,
+            solver=self.solver,
+        )
+
+    def map_options(self):
+        from . import maps
+
+        return maps.MapOptions(
+            self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns), self.margin
+        )
+
+    def write_options(self):
+        from . import run
+
+        return run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams, self.shape)

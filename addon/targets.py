@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The objects of a run, as they are when it begins: their polygons, and what is chosen on them."""
+
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+
+from . import choices, compatibility, mesh_io, solve
+
+SAME_SCALE = 1e-5  # relative: matrices of objects are float32
+MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
+
+
+@dataclass(frozen=True)
+class Target:
+    """An object to treat; it is found again by name, since Python's references do not survive everything."""
+
+    name: str
+    library: str | None
+    polygons: mesh_io.Polygons | None
+    chosen: choices.Choices = choices.Choices()
+    refused: str = ""
+    note: str = ""
+
+    def find(self):
+        return bpy.data.objects.get((self.name, self.library))
+
+    def has_changed(self, time_has_passed):
+        """Whether the object is gone or, where Blender was alive meanwhile, its mesh is not what was read."""
+        obj = self.find()
+        return obj is None or (time_has_passed and not read(obj).equals(self.polygons))
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked of every object of a run; the choices on each mesh are made of it."""
+
+    use: str = choices.NONE  # what the selected vertices are
+    vertices: tuple | None = None  # instead of the selected ones
+    residues: tuple = ()
+    cut_at_seams: bool = False
+    boundary: str = "natural"
+    solver: str = "auto"
+
+
+def mesh_objects(context):
+    """The mesh objects the operator is about, the active one first."""
+    if context.mode == "EDIT_MESH":
+        objects = compatibility.objects_being_edited(context)
+    else:
+        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH"]
+    active = context.view_layer.objects.active
+    return sorted(objects, key=lambda o: o != active)
+
+
+def collect(objects, request=Request()):
+    """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts."""
+    targets, first = [], {}
+    for obj in objects:
+        mesh = obj.data
+        library = obj.library.filepath if obj.library else None
+        if mesh in first:
+            index, other = first[mesh]
+            if not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
+                note = f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts"
+                targets[index] = replace(targets[index], note=note)
+            continue
+        first[mesh] = len(targets), obj
+        if mesh.library is not None:
+            refused = "its mesh is linked from another file; make it local first"
+            targets.append(Target(obj.name, library, None, refused=refused))
+            continue
+        targets.append(Target(obj.name, library, read(obj), _choices(obj, request)))
+    return targets
+
+
+def _choices(obj, request):
+    """What was chosen on this object; @pre `read(obj)` has written pending edits to the mesh."""
+    seams = mesh_io.seam_vertices(obj.data) if request.cut_at_seams else np.empty((0, 2), np.int64)
+    selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
+    return choices.Choices(request.use, tuple(selected), request.residues, seams, request.boundary, request.solver)
+
+
+def _selected(obj, use):
+    """The selected vertices. Automatic use takes single vertices in edit mode, not faces or edges that are selected."""
+    if use == choices.NONE or (use == choices.AUTOMATIC and obj.mode != "EDIT"):
+        return ()
+    selected = mesh_io.selected_vertices(obj.data)
+    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_io.are_neighbours(obj.data, selected)):
+        return ()
+    return selected.tolist()
+
+
+def _linear(obj):
+    return np.array(obj.matrix_world, np.float64)[:3, :3]
+
+
+def _metric(obj):
+    """How the object's matrix changes shapes: equal for matrices that differ by rotation, reflection or factor."""
+    metric = _linear(obj).T @ _linear(obj)
+    size = np.trace(metric)
+    return metric / size if size > 0 else metric
+
+
+def with_positions(target, vertices):
+    """The same target with these (#V,3) float64 positions: those of a file are more precise than Blender's."""
+    return replace(target, polygons=replace(target.polygons, vertices=vertices))
+
+
+def tasks(targets):
+    return [solve.Task(t.polygons, t.chosen) for t in targets if not t.refused]
+
+
+def align(targets, results):
+    """The results in the order of all targets; a target that was refused at once has none."""
+    solved = iter(results)
+    return [None if t.refused else next(solved) for t in targets]
+
+
+def read(obj):
+    """The polygons as they are seen: with the object's scale, with pending edits, without modifiers."""
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+    return mesh_io.read_polygons(obj.data, _linear(obj))
