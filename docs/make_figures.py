@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """python docs/make_figures.py [NAME ...]: draws the figures of docs/method.md into docs/figures, all by default.
 
-They need the package and matplotlib. `scripts/figures [NAME ...]` makes build/venv/figures with both and runs this
-script in it. All surfaces are made here: grids, and isosurfaces of smooth unions of tori and balls. The same versions
-of NumPy and matplotlib draw the same files again.
+They need the package and matplotlib. The command for a fresh checkout is `scripts/figures [NAME ...]`: it builds the
+package, makes build/venv/figures (make_venv of scripts/environment) and runs this script in it.
+
+All surfaces are made here: grids, and isosurfaces of smooth unions of tori and balls. The same versions of NumPy and
+matplotlib draw the same files again.
 """
 
 import itertools
