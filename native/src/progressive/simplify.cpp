@@ -1,6 +1,7 @@
 #include "progressive/simplify.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "mesh/make_surface.h"
 #include "mesh/triangle_geometry.h"
