@@ -460,7 +460,7 @@ def test_progress_rises_from_0_to_1_and_cancels_at_every_stage():
     assert fractions == sorted(fractions)
     assert (fractions[0], fractions[-1]) == (0, 1)
     stages = dict.fromkeys(stage for _, stage in seen)
-    assert len(stages) >= 8
+    assert len(stages) >= 6
     for wanted in stages:
         with pytest.raises(Cancelled):
             conformal_structure(surface, progress=lambda fraction, stage, wanted=wanted: stage != wanted)
