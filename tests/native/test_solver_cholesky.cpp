@@ -5,6 +5,13 @@
 #include "laplacians.h"
 #include "solver/sparse_cholesky.h"
 
+#ifdef HOLOMORPH_WITH_OPENBLAS
+extern "C" {
+void openblas_set_num_threads(int);
+int openblas_get_num_threads(void);
+}
+#endif
+
 namespace holomorph::solver {
 namespace {
 
@@ -86,6 +93,23 @@ TEST(SparseCholesky, SeveralAtOnceHaveTheBitsOfOneAlone) {
   for (std::thread& thread : threads) thread.join();
   for (const Eigen::MatrixXd& solution : solutions) EXPECT_TRUE(same_bits(solution, alone));
 }
+
+#ifdef HOLOMORPH_WITH_OPENBLAS
+TEST(SparseCholesky, TheNumberOfBlasThreadsIsPutBack) {
+  const int before = openblas_get_num_threads();
+  openblas_set_num_threads(2);
+  const Matrix A = lower(positive_matrix(15, 12));
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 3; ++thread) {
+    threads.emplace_back([&A] {
+      for (int i = 0; i < 50; ++i) SparseCholesky().compute(A, {});
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(openblas_get_num_threads(), 2);
+  openblas_set_num_threads(before);
+}
+#endif
 
 }  // namespace
 }  // namespace holomorph::solver
