@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <numeric>
@@ -118,18 +119,21 @@ TEST_P(WorkersOf, TheCallerWaitsForChunksThatOthersHaveBegun) {
   EXPECT_EQ(done, std::vector<int>(done.size(), 1));
 }
 
-TEST_P(WorkersOf, AllThreadsWorkAtOnce) {
+TEST_P(WorkersOf, AllThreadsWorkAtOnceUnderTheirNumbers) {
   Workers workers(GetParam());
   std::atomic<int> begun{0};
   std::atomic<bool> alone{false};
+  std::vector<std::atomic<int>> chunks_of(GetParam());
   workers.run(
       GetParam(),
-      [&](int, int) {
+      [&](int thread, int) {
+        ++chunks_of.at(thread);
         ++begun;
         if (!comes_true([&] { return begun == GetParam(); })) alone = true;
       },
       kShareAll);
   EXPECT_FALSE(alone);
+  for (const std::atomic<int>& chunks : chunks_of) EXPECT_EQ(chunks, 1);
 }
 
 TEST_P(WorkersOf, UnusedOnesEnd) {
