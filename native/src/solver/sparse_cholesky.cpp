@@ -1,6 +1,7 @@
 #include "solver/sparse_cholesky.h"
 
 #include <cmath>
+#include <mutex>
 
 #include "base/errors.h"
 
@@ -22,15 +23,27 @@ namespace {
 
 using Lower = Eigen::SparseMatrix<double>;
 
-// The number of BLAS threads belongs to the process; it is put back as it was.
+// The number of BLAS threads belongs to the process: it is 1 while any thread of the process factorises or solves, and
+// the last of these puts it back.
 class OneBlasThread {
  public:
 #ifdef HOLOMORPH_WITH_OPENBLAS
-  OneBlasThread() : before_(openblas_get_num_threads()) { openblas_set_num_threads(1); }
-  ~OneBlasThread() { openblas_set_num_threads(before_); }
+  OneBlasThread() {
+    const std::lock_guard lock(mutex_);
+    if (users_++ > 0) return;
+    before_ = openblas_get_num_threads();
+    openblas_set_num_threads(1);
+  }
+  ~OneBlasThread() {
+    const std::lock_guard lock(mutex_);
+    if (--users_ == 0) openblas_set_num_threads(before_);
+  }
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
 
  private:
-  int before_;
+  static inline std::mutex mutex_;
+  static inline int users_ = 0, before_ = 1;
 #else
   OneBlasThread() {}
 #endif

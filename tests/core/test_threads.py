@@ -1,0 +1,86 @@
+"""Several Python threads at once: the lock of the interpreter is released, so computations really meet."""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import families
+import numpy as np
+import pytest
+from holomorph import Cancelled, InvalidMesh, Surface, conformal_structure
+from solved import CLOSED, surface_of
+from test_read import obj
+
+# Large enough for its loops to be shared out.
+TORUS = families.torus(150, 90, shape="triangles", jitter=0.2)
+AT_ONCE = 3
+
+
+def at_once(*calls):
+    """What the calls return, begun at the same moment on threads of their own."""
+    start = threading.Barrier(len(calls))
+
+    def begin(call):
+        start.wait()
+        return call()
+
+    with ThreadPoolExecutor(len(calls)) as pool:
+        return [future.result() for future in [pool.submit(begin, call) for call in calls]]
+
+
+def bits(structure):
+    arrays = (structure.period_matrix, structure.harmonic_forms, structure.uv(structure.balanced_coefficients()))
+    return [array.tobytes() for array in arrays]
+
+
+@pytest.mark.parametrize("solver", ["direct", "multigrid", "paper"])
+def test_computations_at_once_have_the_bits_of_one_alone(solver):
+    surface = surface_of(TORUS)
+
+    def compute():
+        return bits(conformal_structure(surface, solver=solver, threads=2))
+
+    alone = compute()
+    assert at_once(*[compute] * AT_ONCE) == [alone] * AT_ONCE
+
+
+def test_one_structure_is_asked_by_several():
+    """The forms for UVs are computed when they are first asked for, once."""
+    surface = surface_of(CLOSED["genus 2 block"])
+    alone = conformal_structure(surface, threads=2)
+    coefficients = alone.balanced_coefficients()
+    expected = [alone.uv(coefficients).tobytes(), alone.harmonic_forms.tobytes()]
+    shared = conformal_structure(surface, threads=2)
+    answers = at_once(
+        *[lambda: [shared.uv(coefficients).tobytes(), shared.harmonic_forms.tobytes()]] * AT_ONCE,
+        lambda: [shared.prepare_uv(), shared.uv_solver] and expected,
+    )
+    assert answers == [expected] * (AT_ONCE + 1)
+
+
+def test_cancelling_one_leaves_the_others():
+    surface = surface_of(TORUS)
+
+    def cancelled():
+        with pytest.raises(Cancelled):
+            conformal_structure(surface, threads=2, solver="multigrid", progress=lambda fraction, stage: fraction < 0.3)
+
+    def done():
+        return bits(conformal_structure(surface, threads=2, solver="multigrid", progress=lambda fraction, stage: True))
+
+    alone = done()
+    assert at_once(cancelled, done, cancelled, done) == [None, alone, None, alone]
+
+
+def test_files_are_read_at_once(tmp_path):
+    good, bad = tmp_path / "good.obj", tmp_path / "bad.obj"
+    good.write_bytes(obj(TORUS))
+    bad.write_bytes(b"v 0 0 zero\n")
+
+    def refused():
+        with pytest.raises(InvalidMesh, match="line 1"):
+            Surface.read(bad)
+
+    surfaces = [s for s in at_once(*[lambda: Surface.read(good), refused] * 2) if s is not None]
+    assert len(surfaces) == 2
+    for surface in surfaces:
+        np.testing.assert_array_equal(surface.vertices, TORUS.vertices)

@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "laplacians.h"
+#include "solver/conjugate_gradients.h"
+
+namespace holomorph::solver {
+namespace {
+
+const auto kNoReport = [](double) {};
+
+class Gradients : public testing::TestWithParam<Scaling> {
+ protected:
+  GradientOptions options() const { return {.scaling = GetParam()}; }
+};
+INSTANTIATE_TEST_SUITE_P(Scalings, Gradients, testing::Values(Scaling::none, Scaling::diagonal));
+
+TEST_P(Gradients, SolveLikeTheDenseMethod) {
+  Workers workers(2);
+  for (const Shape shape : {Shape::sheet, Shape::torus}) {
+    const Laplacian L = grid_laplacian(19, 13, shape);
+    for (const int columns : {1, 2, 3, 4, 5, 8, 9, 13}) {  // blocks of every width
+      const Eigen::MatrixXd B = centred(random_values(L.size(), columns, columns));
+      Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), columns);
+      const GradientReport report = conjugate_gradients(L, B, X, options(), workers, kNoReport);
+      const DenseSolution dense = dense_solution(L, B);
+      EXPECT_TRUE(report.converged);
+      EXPECT_LE(report.residual, kResidual);
+      EXPECT_LE(relative_residual(L, X, B), 1.01 * kResidual);  // computed anew, in another order
+      EXPECT_LE((centred(X) - dense.X).norm(), kResidual * B.norm() / dense.least_eigenvalue);
+    }
+  }
+}
+
+TEST_P(Gradients, NeverPassMostIterations) {
+  const Laplacian L = grid_laplacian(40, 40);
+  const Eigen::MatrixXd B = centred(random_values(L.size(), 3, 1));
+  Workers workers(2);
+  for (const int most : {0, 1, 2, 7}) {
+    GradientOptions few = options();
+    few.most_iterations = most;
+    int reports = 0;
+    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 3);
+    const GradientReport report = conjugate_gradients(L, B, X, few, workers, [&](double) { ++reports; });
+    EXPECT_EQ(report.iterations, most);
+    EXPECT_EQ(reports, most);
+    EXPECT_FALSE(report.converged);
+    EXPECT_NEAR(report.residual, relative_residual(L, X, B), 1e-12);
+  }
+}
+
+TEST_P(Gradients, AGoalOutOfReachEnds) {
+  const Laplacian L = grid_laplacian(20, 20);
+  const Eigen::MatrixXd B = centred(random_values(L.size(), 2, 2));
+  GradientOptions unreachable = options();
+  unreachable.residual = 1e-30;
+  unreachable.most_iterations = 5000;
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 2);
+  Workers workers(1);
+  const GradientReport report = conjugate_gradients(L, B, X, unreachable, workers, kNoReport);
+  EXPECT_FALSE(report.converged);
+  EXPECT_LE(report.iterations, unreachable.most_iterations);
+  EXPECT_TRUE(X.allFinite());
+}
+
+TEST_P(Gradients, BeginWithTheGivenValues) {
+  const Laplacian L = grid_laplacian(20, 20);
+  const Eigen::MatrixXd B = centred(random_values(L.size(), 2, 3));
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 2);
+  Workers workers(2);
+  conjugate_gradients(L, B, X, options(), workers, kNoReport);
+  const Eigen::MatrixXd before = X;
+  EXPECT_EQ(conjugate_gradients(L, B, X, options(), workers, kNoReport).iterations, 0);
+  EXPECT_TRUE(same_bits(X, before));
+}
+
+TEST_P(Gradients, ARightHandSideOfZerosStaysZero) {
+  const Laplacian L = grid_laplacian(20, 20);
+  Eigen::MatrixXd B = centred(random_values(L.size(), 3, 4)), X = Eigen::MatrixXd::Zero(L.size(), 3);
+  B.col(1).setZero();
+  Workers workers(2);
+  EXPECT_TRUE(conjugate_gradients(L, B, X, options(), workers, kNoReport).converged);
+  EXPECT_EQ(X.col(1).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST_P(Gradients, WhatTheReportThrowsIsHeard) {
+  const Laplacian L = grid_laplacian(20, 20);
+  const Eigen::MatrixXd B = centred(random_values(L.size(), 1, 5));
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 1);
+  Workers workers(2);
+  const auto broken = [](double) { throw std::domain_error("mine"); };
+  EXPECT_THROW(conjugate_gradients(L, B, X, options(), workers, broken), std::domain_error);
+}
+
+TEST_P(Gradients, BitsDoNotDependOnTheThreads) {
+  const Laplacian L = grid_laplacian(180, 120);  // several chunks
+  const Eigen::MatrixXd B = centred(random_values(L.size(), 3, 6));
+  GradientOptions few = options();
+  few.most_iterations = 40;
+  const auto solved = [&](int threads) {
+    Workers workers(threads);
+    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 3);
+    conjugate_gradients(L, B, X, few, workers, kNoReport);
+    return X;
+  };
+  const Eigen::MatrixXd one = solved(1);
+  for (const int threads : {2, 4, 8}) EXPECT_TRUE(same_bits(one, solved(threads)));
+}
+
+}  // namespace
+}  // namespace holomorph::solver
