@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "base/kept_pages.h"
+#include "base/kept_blocks.h"
 #include "base/workers.h"
 
 namespace holomorph {
@@ -60,7 +60,7 @@ class Execution {
   void call(double fraction);
   void close_stage();
 
-  KeptPages pages_;
+  KeptBlocks blocks_;
   Callback callback_;
   Workers workers_;
   std::string name_;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/kept_pages.h"
+#include "base/kept_blocks.h"
 
 namespace holomorph {
 
@@ -23,11 +23,11 @@ struct PageAllocator {
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    return static_cast<T*>(large(count) ? take_pages(bytes) : ::operator new(bytes, kAlignment));
+    return static_cast<T*>(large(count) ? take_block(bytes) : ::operator new(bytes, kAlignment));
   }
   void deallocate(T* memory, std::size_t count) {
     if (large(count)) {
-      give_pages(memory, count * sizeof(T));
+      give_block(memory);
     } else {
       ::operator delete(memory, kAlignment);
     }

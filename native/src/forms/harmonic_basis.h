@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/execution.h"
+#include "forms/laplacian.h"
 #include "mesh/edge_ends.h"
 #include "solver/laplace_solver.h"
 #include "topology/integer_forms.h"
@@ -21,9 +22,6 @@ struct ClosedForms {
   RowMajorMatrix functions;  ///< #V x #forms, of the classes first, first + 1, ...
   int first = 0;
 };
-
-/// L = d^T k d for edge weights k; edges with the same ends add up, loops carry no energy of functions.
-solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, std::span<const double> weights, Execution& execution);
 
 /// -d* eta_i = -d^T (k eta_i), #V x #forms: the right-hand sides of Eq. 8.
 Eigen::MatrixXd codifferentials(const mesh::EdgeEnds& ends, std::span<const double> weights,

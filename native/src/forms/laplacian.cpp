@@ -1,10 +1,9 @@
+#include "forms/laplacian.h"
+
 #include <algorithm>
 #include <numeric>
-#include <span>
 
 #include "base/chunks.h"
-#include "base/page_allocator.h"
-#include "forms/harmonic_basis.h"
 
 namespace holomorph::forms {
 namespace {

@@ -2,16 +2,12 @@
 
 #include "base/background_task.h"
 #include "base/errors.h"
-#include "base/kept_pages.h"
 #include "mesh/components.h"
 #include "pipeline/paper_forms.h"
 #include "pipeline/streamed_forms.h"
 
 namespace holomorph::pipeline {
 namespace {
-
-// Bytes of large arrays that are sure to be taken, with any solver; multigrid takes nearly 300.
-constexpr std::size_t kAheadPerTriangle = 160;
 
 int checked_genus(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
   const int boundaries = mesh::boundary_count(half_edges);
@@ -70,7 +66,6 @@ topology::IntegerForms find_topology(const mesh::Surface& surface, mesh::HalfEdg
 ConformalStructure conformal_structure(const mesh::Surface& surface, const Options& options, Execution& execution,
                                        std::optional<topology::DualBases> given, std::optional<PaperLevels> levels) {
   const bool paper = options.solver == "paper";
-  const KeptPages pages(kAheadPerTriangle * surface.triangles.size(), execution.threads());
   ConformalStructure result;
 
   execution.stage("half-edges", 0.0, 0.05);
