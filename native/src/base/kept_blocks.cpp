@@ -36,7 +36,7 @@ class Blocks {
     const std::lock_guard lock(mutex_);
     Block* best = nullptr;
     for (Block& block : blocks_) {
-      const bool fits = !block.used && block.bytes >= bytes && block.bytes - bytes <= bytes / 2;
+      const bool fits = !block.used && block.bytes >= bytes && block.bytes - bytes <= bytes / 8;
       if (fits && (best == nullptr || block.bytes < best->bytes)) best = &block;
     }
     if (best == nullptr) best = make(bytes);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "base/prefetch.h"
 #include "solver/multigrid/sparse_rows.h"
 
 namespace holomorph::solver {
@@ -16,6 +17,9 @@ using Blocks = Array<Block<K>>;
 /// Sums over vertices, one per right-hand side.
 template <int K>
 using Sums = Eigen::Array<double, K, 1>;
+
+/// Prefetch distance, in entries, 4 KB: the processor does not look beyond a page by itself.
+inline constexpr int kAhead = 512;
 
 /// A range of rows: a chunk.
 struct Rows {
@@ -41,6 +45,7 @@ EIGEN_STRONG_INLINE void for_differences(const SparseRows& A, Rows rows, const B
   const int* const starts = A.starts.data();
   const Entry* const entries = A.entries.data();
   for (int i = rows.begin; i < rows.end; ++i) {
+    prefetch(entries + starts[i] + kAhead);
     const Block<K> here = x[i];
     Block<K> sum = Block<K>::Zero();
     for (int e = starts[i], end = starts[i + 1]; e < end; ++e) sum += entries[e].weight * (here - x[entries[e].column]);
