@@ -14,8 +14,7 @@
 
 #include "linear_system.h"
 #include "mesh/io/read.h"
-#include "solver/block_solve.h"
-#include "mesh/make_surface.h"
+#include "solver/multigrid/block_solve.h"
 
 namespace {
 
@@ -58,20 +57,21 @@ class Turn {
 struct System {
   Eigen::MatrixXd B;
   solver::Solution X;
+  solver::Laplacian L;
   solver::Hierarchy hierarchy;
 
   explicit System(const mesh::Surface& surface) {
-    Workers workers;
     Execution silent;
     B = benchmarks::right_hand_sides(surface.vertex_count, kRightHandSides);
     X.resize(B.rows(), B.cols());
-    solver::make_hierarchy(benchmarks::assembled(surface, true), {}, workers, silent, hierarchy);
+    L = benchmarks::assembled(surface, true);
+    hierarchy = solver::make_hierarchy(L, {}, silent);
   }
 
   /// @return iterations, after each of which `report` is called
   int solve(const std::function<void()>& report) {
     Workers workers;
-    solver::BlockSolve<kRightHandSides> block(hierarchy, kResidual, workers);
+    solver::BlockSolve<kRightHandSides> block(L, hierarchy, kResidual, workers);
     const std::vector<solver::Condition> conditions(kRightHandSides, solver::Condition::natural);
     block.solve(B, conditions, 0, kRightHandSides, X, [&](double) { report(); });
     return block.iterations();

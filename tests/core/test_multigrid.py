@@ -84,7 +84,7 @@ def in_runs(mesh, length):
 
 
 def long_torus():
-    """So many vertices that the loops of an iteration go through several segments of them (wavefront.h)."""
+    """So many vertices that the loops of an iteration have many chunks for every thread."""
     return families.torus(800, 130, shape="triangles", jitter=0.3)
 
 

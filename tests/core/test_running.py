@@ -41,7 +41,7 @@ def test_bits_do_not_depend_on_the_threads(name, threads):
 
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_bits_of_a_larger_mesh(threads):
-    """Large enough for every parallel loop to be cut into pieces, and for pages to be made ahead."""
+    """Large enough for every parallel loop to be cut into pieces."""
     mesh = families.torus(440, 220, shape="triangles", jitter=0.3)
     default, given = conformal_structure(surface_of(mesh)), conformal_structure(surface_of(mesh), threads=threads)
     assert_same_bits(default, given)
@@ -146,7 +146,7 @@ print(len(large.triangles), (megabytes() - before) * 2**20)
 
 @pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the most memory in use")
 def test_more_threads_take_little_more_memory():
-    """One thread makes no pages ahead; what two make, the computation takes."""
+    """Each thread has workspace of its own, small beside the mesh."""
     program = """
 import families
 import holomorph

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "base/kept_pages.h"
 #include "base/workers.h"
 
 namespace holomorph {
@@ -60,7 +59,6 @@ class Execution {
   void call(double fraction);
   void close_stage();
 
-  KeptPages pages_;
   Callback callback_;
   Workers workers_;
   std::string name_;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/kept_pages.h"
+#include "base/large_pages.h"
 
 namespace holomorph {
 
@@ -23,15 +23,11 @@ struct PageAllocator {
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    return static_cast<T*>(large(count) ? take_pages(bytes) : ::operator new(bytes, kAlignment));
+    void* const memory = ::operator new(bytes, alignment(count));
+    if (large(count)) advise_large_pages(memory, bytes);
+    return static_cast<T*>(memory);
   }
-  void deallocate(T* memory, std::size_t count) {
-    if (large(count)) {
-      give_pages(memory, count * sizeof(T));
-    } else {
-      ::operator delete(memory, kAlignment);
-    }
-  }
+  void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count)); }
 
   template <class U>
   void construct(U* place) {
@@ -46,7 +42,7 @@ struct PageAllocator {
 
  private:
   static bool large(std::size_t count) { return count * sizeof(T) >= kLargePage / 2; }
-  static constexpr std::align_val_t kAlignment{64};
+  static std::align_val_t alignment(std::size_t count) { return std::align_val_t{large(count) ? kLargePage : 64}; }
 };
 
 template <class T>

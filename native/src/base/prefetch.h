@@ -1,4 +1,4 @@
-// Asking for memory ahead of its use.
+// Prefetch of memory that is read soon.
 #pragma once
 
 namespace holomorph {
@@ -7,13 +7,6 @@ namespace holomorph {
 inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);
-#endif
-}
-
-/// For what is used much later: it need not take the place of what is used now in the cache next to the processor.
-inline void prefetch_for_later([[maybe_unused]] const void* address) {
-#if defined(__GNUC__) || defined(__clang__)
-  __builtin_prefetch(address, 0, 2);
 #endif
 }
 

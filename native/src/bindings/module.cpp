@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 #include "bindings/bindings.h"
-#include "solver/sparse_cholesky.h"
+#include "solver/direct/sparse_cholesky.h"
 
 namespace py = pybind11;
 using namespace holomorph;

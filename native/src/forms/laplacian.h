@@ -1,4 +1,4 @@
-// The cotan Laplacian of a triangulation.
+// The cotan Laplacian of a triangulation, assembled from the weights of its edges.
 #pragma once
 
 #include <span>
@@ -9,7 +9,10 @@
 
 namespace holomorph::forms {
 
-/// L = d^T k d for edge weights k; edges with the same ends add up, loops carry no energy of functions.
+/// L = d^T k d, #V x #V, for edge weights k. Edges with the same ends add up; a loop adds nothing, as functions have no
+/// difference along it.
+/// @param weights #E, cotangent weights without unit
+/// @throws Cancelled
 /// Cost: linear, in parallel.
 solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, std::span<const double> weights, Execution& execution);
 

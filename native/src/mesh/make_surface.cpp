@@ -14,9 +14,6 @@
 namespace holomorph::mesh {
 namespace {
 
-// Bytes of large arrays that are sure to be taken, of 40.
-constexpr std::size_t kAheadPerCorner = 32;
-
 void make_room(Surface& surface) {
   const Polygons& mesh = surface.polygons;
   const std::size_t corners = mesh.corner_vertices.size(), faces = mesh.face_offsets.size() - 1;
@@ -121,7 +118,6 @@ Polygons narrowed(GivenPolygons given) {
 // @pre check_polygons has passed
 Surface surface_of(Polygons polygons, Execution& execution) {
   Workers& workers = execution.workers();
-  const KeptPages pages(kAheadPerCorner * polygons.corner_vertices.size(), workers.count());
   Surface surface;
   surface.polygons = std::move(polygons);
   const Polygons& mesh = surface.polygons;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "base/chunks.h"
 #include "base/errors.h"
@@ -66,34 +67,25 @@ class Blocks {
   const Side* begin(int block) const { return sides_.data() + start_[block]; }
   const Side* end(int block) const { return sides_.data() + start_[block + 1]; }
 
-  // Sorts a block by (lower, higher, corner): by counting, and then by insertion, as a vertex has few sides.
+  // Sorts a block by (lower, higher, corner): by counting, and then the few sides of each lower vertex.
   void sort(int block) {
     const int first_vertex = block * size_;
     const std::vector<Side> given(begin(block), end(block));
-    std::vector<int> first(size_ + 1, 0);
-    for (const Side& side : given) ++first[side.lower - first_vertex + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<int> next = first;
-    Side* const sides = sides_.data() + start_[block];
-    for (const Side& side : given) sides[next[side.lower - first_vertex]++] = side;
-    for (int v = 0; v < size_; ++v) sort_by_higher(sides + first[v], sides + first[v + 1]);
+    std::vector<int> end_of(size_ + 1, 0);
+    for (const Side& side : given) ++end_of[side.lower - first_vertex + 1];
+    std::partial_sum(end_of.begin(), end_of.end(), end_of.begin());
+    Side *const sides = sides_.data() + start_[block], *first = sides;
+    for (const Side& side : given) sides[end_of[side.lower - first_vertex]++] = side;
+    for (int v = 0; v < size_; ++v) {
+      std::sort(first, sides + end_of[v], [](const Side& a, const Side& b) {
+        return a.higher != b.higher ? a.higher < b.higher : a.directed_corner < b.directed_corner;
+      });
+      first = sides + end_of[v];
+    }
   }
 
  private:
-  static constexpr int kMost = 256, kFew = 32;
-
-  static void sort_by_higher(Side* begin, Side* end) {
-    if (end - begin > kFew) {
-      std::stable_sort(begin, end, [](const Side& a, const Side& b) { return a.higher < b.higher; });
-      return;
-    }
-    for (Side* i = begin; i < end; ++i) {
-      const Side side = *i;
-      Side* place = i;
-      for (; place > begin && place[-1].higher > side.higher; --place) *place = place[-1];
-      *place = side;
-    }
-  }
+  static constexpr int kMost = 256;
 
   Array<Side> sides_;
   std::vector<int> start_;  // of each block, and the end

@@ -5,26 +5,19 @@
 
 #include "base/chunks.h"
 #include "base/page_allocator.h"
+#include "solver/column_blocks.h"
 
 namespace holomorph::solver {
 namespace {
 
-// The residual that the iteration carries along drifts from the true one: it is computed anew at the end, and where it
-// is still too large the iteration begins again. A round that leaves more than this part of it was the last.
+// The residual of the recurrence drifts from the true one: that is computed anew at the end, and where it is still too
+// large the iteration begins again. A round that leaves more than this part of it was the last.
 constexpr double kLeastGain = 0.5;
-// What is asked of the carried residual, so that the true one is below the goal in the first round.
+// Part of the goal asked of the residual of the recurrence, so that the true one is below it in the first round.
 constexpr double kSafety = 0.9;
 
 template <int K>
 using Values = Eigen::Array<double, K, 1>;
-
-// a / b where b > 0, else 0: a right-hand side that is solved exactly stays as it is.
-template <int K>
-Values<K> quotient(const Values<K>& a, const Values<K>& b) {
-  Values<K> result;
-  for (int d = 0; d < K; ++d) result[d] = b[d] > 0 ? a[d] / b[d] : 0.0;
-  return result;
-}
 
 template <int K>
 class Gradients {
@@ -53,16 +46,16 @@ class Gradients {
       x_[i] = column(X, i);
     }
     const Values<K> norm_b = norm_of(b);
-    const Relative relative{norm_b};
     const Values<K> goal = options_.residual * norm_b;
     GradientReport result;
     Values<K> norm = residual(b), before;
     do {
       before = norm;
-      iterate(norm, kSafety * goal, result.iterations, [&](const Values<K>& now) { report(relative(now)); });
+      iterate(norm, kSafety * goal, result.iterations,
+              [&](const Values<K>& now) { report(largest_relative(now, norm_b)); });
       norm = residual(b);
     } while (!(norm <= goal).all() && ((norm <= goal) || (norm < kLeastGain * before)).all());
-    result.residual = relative(norm);
+    result.residual = largest_relative(norm, norm_b);
     result.converged = (norm <= goal).all();
     for (int i = 0; i < n_; ++i) {
       for (int d = 0; d < width; ++d) X(i, first + d) = x_[i][d];
@@ -72,18 +65,6 @@ class Gradients {
 
  private:
   static Values<K> zero() { return Values<K>::Zero(); }
-
-  struct Relative {
-    Values<K> norm_b;
-    double operator()(const Values<K>& norm) const {
-      double worst = 0;
-      for (int d = 0; d < K; ++d) {
-        const double ratio = norm_b[d] > 0 ? norm[d] / norm_b[d] : norm[d];
-        if (!(ratio <= worst)) worst = ratio;  // std::max would drop a NaN
-      }
-      return worst;
-    }
-  };
 
   Values<K> product(const Array<Values<K>>& v, int i) const {
     Values<K> sum = Values<K>::Zero();
@@ -123,7 +104,7 @@ class Gradients {
         q_[i] = product(p_, i);
         sum += p_[i] * q_[i];
       });
-      // A right-hand side that has converged rests: its numbers would only get smaller, down to denormal ones.
+      // A right-hand side that has converged is left alone: its numbers would shrink to denormal ones.
       const Values<K> alpha = (norm <= goal).select(zero(), quotient<K>(rz, pq));
       const Both sums = sum_over_rows(workers_, n_, Both::Zero().eval(), [&](int i, Both& sum) {
         x_[i] += alpha * p_[i];
@@ -143,39 +124,27 @@ class Gradients {
   const GradientOptions& options_;
   Workers& workers_;
   const int n_;
-  std::vector<double> inverse_;  // of the diagonal, or ones
+  std::vector<double> inverse_;  // inverse of the diagonal, or ones
   Array<Values<K>> x_, r_, p_, q_;
 };
-
-template <int K>
-void solve_blocks(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X, Eigen::Index begin,
-                  Eigen::Index end, const GradientOptions& options, Workers& workers, GradientReport& total,
-                  const std::function<void(double)>& report) {
-  if (begin == end) return;
-  Gradients<K> gradients(L, options, workers);
-  for (Eigen::Index first = begin; first < end; first += K) {
-    const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
-    const GradientReport block = gradients.solve(B, X, first, width, report);
-    total.iterations = std::max(total.iterations, block.iterations);
-    total.residual = std::max(total.residual, block.residual);
-    total.converged = total.converged && block.converged;
-  }
-}
 
 }  // namespace
 
 GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
                                    const GradientOptions& options, Workers& workers,
                                    const std::function<void(double)>& report) {
-  // Blocks of 8, and at the end one of 4 or 2 where that is enough.
-  const Eigen::Index rest = B.cols() % 8, in_eights = B.cols() - (rest <= 4 ? rest : 0);
   GradientReport total{0, 0, true};
-  solve_blocks<8>(L, B, X, 0, in_eights, options, workers, total, report);
-  if (rest <= 2) {
-    solve_blocks<2>(L, B, X, in_eights, B.cols(), options, workers, total, report);
-  } else {
-    solve_blocks<4>(L, B, X, in_eights, B.cols(), options, workers, total, report);
-  }
+  for_column_blocks(B.cols(), [&](auto width_of_block, Eigen::Index begin, Eigen::Index end) {
+    constexpr int K = width_of_block;
+    Gradients<K> gradients(L, options, workers);
+    for (Eigen::Index first = begin; first < end; first += K) {
+      const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
+      const GradientReport block = gradients.solve(B, X, first, width, report);
+      total.iterations = std::max(total.iterations, block.iterations);
+      total.residual = std::max(total.residual, block.residual);
+      total.converged = total.converged && block.converged;
+    }
+  });
   return total;
 }
 

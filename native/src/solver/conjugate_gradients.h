@@ -10,7 +10,7 @@ namespace holomorph::solver {
 
 enum class Scaling {
   none,     ///< the textbook's method, as the paper names it
-  diagonal  ///< of L to ones: Jacobi's preconditioner, about two thirds of the iterations on irregular meshes
+  diagonal  ///< the diagonal of L is scaled to ones: Jacobi's preconditioner
 };
 
 struct GradientOptions {
@@ -27,7 +27,7 @@ struct GradientReport {
 
 /// Improves X until the residual is reached, beginning with the values that it has. The constants, the kernel of L, are
 /// taken out of the residual, and X is determined up to them. Up to 8 right-hand sides go through one pass over the
-/// matrix, each with coefficients of its own; one that has converged rests.
+/// matrix, each with coefficients of its own.
 /// @param B,X #V x #rhs @param report called at every iteration with the largest relative residual; may throw
 /// Cost: three passes over the vertices per iteration; the bits do not depend on the number of threads.
 GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,

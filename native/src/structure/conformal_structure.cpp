@@ -2,7 +2,6 @@
 
 #include "base/background_task.h"
 #include "base/errors.h"
-#include "base/kept_pages.h"
 #include "mesh/delaunay.h"
 #include "structure/double_cover.h"
 #include "structure/invariants.h"
@@ -10,9 +9,6 @@
 
 namespace holomorph::structure {
 namespace {
-
-// Bytes of large arrays that are sure to be taken, with any solver; multigrid takes nearly 300.
-constexpr std::size_t kAheadPerTriangle = 160;
 
 mesh::TopologicalType checked_type(const mesh::Surface& surface) {
   const auto type = mesh::topological_type(surface);
@@ -33,7 +29,6 @@ MemoryPlan planned(const mesh::Surface& surface, const mesh::TopologicalType& ty
 Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface, const Options& options,
                               Execution& execution, std::optional<topology::DualBases> given) {
   const mesh::Surface& surface = *given_surface;
-  const KeptPages pages(kAheadPerTriangle * surface.triangles.size(), execution.threads());
   Structure result;
   result.surface = std::move(given_surface);
 

@@ -1,0 +1,15 @@
+// Memory on large pages.
+#pragma once
+
+#include <cstddef>
+
+namespace holomorph {
+
+/// Page size of large arrays in bytes, where the system has it.
+inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
+
+/// Advice to the system to use large pages where whole ones lie in the memory: fewer misses of the address cache, and
+/// 512 times fewer page faults. Without effect where it is refused.
+void advise_large_pages(void* memory, std::size_t bytes);
+
+}  // namespace holomorph

@@ -1,0 +1,229 @@
+#include "solver/direct/sparse_cholesky.h"
+
+#include <cmath>
+#include <mutex>
+
+#include "base/errors.h"
+
+#ifdef HOLOMORPH_WITH_CHOLMOD
+#include <Eigen/CholmodSupport>
+#else
+#include <Eigen/SparseCholesky>
+#endif
+
+#ifdef HOLOMORPH_WITH_OPENBLAS
+extern "C" {
+void openblas_set_num_threads(int);
+int openblas_get_num_threads(void);
+}
+#endif
+
+namespace holomorph::solver {
+namespace {
+
+using Lower = Eigen::SparseMatrix<double>;
+
+// The number of BLAS threads belongs to the process: it is 1 while any thread of the process factorises or solves, and
+// the last of these puts it back.
+class OneBlasThread {
+ public:
+#ifdef HOLOMORPH_WITH_OPENBLAS
+  OneBlasThread() {
+    const std::lock_guard lock(mutex_);
+    if (users_++ > 0) return;
+    before_ = openblas_get_num_threads();
+    openblas_set_num_threads(1);
+  }
+  ~OneBlasThread() {
+    const std::lock_guard lock(mutex_);
+    if (--users_ == 0) openblas_set_num_threads(before_);
+  }
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  static inline std::mutex mutex_;
+  static inline int users_ = 0, before_ = 1;
+#else
+  OneBlasThread() {}
+#endif
+};
+
+void check(bool done, Eigen::Index unknowns) {
+  if (done) return;
+  throw SolverError("the factorisation of a system of " + std::to_string(unknowns) +
+                    " unknowns failed: not positive definite, or out of memory");
+}
+
+// The rows and columns of `places`, ascending.
+Lower part(const Lower& lower, const std::vector<Eigen::Index>& places) {
+  std::vector<Eigen::Index> number(lower.rows(), -1);
+  for (std::size_t i = 0; i < places.size(); ++i) number[places[i]] = static_cast<Eigen::Index>(i);
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Lower result(n, n);
+  result.reserve(lower.nonZeros());
+  for (Eigen::Index column = 0; column < n; ++column) {
+    result.startVec(column);
+    for (Lower::InnerIterator it(lower, places[column]); it; ++it) {
+      if (number[it.row()] >= 0) result.insertBack(number[it.row()], column) = it.value();
+    }
+  }
+  result.finalize();
+  return result;
+}
+
+}  // namespace
+
+#ifdef HOLOMORPH_WITH_CHOLMOD
+
+// Fixed unknowns become a dense block at the end of the factor where what is left of the surface connects them. Beyond
+// this many times n^1.5 operations two factorisations are faster than that one; AMD's own order takes 3 to 50.
+constexpr double kMostOperations = 300;
+
+struct SparseCholesky::Factor {
+  Factor() {
+    cholmod_start(&common);
+    common.print = 0;
+    common.error_handler = nullptr;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.nmethods = 1;  // AMD alone: METIS is slower here up to 4M faces
+    common.method[0].ordering = CHOLMOD_AMD;
+    common.postorder = 1;
+  }
+  ~Factor() {
+    cholmod_free_factor(&L, &common);
+    cholmod_finish(&common);
+  }
+  Factor(const Factor&) = delete;
+  Factor& operator=(const Factor&) = delete;
+
+  void compute(const Lower& lower) {
+    cholmod_sparse A = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
+    L = cholmod_analyze(&A, &common);
+    factorise(A);
+  }
+
+  // AMD with the constraint that the fixed unknowns come last. The postordering that follows moves some of them forward
+  // again, but never before an unknown that depends on them: the ancestors of a fixed one are fixed.
+  // @return false where that would be slow
+  bool compute_fixed_last(const Lower& lower, const std::vector<char>& fixed) {
+    cholmod_sparse A = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
+    std::vector<int> last(fixed.begin(), fixed.end()), order(fixed.size());
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    if (cholmod_camd(&A, nullptr, 0, last.data(), order.data(), &common)) {
+      L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common);
+    }
+    if (L == nullptr || common.fl > kMostOperations * std::pow(static_cast<double>(lower.rows()), 1.5)) return false;
+    factorise(A);
+    return true;
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) { return apply(CHOLMOD_A, B); }
+
+  // Forward and backward substitution; in between the fixed unknowns are set to 0. Forward they do not act on the
+  // others, none of which depends on them; backward they stay 0, as those that they depend on are fixed.
+  Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& B, const std::vector<char>& fixed) {
+    Eigen::MatrixXd X = apply(CHOLMOD_L, apply(CHOLMOD_P, B));
+    const int* const order = static_cast<const int*>(L->Perm);
+    for (Eigen::Index i = 0; i < X.rows(); ++i) {
+      if (fixed[order[i]]) X.row(i).setZero();
+    }
+    return apply(CHOLMOD_Pt, apply(CHOLMOD_Lt, X));
+  }
+
+ private:
+  void factorise(cholmod_sparse& A) {
+    const auto unknowns = static_cast<Eigen::Index>(A.nrow);
+    check(L != nullptr, unknowns);
+    cholmod_factorize(&A, L, &common);
+    check(common.status == CHOLMOD_OK, unknowns);
+  }
+
+  // The solution of one of CHOLMOD's systems: A x = b, L x = b, L' x = b, and permutations.
+  Eigen::MatrixXd apply(int system, const Eigen::MatrixXd& B) {
+    cholmod_dense b = Eigen::viewAsCholmod(const_cast<Eigen::MatrixXd&>(B));  // CHOLMOD only reads it
+    cholmod_dense* x = cholmod_solve(system, L, &b, &common);
+    check(x != nullptr, B.rows());
+    Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
+    cholmod_free_dense(&x, &common);
+    return X;
+  }
+
+  cholmod_common common;
+  cholmod_factor* L = nullptr;
+};
+
+#else
+
+struct SparseCholesky::Factor {
+  void compute(const Lower& lower) {
+    method.compute(lower);
+    check(method.info() == Eigen::Success, lower.rows());
+  }
+  bool compute_fixed_last(const Lower&, const std::vector<char>&) { return false; }
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& B) { return method.solve(B); }
+  Eigen::MatrixXd solve_fixed(const Eigen::MatrixXd& B, const std::vector<char>&) { return solve(B); }
+
+  Eigen::SimplicialLDLT<Lower, Eigen::Lower> method;
+};
+
+#endif
+
+void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
+  const OneBlasThread one_thread;
+  fixed_ = std::move(fixed);
+  others_.clear();
+  factor_of_others_.reset();
+  factor_ = std::make_unique<Factor>();
+  if (lower.rows() == 0) return;
+  if (fixed_.empty()) {
+    factor_->compute(lower);
+  } else if (!factor_->compute_fixed_last(lower, fixed_)) {
+    factor_ = std::make_unique<Factor>();
+    factor_->compute(lower);
+    for (std::size_t i = 0; i < fixed_.size(); ++i) {
+      if (fixed_[i] == 0) others_.push_back(static_cast<Eigen::Index>(i));
+    }
+    factor_of_others_ = std::make_unique<Factor>();
+    if (!others_.empty()) factor_of_others_->compute(part(lower, others_));
+  }
+}
+
+Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& B) {
+  const OneBlasThread one_thread;
+  return B.rows() == 0 ? B : factor_->solve(B);
+}
+
+Eigen::MatrixXd SparseCholesky::solve_fixed(const Eigen::MatrixXd& B) {
+  const OneBlasThread one_thread;
+  if (B.rows() == 0) return B;
+  if (!factor_of_others_) return factor_->solve_fixed(B, fixed_);
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+  if (!others_.empty()) X(others_, Eigen::all) = factor_of_others_->solve(B(others_, Eigen::all));
+  return X;
+}
+
+SparseCholesky::SparseCholesky() = default;
+SparseCholesky::~SparseCholesky() = default;
+
+bool SparseCholesky::supernodal() {
+#ifdef HOLOMORPH_WITH_CHOLMOD
+  return true;
+#else
+  return false;
+#endif
+}
+
+std::string SparseCholesky::name() {
+#ifdef HOLOMORPH_WITH_CHOLMOD
+#ifdef HOLOMORPH_WITH_OPENBLAS
+  return "CHOLMOD supernodal with OpenBLAS, AMD ordering";
+#else
+  return "CHOLMOD supernodal, AMD ordering";
+#endif
+#else
+  return "Eigen simplicial LDLT, AMD ordering";
+#endif
+}
+
+}  // namespace holomorph::solver

@@ -1,0 +1,117 @@
+#include "solver/multigrid/multigrid_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/column_blocks.h"
+#include "solver/direct/direct_solver.h"
+#include "solver/multigrid/block_solve.h"
+#include "solver/multigrid/vertex_order.h"
+
+namespace holomorph::solver {
+namespace {
+
+class MultigridSolver final : public LaplaceSolver {
+ public:
+  MultigridSolver(Laplacian&& L, std::vector<int> fixed, double goal, Execution& execution)
+      : L_(std::move(L)), fixed_(std::move(fixed)), goal_(goal) {
+    renumber(execution);
+    try {
+      hierarchy_ = make_hierarchy(L_, fixed_, execution);
+    } catch (const SolverError& error) {
+      fall_back(error, execution);
+    }
+    execution.report(kSetUp);
+  }
+
+  Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) override {
+    if (order_.empty()) return solve_in_order(B, conditions, execution);
+    const Solution solution = solve_in_order(B(order_, Eigen::all), conditions, execution);
+    Solution X(B.rows(), B.cols());
+    X(order_, Eigen::all) = solution;
+    return X;
+  }
+
+  std::string name() const override {
+    if (direct_) return direct_->name();
+    return "multigrid: conjugate gradients, " + std::to_string(hierarchy_.levels.size()) + " levels";
+  }
+
+  std::string remark() const override { return remark_; }
+
+ private:
+  static constexpr double kSetUp = 0.3;  // of the whole work, for the progress function
+
+  // From here on vertices have the numbers of the solver's own order, where the given one is scattered.
+  void renumber(Execution& execution) {
+    if (!is_scattered(L_)) return;
+    order_ = breadth_first_order(L_, execution);
+    L_ = renumbered(L_, order_);
+    std::vector<int> number(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) number[order_[i]] = static_cast<int>(i);
+    for (int& v : fixed_) v = number[v];
+    std::sort(fixed_.begin(), fixed_.end());
+  }
+
+  Solution solve_in_order(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) {
+    if (!direct_) {
+      try {
+        return solve_by_multigrid(B, conditions, execution);
+      } catch (const SolverError& error) {
+        fall_back(error, execution);
+      }
+    }
+    Solution X = direct_->solve(B, conditions, execution);
+    residual_ = std::max(residual_, direct_->residual());
+    iterations_ = direct_->iterations();
+    return X;
+  }
+
+  void fall_back(const SolverError& error, Execution& execution) {
+    remark_ = std::string("the direct solver took over: ") + error.what();
+    hierarchy_ = {};
+    direct_ = make_direct_solver(std::move(L_), fixed_, execution);
+  }
+
+  Solution solve_by_multigrid(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                              Execution& execution) {
+    Solution X(B.rows(), B.cols());
+    advise_large_pages(X.data(), X.size() * sizeof(double));
+    int iterations = 0;
+    double residual = 0;
+    for_column_blocks(B.cols(), [&](auto width_of_block, Eigen::Index begin, Eigen::Index end) {
+      constexpr int K = width_of_block;
+      BlockSolve<K> block(L_, hierarchy_, goal_, execution.workers());
+      for (Eigen::Index first = begin; first < end; first += K) {
+        const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
+        block.solve(B, conditions, first, width, X, [&](double reached) {
+          const double digits = std::clamp(std::log10(reached) / std::log10(kResidual), 0.0, 1.0);
+          const double columns = static_cast<double>(first) + digits * width;
+          execution.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));
+        });
+        iterations = std::max(iterations, block.iterations());
+        residual = std::max(residual, block.residual());
+      }
+    });
+    iterations_ = std::max(iterations_, iterations);
+    residual_ = std::max(residual_, residual);
+    return X;
+  }
+
+  Laplacian L_;             // in the solver's order, until the direct solver takes it
+  std::vector<int> order_;  // the given number of each of the solver's, empty where these are the same
+  std::vector<int> fixed_;  // in the solver's order
+  const double goal_;
+  Hierarchy hierarchy_;
+  std::unique_ptr<LaplaceSolver> direct_;
+  std::string remark_;
+};
+
+}  // namespace
+
+std::unique_ptr<LaplaceSolver> make_multigrid_solver(Laplacian&& L, std::vector<int> fixed, double goal,
+                                                     Execution& execution) {
+  return std::make_unique<MultigridSolver>(std::move(L), std::move(fixed), goal, execution);
+}
+
+}  // namespace holomorph::solver

@@ -1,0 +1,80 @@
+// Sparse matrices in single precision, and loops over their rows.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/chunks.h"
+#include "base/execution.h"
+#include "base/page_allocator.h"
+
+namespace holomorph::solver {
+
+struct Entry {
+  int column;
+  float weight;
+};
+
+/// Compressed rows.
+struct SparseRows {
+  Array<int> starts;     ///< #rows + 1, where each row begins, and the end of the last
+  Array<Entry> entries;  ///< in each row in any order, but the same at any number of threads
+
+  int size() const { return starts.empty() ? 0 : static_cast<int>(starts.size()) - 1; }
+  std::span<const Entry> operator[](int i) const {
+    return {entries.data() + starts[i], entries.data() + starts[i + 1]};
+  }
+};
+
+/// Rows of `each` entries, the largest weight first. Missing ones have weight 0 and the first one's column: it is in
+/// the cache already, and a loop of constant length is cheaper than one over what is there.
+struct EqualRows {
+  int each = 1;
+  Array<Entry> entries;
+
+  int size() const { return static_cast<int>(entries.size()) / each; }
+  const Entry* operator[](int i) const { return entries.data() + static_cast<std::ptrdiff_t>(each) * i; }
+};
+
+/// Rows of a chunk in the loops of the solver: few, as coarse levels are small.
+inline constexpr int kChunkRows = 512;
+
+inline int row_chunks(int rows) { return (rows + kChunkRows - 1) / kChunkRows; }
+
+/// body(thread, chunk, begin, end) for the rows begin .. end-1 of every chunk, in parallel; asks `execution` between
+/// batches of some 10 ms, so that cancelling is answered soon. @throws what the first body threw, Cancelled
+template <class Body>
+void for_row_chunks(int rows, Execution& execution, const Body& body) {
+  constexpr int kBatch = 256;
+  for (int first = 0; first < row_chunks(rows); first += kBatch) {
+    execution.report(0);
+    run_throwing(execution.workers(), std::min(kBatch, row_chunks(rows) - first), [&](int thread, int c) {
+      const int begin = (first + c) * kChunkRows;
+      body(thread, first + c, begin, std::min(begin + kChunkRows, rows));
+    });
+  }
+}
+
+/// The matrix whose chunks of rows have these entries, one after the other.
+/// @param starts #rows + 1: starts[i + 1] is the end of row i in its chunk's part
+SparseRows joined(Array<int>&& starts, const std::vector<std::vector<Entry>>& parts, Execution& execution);
+
+/// A matrix with `rows` rows, built in parallel: make_row(thread, i, part) appends the entries of row i to `part`.
+/// @param make_row its result must not depend on the thread @throws std::bad_alloc, Cancelled
+template <class MakeRow>
+SparseRows build_rows(int rows, Execution& execution, const MakeRow& make_row) {
+  Array<int> starts(rows + std::size_t{1});
+  std::vector<std::vector<Entry>> parts(row_chunks(rows));
+  for_row_chunks(rows, execution, [&](int thread, int chunk, int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      make_row(thread, i, parts[chunk]);
+      starts[i + 1] = static_cast<int>(parts[chunk].size());
+    }
+  });
+  return joined(std::move(starts), parts, execution);
+}
+
+/// The transpose, without zeros; entries of a row ascending. Cost: two passes over the entries, one thread.
+SparseRows transposed(const EqualRows& M, int columns);
+
+}  // namespace holomorph::solver
