@@ -23,11 +23,15 @@ struct PageAllocator {
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    void* const memory = ::operator new(bytes, alignment(count));
-    if (large(count)) advise_large_pages(memory, bytes);
-    return static_cast<T*>(memory);
+    return static_cast<T*>(large(count) ? take_large_pages(bytes) : ::operator new(bytes, kAlignment));
   }
-  void deallocate(T* memory, std::size_t count) { ::operator delete(memory, alignment(count)); }
+  void deallocate(T* memory, std::size_t count) {
+    if (large(count)) {
+      free_large_pages(memory, count * sizeof(T));
+    } else {
+      ::operator delete(memory, kAlignment);
+    }
+  }
 
   template <class U>
   void construct(U* place) {
@@ -42,7 +46,7 @@ struct PageAllocator {
 
  private:
   static bool large(std::size_t count) { return count * sizeof(T) >= kLargePage / 2; }
-  static std::align_val_t alignment(std::size_t count) { return std::align_val_t{large(count) ? kLargePage : 64}; }
+  static constexpr std::align_val_t kAlignment{64};
 };
 
 template <class T>
