@@ -20,7 +20,7 @@ using mesh::to_vertex;
 // Elements per block. A block's sum has a fixed order inside, and blocks are added in their order: the same bits for
 // any number of threads.
 constexpr int kBlock = 4096;
-// Blocks that run side by side before their sums are added and the progress function is asked.
+// Blocks that run in parallel before their sums are added and the progress function is called.
 constexpr int kBatch = 16;
 
 int block_count(std::size_t elements) { return static_cast<int>((elements + kBlock - 1) / kBlock); }
@@ -62,7 +62,7 @@ void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h
 }
 
 template <int N>
-using Maxima = std::array<Row<N>, 2>;  // of |sum| and of the scale it is measured by, per form
+using Maxima = std::array<Row<N>, 2>;  // per form: largest |sum|, and largest scale that it is relative to
 
 // Faces: |sum around| against the largest value.
 template <int N>

@@ -29,7 +29,7 @@ struct Residuals {
   double closedness = 0, harmonicity = 0;
 };
 
-/// @param fixed vertices at which d* h is asked of the first `natural` forms only: the others are prescribed there
+/// @param fixed vertices at which d* h is measured for the first `natural` forms only: the others are prescribed there
 Residuals residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
                     Execution& execution, int natural, const std::vector<int>& fixed);
 

@@ -9,7 +9,7 @@
 
 namespace holomorph::forms {
 
-/// L = d^T k d for edge weights k; edges with the same ends add up, loops carry no energy of functions.
+/// L = d^T k d for edge weights k; weights of edges with the same ends add up, loops have none.
 /// Cost: linear, in parallel.
 solver::Laplacian laplacian(const mesh::HalfEdges& half_edges, std::span<const double> weights, Execution& execution);
 

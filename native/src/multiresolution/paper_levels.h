@@ -6,7 +6,7 @@
 #include "base/execution.h"
 #include "progressive/progressive_mesh.h"
 #include "solver/laplace_solver.h"
-#include "topology/carried_classes.h"
+#include "topology/pulled_back_classes.h"
 
 namespace holomorph::multiresolution {
 
@@ -17,16 +17,16 @@ struct PaperLevels {
   std::vector<int> place;               ///< #V of the surface, in the numbering of the progressive mesh
   std::vector<mesh::Triple> triangles;  ///< #T in that numbering and order
   topology::IntegerForms base_classes;  ///< on the edges of M0
-  topology::DualBases bases;            ///< carried to the surface's half-edges
+  topology::DualBases bases;            ///< on the surface's half-edges
 };
 
-/// Steps 1 to 3: the progressive mesh in the order of quadric errors, homology and cohomology of M0, and both carried
-/// to the surface (step 5b), which is exact.
+/// Steps 1 to 3: the progressive mesh in the order of quadric errors, homology and cohomology bases of M0, loops lifted
+/// to the surface and classes pulled back (step 5b), which is exact.
 /// @pre connected, closed, genus at least 1, no isolated vertices
 /// @throws InvalidMesh for an intrinsic surface, and where no triangulation of the polygons is without double edges
 PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution);
 
-/// The same for a level of a progressive mesh that there is already, and that outlives the result.
+/// The same for a level of a given progressive mesh, which outlives the result.
 PaperLevels paper_levels(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
 
 /// L f = b on the level with this many splits. Its vertices are in the order in which they lie on the surface, which

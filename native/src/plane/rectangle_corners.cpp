@@ -13,7 +13,7 @@ namespace {
 
 using mesh::HalfedgeHandle;
 
-// From this change of direction on, in radians, a boundary vertex is a corner.
+// Least exterior angle of a corner, in radians.
 constexpr double kCorner = std::numbers::pi / 4;
 
 // The vertices of the boundary, the surface on its left, from the lowest.
@@ -92,18 +92,18 @@ std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& 
 std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution) {
   const auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
-  std::vector<double> turn(surface.vertex_count, std::numbers::pi);
+  std::vector<double> exterior(surface.vertex_count, std::numbers::pi);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const auto length = [&](int side) { return surface.edge_lengths[surface.triangle_edges[t][(i + side) % 3]]; };
       const double a = length(1), b = length(2), c = length(0);  // a opposite corner i
-      turn[surface.triangles[t][i]] -= std::atan2(4 * mesh::triangle_area(a, b, c), (b - a) * (b + a) + c * c);
+      exterior[surface.triangles[t][i]] -= std::atan2(4 * mesh::triangle_area(a, b, c), (b - a) * (b + a) + c * c);
     }
   }
   std::vector<int> corners;
   for (const int v : around(half_edges, boundary)) {
-    if (std::abs(turn[v]) <= kCorner) continue;
-    if (turn[v] < 0 || corners.size() == 4) return {};
+    if (std::abs(exterior[v]) <= kCorner) continue;
+    if (exterior[v] < 0 || corners.size() == 4) return {};
     corners.push_back(v);
   }
   if (corners.size() != 4) return {};
@@ -117,7 +117,7 @@ int boundary_length(const mesh::Surface& surface, Execution& execution) {
 std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execution) {
   const auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
-  const auto& loop = boundary.loops[0];  // the hole on its left: turned round at the end
+  const auto& loop = boundary.loops[0];  // the hole on its left: reversed at the end
   const int n = static_cast<int>(loop.size());
   if (n < 4) throw TopologyError("the boundary has three edges; four are needed for four corners");
   std::vector<double> until(n, 0.0);  // length from the first vertex to each

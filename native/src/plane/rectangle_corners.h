@@ -23,7 +23,7 @@ Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_
 /// Triangles all of whose corners lie on one side, ascending: a map that makes the side straight collapses them.
 std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides);
 
-/// The four corners of a disk whose boundary has exactly four vertices at which it turns by more than 45 degrees, all
+/// The four corners of a disk whose boundary has exactly four vertices with an exterior angle beyond 45 degrees, all
 /// of them inwards, in its order from the lowest; nothing for other disks.
 std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution);
 

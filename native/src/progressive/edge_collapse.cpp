@@ -9,7 +9,7 @@
 namespace holomorph::progressive {
 namespace {
 
-// A triangle may turn by at most 75 degrees: cos 75.
+// Cosine of the largest rotation of a normal, 75 degrees.
 constexpr float kLeastCosine = 0.2588F;
 // Weight of area times squared length against area times squared distance from a plane.
 constexpr float kLengthWeight = 1e-5F;
@@ -29,7 +29,7 @@ Vector cross(const Vector& a, const Vector& b) {
 
 double norm(const Vector& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
-// Adds weight * (n.d / |n|)^2; the plane goes through v, so b and c stay 0.
+// Adds weight * (n.d / |n|)^2; the plane contains v, so b and c remain 0.
 void add_plane(Vertex& v, const Vector& n, double weight) {
   const double length = norm(n), scale = length > 0 ? weight / (length * length) : 0;
   int k = 0;

@@ -42,7 +42,7 @@ class EdgeCollapse {
   void gather(int v);
   int neighbour_count() const { return neighbour_count_; }
   int neighbour(int i) const { return neighbours_[i]; }
-  /// Neighbours that v may be collapsed into as far as the boundary goes: all, or the two along the boundary.
+  /// Whether the boundary permits that v is collapsed into neighbour i: any neighbour, or the two along the boundary.
   bool along_boundary(int i) const { return closed_ || i == 0 || i == neighbour_count_ - 1; }
   float squared_length(int i) const { return x_[i] * x_[i] + y_[i] * y_[i] + z_[i] * z_[i]; }
   /// Q_v + Q_u at the neighbour's position, plus a small multiple of area times squared length, which decides where all
@@ -52,7 +52,7 @@ class EdgeCollapse {
   /// apexes of the triangles at their edge, the boundary counting as one vertex, and are not two corners of a
   /// tetrahedron.
   bool keeps_topology(int i);
-  /// No triangle of the star turns by more than 75 degrees.
+  /// No normal of a triangle of the star rotates by more than 75 degrees.
   bool keeps_normals(int i) const;
 
   /// Collapses over vertices: nearly 1 at the end.
@@ -68,8 +68,8 @@ class EdgeCollapse {
   const std::vector<Collapse>& collapses() const { return collapses_; }
   void reserve(std::size_t collapses) { collapses_.reserve(collapses); }
 
-  /// Asks for the memory that `gather` will read for each of these vertices. A walk around one vertex waits for memory
-  /// at each step; walks side by side wait together.
+  /// Prefetches what `gather` will read for each of these vertices: walks around several vertices wait for memory
+  /// together.
   void prefetch_stars(const int* v, int count) const;
 
  private:

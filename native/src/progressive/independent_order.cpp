@@ -19,7 +19,7 @@ class IndependentOrder {
     }
   }
 
-  /// One round; returns how many vertices were removed. Vertices that are left stay in ascending order.
+  /// One round; returns how many vertices were removed. Vertices that are left are in ascending order.
   std::size_t round(Geometry geometry) {
     for (const int v : left_) mesh_.vertex(v).flags &= ~Vertex::kTouched;
     for (std::size_t k = 0; k < left_.size(); ++k) {

@@ -13,8 +13,8 @@ class Refinement {
   /// @param splits how many will be made at most
   Refinement(const ProgressiveMesh& mesh, int splits);
 
-  /// Makes the next split. A valid mesh stays valid: what could spoil it is refused.
-  /// @throws InvalidMesh naming the split, if its vertices are no edges at v_s in the right order
+  /// Makes the next split. A valid mesh remains valid.
+  /// @throws InvalidMesh naming the split, if v_l and v_r are not neighbours of v_s in the right order
   void split();
 
   /// Neighbours of v_s that became neighbours of v_t instead in the last split.

@@ -111,8 +111,8 @@ class Recorder {
 
 ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Execution& execution) {
   execution.stage("edge collapses", 0.0, 1.0);
-  const auto turned = with_single_edges(given);
-  const mesh::Surface& surface = turned ? *turned : given;
+  const auto flipped = with_single_edges(given);
+  const mesh::Surface& surface = flipped ? *flipped : given;
   EdgeCollapse collapse(surface);
   order == Order::quadric ? collapse_by_quadrics(collapse, execution) : collapse_independent_sets(collapse, execution);
   execution.finish();

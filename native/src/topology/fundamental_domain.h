@@ -8,8 +8,7 @@
 
 namespace holomorph::topology {
 
-/// @param surface,half_edges the artist's triangulation; C takes all its diagonals, so G and T run on the artist's
-/// edges
+/// @param surface,half_edges the input triangulation; C has all its diagonals, so G and T consist of edges of polygons
 /// @param stars of punctures, whose spokes all go into T: then C enters each face of a star across its link edge, as a
 /// leaf, and the surface without the stars is cut as if they were holes. @pre no spoke is a diagonal
 /// Cost: linear but for the logarithms of the queue of T (grow_shortest_paths) and of the sort of the edges that the

@@ -100,7 +100,7 @@ class ShortestPathTree {
     settle(v);
   }
 
-  // From v both ways to the edge opposite, which stays outside T.
+  // From v both ways to the edge opposite, which is not in T.
   void settle_loop(int v) {
     std::vector<HalfedgeHandle> loop;
     const HalfedgeHandle start = mesh_.halfedge_handle(VertexHandle(v));

@@ -28,7 +28,7 @@ constexpr double kRoughFloors[] = {1.0, 0.1}, kFineFloors[] = {0.01, 1e-3, 1e-4}
 
 }  // namespace
 
-// Triangles met at kSamples equal steps through the total area.
+// Triangles at kSamples equal steps through the total area.
 std::vector<int> sample_triangles(const mesh::Surface& surface) {
   const std::size_t count = surface.triangles.size();
   std::vector<double> until(count);

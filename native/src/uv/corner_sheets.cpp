@@ -58,10 +58,10 @@ struct Walk {
 Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
   const int faces = static_cast<int>(mesh.n_faces());
   Walk walk{{}, Array<HalfedgeHandle>(faces)};
-  Array<char> met(faces, 0);
+  Array<char> visited(faces, 0);
   for (int root = 0; root < faces; ++root) {
-    if (met[root]) continue;
-    met[root] = 1;
+    if (visited[root]) continue;
+    visited[root] = 1;
     walk.order.push_back(root);
     for (std::size_t i = walk.order.size() - 1; i < walk.order.size(); ++i) {
       HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(walk.order[i]));
@@ -69,7 +69,7 @@ Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
         const HalfedgeHandle o = opposite(h);
         if (is_cut[edge_of(h)] || !mesh.face_handle(o).is_valid()) continue;
         const int behind = mesh::face_of(mesh, o);
-        if (std::exchange(met[behind], 1)) continue;
+        if (std::exchange(visited[behind], 1)) continue;
         walk.to_parent[behind] = o;
         walk.order.push_back(behind);
       }

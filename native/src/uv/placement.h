@@ -13,11 +13,11 @@ struct Frame {
   double area = 0;                 ///< sum of the areas of the triangles, whichever way they lie
 };
 
-/// The frame of the map turned by an angle about 0. @param uv #C x 2. @param rotation radians, counter-clockwise
+/// The frame of the map rotated by an angle about 0. @param uv #C x 2. @param rotation radians, counter-clockwise
 /// The area is summed in a fixed order. Cost: O(#T).
 Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation, Workers& workers);
 
-/// z goes to factor (z - origin) + target: moved to the middle first and rounded last, so that corners whose u or v
+/// Maps z to factor (z - origin) + target: moved to the middle first and rounded last, so that corners whose u or v
 /// are the same keep them so.
 struct Placement {
   std::complex<double> factor, origin, target;

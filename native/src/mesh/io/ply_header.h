@@ -15,7 +15,7 @@ enum class Type { none, int8, uint8, int16, uint16, int32, uint32, int64, uint64
 struct Property {
   std::string name;
   Type type = Type::none;
-  Type count_type = Type::none;  ///< of a list's length; none for a property that is no list
+  Type count_type = Type::none;  ///< type of a list's length; none for a property that is no list
   bool is_list() const { return count_type != Type::none; }
 };
 
