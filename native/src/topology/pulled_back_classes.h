@@ -1,5 +1,4 @@
-// Classes of the base of a progressive mesh pulled back to finer levels, and its loops lifted there (paper § 9, step
-// 5).
+// Classes pulled back, and loops lifted, from the base of a progressive mesh to finer levels (paper § 9, step 5).
 #pragma once
 
 #include <vector>
