@@ -6,19 +6,10 @@
 
 #include "base/errors.h"
 #include "mesh/triangle_geometry.h"
+#include "mesh/vertex_labels.h"
 
 namespace holomorph::mesh {
 namespace {
-
-// Vertices by their labels in messages.
-class VertexLabels {
- public:
-  explicit VertexLabels(const std::vector<int>& labels) : labels_(labels) {}
-  std::string operator()(int vertex) const { return std::to_string(labels_.empty() ? vertex : labels_[vertex]); }
-
- private:
-  const std::vector<int>& labels_;
-};
 
 // Angle at the apex of the triangle on side h.
 double apex_angle(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle h) {

@@ -49,6 +49,17 @@ class CornerTable {
     while (opposite(side) >= 0) side = turn_right(side);
     return side;
   }
+  /// Calls each(w) for the neighbours of a vertex, counter-clockwise from the head of `start`, its kept side.
+  template <class Each>
+  void each_neighbour(int start, const Each& each) const {
+    int side = start;
+    do {
+      each(to(side));
+      const int left = turn_left(side);
+      if (left < 0) each(apex(side));
+      side = left;
+    } while (side >= 0 && side != start);
+  }
   /// Appends a triangle without opposites; returns its first side.
   int add(int a, int b, int c);
   int triangle_count() const { return static_cast<int>(sides_.size() / 4); }

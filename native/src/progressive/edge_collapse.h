@@ -74,6 +74,13 @@ class EdgeCollapse {
 
  private:
   bool boundary(int v) const { return (vertices_[static_cast<std::size_t>(v)].flags & Vertex::kBoundary) != 0; }
+  bool is_neighbour(int w) const;
+  // Where a triangle was removed: its apex, and sides that leave the apex and v_s there.
+  struct Gap {
+    int apex = -1, from_apex = -1, from_base = -1;
+    bool has_opposite = false;  // another triangle was behind the side that ends at v_s
+  };
+  Gap remove_triangle(int side);
   void keep_side(int v, int side);
   void grow();
 

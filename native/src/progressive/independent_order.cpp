@@ -1,5 +1,6 @@
 #include "progressive/independent_order.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -42,16 +43,18 @@ class IndependentOrder {
     constexpr float kRefused = std::numeric_limits<float>::infinity();
     for (int i = 0; i < n; ++i) costs_[i] = mesh_.along_boundary(i) ? mesh_.squared_length(i) : kRefused;
     while (true) {
-      int best = 0;
-      for (int i = 1; i < n; ++i) best = costs_[i] < costs_[best] ? i : best;
-      if (costs_[best] == kRefused) return;
-      if (mesh_.keeps_topology(best) && (geometry == Geometry::ignored || mesh_.keeps_normals(best))) {
-        mesh_.collapse(best);
-        for (int i = 0; i < n; ++i) mesh_.vertex(mesh_.neighbour(i)).flags |= Vertex::kTouched;
-        return;
-      }
-      costs_[best] = kRefused;
+      const auto best = std::min_element(costs_.begin(), costs_.begin() + n);
+      if (*best == kRefused) return;
+      if (collapse(static_cast<int>(best - costs_.begin()), geometry)) return;
+      *best = kRefused;
     }
+  }
+
+  bool collapse(int i, Geometry geometry) {
+    if (!mesh_.keeps_topology(i) || (geometry == Geometry::checked && !mesh_.keeps_normals(i))) return false;
+    mesh_.collapse(i);
+    for (int k = 0; k < mesh_.neighbour_count(); ++k) mesh_.vertex(mesh_.neighbour(k)).flags |= Vertex::kTouched;
+    return true;
   }
 
   EdgeCollapse& mesh_;

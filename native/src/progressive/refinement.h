@@ -23,12 +23,14 @@ class Refinement {
   std::vector<Triple> triangles() const;
 
  private:
-  // What moves to v_t: the triangles from `from` to before `to` of the star of v_s.
+  // The triangles from .. to-1 of the star of v_s, which move to v_t.
   struct Sector {
     int from, to;
     bool closed;  // no boundary at v_s
   };
+  void require(bool valid, const char* what) const;
   void find_star(int v);
+  void check_vertices(const Split& split, int t) const;
   Sector sector_of(const Split& split, int t) const;
   int leaving(int i, bool closed) const;
   int arriving(int i, bool closed) const;

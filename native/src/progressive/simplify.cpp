@@ -19,7 +19,8 @@ class Recorder {
  public:
   Recorder(const mesh::Surface& surface, const std::vector<Collapse>& collapses, std::size_t count)
       : surface_(surface), collapses_(collapses.begin(), collapses.begin() + static_cast<std::ptrdiff_t>(count)) {
-    number();
+    number_base();
+    number_splits();
   }
 
   bool base_has_area() const {
@@ -49,7 +50,7 @@ class Recorder {
   }
 
  private:
-  void number() {
+  void number_base() {
     std::vector<char> gone(surface_.vertex_count, 0), triangle_gone(surface_.triangles.size(), 0);
     for (const int v : surface_.repairs.isolated_vertices) gone[v] = 1;
     for (const Collapse& c : collapses_) {
@@ -66,6 +67,9 @@ class Recorder {
     }
     base_vertices_ = static_cast<std::ptrdiff_t>(vertices_.size());
     base_triangles_ = triangles_.size();
+  }
+
+  void number_splits() {
     for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c) {
       vertices_.push_back(c->v_t);
       for (const int side : {c->left, c->right}) {
