@@ -11,8 +11,8 @@ from .results import MemoryPlan, SolverReport, Structure, checked_coefficients
 
 @dataclass(frozen=True, eq=False)
 class FormStructure(Structure):
-    """Base of the results that have forms to combine: differentials made of real harmonic forms h_1 .. h_m, of which the
-    UV maps are real and imaginary parts of integrals."""
+    """Base of the results with forms to combine: differentials made of real harmonic forms h_1 .. h_m, whose integrals'
+    real and imaginary parts are UV maps."""
 
     coefficient_type = np.complex128
 
@@ -22,14 +22,14 @@ class FormStructure(Structure):
 
     @cached_property
     def homology_basis(self):
-        """Tuple of integer arrays: 2g closed loops zeta_i of vertices, the first not repeated (paper § 4), then, with b
-        boundary loops, the loops 1 .. b-1."""
+        """Tuple of integer arrays: 2g closed loops zeta_i of vertices, the first not repeated (paper § 4), then, with
+        b boundary loops, the loops 1 .. b-1."""
         return tuple(self._of_surface(loop) for loop in self._native.homology_basis())
 
     @cached_property
     def seams(self):
-        """(#S,) indices into `edges` of the cut graph, on the polygons' edges only: cut open there, a disk is left. With
-        punctures it ends there, and the edges at the punctures are seams, too."""
+        """(#S,) indices into `edges` of the cut graph, on edges of polygons only: cut open there, a disk is left. The
+        cut graph ends at punctures, and the edges there are seams, too."""
         return self._native.seams()
 
     @cached_property

@@ -56,8 +56,8 @@ def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", thread
     Raises
     ------
     InvalidMesh
-        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a rotation or a stretch, or
-        a boundary that is not straight
+        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a rotation or a stretch,
+        or a boundary that is not straight
     TopologyError
         if `harmonic` does not apply to the topology
 

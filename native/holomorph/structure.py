@@ -52,10 +52,10 @@ def conformal_structure(
         never chosen by "auto": conjugate gradients on the levels of a progressive mesh, whose base mesh gives loops and
         classes. It flips no edges, so its invariants are those of the surface's own triangles
     threads : number of threads, None for one per core; the result has the same bits for any number
-    memory_limit : bytes that may be in use at once, without the surface itself. Where the harmonic forms do not all fit,
-        they are solved for in blocks that do; the results are the same up to the solver's accuracy, but each call of
-        `uv` then solves for its own map. On surfaces with boundary or punctures all forms
-        must fit. None: nothing is refused, and forms are kept up to 2 GB
+    memory_limit : bytes that may be in use at once, without the surface itself. Where the harmonic forms do not all
+        fit, they are solved for in blocks that do; the results are the same up to the solver's accuracy, but each call
+        of `uv` then solves for its own map. On surfaces with boundary or punctures all forms must fit. None: nothing is
+        refused, and forms are kept up to 2 GB
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Returns
@@ -94,21 +94,31 @@ def _structure(surface, component, boundary, punctures, residues, rectangle_corn
     vertices, labels = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     residues = _residues(residues)
     is_chosen = bool(vertices or residues)
-    if boundary == "double_cover" and (is_chosen or rectangle_corners is not None or topology == (0, 1)):
-        raise TopologyError(
-            "the way over the double is for forms of surfaces with boundary, without punctures or corners"
-        )
-    if rectangle_corners is not None and len(rectangle_corners):
-        if is_chosen:
-            raise TopologyError("a rectangle has no punctures; choose either")
+    has_corners = rectangle_corners is not None and len(rectangle_corners) > 0
+    if boundary == "double_cover":
+        _check_double_cover(topology, is_chosen or rectangle_corners is not None)
+    if has_corners and is_chosen:
+        raise TopologyError("a rectangle has no punctures; choose either")
+    if has_corners:
         return rectangle(surface, component, rectangle_corners, *options)
     if topology == (0, 1) and len(vertices) <= 1 and not residues:
-        if is_chosen:
-            return disk(surface, component, vertices, labels, *options)
-        return automatic_map(surface, component, *options)
+        return _disk(surface, component, vertices, labels, options)
     if is_chosen or topology == (0, 0):
         return _punctured(surface, component, (vertices, residues, labels), options, memory_limit)
     return _forms(surface, component, boundary, options, memory_limit)
+
+
+def _check_double_cover(topology, has_choice):
+    if has_choice or topology == (0, 1):
+        raise TopologyError(
+            "the way over the double is for forms of surfaces with boundary, without punctures or corners"
+        )
+
+
+def _disk(surface, component, vertices, labels, options):
+    if vertices:
+        return disk(surface, component, vertices, labels, *options)
+    return automatic_map(surface, component, *options)
 
 
 def _punctured(surface, component, chosen, options, memory_limit):
