@@ -94,12 +94,10 @@ def _structure(surface, component, boundary, punctures, residues, rectangle_corn
     vertices, labels = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     residues = _residues(residues)
     is_chosen = bool(vertices or residues)
-    has_corners = rectangle_corners is not None and len(rectangle_corners) > 0
     if boundary == "double_cover":
         _check_double_cover(topology, is_chosen or rectangle_corners is not None)
-    if has_corners and is_chosen:
-        raise TopologyError("a rectangle has no punctures; choose either")
-    if has_corners:
+    if rectangle_corners is not None and len(rectangle_corners):
+        _check_no_punctures(is_chosen)
         return rectangle(surface, component, rectangle_corners, *options)
     if topology == (0, 1) and len(vertices) <= 1 and not residues:
         return _disk(surface, component, vertices, labels, options)
@@ -113,6 +111,11 @@ def _check_double_cover(topology, has_choice):
         raise TopologyError(
             "the way over the double is for forms of surfaces with boundary, without punctures or corners"
         )
+
+
+def _check_no_punctures(is_chosen):
+    if is_chosen:
+        raise TopologyError("a rectangle has no punctures; choose either")
 
 
 def _disk(surface, component, vertices, labels, options):

@@ -93,10 +93,9 @@ def boundary(surface):
 
 
 def right_hand_sides(surface, natural, dirichlet):
-    """Columns for both conditions, alternating while there are any; and which of them have a fixed boundary."""
-    holds = np.array(
-        [k % 2 for k in range(2 * min(natural, dirichlet))] + [dirichlet > natural] * abs(natural - dirichlet), bool
-    )
+    """Columns for both conditions, alternating while there are any; and which of them fix the boundary."""
+    alternating = [k % 2 for k in range(2 * min(natural, dirichlet))]
+    fixes = np.array(alternating + [dirichlet > natural] * abs(natural - dirichlet), bool)
     B = np.random.default_rng(2).normal(size=(len(surface.vertices), natural + dirichlet))
     return B - ~fixes * B.mean(axis=0), fixes
 
@@ -168,14 +167,14 @@ def test_iterations(name, bounded):
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_columns_do_not_depend_on_each_other(solver, columns):
     together = Solved(surface("36 holes"), solver, columns)
-    for holds in (False, True):
-        which = together.holds == holds
+    for fixes in (False, True):
+        which = together.fixes == fixes
         if not which.any():
             continue
         problem = _native.LaplaceProblem(surface("36 holes")._native, list(together.vertices), solver, 0)
-        alone = problem.solve(together.B[:, which], [holds] * which.sum())
+        alone = problem.solve(together.B[:, which], [fixes] * which.sum())
         difference = together.X[:, which] - alone
-        difference -= 0 if holds else difference.mean(axis=0)
+        difference -= 0 if fixes else difference.mean(axis=0)
         assert np.abs(difference).max() <= 1e-9 * np.abs(alone).max()
 
 
