@@ -22,9 +22,9 @@ struct Poles {
   std::vector<mesh::Star> stars;
   Eigen::MatrixXd
       residues;  ///< #stars x m: with boundary the identity; closed, where they sum to 0, -1 at the last star
-  topology::IntegerForms classes;  ///< m, of topology::puncture_classes
+  topology::IntegerForms classes;  ///< m classes, from topology::puncture_classes
   SingularPart part;
-  Array<double> outer_weights;  ///< #E, of singular_part.h
+  Array<double> outer_weights;  ///< #E, as in singular_part.h
 };
 
 /// #stars x m residues of the pole forms.

@@ -22,7 +22,7 @@ namespace holomorph::multiresolution {
 
 struct PaperOptions {
   double ratio = 4;                     ///< faces of a threshold over those of the one before
-  std::int64_t least_faces = 500;       ///< of the first threshold above M0
+  std::int64_t least_faces = 500;       ///< fewest faces of a threshold above M0
   double level_residual = 1e-4;         ///< relative, goal on M0 and at the thresholds
   double residual = solver::kResidual;  ///< relative, goal on M
   solver::Scaling scaling = solver::Scaling::diagonal;

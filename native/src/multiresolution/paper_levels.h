@@ -29,8 +29,8 @@ PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution);
 /// The same for a level of a given progressive mesh, which outlives the result.
 PaperLevels paper_levels(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
 
-/// L f = b on the level with this many splits. Its vertices are in the order in which they lie on the surface, which
-/// keeps neighbours near in memory.
+/// L f = B on the level with this many splits. Rows are in the order of the vertices of the surface, which keeps
+/// neighbours near in memory.
 struct LevelSystem {
   solver::Laplacian L;
   Eigen::MatrixXd B;               ///< -d* eta, as forms::codifferentials
@@ -38,8 +38,8 @@ struct LevelSystem {
   std::int64_t faces = 0;
 };
 
-/// Weights from the positions; triangles thinner than about 1 : 100 count as that thin, for they would cost iterations
-/// and the level is an estimation only.
+/// Weights from the positions; triangles thinner than about 1 : 100 count as that thin: they would cost iterations,
+/// and a level gives only an initial guess.
 /// Cost: linear in the number of vertices of the surface.
 LevelSystem level_system(const PaperLevels& levels, int splits);
 

@@ -1,4 +1,4 @@
-// Maps of disks and spheres to the plane and the sphere: what their results have in common.
+// The result of maps of disks to the plane.
 #pragma once
 
 #include <Eigen/Core>

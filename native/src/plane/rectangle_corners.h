@@ -1,4 +1,4 @@
-// The four corners of a disk that is to become a rectangle: which fit, and which are taken without a choice.
+// The four corners of a disk that is mapped to a rectangle: checks of given ones, and default ones.
 #pragma once
 
 #include <array>

@@ -7,10 +7,10 @@
 
 namespace holomorph::progressive {
 
-/// What the corners of one level have.
+/// Values at the corners of one level.
 struct CornerValues {
   std::vector<double> values;  ///< 3#T x width
-  std::vector<int> corners;    ///< 3#T polygon corner of the original whose data it takes over
+  std::vector<int> corners;    ///< 3#T polygon corner of the original whose data each has
 };
 
 /// Corners of the original at the same vertex with the same values are one wedge (Hoppe 1996). The collapse of v_t into

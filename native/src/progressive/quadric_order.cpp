@@ -73,8 +73,8 @@ void collapse_by_quadrics(EdgeCollapse& mesh, Execution& execution) {
   mesh.reserve(mesh.vertex_count());
   QuadricOrder order(mesh, execution);
   order.run(Geometry::checked);
-  // A refused vertex is tried again when its own star changes, not when a neighbour's does: so once more until nothing
-  // is left. Each round but the last makes a collapse.
+  // A refused vertex is tried again when its own star changes, not when a neighbour's does: so it is repeated until no
+  // collapse is left. It ends, because each round but the last makes a collapse.
   for (std::size_t before = 0; before != mesh.collapses().size() || before == 0;) {
     before = mesh.collapses().size();
     order.run(Geometry::ignored);

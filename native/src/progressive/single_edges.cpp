@@ -22,7 +22,7 @@ std::vector<int> doubled_diagonals(const Surface& surface) {
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return surface.edges[a] != surface.edges[b] ? surface.edges[a] < surface.edges[b] : a < b;
   });
-  std::vector<int> doubled;  // polygons' edges come before diagonals, and no two of them have the same ends
+  std::vector<int> doubled;  // edges of polygons come before diagonals, and no two of them have the same ends
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (surface.edges[order[i]] == surface.edges[order[i - 1]]) doubled.push_back(order[i]);
   }

@@ -7,7 +7,7 @@
 // the shortest loops: the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a root.
 //
 // With boundary: no boundary edge is crossed. T has all edges of each loop but one, e_k: the search for shortest paths
-// goes along a loop at no cost, because the surface need not be cut there. Again 2g interior edges are left over.
+// runs along a loop at no cost, because the surface need not be cut there. Again 2g interior edges are left over.
 #pragma once
 
 #include <vector>
@@ -24,12 +24,12 @@ using mesh::HalfEdges;
 /// @pre connected; every vertex has a face.
 struct FundamentalDomain {
   Array<HalfedgeHandle>
-      to_parent_face;     ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
+      to_parent_face;     ///< #T half-edge of the face across which its parent in D lies; invalid at the first
   Array<int> face_order;  ///< #T faces, each after its parent
-  Array<int> face_rank;   ///< #T place of each face in that order
+  Array<int> face_rank;   ///< #T rank of each face in that order
   Array<char> crossed;    ///< #E 1 for the edges of C, which are inside D; the others are G
   Array<HalfedgeHandle> to_parent_vertex;  ///< #V the half-edge towards the root of T; invalid at the root
-  Array<int> vertex_rank;                  ///< #V its place in an order in which each is after its parent
+  Array<int> vertex_rank;                  ///< #V rank in an order in which each vertex is after its parent
   std::vector<int> left_over;              ///< the 2g interior edges of G outside T, ascending
   mesh::BoundaryLoops boundary;
   std::vector<HalfedgeHandle> gaps;  ///< e_k, the edge of boundary loop k outside T: the half-edge without a face

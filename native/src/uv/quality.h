@@ -1,4 +1,4 @@
-// How much a UV map distorts.
+// Distortion of UV maps.
 #pragma once
 
 #include <vector>
