@@ -180,6 +180,15 @@ def test_a_disk_ends_as_one_triangle(order):
     assert len(progressive(available("hand_lowres_b1.obj"), order).base.triangles) == 1
 
 
+def neighbours_of(sides, boundary):
+    """The vertices next to each vertex, -1 among those of the boundary."""
+    neighbours = {v: {-1} for v in boundary}
+    for a, b in sides:
+        neighbours.setdefault(a, set()).add(b)
+        neighbours.setdefault(b, set()).add(a)
+    return neighbours
+
+
 @everything
 @in_both_orders
 def test_no_edge_of_the_base_can_be_collapsed(name, order):
@@ -191,16 +200,10 @@ def test_no_edge_of_the_base_can_be_collapsed(name, order):
     sides = {(t[i], t[(i + 1) % 3]): t[(i + 2) % 3] for t in triangles for i in range(3)}
     open_sides = {side for side in sides if side[::-1] not in sides}
     boundary = {v for side in open_sides for v in side}
-    neighbours = {}
+    neighbours = neighbours_of(sides, boundary)
     for a, b in sides:
-        neighbours.setdefault(a, set()).add(b)
-        neighbours.setdefault(b, set()).add(a)
-    for v in boundary:
-        neighbours[v].add(-1)
-    for a, b in sides:
-        opposite = {sides[side] for side in ((a, b), (b, a)) if side in sides} | (
-            {-1} if (a, b) in open_sides else set()
-        )
+        opposite = {sides[side] for side in ((a, b), (b, a)) if side in sides}
+        opposite |= {-1} if (a, b) in open_sides else set()
         if neighbours[a] & neighbours[b] != opposite or len(neighbours[a]) == len(neighbours[b]) == 3:
             continue
         assert a in boundary and b in boundary and (a, b) not in open_sides

@@ -9,7 +9,7 @@
 namespace holomorph::mesh {
 
 /// The first copy keeps the numbers of its vertices, edges and faces; the second one, with the other orientation,
-/// shares the vertices and edges of the boundary and has the others, in their order, behind those of the first.
+/// shares the vertices and edges of the boundary and has the others, in their order, after those of the first.
 /// Everything is matched by half-edges, never by pairs of vertices, so that chords are no exception.
 struct DoubleCover {
   HalfEdges half_edges;

@@ -57,7 +57,7 @@ std::span<const Index> corners_of(const BasicPolygons<Index>& mesh, int face) {
           mesh.corner_vertices.data() + mesh.face_offsets[face + 1]};
 }
 
-// A vertex that comes twice, or -1.
+// A vertex that occurs twice, or -1.
 template <class Index>
 Index vertex_met_twice(std::span<const Index> corners) {
   std::vector<Index> sorted(corners.begin(), corners.end());

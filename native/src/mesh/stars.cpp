@@ -112,7 +112,7 @@ std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vect
   return chosen;
 }
 
-// The diagonal x -> y of triangle s and y -> x of the one behind it becomes the one between their other corners.
+// Flips the diagonal x -> y of triangle s: it joins the other corners of s and of the triangle across it then.
 void flip(Surface& surface, Side s) {
   const Side o = across(surface, s);
   const auto corner = [&](const Side& side, int i) {

@@ -62,7 +62,7 @@ EdgeCollapse::EdgeCollapse(const mesh::Surface& surface)
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     const int side = leaving[v];
     std::uint32_t flags = 0;
-    if (side < 0) flags = Vertex::kGone;
+    if (side < 0) flags = Vertex::kRemoved;
     if (side >= 0 && table_.opposite(side) < 0) flags = Vertex::kBoundary;
     vertices_[v] = {{}, 0, {}, {}, side, Vertex::kNowhere, flags};
   }
@@ -191,7 +191,7 @@ void EdgeCollapse::keep_side(int v, int side) {
   vertex(v).side = boundary(v) ? table_.first_side(side) : side;
 }
 
-// Links the two sides behind those of the triangle that are not `side`, whose ends are the same vertex now.
+// Links the two sides across from those of the triangle other than `side`, whose ends are one vertex now.
 EdgeCollapse::Gap EdgeCollapse::remove_triangle(int side) {
   if (side < 0) return {};
   const int a = table_.opposite(CornerTable::next(side)), b = table_.opposite(CornerTable::previous(side));
@@ -213,7 +213,7 @@ void EdgeCollapse::collapse(int i) {
   keep_side(u, r.from_base < 0 || l.has_opposite ? l.from_base : r.from_base);
   keep_side(l.apex, l.from_apex);
   keep_side(r.apex, r.from_apex);
-  vertex(v_).flags |= Vertex::kGone;
+  vertex(v_).flags |= Vertex::kRemoved;
   collapses_.push_back(record);
 }
 

@@ -19,7 +19,7 @@ struct alignas(64) Vertex {
   int side;  ///< leaves v; see CornerTable
   int next;  ///< in its bucket of the queue; kNowhere if it is in none, kWaiting between queue and visit
   std::uint32_t flags;
-  static constexpr std::uint32_t kBoundary = 1, kGone = 2, kTouched = 4;
+  static constexpr std::uint32_t kBoundary = 1, kRemoved = 2, kTouched = 4;
   static constexpr int kNowhere = -2, kWaiting = -3;
 };
 
@@ -48,15 +48,17 @@ class EdgeCollapse {
   /// Q_v + Q_u at the neighbour's position, plus a small multiple of area times squared length, which decides where all
   /// is flat: towards short edges.
   float quadric_error(int i) const;
-  /// The complex stays a surface of the same topology (Dey et al. 1999): v and u have no common neighbours but the
+  /// The complex remains a surface of the same topology (Dey et al. 1999): v and u have no common neighbours but the
   /// apexes of the triangles at their edge, the boundary counting as one vertex, and are not two corners of a
   /// tetrahedron.
   bool keeps_topology(int i);
   /// No normal of a triangle of the star rotates by more than 75 degrees.
   bool keeps_normals(int i) const;
 
-  /// Collapses over vertices: nearly 1 at the end.
-  double part_gone() const { return static_cast<double>(collapses_.size()) / static_cast<double>(vertices_.size()); }
+  /// Fraction of the vertices removed: nearly 1 at the end.
+  double removed_fraction() const {
+    return static_cast<double>(collapses_.size()) / static_cast<double>(vertices_.size());
+  }
 
   /// Collapses v into neighbour i.
   void collapse(int i);
@@ -78,7 +80,7 @@ class EdgeCollapse {
   // Where a triangle was removed: its apex, and sides that leave the apex and v_s there.
   struct Gap {
     int apex = -1, from_apex = -1, from_base = -1;
-    bool has_opposite = false;  // another triangle was behind the side that ends at v_s
+    bool has_opposite = false;  // whether a triangle was across the side that ends at v_s
   };
   Gap remove_triangle(int side);
   void keep_side(int v, int side);

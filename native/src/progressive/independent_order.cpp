@@ -16,7 +16,7 @@ class IndependentOrder {
  public:
   explicit IndependentOrder(EdgeCollapse& mesh) : mesh_(mesh) {
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-      if ((mesh.vertex(v).flags & Vertex::kGone) == 0) left_.push_back(v);
+      if ((mesh.vertex(v).flags & Vertex::kRemoved) == 0) left_.push_back(v);
     }
   }
 
@@ -28,7 +28,7 @@ class IndependentOrder {
       if ((mesh_.vertex(v).flags & Vertex::kTouched) == 0) visit(v, geometry);
     }
     const std::size_t before = left_.size();
-    std::erase_if(left_, [this](int v) { return (mesh_.vertex(v).flags & Vertex::kGone) != 0; });
+    std::erase_if(left_, [this](int v) { return (mesh_.vertex(v).flags & Vertex::kRemoved) != 0; });
     return before - left_.size();
   }
 
@@ -68,7 +68,7 @@ void collapse_independent_sets(EdgeCollapse& mesh, Execution& execution) {
   mesh.reserve(mesh.vertex_count());
   IndependentOrder order(mesh);
   while (static_cast<double>(order.round(Geometry::checked)) > kLeastRemoved * static_cast<double>(order.left())) {
-    execution.report(mesh.part_gone());
+    execution.report(mesh.removed_fraction());
   }
   while (order.round(Geometry::ignored) > 0) {
   }

@@ -17,11 +17,11 @@ class QuadricOrder {
   void run(Geometry geometry) {
     geometry_ = geometry;
     for (int v = mesh_.vertex_count() - 1; v >= 0; --v) {
-      if ((mesh_.vertex(v).flags & Vertex::kGone) == 0) queue_.push(v, 0);
+      if ((mesh_.vertex(v).flags & Vertex::kRemoved) == 0) queue_.push(v, 0);
     }
     std::array<int, BucketQueue::kBatch> batch;
     for (int count = queue_.pop(batch); count > 0; count = queue_.pop(batch)) {
-      if (++batches_ % kReportEvery == 0) progress_.report(mesh_.part_gone());
+      if (++batches_ % kReportEvery == 0) progress_.report(mesh_.removed_fraction());
       mesh_.prefetch_stars(batch.data(), count);
       for (int i = 0; i < count; ++i) {
         queue_.visiting(batch[i]);

@@ -51,19 +51,19 @@ class Recorder {
 
  private:
   void number_base() {
-    std::vector<char> gone(surface_.vertex_count, 0), triangle_gone(surface_.triangles.size(), 0);
-    for (const int v : surface_.repairs.isolated_vertices) gone[v] = 1;
+    std::vector<char> removed(surface_.vertex_count, 0), triangle_removed(surface_.triangles.size(), 0);
+    for (const int v : surface_.repairs.isolated_vertices) removed[v] = 1;
     for (const Collapse& c : collapses_) {
-      gone[c.v_t] = 1;
+      removed[c.v_t] = 1;
       for (const int side : {c.left, c.right}) {
-        if (side >= 0) triangle_gone[side / 4] = 1;
+        if (side >= 0) triangle_removed[side / 4] = 1;
       }
     }
     for (int v = 0; v < surface_.vertex_count; ++v) {
-      if (!gone[v]) vertices_.push_back(v);
+      if (!removed[v]) vertices_.push_back(v);
     }
     for (int t = 0; t < static_cast<int>(surface_.triangles.size()); ++t) {
-      if (!triangle_gone[t]) triangles_.push_back(t);
+      if (!triangle_removed[t]) triangles_.push_back(t);
     }
     base_vertices_ = static_cast<std::ptrdiff_t>(vertices_.size());
     base_triangles_ = triangles_.size();

@@ -44,12 +44,12 @@ class DualTree {
   }
 
  private:
-  // The half-edge of edge e in face f, and the face behind it.
+  // The half-edge of edge e in face f, and the face across it.
   HalfedgeHandle inside(int f, int e) const {
     const HalfedgeHandle h(2 * e);
     return face_of(mesh_, h) == f ? h : opposite(h);
   }
-  int behind(int f, int e) const {
+  int across(int f, int e) const {
     return face_of(mesh_, HalfedgeHandle(2 * e)) ^ face_of(mesh_, HalfedgeHandle(2 * e + 1)) ^ f;
   }
 
@@ -69,7 +69,7 @@ class DualTree {
     Array<int> peeled;
     peeled.reserve(faces);
     const auto peel = [&](int f) {
-      const int e = links[f].edges, parent = behind(f, e);
+      const int e = links[f].edges, parent = across(f, e);
       domain_.crossed[e] = 1;
       domain_.to_parent_face[f] = inside(f, e);
       peeled.push_back(f);
@@ -133,7 +133,7 @@ class DualTree {
     order.push_back(root);
     for (std::size_t i = 0; i < order.size(); ++i) {
       for (const int e : surface_.triangle_edges[order[i]]) {
-        const int f = behind(order[i], e);
+        const int f = across(order[i], e);
         if (!domain_.crossed[e] || f == root || domain_.to_parent_face[f].is_valid()) continue;
         domain_.to_parent_face[f] = inside(f, e);
         order.push_back(f);

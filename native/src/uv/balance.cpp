@@ -111,7 +111,7 @@ class LogVariance {
     const Eigen::ArrayXd y = (q / mean + floor_).log(), deviation = y - y.mean();
     const Eigen::ArrayXd inverse = 1 / (q + floor_ * mean);
     const Eigen::ArrayXd sum = 1 / (q + b + floor_ * mean), r = b * sum;
-    // by q and b of each sample, and through the mean, which is the same for all samples
+    // Derivatives by q and b of each sample, and through the mean, which is the same for all samples.
     const double through_mean = -2 * (deviation * q * inverse).mean() / mean - kDistortion * floor_ * (r * sum).mean();
     const Eigen::ArrayXd by_q = (2 * deviation * inverse - kDistortion * r * sum + through_mean) / count;
     const Eigen::ArrayXd by_b = kDistortion * (1 - r) * sum / count;

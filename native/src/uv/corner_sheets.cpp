@@ -68,10 +68,10 @@ Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
       for (int side = 0; side < 3; ++side, h = next(mesh, h)) {
         const HalfedgeHandle o = opposite(h);
         if (is_cut[edge_of(h)] || !mesh.face_handle(o).is_valid()) continue;
-        const int behind = mesh::face_of(mesh, o);
-        if (std::exchange(visited[behind], 1)) continue;
-        walk.to_parent[behind] = o;
-        walk.order.push_back(behind);
+        const int across = mesh::face_of(mesh, o);
+        if (std::exchange(visited[across], 1)) continue;
+        walk.to_parent[across] = o;
+        walk.order.push_back(across);
       }
     }
   }

@@ -48,7 +48,7 @@ constexpr TypeName type_names[] = {
     {"float32", Type::float32}, {"float64", Type::float64},
 };
 
-/// The header line by line. It ends with the first newline after `end_header`, whatever byte comes next.
+/// The header line by line. It ends with the first newline after `end_header`, whatever the next byte is.
 class HeaderLines {
  public:
   explicit HeaderLines(const FileText& file) : file_(file) {}
