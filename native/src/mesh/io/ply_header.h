@@ -49,7 +49,7 @@ std::int64_t whole_number(double value, const Values& values) {
   return static_cast<std::int64_t>(value);
 }
 
-/// \throw InvalidMesh naming the line that is no declaration.
+/// @throws InvalidMesh naming the line that is no declaration.
 Header read_header(const FileText& file);
 
 }  // namespace holomorph::mesh::ply
