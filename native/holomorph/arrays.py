@@ -25,14 +25,18 @@ def integer(array, name, dimensions=1, columns=None):
         result = np.asarray(array)
     except ValueError as error:
         raise InvalidMesh(f"{name} is not an array of integers: {error}") from error
-    if result.dtype == np.uint64 and result.size and result.max() > np.iinfo(np.int64).max:
-        raise InvalidMesh(f"{name} has an entry beyond 64-bit integers")
-    if not (np.issubdtype(result.dtype, np.integer) or result.size == 0):
-        raise InvalidMesh(f"{name} has the type {result.dtype}; integers are needed")
+    _check_integers(result, name)
     if result.ndim != dimensions or (columns is not None and result.shape[1] not in columns):
         shape = " or ".join(f"(rows, {c})" for c in columns) if columns else f"of {dimensions} dimension(s)"
         raise InvalidMesh(f"{name} has the shape {result.shape}; {shape} is needed")
     return np.ascontiguousarray(result, dtype=np.int32 if result.dtype == np.int32 else np.int64)
+
+
+def _check_integers(array, name):
+    if array.dtype == np.uint64 and array.size and array.max() > np.iinfo(np.int64).max:
+        raise InvalidMesh(f"{name} has an entry beyond 64-bit integers")
+    if not (np.issubdtype(array.dtype, np.integer) or array.size == 0):
+        raise InvalidMesh(f"{name} has the type {array.dtype}; integers are needed")
 
 
 def polygons(faces):
@@ -66,3 +70,15 @@ def packed(corner_data, corner_count):
     if rows.ndim == 0 or len(rows) != corner_count:
         raise InvalidMesh(f"corner_data has {len(rows) if rows.ndim else 0} rows for {corner_count} polygon corners")
     return json.dumps([rows.dtype.str, rows.shape[1:]]), rows.tobytes()
+
+
+def unpacked(kind, data, corner_count):
+    """The rows that `packed` made into this type and these bytes, read-only."""
+    try:
+        name, shape = json.loads(kind)
+        dtype, shape = np.dtype(name), tuple(shape)
+        if dtype.kind not in "biufc" or not all(isinstance(n, int) and n >= 0 for n in shape):
+            raise ValueError(kind)
+        return frozen(np.frombuffer(data, dtype).reshape((corner_count, *shape)))
+    except (ValueError, TypeError, RecursionError) as error:
+        raise InvalidMesh("the progressive mesh is damaged: its corner data are of no known type") from error

@@ -7,8 +7,9 @@ import numpy as np
 
 from . import arrays
 from ._native import TopologyError
+from .form_structure import FormStructure
 from .report import complex_pairs
-from .results import BoundedResiduals, FormStructure
+from .results import BoundedResiduals
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
+from .form_structure import FormStructure
 from .report import complex_pairs
-from .results import ClosedResiduals, FormStructure
+from .results import ClosedResiduals
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,7 +60,7 @@ class DiskMap(PlaneMap):
 
     @cached_property
     def punctures(self):
-        """(1,): the vertex that goes to 0."""
+        """(1,): the vertex that is mapped to 0."""
         return self._of_surface(self._native.punctures())
 
     @cached_property
@@ -133,7 +133,7 @@ class RectangleMap(PlaneMap):
 
 @dataclass(frozen=True, eq=False)
 class TriangleMap(PlaneMap):
-    """Result of `conformal_structure` for a disk with three boundary edges and no room for a centre, such as a single
+    """Result of `conformal_structure` for a disk with three boundary edges and no vertex for a centre, such as a single
     triangle: the harmonic map to the triangle with these edges, its longest side 1."""
 
     @property
@@ -153,8 +153,8 @@ class TriangleMap(PlaneMap):
 def automatic_map(surface, component, solver, threads, progress):
     """The map of a disk for which nothing was chosen.
 
-    Where its boundary turns by more than 45 degrees at exactly four vertices, inwards at all of them, the rectangle
-    with these corners. Else the map to the unit disk centred at the vertex farthest from the boundary along the edges.
+    Where its boundary has exactly four exterior angles beyond 45 degrees, all of them inwards, the rectangle with
+    these corners. Else the map to the unit disk centred at the vertex farthest from the boundary along the edges.
     Where its density ratio is above `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with
     the same puncture and the rectangle with corners at the quarters of the boundary. Where every vertex is next to the
     boundary, that rectangle; with three boundary edges a triangle.
@@ -181,18 +181,18 @@ def _density_ratio(structure):
     return structure.quality(structure.uv(structure.balanced_coefficients())).density_ratio
 
 
-def _rectangle(surface, component, corners, names, solver, threads, progress):
-    native = _native.rectangle_map(component._native, corners, names, solver, threads, progress)
+def _rectangle(surface, component, corners, labels, solver, threads, progress):
+    native = _native.rectangle_map(component._native, corners, labels, solver, threads, progress)
     return result(RectangleMap, surface, component, native, threads)
 
 
 def rectangle(surface, component, chosen, solver, threads, progress):
     """`RectangleMap` of a disk with the chosen corners."""
-    corners, names = own_vertices(surface, component, chosen, "rectangle corner")
-    return _rectangle(surface, component, corners, names, solver, threads, progress)
+    corners, labels = own_vertices(surface, component, chosen, "rectangle corner")
+    return _rectangle(surface, component, corners, labels, solver, threads, progress)
 
 
-def disk(surface, component, punctures, names, solver, threads, progress):
+def disk(surface, component, punctures, labels, solver, threads, progress):
     """`DiskMap` of a disk with its one puncture."""
-    native = _native.punctured_structure(component._native, punctures, [], names, solver, threads, 0, progress)
+    native = _native.punctured_structure(component._native, punctures, [], labels, solver, threads, 0, progress)
     return result(DiskMap, surface, component, native, threads)

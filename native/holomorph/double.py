@@ -55,6 +55,6 @@ def double_cover(surface):
 
 
 def _second_copy(shared):
-    """Index of each element in the second copy: its own where it is shared, behind all those of the first else."""
+    """Index of each element in the second copy: its own where it is shared, after all those of the first else."""
     count = len(shared)
     return np.where(shared, np.arange(count), count - 1 + np.cumsum(~shared))

@@ -1,4 +1,4 @@
-"""Levels of detail of a progressive mesh, with UV maps that stay in place."""
+"""Levels of detail of a progressive mesh, with UV maps that do not move from level to level."""
 
 from dataclasses import dataclass
 
@@ -31,15 +31,15 @@ class LevelOfDetail:
 
 
 def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", threads=None, progress=None):
-    """Levels with UV maps of the original, whose textures stay in place from level to level.
+    """Levels with UV maps of the original, whose textures do not move from level to level.
 
     A UV map of a holomorphic form jumps across its seams by translations. Every level gets a map with the same
-    periods over the carried loops, on the same sheets of the same seams, carried along by the collapses: each
-    vertex keeps the UVs that it has in the original, exactly. With `harmonic` the map is then made the harmonic
+    periods over the lifted loops, whose seams are the images of the seams under the collapses: each vertex
+    keeps the UVs that it has in the original, exactly. With `harmonic` the map is then made the harmonic
     one of these periods on the triangles of the level, which is the form that would be computed there; its
-    constant is such that it stays in place on the average, and `drift` tells how far each vertex moves.
+    constant is such that it does not move on average, and `drift` tells how far each vertex moves.
 
-    Any other UV map is carried too, by collapses alone: within its islands every vertex keeps its UVs.
+    Any other UV map is collapsed likewise: within its islands every vertex keeps its UVs.
 
     Parameters
     ----------
@@ -56,24 +56,24 @@ def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", thread
     Raises
     ------
     InvalidMesh
-        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a turn or a stretch, or
-        a boundary that is not straight
+        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a rotation or a stretch,
+        or a boundary that is not straight
     TopologyError
-        if `harmonic` is asked for another topology
+        if `harmonic` does not apply to the topology
 
     Cost: linear in the number of corners; with `harmonic` 2m solves on each level.
     """
     threads = check_options(solver, threads)
     uv, maps = _maps(uv, mesh._corner_count)
     splits = [mesh._split_count(n) for n in n_faces]
-    carried = mesh._native.carry_corner_values(maps, splits)
+    collapsed = mesh._native.carry_corner_values(maps, splits)
     levels = []
-    for index, (count, (values, corners)) in enumerate(zip(splits, carried)):
+    for index, (count, (values, corners)) in enumerate(zip(splits, collapsed)):
         surface, report = mesh._level(count), None
         moves = np.zeros((len(surface.vertices), values.shape[1]))
         if harmonic:
-            asked = _part(progress, index, len(splits))
-            moves, report = _native.harmonic_map(surface._native, values, solver, threads, asked)
+            part = _part(progress, index, len(splits))
+            moves, report = _native.harmonic_map(surface._native, values, solver, threads, part)
             values, report = values + moves[surface.corner_vertices], SolverReport(*report)
         drift = np.linalg.norm(moves.reshape(len(moves), *uv.shape[1:]), axis=-1)
         values = arrays.frozen(values.reshape(-1, *uv.shape[1:]))

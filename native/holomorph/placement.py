@@ -18,7 +18,7 @@ class Frame:
 
 
 def frame(surface, uv, rotation=0.0):
-    """The `Frame` of a (#C, 2) map of the surface's polygon corners, turned by `rotation` (radians, counter-clockwise)
+    """The `Frame` of a (#C, 2) map of the surface's polygon corners, rotated by `rotation` (radians, counter-clockwise)
     about 0."""
     return Frame(*_native.frame(surface._native, _corners(uv, len(surface.corner_vertices)), float(rotation), 0))
 

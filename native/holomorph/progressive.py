@@ -1,32 +1,18 @@
 """Progressive meshes: a small base mesh and a sequence of vertex splits that rebuilds the original exactly."""
 
-import json
 import os
-import zlib
 from functools import cached_property
 
 import numpy as np
 
-from . import _native, arrays, levels
+from . import _native, arrays, checked_file, levels
 from ._native import InvalidMesh, TopologyError
 from .closed import ConformalStructure
 from .results import check_memory_limit, check_options, result
+from .splits import structured_splits
 from .surface import Surface
 
 ORDERS = ("quadric", "independent")
-SPLIT = np.dtype(
-    [
-        ("v_s", np.int32),
-        ("v_t", np.int32),
-        ("v_l", np.int32),
-        ("v_r", np.int32),
-        ("position", np.float64, 3),
-        ("vertex", np.int32),
-        ("triangles", np.int32, 2),
-        ("slots", np.uint8, 2),
-        ("corners", np.int32, (2, 3)),
-    ]
-)
 
 
 class ProgressiveMesh:
@@ -51,8 +37,8 @@ class ProgressiveMesh:
     Raises
     ------
     InvalidMesh
-        if the surface is intrinsic, if its triangulated polygons have two edges with the same ends even after turning
-        diagonals, or if `corner_data` does not fit the corners.
+        if the surface is intrinsic, if its triangulated polygons have two edges with the same ends even after
+        diagonals are flipped, or if `corner_data` does not fit the corners.
     Cancelled
         if `progress` returned False
     """
@@ -74,32 +60,19 @@ class ProgressiveMesh:
         InvalidMesh
             if the file is missing, damaged or of another version; every count, index and split is checked.
         """
-        try:
-            with open(path, "rb") as file:
-                content = file.read()
-        except OSError as error:
-            raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
-        return cls._from_bytes(content, os.fspath(path))
-
-    @classmethod
-    def _from_bytes(cls, content, name):
-        body, checksum = content[:-4], content[-4:]
         mesh = cls.__new__(cls)
         try:
-            if len(content) >= 12 and zlib.crc32(body).to_bytes(4, "little") != checksum and body[:6] == b"HoloPM":
-                raise InvalidMesh("the progressive mesh is damaged: its checksum does not fit")
-            mesh._native = _native.ProgressiveMesh.from_bytes(body)
+            mesh._native = _native.ProgressiveMesh.from_bytes(checked_file.read(path))
             mesh.corner_data  # noqa: B018 - its type is checked where it is made
+        except OSError as error:
+            raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
         except InvalidMesh as error:
-            raise InvalidMesh(f"{name}: {error}") from error
+            raise InvalidMesh(f"{os.fspath(path)}: {error}") from error
         return mesh
 
     def save(self, path):
         """Writes one binary file: the base, the splits and their attributes, with a checksum at the end."""
-        content = self._native.to_bytes()
-        with open(path, "wb") as file:
-            file.write(content)
-            file.write(zlib.crc32(content).to_bytes(4, "little"))
+        checked_file.write(path, self._native.to_bytes())
 
     def __repr__(self):
         coarse, fine = self._native.base_triangle_count, len(self._native.triangle_index)
@@ -117,27 +90,13 @@ class ProgressiveMesh:
         v_s, v_t, v_l, v_r : vertices, v_t the new one; v_l or v_r is -1 where v_s v_t is on the boundary. The triangles
             {v_s, v_t, v_l} and {v_t, v_s, v_r} are added, and those counter-clockwise from v_r to v_l around v_s move
             to v_t
-        position : of v_t; that of v_s stays
+        position : of v_t; v_s does not move
         vertex : index of v_t in the original
         triangles : indices of the left and the right triangle in the original triangulation, -1 where there is none
         slots : the corner of the left triangle that is v_s, that of the right one that is v_t
         corners : polygon corners of the original at the corners of both triangles, whose `corner_data` they have
         """
-        native = self._native
-        v_s, v_l, v_r, slot_l, slot_r = native.splits()
-        splits = np.empty(len(v_s), SPLIT)
-        first, count = native.base_vertex_count, len(v_s)
-        splits["v_s"], splits["v_l"], splits["v_r"] = v_s, v_l, v_r
-        splits["v_t"] = np.arange(first, first + count)
-        splits["slots"] = np.stack([slot_l, slot_r], axis=1)
-        splits["position"] = native.positions[first : first + count]
-        splits["vertex"] = native.vertex_index[first : first + count]
-        present = np.stack([v_l, v_r], axis=1) >= 0
-        triangle = native.base_triangle_count + np.cumsum(present.ravel()).reshape(present.shape) - 1
-        triangle = np.where(present, triangle, 0)
-        splits["triangles"] = np.where(present, native.triangle_index[triangle], -1)
-        splits["corners"] = np.where(present[:, :, None], self._corners[triangle], -1)
-        return arrays.frozen(splits)
+        return arrays.frozen(structured_splits(self._native, self._corners))
 
     @cached_property
     def _corners(self):
@@ -155,17 +114,7 @@ class ProgressiveMesh:
     def corner_data(self):
         """The rows given for the original's polygon corners; None if there were none; see `level_corner_data`."""
         kind = self._native.corner_type
-        if not kind:
-            return None
-        try:
-            name, shape = json.loads(kind)
-            dtype, shape = np.dtype(name), tuple(shape)
-            if dtype.kind not in "biufc" or not all(isinstance(n, int) and n >= 0 for n in shape):
-                raise ValueError(kind)
-            rows = np.frombuffer(self._native.corner_data, dtype)
-            return arrays.frozen(rows.reshape((self._corner_count, *shape)))
-        except (ValueError, TypeError, RecursionError) as error:
-            raise InvalidMesh("the progressive mesh is damaged: its corner data are of no known type") from error
+        return arrays.unpacked(kind, self._native.corner_data, self._corner_count) if kind else None
 
     # Defined in levels.py.
     level_corner_data = levels.level_corner_data
@@ -205,7 +154,7 @@ class ProgressiveMesh:
 
     def conformal_structure(self, n_faces, *, solver="auto", threads=None, memory_limit=None, progress=None):
         """The conformal structure of ``level(n_faces)``, with the same homology classes at every level (paper section
-        9): the loops are those of the base, carried through the splits, and so are the classes dual to them. The
+        9): the loops of the base are lifted through the splits, and the classes dual to them pulled back. The
         intersection matrix and the canonical basis are equal at all levels, so period matrices and forms can be
         compared, and textures stay in place from level to level.
 
@@ -244,7 +193,7 @@ class ProgressiveMesh:
         return result
 
     def carry_loops(self, loops, n_faces=None):
-        """Closed loops of vertices of the base as loops of ``level(n_faces)``, or of the original by default: where a
+        """Closed loops of vertices of the base, lifted to ``level(n_faces)``, or to the original by default: where a
         split separates the two neighbours of a vertex on a loop, the new edge is inserted (paper section 9).
 
         Parameters
@@ -261,15 +210,15 @@ class ProgressiveMesh:
         for loop in given:
             if len(loop) == 0 or loop.min() < 0 or loop.max() >= self._native.base_vertex_count:
                 raise InvalidMesh("a loop is empty or names a vertex that the base mesh has not")
-        carried = self._native.carry_loops(splits, [loop.tolist() for loop in given])
+        lifted = self._native.carry_loops(splits, [loop.tolist() for loop in given])
         if n_faces is None:
-            carried = [arrays.frozen(self._native.vertex_index[loop]) for loop in carried]
-        return carried
+            lifted = [arrays.frozen(self._native.vertex_index[loop]) for loop in lifted]
+        return lifted
 
     def carry_forms(self, forms, n_faces=None):
-        """Closed forms on the edges of the base as forms of the same classes on those of ``level(n_faces)``, or of the
-        original's triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s
-        that it comes from (paper section 9, step 5b). The period over a carried loop is that over the loop.
+        """Closed forms on the edges of the base, pulled back to those of ``level(n_faces)``, or of the original's
+        triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s
+        that it comes from (paper section 9, step 5b). The period over a lifted loop is that over the loop.
 
         Parameters
         ----------

@@ -6,8 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from . import arrays
+from .form_structure import FormStructure
 from .report import complex_pairs
-from .results import FormStructure
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +51,7 @@ class PuncturedStructure(FormStructure):
         return self._native.residues()
 
     def balanced_coefficients(self):
-        """(n,) complex coefficients of theta_0 alone: its residues stay as asked for."""
+        """(n,) complex coefficients of theta_0 alone, which keeps its residues."""
         return arrays.frozen(np.eye(1, self._differentials.shape[1], dtype=np.complex128)[0])
 
     def sphere_map(self):
@@ -63,7 +63,7 @@ class PuncturedStructure(FormStructure):
         return self._at_vertices(self._native.sphere_map())
 
     def invariants(self):
-        """The punctures and their residues, as plain data: positions of punctures carry no other invariant here."""
+        """The punctures and their residues, as plain data: no other invariants are computed."""
         return {"punctures": self.punctures.tolist(), "residues": complex_pairs(self.residues)}
 
 

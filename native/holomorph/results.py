@@ -1,4 +1,4 @@
-"""What the results of all kinds of surfaces have in common."""
+"""What the results of all kinds of surfaces have in common, and checks of what they are made from."""
 
 import os
 from dataclasses import dataclass, field, fields
@@ -52,9 +52,9 @@ class ClosedResiduals(Residuals):
 
 @dataclass(frozen=True)
 class MemoryPlan:
-    """What `memory_limit` led to. keeps_forms: all harmonic functions stay in memory, else each block of forms goes
-    when it was measured; block: right-hand sides solved for at a time; bytes: estimate of the most memory in use at
-    once, beside the surface itself."""
+    """What `memory_limit` led to. keeps_forms: all harmonic functions are kept in memory, else each block of forms is
+    freed once measured; block: right-hand sides solved for at a time; bytes: estimate of the most memory in use at
+    once, without the surface itself."""
 
     keeps_forms: bool
     block: int
@@ -95,7 +95,7 @@ class Quality:
 @dataclass(frozen=True, eq=False)
 class Structure:
     """Base of the results of `conformal_structure`. All arrays are read-only; the large ones are computed when first
-    asked for. Each kind of result adds its forms, its invariants and
+    used. Each kind of result adds its forms, its invariants and
 
     uv(coefficients) : (#C, 2) UVs of a combination of `holomorphic_forms`, without a solve
     balanced_coefficients() : those of the map that is shown first
@@ -162,105 +162,6 @@ class Structure:
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
 
 
-@dataclass(frozen=True, eq=False)
-class FormStructure(Structure):
-    """Base of the results that have forms to combine: differentials made of real harmonic forms h_1 .. h_m, of which the
-    UV maps are real and imaginary parts of integrals."""
-
-    coefficient_type = np.complex128
-
-    @cached_property
-    def _triangulation(self):
-        return self._native.surface()
-
-    @cached_property
-    def homology_basis(self):
-        """Tuple of integer arrays: 2g closed loops zeta_i of vertices, the first not repeated (paper § 4), then, with b
-        boundary loops, the loops 1 .. b-1."""
-        return tuple(self._of_surface(loop) for loop in self._native.homology_basis())
-
-    @cached_property
-    def seams(self):
-        """(#S,) indices into `edges` of the cut graph, on the polygons' edges only: cut open there, a disk is left. With
-        punctures it ends there, and the edges at the punctures are seams, too."""
-        return self._native.seams()
-
-    @cached_property
-    def period_matrix(self):
-        """(n, n) complex Omega: symmetric, Im Omega > 0 (paper Eq. 13). Closed: the integral of theta_j over b_i. With
-        boundary that of the double: (i/2) `capacity_matrix` on planar surfaces."""
-        return self._native.period_matrix()
-
-    @cached_property
-    def period_bounds(self):
-        """(lower, upper), (n, n) each: guaranteed bounds of Im Omega of the polyhedral surface, with boundary of its
-        double, as quadratic forms."""
-        return self._native.period_bounds()
-
-    @cached_property
-    def memory(self):
-        """`MemoryPlan`: whether all forms are kept, and the memory that was reckoned with."""
-        return MemoryPlan(*self._native.memory())
-
-    def prepare_uv(self, progress=None):
-        """Solves for the forms on the surface's own triangles, of which forms and UVs are made; done by itself when
-        first needed, and without work where no edge had to be flipped.
-
-        Invariants come from the intrinsic Delaunay triangulation, but UVs with the least distortion on the surface's
-        triangles come from those triangles. `progress` as in `conformal_structure`."""
-        self._native.prepare_uv(progress)
-
-    @cached_property
-    def uv_solver(self):
-        """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
-        return SolverReport(*self._native.uv_solver())
-
-    @cached_property
-    def _differentials(self):
-        # (m, n) complex: column j is the j-th differential, written in the harmonic forms
-        return self._native.differentials()
-
-    @cached_property
-    def _harmonic_forms(self):
-        # (m, #E): all of them
-        count, edges = sum(self._native.families()) + self._native.families()[2], len(self.edges)
-        self._native.require_memory(f"the {count} harmonic forms on {edges} edges", 8 * count * edges)
-        return self._native.basis_forms()
-
-    @cached_property
-    def holomorphic_forms(self):
-        """(n, #E) complex, paper § 7. Closed: theta_j has the period 1 over a_j and 0 over the other a. With boundary:
-        theta_i = h^N_i + i sum_j C#_ij h^D_j. With punctures theta_0 comes first, NaN on the edges that end at one."""
-        n, edges = self._differentials.shape[1], len(self.edges)
-        # of the harmonic forms, and of two matrices of the size of the result
-        self._native.require_memory(f"the {n} holomorphic forms on {edges} edges", 3 * 16 * n * edges)
-        values = self._differentials.T @ self._harmonic_forms
-        values[:1, self._native.spokes()] = np.nan
-        return arrays.frozen(values)
-
-    def uv(self, coefficients):
-        """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
-        with boundary and without punctures. No solve: one small product; where the forms were not kept (`memory`), a
-        solve for this map alone.
-
-        Across every seam the UVs jump by a constant translation, without rotation or change of scale; only the edges at
-        a puncture, where each triangle has an apex of its own, are cut. On a boundary loop v is the same number at all
-        corners, up to a period where a seam meets it; with punctures for real coefficients and residues."""
-        c = checked_coefficients(coefficients, self._differentials.shape[1], self.coefficient_type)
-        return self._native.uv(self._differentials @ c)
-
-    def balanced_coefficients(self):
-        """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over
-        the surface's area), scaled so that the UV area of the surface is 1."""
-        return self._balanced
-
-    @cached_property
-    def _balanced(self):
-        is_real = self.coefficient_type is np.float64
-        c = self._native.balanced_coefficients(is_real)
-        return arrays.frozen(c.real.copy() if is_real else c)
-
-
 def check_options(solver, threads):
     """The number of threads to use. @throws ValueError"""
     if solver not in SOLVERS:
@@ -287,24 +188,24 @@ def only_component(surface):
     return surface.components[0]
 
 
-def own_vertices(surface, component, vertices, word):
-    """`vertices` of the surface as a list of the component's, and the surface's index of each of the component's
-    vertices; `word` is what one is called in messages.
+def own_vertices(surface, component, vertices, noun):
+    """`vertices` of the surface as a list of the component's, and labels: the surface's index of each of the
+    component's vertices, [] if both are the same. `noun` says in messages what they are.
 
     Raises TopologyError for anything but indices of vertices that have a face.
     """
     given = np.asarray(vertices)
     if given.ndim != 1 or not (np.issubdtype(given.dtype, np.integer) or given.size == 0):
-        raise TopologyError(f"{word}s must be a list of vertex indices, not an array of {given.dtype} of {given.shape}")
+        raise TopologyError(f"{noun}s must be a list of vertex indices, not an array of {given.dtype} of {given.shape}")
     count = surface._native.vertex_count
     for vertex in given[(given < 0) | (given >= count)]:
-        raise TopologyError(f"{word} {vertex} is no vertex: there are {count}")
+        raise TopologyError(f"{noun} {vertex} is no vertex: there are {count}")
     if component is surface:
         return given.tolist(), []
     own = np.full(count, -1)
     own[component.vertex_index] = np.arange(len(component.vertex_index))
     for vertex in given[own[given.astype(int)] < 0]:
-        raise TopologyError(f"{word} {vertex} is a vertex of no face")
+        raise TopologyError(f"{noun} {vertex} is a vertex of no face")
     return own[given.astype(int)].tolist(), component.vertex_index.tolist()
 
 

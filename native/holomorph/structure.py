@@ -1,4 +1,4 @@
-"""conformal_structure: checks the options and chooses what is made by topology and options."""
+"""conformal_structure: checks the options and selects the kind of structure by topology and options."""
 
 from . import _native
 from ._native import TopologyError
@@ -41,21 +41,21 @@ def conformal_structure(
         a closed surface they sum to 0. Default: 1 and -1 for two punctures; for more, 1 but at the one that is farthest
         from the others; with a boundary 1 everywhere
     rectangle_corners : list of four boundary vertices of a disk in the order of the boundary, the surface on its left:
-        makes its map to a rectangle. A disk without any choice becomes a rectangle where its boundary turns by more
-        than 45 degrees at exactly four vertices, inwards; else the unit disk, its centre at the vertex deepest inside;
+        makes its map to a rectangle. A disk without any choice becomes a rectangle where its boundary has exactly
+        four exterior angles beyond 45 degrees, inwards; else the unit disk, its centre at the vertex deepest inside;
         where that is very uneven, a log map or a rectangle: `description` tells
-    cut_edges : (#S, 2) vertices of the edges along which UVs are cut, such as an artist's seams, not along a cut of our
-        own; the map must be single-valued on the rest, as it is on disks
+    cut_edges : (#S, 2) vertices of the edges along which UVs are cut, such as marked seams; default: the cut graph. The
+        map must be single-valued on the rest, as it is on disks
     solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
         by size and number of right-hand sides; the result's `solver` says what was taken and why. "paper" is the
         multiresolution algorithm of the paper (§ 9) for closed surfaces with positions, slower than the others and
         never chosen by "auto": conjugate gradients on the levels of a progressive mesh, whose base mesh gives loops and
         classes. It flips no edges, so its invariants are those of the surface's own triangles
     threads : number of threads, None for one per core; the result has the same bits for any number
-    memory_limit : bytes that may be in use at once, beside the surface itself. Where the harmonic forms do not all fit,
-        they are solved for in blocks that do; the results are the same up to the solver's accuracy, but each call of
-        `uv` then solves for its own map. On surfaces with boundary or punctures all forms
-        must fit. None: nothing is refused, and forms are kept up to 2 GB
+    memory_limit : bytes that may be in use at once, without the surface itself. Where the harmonic forms do not all
+        fit, they are solved for in blocks that do; the results are the same up to the solver's accuracy, but each call
+        of `uv` then solves for its own map. On surfaces with boundary or punctures all forms must fit. None: nothing is
+        refused, and forms are kept up to 2 GB
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Returns
@@ -90,37 +90,60 @@ def conformal_structure(
 
 
 def _structure(surface, component, boundary, punctures, residues, rectangle_corners, options, memory_limit):
-    genus, boundaries = component.genus, component.boundary_count
-    solver, threads, progress = options
-    limited = solver, threads, memory_limit, progress
-    vertices, names = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
-    chosen = vertices, _residues(residues), names
-    is_chosen = any(map(len, chosen[:2]))
-    if boundary == "double_cover" and (is_chosen or rectangle_corners is not None or (genus, boundaries) == (0, 1)):
+    topology = component.genus, component.boundary_count
+    vertices, labels = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
+    residues = _residues(residues)
+    is_chosen = bool(vertices or residues)
+    if boundary == "double_cover":
+        _check_double_cover(topology, is_chosen or rectangle_corners is not None)
+    if rectangle_corners is not None and len(rectangle_corners):
+        _check_no_punctures(is_chosen)
+        return rectangle(surface, component, rectangle_corners, *options)
+    if topology == (0, 1) and len(vertices) <= 1 and not residues:
+        return _disk(surface, component, vertices, labels, options)
+    if is_chosen or topology == (0, 0):
+        return _punctured(surface, component, (vertices, residues, labels), options, memory_limit)
+    return _forms(surface, component, boundary, options, memory_limit)
+
+
+def _check_double_cover(topology, has_choice):
+    if has_choice or topology == (0, 1):
         raise TopologyError(
             "the way over the double is for forms of surfaces with boundary, without punctures or corners"
         )
-    if rectangle_corners is not None and len(rectangle_corners):
-        if is_chosen:
-            raise TopologyError("a rectangle has no punctures; choose either")
-        return rectangle(surface, component, rectangle_corners, *options)
-    if genus == 0 and boundaries == 1 and len(vertices) <= 1 and not chosen[1]:
-        if is_chosen:
-            return disk(surface, component, vertices, names, *options)
-        return automatic_map(surface, component, *options)
-    if is_chosen or (genus == 0 and boundaries == 0):
-        try:
-            native = _native.punctured_structure(component._native, *chosen, *limited)
-        except TopologyError:
-            if is_chosen or component.vertices is None:
-                raise
-            return coarse_log_map(surface, component, *options)  # the stars of any two vertices meet
-        return result(PuncturedStructure, surface, component, native, threads)
-    if solver == "paper" and not boundaries:
+
+
+def _check_no_punctures(is_chosen):
+    if is_chosen:
+        raise TopologyError("a rectangle has no punctures; choose either")
+
+
+def _disk(surface, component, vertices, labels, options):
+    if vertices:
+        return disk(surface, component, vertices, labels, *options)
+    return automatic_map(surface, component, *options)
+
+
+def _punctured(surface, component, chosen, options, memory_limit):
+    solver, threads, progress = options
+    try:
+        native = _native.punctured_structure(component._native, *chosen, solver, threads, memory_limit, progress)
+    except TopologyError:
+        if any(map(len, chosen[:2])) or component.vertices is None:
+            raise
+        return coarse_log_map(surface, component, *options)  # the stars of any two vertices meet
+    return result(PuncturedStructure, surface, component, native, threads)
+
+
+def _forms(surface, component, boundary, options, memory_limit):
+    solver, threads, progress = options
+    bounded = component.boundary_count > 0
+    if solver == "paper" and not bounded:
         native = _native.paper_structure(component._native, threads, memory_limit, progress)
     else:
+        limited = solver, threads, memory_limit, progress
         native = _native.conformal_structure(component._native, boundary == "double_cover", *limited)
-    return result(BoundedStructure if boundaries else ConformalStructure, surface, component, native, threads)
+    return result(BoundedStructure if bounded else ConformalStructure, surface, component, native, threads)
 
 
 def _residues(residues):

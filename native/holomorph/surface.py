@@ -177,7 +177,7 @@ class Surface:
     def components(self):
         """Tuple of the connected components, ordered by their first face, without isolated vertices."""
         if self._native.component_count == 1 and not len(self._native.isolated_vertices):
-            return (self,)  # not kept: a surface that holds itself lives until the garbage collector comes by
+            return (self,)  # not kept: a reference to itself would keep it until garbage collection
         return self._parts
 
     @cached_property

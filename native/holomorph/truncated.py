@@ -6,12 +6,13 @@ from functools import cached_property
 import numpy as np
 
 from . import _native, arrays
+from .edges import edge_keys, edges_of_keys
 from .punctured import PuncturedStructure
 from .results import result
 from .surface import Surface
 
-CUT = 1 / 3  # of each edge at a puncture is cut off: less than half, as both its ends may be punctures
-SAME_UV = 1e-9  # of the UV size: across an edge that is no seam the UVs differ by rounding
+CUT = 1 / 3  # part of each edge at a puncture that is cut off: less than half, as both its ends may be punctures
+SAME_UV = 1e-9  # relative to the UV size: across an edge that is no seam the UVs differ by rounding
 
 
 @dataclass(frozen=True)
@@ -113,11 +114,9 @@ class TruncatedStructure(PuncturedStructure):
         start, end = triangles.ravel().astype(np.int64), np.roll(triangles, -1, axis=1).ravel().astype(np.int64)
         tails, heads = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
         upwards = start < end
-        edges = self._component._native.edges.astype(np.int64)
-        count = edges.max() + 1
-        order = np.argsort(edges[:, 0] * count + edges[:, 1])
-        keys = np.minimum(start, end) * count + np.maximum(start, end)
-        found = order[np.searchsorted(edges[order, 0] * count + edges[order, 1], keys)]
+        edges = self._component._native.edges
+        count = len(self._component.vertex_index)
+        found = edges_of_keys(edges, edge_keys(np.stack([start, end], axis=1), count), count)
         return np.where(upwards, tails, heads), np.where(upwards, heads, tails), found
 
     def _complex_uv(self):

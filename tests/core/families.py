@@ -71,11 +71,11 @@ def grid_quads(n, m):
 
 
 def cut_quads(quads, alternate=False):
-    """Two triangles per quad; `alternate` turns the diagonal of every other quad."""
+    """Two triangles per quad; `alternate` flips the diagonal of every other quad."""
     a, b, c, d = quads.T
-    turned = (np.arange(len(quads)) % 2 == 1) & alternate
-    first = np.where(turned[:, None], np.stack([a, b, d], 1), np.stack([a, b, c], 1))
-    second = np.where(turned[:, None], np.stack([b, c, d], 1), np.stack([a, c, d], 1))
+    flipped = (np.arange(len(quads)) % 2 == 1) & alternate
+    first = np.where(flipped[:, None], np.stack([a, b, d], 1), np.stack([a, b, c], 1))
+    second = np.where(flipped[:, None], np.stack([b, c, d], 1), np.stack([a, c, d], 1))
     return np.stack([first, second], axis=1).reshape(-1, 3)
 
 
@@ -403,8 +403,8 @@ def square_minus_square(k, jitter=0.0):
 
 
 def ring_of_revolution(radius, height, n):
-    """The profile (radius, height) turned around the z axis in n steps: genus 0, two loops, normals outwards for a
-    profile that goes up."""
+    """The profile (radius, height) revolved around the z axis in n steps: genus 0, two loops, normals outwards for a
+    profile that rises."""
     m = len(radius)
     theta = 2 * np.pi * np.arange(n) / n
     points = np.stack(

@@ -55,7 +55,7 @@ def cotangents(points, triangles):
 
 
 def edge_weights(structure):
-    """(#E,) k = (cot a + cot b) / 2 on the artist's triangulation."""
+    """(#E,) k = (cot a + cot b) / 2 on the input triangulation."""
     surface = structure.surface
     cot = cotangents(surface.vertices, surface.triangles)
     edge, _ = edge_forms(structure).index(
@@ -65,7 +65,7 @@ def edge_weights(structure):
 
 
 def energy_matrix(structure, forms):
-    """Sum over the edges of k w_i w_j, on the artist's triangulation."""
+    """Sum over the edges of k w_i w_j, on the input triangulation."""
     return (forms * edge_weights(structure)) @ forms.T
 
 

@@ -5,7 +5,7 @@ from functools import cache
 import families
 from holomorph import Surface, conformal_structure
 
-# Arrays of a structure that do not depend on what is asked of it.
+# Arrays of a structure that do not depend on the calls made before.
 RESULTS = [
     "edges",
     "intersection_matrix",

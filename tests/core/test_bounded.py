@@ -78,9 +78,9 @@ def test_boundary_loops(name):
     surface, loops = structure.surface, structure.boundary_loops
     sides = np.stack([surface.triangles, np.roll(surface.triangles, -1, axis=1)], axis=-1).reshape(-1, 2)
     directed = {tuple(side) for side in sides.tolist()}
-    met = [side for loop in loops for side in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)]
-    assert len(met) == len(set(met)) == len(boundary_edges(structure))
-    for a, b in met:
+    visited = [side for loop in loops for side in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)]
+    assert len(visited) == len(set(visited)) == len(boundary_edges(structure))
+    for a, b in visited:
         assert (b, a) in directed
         assert (a, b) not in directed
     points = surface.vertices
@@ -148,7 +148,7 @@ def flux(structure, forms):
 
 @embedded
 def test_forms_are_the_least_of_their_classes(name):
-    """On the artist's triangles: natural forms at every vertex, Dirichlet forms at the inner ones."""
+    """On the input triangulation: natural forms at every vertex, Dirichlet forms at the inner ones."""
     structure = solved_bounded(name)
     net, total = flux(structure, structure.natural_forms)
     assert size(net) < SOLVER * size(total)
@@ -171,7 +171,7 @@ def test_pairing_is_the_integral_of_the_wedge(name):
 
 @embedded
 def test_gram_matrices_are_the_least_energies(name):
-    """The intrinsic Delaunay triangulation has the least energy of all: equal where no edge was turned."""
+    """The intrinsic Delaunay triangulation has the least energy of all: equal where no edge was flipped."""
     structure = solved_bounded(name)
     for gram, forms in zip(structure.gram_matrices, (structure.natural_forms, structure.dirichlet_forms), strict=True):
         energy = energy_matrix(structure, forms)

@@ -1,4 +1,4 @@
-"""Solver accuracy: identities that hold up to the residual asked for, on every mesh at every resolution."""
+"""Solver accuracy: identities that hold up to the residual required, on every mesh at every resolution."""
 
 from dataclasses import replace
 
@@ -112,7 +112,7 @@ def test_gram_matrix(name):
 
 @embedded
 def test_gram_matrix_is_the_least_energy(name):
-    """Intrinsic Delaunay edges give the least energy of all triangulations (Rippa 1990): of the artist's as well."""
+    """Intrinsic Delaunay edges give the least energy of all triangulations (Rippa 1990), the input one among them."""
     structure = solved(name)
     energy = energy_matrix(structure, structure.harmonic_forms)
     assert positive(energy - structure.gram_matrix) * size(energy - structure.gram_matrix) > -SOLVER * size(energy)

@@ -54,7 +54,7 @@ def test_surfaces_have_no_dual_vertices():
 
 @pytest.mark.parametrize("name", ["tube", "punctured torus", "square minus square"])
 def test_closed_structure_of_the_double(name):
-    """The closed method on the double, which turns other edges: the same period matrix up to Sp(2n, Z) and the mesh."""
+    """The closed method on the double, which flips other edges: the same period matrix up to Sp(2n, Z) and the mesh."""
     structure = solved_bounded(name)
     double = conformal_structure(double_cover(structure.surface))
     assert distance(structure.period_matrix, double.period_matrix) < 1e-3 * size(structure.period_matrix)

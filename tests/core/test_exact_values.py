@@ -121,7 +121,7 @@ def test_hopf():
 def test_bounds_hold_the_exact_value(name):
     """The error bars are guaranteed: in the library's own basis, the exact Im Omega lies between them.
 
-    The exact matrix is carried into that basis by the symplectic matrix that brings it nearest to the computed one."""
+    The exact matrix is written in that basis by the symplectic matrix that brings it nearest to the computed one."""
     omega = complex_matrix(reference_values()["genus2"][name])
     file = "decagon_jittered_8.npz" if name == "decagon" else f"{name}_level0.npz"
     structure = conformal_structure(reference_surface(file))

@@ -39,7 +39,7 @@ def pinched():
 
 
 def three_at_an_edge():
-    """One more triangle on an edge of the torus, held by a vertex of its own."""
+    """One more triangle on an edge of the torus, with a third vertex of its own."""
     points = np.concatenate([TORUS.vertices, [[5.0, 5, 5]]])
     return with_faces([int(QUADS[3, 0]), int(QUADS[3, 1]), 30], vertices=points)
 

@@ -1,4 +1,4 @@
-"""Laplace problems with vertices held at 0: every solver finds the same, from one preparation for both conditions."""
+"""Laplace problems with vertices fixed at 0: every solver finds the same, from one preparation for both conditions."""
 
 from functools import cache
 
@@ -92,37 +92,38 @@ def boundary(surface):
     return np.unique(edges[faces == 1])
 
 
-def right_hand_sides(surface, natural, held):
-    """Columns for both conditions, in turn while there are any; and which of them hold the boundary."""
-    holds = np.array([k % 2 for k in range(2 * min(natural, held))] + [held > natural] * abs(natural - held), bool)
-    B = np.random.default_rng(2).normal(size=(len(surface.vertices), natural + held))
-    return B - ~holds * B.mean(axis=0), holds
+def right_hand_sides(surface, natural, dirichlet):
+    """Columns for both conditions, alternating while there are any; and which of them fix the boundary."""
+    alternating = [k % 2 for k in range(2 * min(natural, dirichlet))]
+    fixes = np.array(alternating + [dirichlet > natural] * abs(natural - dirichlet), bool)
+    B = np.random.default_rng(2).normal(size=(len(surface.vertices), natural + dirichlet))
+    return B - ~fixes * B.mean(axis=0), fixes
 
 
 class Solved:
-    """Right-hand sides solved with the boundary, or other vertices, held."""
+    """Right-hand sides solved with the boundary, or other vertices, fixed."""
 
     def __init__(self, surface, solver, columns=(2, 2), vertices=None, threads=0):
         self.vertices = boundary(surface) if vertices is None else vertices
-        self.B, self.holds = right_hand_sides(surface, *columns)
+        self.B, self.fixes = right_hand_sides(surface, *columns)
         problem = _native.LaplaceProblem(surface._native, list(self.vertices), solver, threads)
-        self.X = problem.solve(self.B, list(self.holds))
+        self.X = problem.solve(self.B, list(self.fixes))
         self.name, self.remark, self.iterations, self.residual = problem.report()
         self.edges, self.weights = problem.edges()
 
     def residuals(self):
-        """|L x - b| / |b| of every column, without the rows of held vertices; the weights may be large."""
+        """|L x - b| / |b| of every column, without the rows of fixed vertices; the weights may be large."""
         (i, j), n = self.edges.T, len(self.X)
         flow = self.weights.reshape(-1, 1) * (self.X[i] - self.X[j])
         rest = np.array([np.bincount(j, f, n) - np.bincount(i, f, n) for f in flow.T]).T + self.B
         B = self.B.copy()
         for values in (rest, B):
-            values[np.ix_(self.vertices, self.holds)] = 0
+            values[np.ix_(self.vertices, self.fixes)] = 0
         return np.linalg.norm(rest, axis=0) / np.maximum(np.linalg.norm(B, axis=0), np.finfo(float).tiny)
 
     def centred(self):
         """Up to the constants, which natural right-hand sides leave open."""
-        return self.X - ~self.holds * self.X.mean(axis=0)
+        return self.X - ~self.fixes * self.X.mean(axis=0)
 
 
 @cache
@@ -144,10 +145,10 @@ def test_equations_hold_at_the_other_vertices(name, bounded, solver):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 @every_mesh
-def test_held_vertices_are_zero(name, bounded, solver):
+def test_fixed_vertices_are_zero(name, bounded, solver):
     result = solved(bounded, solver)
-    assert (result.X[np.ix_(result.vertices, result.holds)] == 0).all()
-    assert (result.X[:, ~result.holds] != 0).any(axis=0).all()
+    assert (result.X[np.ix_(result.vertices, result.fixes)] == 0).all()
+    assert (result.X[:, ~result.fixes] != 0).any(axis=0).all()
 
 
 @every_mesh
@@ -166,27 +167,27 @@ def test_iterations(name, bounded):
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_columns_do_not_depend_on_each_other(solver, columns):
     together = Solved(surface("36 holes"), solver, columns)
-    for holds in (False, True):
-        which = together.holds == holds
+    for fixes in (False, True):
+        which = together.fixes == fixes
         if not which.any():
             continue
         problem = _native.LaplaceProblem(surface("36 holes")._native, list(together.vertices), solver, 0)
-        alone = problem.solve(together.B[:, which], [holds] * which.sum())
+        alone = problem.solve(together.B[:, which], [fixes] * which.sum())
         difference = together.X[:, which] - alone
-        difference -= 0 if holds else difference.mean(axis=0)
+        difference -= 0 if fixes else difference.mean(axis=0)
         assert np.abs(difference).max() <= 1e-9 * np.abs(alone).max()
 
 
 @pytest.mark.parametrize("part", [0, 1e-4, 0.02, 0.5, 1])
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_any_vertices_may_be_held(solver, part):
-    """Multigrid gives way to the direct solver where so many are held apart from each other that it cannot coarsen."""
+    """Multigrid gives way to the direct solver where so many are fixed apart from each other that it cannot coarsen."""
     mesh = surface("torus with 40 holes")
     chosen = np.flatnonzero(np.random.default_rng(3).uniform(size=len(mesh.vertices)) < part)
     chosen = chosen if len(chosen) else np.array([17])
     result = Solved(mesh, solver, vertices=chosen)
     assert result.residuals().max() <= 1e-9
-    assert (result.X[np.ix_(chosen, result.holds)] == 0).all()
+    assert (result.X[np.ix_(chosen, result.fixes)] == 0).all()
     assert result.name.startswith("direct") == (solver == "direct" or "took over" in result.remark)
 
 

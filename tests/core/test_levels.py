@@ -103,7 +103,7 @@ def test_every_vertex_keeps_its_uvs(name, order):
 
 @every_mesh
 def test_levels_have_equal_integer_periods(name):
-    """Over the base's loops, carried to each level; the map is continued by translations everywhere."""
+    """Over the base's loops, lifted to each level; the map is continued by translations everywhere."""
     mesh = progressive(name)
     loops = conformal_structure(mesh.base).homology_basis
     expected = None
@@ -219,7 +219,7 @@ def test_corner_data_of_levels_are_rows_of_the_original():
 
 @every_mesh
 def test_harmonic_levels_are_the_forms_of_the_level(name):
-    """Computed from the carried map, or from classes carried up from the base: the same closed form on edges."""
+    """Computed from the collapsed map, or from classes pulled back from the base: the same closed form on edges."""
     mesh, uv = progressive(name), integer_map(name)
     n = counts(mesh)[min(2, len(counts(mesh)) - 2)]
     (level,) = mesh.levels_of_detail(uv, [n], harmonic=True)
@@ -234,8 +234,8 @@ def test_harmonic_levels_are_the_forms_of_the_level(name):
 @every_mesh
 def test_harmonic_levels_have_the_least_energy_and_the_finest_one_is_the_original(name):
     mesh, uv = progressive(name), integer_map(name)
-    carried, harmonic = (mesh.levels_of_detail(uv, counts(mesh), harmonic=h) for h in (False, True))
-    for before, after in zip(carried, harmonic):
+    collapsed, harmonic = (mesh.levels_of_detail(uv, counts(mesh), harmonic=h) for h in (False, True))
+    for before, after in zip(collapsed, harmonic):
         if len(before.surface.repairs.zero_area_faces) == 0:
             assert angle_energy(after) <= angle_energy(before) * (1 + 1e-12)
         assert np.allclose(np.linalg.norm(after.uv - before.uv, axis=1), after.drift[after.surface.corner_vertices])
@@ -248,8 +248,8 @@ def test_harmonic_levels_with_a_boundary(mesh):
     structure = conformal_structure(surface_of(mesh))
     progressive = ProgressiveMesh(structure.surface)
     uv = structure.uv(structure.balanced_coefficients())
-    carried, harmonic = (progressive.levels_of_detail(uv, counts(progressive), harmonic=h) for h in (False, True))
-    for before, after in zip(carried, harmonic):
+    collapsed, harmonic = (progressive.levels_of_detail(uv, counts(progressive), harmonic=h) for h in (False, True))
+    for before, after in zip(collapsed, harmonic):
         assert largest_disagreement(after) < EXACT
         assert angle_energy(after) <= angle_energy(before) * (1 + 1e-12)
         triangles = after.surface.triangles
@@ -258,8 +258,8 @@ def test_harmonic_levels_with_a_boundary(mesh):
             axis=0,
             return_counts=True,
         )
-        held = np.isin(after.surface.corner_vertices, edges[count == 1])
-        assert (after.uv[held, 1] == before.uv[held, 1]).all()
+        fixed = np.isin(after.surface.corner_vertices, edges[count == 1])
+        assert (after.uv[fixed, 1] == before.uv[fixed, 1]).all()
     assert harmonic[0].drift.max() < SOLVER
 
 

@@ -86,7 +86,7 @@ def test_forms_on_demand():
 
 @pytest.mark.parametrize("name", ["genus 2 block", "genus 8 block", "cage"])
 def test_balance_without_all_forms(name):
-    """The forms of the intrinsic triangulation, which it looks at instead, are not quite those of the artist's."""
+    """The forms of the intrinsic triangulation, which it measures instead, are not quite those of the input one."""
     few = streamed(name)
     c = few.balanced_coefficients()
     area = (c.conj() @ few.period_matrix.imag @ c).real

@@ -101,7 +101,7 @@ LARGER = {
         families.torus(100, 80, shape="triangles").corners.reshape(-1, 3),
     ),
     "genus 5": lambda: families.block_with_holes(5, refine=6, jitter=0.2),
-    # A chunk needs the chunks beside it; the ends of a segment, and the last segment the first, need each other.
+    # A chunk needs its neighbouring chunks; the ends of a segment, and the last segment the first, need each other.
     "long torus": long_torus,
     # A chunk needs chunks anywhere: all that follow are left for the end.
     "long torus in runs": lambda: in_runs(long_torus(), 1000),
@@ -141,7 +141,7 @@ def test_residual_and_iterations(name):
 
 @pytest.mark.parametrize("name", ["marching tetrahedra", "many slivers", "random positions", "slivers"])
 def test_weights_of_both_signs(name):
-    """The artist's own triangles: more iterations, the same promise."""
+    """The input triangulation: more iterations, the same accuracy."""
     structure = solved_by("multigrid", name)
     assert structure.flip_count > 0
     assert structure.uv_solver.name.startswith("multigrid")
@@ -194,7 +194,7 @@ def test_many_forms_are_solved_directly_where_that_is_fast():
 
 
 def test_cancelling_while_multigrid_works():
-    """The function is asked throughout the stage, and its answer ends the work."""
+    """The function is called throughout the stage, and its answer ends the work."""
     mesh = surface_of(families.torus(600, 300, shape="triangles", jitter=0.2))
     fractions = []
 
@@ -205,14 +205,14 @@ def test_cancelling_while_multigrid_works():
     conformal_structure(mesh, solver="multigrid", progress=note)
     assert len(fractions) > 3
     assert (np.diff(fractions) >= 0).all()
-    asked = []
+    stages = []
     for last in (1, len(fractions) // 2):
 
         def stop(fraction, stage):
-            asked.append(stage)
-            return asked.count("harmonic forms") < last  # noqa: B023
+            stages.append(stage)
+            return stages.count("harmonic forms") < last  # noqa: B023
 
-        asked.clear()
+        stages.clear()
         with pytest.raises(Cancelled, match="harmonic forms"):
             conformal_structure(mesh, solver="multigrid", progress=stop)
-        assert asked.count("harmonic forms") == last
+        assert stages.count("harmonic forms") == last

@@ -1,4 +1,4 @@
-"""The paper's multiresolution algorithm (§ 9): exact classes, harmonic forms of the artist's triangles, its report."""
+"""The paper's multiresolution algorithm (§ 9): exact classes, harmonic forms of the input triangulation, its report."""
 
 import json
 from functools import cache
@@ -105,7 +105,7 @@ def test_a_doubled_diagonal_is_gone_around():
 
 
 @pytest.mark.parametrize("name", [name for name in (*MESHES, *REAL) if name != "doubled diagonal"])
-def test_forms_are_harmonic_on_the_artists_triangles(name):
+def test_forms_are_harmonic_on_the_input_triangulation(name):
     """Closed, with the right periods and harmonic: there is only one such form in each class."""
     structure = solved(name)
     forms, weights = structure.harmonic_forms, edge_weights(structure)
@@ -122,7 +122,7 @@ def test_forms_are_harmonic_on_the_artists_triangles(name):
 
 @pytest.mark.parametrize("name", ["even torus", "torus knot", "genus 8 block", "bumpy torus", "tray_g23.stl"])
 def test_agrees_with_the_direct_solver(name):
-    """The direct solver's forms on the artist's triangles, in the classes of the paper's loops."""
+    """The direct solver's forms on the input triangulation, in the classes of the paper's loops."""
     structure, direct = solved(name), conformal_structure(surface(name), solver="direct")
     if direct.flip_count:
         assert direct.uv_solver.name.startswith("direct")

@@ -1,4 +1,4 @@
-"""Progressive meshes: exact restoring, valid levels, minimal bases, files, and classes carried through the splits."""
+"""Progressive meshes: exact restoring, valid levels, minimal bases, files, and classes pulled back to levels."""
 
 import zlib
 from functools import cache
@@ -180,27 +180,30 @@ def test_a_disk_ends_as_one_triangle(order):
     assert len(progressive(available("hand_lowres_b1.obj"), order).base.triangles) == 1
 
 
+def neighbours_of(sides, boundary):
+    """The vertices next to each vertex, -1 among those of the boundary."""
+    neighbours = {v: {-1} for v in boundary}
+    for a, b in sides:
+        neighbours.setdefault(a, set()).add(b)
+        neighbours.setdefault(b, set()).add(a)
+    return neighbours
+
+
 @everything
 @in_both_orders
 def test_no_edge_of_the_base_can_be_collapsed(name, order):
     """The link condition, counted on lists: an edge can be collapsed if its ends have no common neighbours but those
     opposite to it, it does not cross the surface from boundary to boundary, and it is not in a tetrahedron or triangle
-    of its own. Boundary vertices go along the boundary only."""
+    of its own. Boundary vertices move along the boundary only."""
     base = progressive(available(name), order).base
     triangles = [tuple(t) for t in base.triangles.tolist()]
     sides = {(t[i], t[(i + 1) % 3]): t[(i + 2) % 3] for t in triangles for i in range(3)}
     open_sides = {side for side in sides if side[::-1] not in sides}
     boundary = {v for side in open_sides for v in side}
-    neighbours = {}
+    neighbours = neighbours_of(sides, boundary)
     for a, b in sides:
-        neighbours.setdefault(a, set()).add(b)
-        neighbours.setdefault(b, set()).add(a)
-    for v in boundary:
-        neighbours[v].add(-1)
-    for a, b in sides:
-        opposite = {sides[side] for side in ((a, b), (b, a)) if side in sides} | (
-            {-1} if (a, b) in open_sides else set()
-        )
+        opposite = {sides[side] for side in ((a, b), (b, a)) if side in sides}
+        opposite |= {-1} if (a, b) in open_sides else set()
         if neighbours[a] & neighbours[b] != opposite or len(neighbours[a]) == len(neighbours[b]) == 3:
             continue
         assert a in boundary and b in boundary and (a, b) not in open_sides
@@ -406,13 +409,13 @@ def test_integer_classes_and_loops_keep_their_periods(name, order):
         level = mesh.restore() if n_faces is None else mesh.level(n_faces)
         edges = EdgeForms(level._native.edges, len(level.vertices))
         forms = mesh.carry_forms(classes, n_faces)
-        carried = mesh.carry_loops(loops, n_faces)
+        lifted = mesh.carry_loops(loops, n_faces)
         assert forms.dtype == np.int64
         assert not closedness(level, edges, forms).any()
-        assert (edges.integrals(forms, carried) == np.eye(len(loops), dtype=int)).all()
+        assert (edges.integrals(forms, lifted) == np.eye(len(loops), dtype=int)).all()
 
 
-def test_carried_classes_are_those_of_the_native_rows():
+def test_pulled_back_classes_are_those_of_the_native_rows():
     """Sparse rows of integers, which the solver uses, and dense ones."""
     mesh = progressive("cage", "quadric")
     classes = integer_classes(conformal_structure(mesh.base))

@@ -139,14 +139,14 @@ def test_jumps(name):
 
 
 @everywhere
-def test_seams_are_the_artists_edges_and_all_spokes(name):
+def test_seams_are_input_edges_and_all_spokes(name):
     structure = solved(name)
     surface = structure.surface
     start, end = corner_sides(surface)
     sides = np.sort(surface.corner_vertices[[start, end]], axis=0)
-    artists = np.unique(sides[0].astype(np.int64) * len(surface.vertices) + sides[1])
+    input_edges = np.unique(sides[0].astype(np.int64) * len(surface.vertices) + sides[1])
     seams = structure.edges[structure.seams].astype(np.int64) @ [len(surface.vertices), 1]
-    assert np.isin(seams, artists).all()
+    assert np.isin(seams, input_edges).all()
     spokes = np.nonzero(np.isin(structure.edges, structure.punctures).any(axis=1))[0]
     assert np.isin(spokes, structure.seams).all()
 
@@ -368,7 +368,7 @@ def test_log_map_of_a_jittered_sphere_converges():
 
 
 def test_sphere_map_of_a_sphere_is_a_rotation():
-    """Punctures at opposite points: up to the discretisation the map is the identity, turned about the axis."""
+    """Punctures at opposite points: up to the discretisation the map is the identity, rotated about the axis."""
     mesh = families.geodesic_sphere(14, jitter=0.2)
     points = mesh.vertices
     north = int(np.argmax(points[:, 2]))

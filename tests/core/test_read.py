@@ -178,7 +178,7 @@ def test_other_formats_are_not_welded(name, tmp_path):
 
 
 def test_triangle_strips(tmp_path):
-    """An octahedron as a band of six triangles and two single ones: every other triangle of a strip is turned round."""
+    """An octahedron as a band of six triangles and two single ones: every other triangle of a strip is reversed."""
     points = np.concatenate([np.eye(3), -np.eye(3)]).astype(int)
     head = "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
     head += "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"

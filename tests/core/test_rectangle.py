@@ -135,7 +135,7 @@ def test_bounds_are_nested_under_refinement():
 
 
 def test_collapsed_triangles_are_counted():
-    """The triangle that cuts a corner lies on two sides, that beside a corner moved along on one."""
+    """The triangle that cuts a corner lies on two sides, that next to a corner moved along on one."""
     surface = surface_of(grid(6, 6, shape="triangles"))
     ears = [
         t

@@ -113,7 +113,7 @@ print(before, megabytes("VmRSS:"), megabytes("VmHWM:"))
 
 @pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the memory in use, and glibc to keep none")
 def test_a_result_keeps_functions_classes_and_sheets_alone():
-    """Half-edges, 42 bytes per triangle, are made again where they are asked for."""
+    """Half-edges, 42 bytes per triangle, are made again when needed."""
     program = """
 import ctypes
 import gc
@@ -224,7 +224,7 @@ def test_cancelling_at_any_call(call):
 
     with pytest.raises(Cancelled):
         conformal_structure(large_torus(), progress=stop)
-    assert len(calls) == call  # after the answer nothing more is asked
+    assert len(calls) == call  # after the answer the function is not called again
 
 
 @pytest.mark.parametrize("last", ["intrinsic Delaunay", "solver"])

@@ -189,7 +189,7 @@ def test_parallelograms_are_cut_along_the_short_diagonal():
     quads = sheared[mesh.corners.reshape(-1, 4)]
     shortest = np.linalg.norm(quads[:, :2] - quads[:, 2:], axis=2).min(axis=1)
     missing = 6 - (surface.triangle_corners % 4).sum(axis=1)
-    first = (missing + 1) % 2  # the diagonal joins the two corners beside the missing one
+    first = (missing + 1) % 2  # the diagonal joins the two corners next to the missing one
     used = np.linalg.norm(quads[surface.triangle_faces, first] - quads[surface.triangle_faces, first + 2], axis=1)
     assert np.abs(used - shortest[surface.triangle_faces]).max() < ROUNDING
 

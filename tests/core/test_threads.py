@@ -44,7 +44,7 @@ def test_computations_at_once_have_the_bits_of_one_alone(solver):
 
 
 def test_one_structure_is_asked_by_several():
-    """The forms for UVs are computed when they are first asked for, once."""
+    """The forms for UVs are computed when first needed, once."""
     surface = surface_of(CLOSED["genus 2 block"])
     alone = conformal_structure(surface, threads=2)
     coefficients = alone.balanced_coefficients()

@@ -55,7 +55,7 @@ def test_canonical_basis(name):
 
 
 @embedded
-def test_loops_run_along_the_artist_s_edges(name):
+def test_loops_run_along_input_edges(name):
     structure, mesh = solved(name), CLOSED[name]
     edges, _ = counting.undirected_edges(mesh)
     keys = edges @ [len(mesh.vertices), 1]
@@ -65,7 +65,7 @@ def test_loops_run_along_the_artist_s_edges(name):
 
 
 @embedded
-def test_seams_run_along_the_artist_s_edges(name):
+def test_seams_run_along_input_edges(name):
     structure, mesh = solved(name), CLOSED[name]
     edges, _ = counting.undirected_edges(mesh)
     size = len(mesh.vertices)

@@ -11,7 +11,7 @@
 #include "progressive/levels.h"
 #include "progressive/progressive_mesh.h"
 #include "progressive/simplify.h"
-#include "topology/carried_classes.h"
+#include "topology/pulled_back_classes.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -76,7 +76,7 @@ py::list carry_loops(const ProgressiveMesh& mesh, int splits, const std::vector<
   std::vector<std::vector<int>> carried;
   {
     const py::gil_scoped_release unlocked;
-    carried = topology::carry_loops(mesh, splits, loops);
+    carried = topology::lift_loops(mesh, splits, loops);
   }
   py::list result;
   for (const auto& loop : carried) result.append(copy(loop));
@@ -95,7 +95,7 @@ py::array carry_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32
       if (given(i, e) != 0) base.rows.edit(static_cast<std::size_t>(e)).emplace_back(i, given(i, e));
     }
   }
-  const topology::IntegerForms carried = topology::carry_classes(mesh.base, base, surface, map);
+  const topology::IntegerForms carried = topology::pull_back_classes(mesh.base, base, surface, map);
   Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic> values(base.form_count,
                                                                      static_cast<Eigen::Index>(carried.rows.size()));
   values.setZero();

@@ -82,7 +82,7 @@ Pointer conformal_of_level(const progressive::ProgressiveMesh& mesh, int splits,
                            const std::string& solver, int threads, std::int64_t memory_limit,
                            const py::object& progress) {
   return make({solver, memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
-    return structure::conformal_structure(surface, options, execution, topology::carried_bases(mesh, splits, *surface));
+    return structure::conformal_structure(surface, options, execution, topology::lifted_bases(mesh, splits, *surface));
   });
 }
 

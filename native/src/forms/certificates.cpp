@@ -1,9 +1,8 @@
 #include "forms/certificates.h"
 
-#include <algorithm>
 #include <array>
 
-#include "base/chunks.h"
+#include "forms/block_sums.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::forms {
@@ -16,30 +15,6 @@ using mesh::next;
 using mesh::opposite;
 using mesh::sign;
 using mesh::to_vertex;
-
-// Elements per block. A block's sum has a fixed order inside, and blocks are added in their order: the same bits for
-// any number of threads.
-constexpr int kBlock = 4096;
-// Blocks that run side by side before their sums are added and the progress function is asked.
-constexpr int kBatch = 16;
-
-int block_count(std::size_t elements) { return static_cast<int>((elements + kBlock - 1) / kBlock); }
-
-// Runs `work(slot, begin, end)` on all blocks, batch by batch, and `collect(slot)` after each in order.
-template <class Work, class Collect>
-void for_blocks(std::size_t elements, Execution& execution, double from, double to, Work work, Collect collect) {
-  Workers& workers = execution.workers();
-  const int blocks = block_count(elements);
-  for (int first = 0; first < blocks; first += kBatch) {
-    const int count = std::min(kBatch, blocks - first);
-    run_throwing(workers, count, [&](int slot) {
-      const std::size_t begin = static_cast<std::size_t>(first + slot) * kBlock;
-      work(slot, static_cast<int>(begin), static_cast<int>(std::min(elements, begin + kBlock)));
-    });
-    for (int slot = 0; slot < count; ++slot) collect(slot);
-    execution.report(from + (to - from) * (first + count) / blocks);
-  }
-}
 
 template <int N>
 using Row = Eigen::Matrix<double, 1, N>;
@@ -62,7 +37,7 @@ void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h
 }
 
 template <int N>
-using Maxima = std::array<Row<N>, 2>;  // of |sum| and of the scale it is measured by, per form
+using Maxima = std::array<Row<N>, 2>;  // per form: largest |sum|, and largest scale that it is relative to
 
 // Faces: |sum around| against the largest value.
 template <int N>

@@ -1,4 +1,4 @@
-// What is measured of harmonic forms: energies, residuals and wedge products, summed in a fixed order.
+// Energies, residuals and wedge products of harmonic forms, summed in a fixed order.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ namespace holomorph::forms {
 
 /// G_ij = sum_e k_e h_i(e) h_j(e), exactly the L2 products of the piecewise constant forms, within each family of
 /// forms. Summed in a fixed order of blocks of edges, so the bits do not depend on the number of threads.
-/// @param families numbers of forms that follow one another; @return a matrix for each
+/// @param families numbers of forms of consecutive families. @return a matrix for each
 std::vector<Eigen::MatrixXd> gram_matrices(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                            const ClosedForms& forms, const std::vector<int>& families,
                                            Execution& execution);
@@ -29,7 +29,7 @@ struct Residuals {
   double closedness = 0, harmonicity = 0;
 };
 
-/// @param fixed vertices at which d* h is asked of the first `natural` forms only: the others are prescribed there
+/// @param fixed vertices at which d* h is measured for the first `natural` forms only: the others are prescribed there
 Residuals residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
                     Execution& execution, int natural, const std::vector<int>& fixed);
 

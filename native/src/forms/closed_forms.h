@@ -12,10 +12,10 @@ namespace holomorph::forms {
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// A family of closed forms eta_i + d f_i, kept as classes and functions: #forms numbers per vertex instead of per
-/// edge. Where memory is short, only some of the functions are there at a time, and #forms below counts those.
+/// edge. Where memory is short, only a block of the functions is present at a time, and #forms below counts those.
 struct ClosedForms {
   topology::IntegerForms classes;
-  RowMajorMatrix functions;  ///< #V x #forms, of the classes first, first + 1, ...
+  RowMajorMatrix functions;  ///< #V x #forms, for the classes first, first + 1, ...
   int first = 0;
 };
 
@@ -32,7 +32,7 @@ Eigen::VectorXd combination(const mesh::EdgeEnds& ends, const ClosedForms& forms
 Eigen::MatrixXd periods(const mesh::EdgeEnds& ends, const ClosedForms& forms,
                         const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);
 
-/// Largest |int_{loop i} h_j - delta_ij| over the first #loops classes, as far as their functions are there.
+/// Largest |int_{loop i} h_j - delta_ij| over the first #loops classes, as far as their functions are present.
 double period_residual(const mesh::EdgeEnds& ends, const ClosedForms& forms,
                        const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);
 

@@ -95,20 +95,20 @@ int write_merged(const HalfEdges& mesh, std::span<const double> weights, int v, 
 std::vector<int> chunk_starts(const HalfEdges& mesh, Workers& workers) {
   const int n = static_cast<int>(mesh.n_vertices()), chunks = chunk_count(n);
   const int half_edges = static_cast<int>(mesh.n_halfedges()), block = 64 * kChunk;
-  std::vector<std::vector<int>> met((half_edges + block - 1) / block, std::vector<int>(chunks, 0));
-  workers.run(static_cast<int>(met.size()), [&](int, int i) {
+  std::vector<std::vector<int>> arriving((half_edges + block - 1) / block, std::vector<int>(chunks, 0));
+  workers.run(static_cast<int>(arriving.size()), [&](int, int i) {
     for (int h = i * block, end = std::min(h + block, half_edges); h < end; ++h)
-      ++met[i][to_vertex(mesh, HalfedgeHandle(h)) / kChunk];
+      ++arriving[i][to_vertex(mesh, HalfedgeHandle(h)) / kChunk];
   });
   std::vector<int> start(chunks + 1, 0);
   for (int c = 0; c < chunks; ++c) {
     start[c + 1] = start[c] + std::min(kChunk, n - c * kChunk);
-    for (const std::vector<int>& counts : met) start[c + 1] += counts[c];
+    for (const std::vector<int>& counts : arriving) start[c + 1] += counts[c];
   }
   return start;
 }
 
-// Moves the chunks together over the entries that merging has left empty.
+// Closes the gaps between chunks that merging has left.
 void close_gaps(const std::vector<int>& start, solver::Laplacian& L) {
   const int n = L.size();
   int* const ends = L.starts.data() + 1;
@@ -130,7 +130,7 @@ void close_gaps(const std::vector<int>& start, solver::Laplacian& L) {
 
 }  // namespace
 
-// A chunk has room for all edges at its vertices, and is filled by one thread.
+// A chunk has space for all edges at its vertices, and is filled by one thread.
 solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weights, Execution& execution) {
   const int n = static_cast<int>(mesh.n_vertices());
   Workers& workers = execution.workers();

@@ -18,7 +18,7 @@ using mesh::opposite;
 struct StarTriangle {
   int a, b;
   double angle, length, height, t0, t1;
-  double log_a, log_b;  // of the spokes, in units of their mean
+  double log_a, log_b;  // logarithms of the lengths of the spokes, relative to their mean
 
   StarTriangle(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle link, double angle_at_p,
                double unit)

@@ -1,7 +1,7 @@
 // Differentials of the third kind, theta = du + i dv with residues s / (2 pi i) at punctures (paper § 11 names them).
 //
-// No face is cut out. In the stars the singular part (singular_part.h) is known; outside it goes on as any closed form
-// with the same values on the links, and u = u_s + df, v = v_s + g with f, g on all vertices of the whole mesh:
+// No face is cut out. In the stars the singular part (singular_part.h) is known; outside, it is continued as any closed
+// form with the same values on the links, and u = u_s + df, v = v_s + g with f, g on all vertices of the whole mesh:
 //
 //     L f = -d^T (k u_s) + b_u,   L g = -d^T (k d v_s) + b_v      (d^T over the faces outside the stars)
 #pragma once
@@ -22,9 +22,9 @@ struct Poles {
   std::vector<mesh::Star> stars;
   Eigen::MatrixXd
       residues;  ///< #stars x m: with boundary the identity; closed, where they sum to 0, -1 at the last star
-  topology::IntegerForms classes;  ///< m, of topology::puncture_classes
+  topology::IntegerForms classes;  ///< m classes, from topology::puncture_classes
   SingularPart part;
-  Array<double> outer_weights;  ///< #E, of singular_part.h
+  Array<double> outer_weights;  ///< #E, as in singular_part.h
 };
 
 /// #stars x m residues of the pole forms.

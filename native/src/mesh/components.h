@@ -10,10 +10,10 @@
 namespace holomorph::mesh {
 
 /// A connected component as a surface of its own, without isolated vertices. The indices grow with the parent's, so
-/// lower and higher vertex of an edge stay what they were.
+/// the lower vertex of an edge remains the lower one.
 struct Component {
   Surface surface;
-  std::vector<int> vertex_index, face_index, corner_index;  ///< of each element in the parent
+  std::vector<int> vertex_index, face_index, corner_index;  ///< index of each element in the parent
 };
 
 Component component(const Surface& surface, int which, Execution& execution);

@@ -1,6 +1,6 @@
-// make_delaunay. Each face is in one region, and a region's edges are turned by one thread: those between two of its
-// faces, which they stay, as a flip gives the half-edges of two faces to the same two. What lies between regions
-// follows when all are done. No result depends on which thread takes which region.
+// make_delaunay. Each face is in one region. One thread flips the edges between two faces of a region; they remain
+// between these, because a flip keeps its six half-edges in the same two faces. Edges between regions follow when all
+// regions are done. No result depends on which thread takes which region.
 #include "mesh/delaunay.h"
 
 #include <algorithm>
@@ -14,16 +14,16 @@
 namespace holomorph::mesh {
 namespace {
 
-// An edge is turned only where cot + cot is clearly negative, relative to the cotangents ...
+// An edge is flipped only where cot + cot is clearly negative, relative to the cotangents ...
 constexpr double kDelaunayTolerance = 1e-9;
-// ... and never more often than this, so that rounding among slivers cannot turn it back and forth for ever.
+// ... and never more often than this, so that rounding among slivers cannot flip it back and forth for ever.
 constexpr unsigned kMostFlipsOfAnEdge = 60;
 // Many regions share out the work, large ones (in edges, a power of 2) leave little between them.
 constexpr unsigned kRegions = 16, kLeastRegion = 8192;
-// Edges of a queue ahead of the one that is looked at whose memory is asked for.
+// Prefetch distance, in queue entries.
 constexpr std::size_t kAhead = 8;
 
-// What is known of each edge, one byte.
+// Marks of each edge, in one byte.
 class EdgeMarks {
  public:
   explicit EdgeMarks(std::size_t edges) : bits_(edges) {}
@@ -37,7 +37,7 @@ class EdgeMarks {
     return !was_queued;
   }
   void dequeue(int e) { bits_[e] &= ~kQueued; }
-  /// @return whether it may be turned once more
+  /// @return whether it may be flipped once more
   bool count_flip(int e) {
     if ((bits_[e] & kCount) >= kMostFlipsOfAnEdge) return false;
     ++bits_[e];
@@ -49,7 +49,7 @@ class EdgeMarks {
   Array<unsigned char> bits_;
 };
 
-// Between two different faces.
+// Whether the edge lies between two different faces, so that it can be flipped.
 bool is_interior(const HalfEdges& mesh, int e) {
   const FaceHandle fa = mesh.face_handle(HalfedgeHandle(2 * e)), fb = mesh.face_handle(HalfedgeHandle(2 * e + 1));
   return fa.is_valid() && fb.is_valid() && fa != fb;
@@ -60,14 +60,14 @@ bool is_delaunay(const IntrinsicTriangulation& t, int e) {
   return x + y >= -kDelaunayTolerance * (1 + std::abs(x) + std::abs(y));
 }
 
-// Turns the edges of one region, or what is left of all.
+// Flips the edges of one region, or in the end those between regions.
 class Flipper {
  public:
   Flipper(IntrinsicTriangulation& t, EdgeMarks& marks, bool in_region)
       : t_(t), mesh_(t.half_edges), marks_(marks), in_region_(in_region) {}
 
-  std::vector<int> stack;    // edges to look at, queued
-  std::vector<int> between;  // edges to look at when the regions are done
+  std::vector<int> stack;    // edges to check, queued
+  std::vector<int> between;  // edges to check when the regions are done
   std::vector<Flip> flips;
 
   template <class Report>
@@ -107,10 +107,10 @@ class Flipper {
 
   void flip(int e) {
     const HalfedgeHandle a(2 * e), b(2 * e + 1);
-    const double turned = new_length(a, b);
+    const double flipped_length = new_length(a, b);
     const HalfedgeHandle a1 = next(mesh_, a), a2 = next(mesh_, a1), b1 = next(mesh_, b), b2 = next(mesh_, b1);
     flip_links(mesh_, EdgeHandle(e));
-    t_.lengths[e] = turned;
+    t_.lengths[e] = flipped_length;
     set_cotangents(t_, a);
     set_cotangents(t_, b);
     flips.push_back({e, a2, b1});
@@ -130,7 +130,7 @@ class Flipper {
   bool in_region_;
 };
 
-// What is to be done: the edges to turn, lowest on top of each stack.
+// The edges that are not Delaunay, lowest on top of each stack.
 struct Work {
   std::vector<Flipper> regions;
   Flipper rest;
@@ -151,10 +151,10 @@ Work find_work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
   std::vector<std::vector<Bad>> bad(chunk_count(edge_count));
   run_throwing(workers, chunk_count(edge_count), [&](int chunk) {
     for (int e = chunk * kChunk, end = std::min(e + kChunk, edge_count); e < end; ++e) {
-      const bool interior = is_interior(mesh, e), turn = interior && !is_delaunay(t, e);
+      const bool interior = is_interior(mesh, e), is_bad = interior && !is_delaunay(t, e);
       const int a = interior ? region(HalfedgeHandle(2 * e)) : 0, b = interior ? region(HalfedgeHandle(2 * e + 1)) : 0;
-      marks.set(e, a != b, turn);
-      if (turn) bad[chunk].push_back({e, a});
+      marks.set(e, a != b, is_bad);
+      if (is_bad) bad[chunk].push_back({e, a});
     }
   });
   Work result{std::vector<Flipper>(kRegions, Flipper(t, marks, true)), Flipper(t, marks, false)};
@@ -167,7 +167,7 @@ Work find_work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
   return result;
 }
 
-// In the order of the flippers.
+// Appends the flips in the order of the flippers.
 void append_flips(const std::vector<Flipper>& flippers, std::vector<Flip>& flips) {
   std::size_t count = flips.size();
   for (const Flipper& flipper : flippers) count += flipper.flips.size();

@@ -8,8 +8,8 @@ namespace holomorph::mesh {
 
 /// Flips edges until every interior edge is Delaunay, cot + cot >= 0 up to rounding (Fisher et al. 2007,
 /// doi:10.1007/s00607-007-0249-8). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
-/// function (Rippa 1990), so no triangulation comes twice; in rounded arithmetic because no edge is turned without
-/// limit.
+/// function (Rippa 1990), so no triangulation recurs; in rounded arithmetic because the flips of
+/// each edge are limited.
 /// Cost: linear in the number of flips, which is about a fifth of the edges of irregular meshes; in parallel where
 /// faces with near numbers are near each other, with the same result at any number of threads.
 void make_delaunay(IntrinsicTriangulation& triangulation, Execution& execution);

@@ -9,12 +9,13 @@
 namespace holomorph::mesh {
 
 /// The first copy keeps the numbers of its vertices, edges and faces; the second one, with the other orientation,
-/// shares the vertices and edges of the boundary and has the others, in their order, behind those of the first.
+/// shares the vertices and edges of the boundary and has the others, in their order, after those of the first.
 /// Everything is matched by half-edges, never by pairs of vertices, so that chords are no exception.
 struct DoubleCover {
   HalfEdges half_edges;
-  std::vector<int> dual_vertex;               ///< #V of the surface: the same vertex in the second copy
-  std::vector<HalfedgeHandle> first, second;  ///< #half-edges of the surface that have a face: where each came to lie
+  std::vector<int> dual_vertex;  ///< #V of the surface: the same vertex in the second copy
+  std::vector<HalfedgeHandle> first,
+      second;  ///< #half-edges of the surface that have a face: the same one in each copy
 };
 
 /// @pre orientable, with boundary. Cost: linear.

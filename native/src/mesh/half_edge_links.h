@@ -1,7 +1,7 @@
-// The links of half-edges: which follows which, where each goes and what lies to its left.
+// The links of half-edges: the next one, the vertex at the head and the face on the left.
 //
 // The handles and the names are those of OpenMesh's connectivity kernel. Its arrays are not: they are filled element by
-// element, copied where they are moved, and its faces and flips look edges up by their ends.
+// element, copied where they are moved, and its faces and flips find edges by their ends.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/Handles.hh>
@@ -77,7 +77,7 @@ class HalfEdges {
     if (kept.load(std::memory_order_relaxed) == old.idx()) kept.store(other.idx(), std::memory_order_relaxed);
   }
 
-  /// Asks for the memory of both half-edges of an edge.
+  /// Prefetches both half-edges of an edge.
   void prefetch_halfedges(EdgeHandle e) const { prefetch(&half_edges_[2 * e.idx()]); }
 
  private:

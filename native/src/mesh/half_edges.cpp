@@ -10,11 +10,10 @@ namespace {
 
 using std::to_string;
 
-// Triangles ahead of the one that is linked whose half-edges are asked for: in the order of the triangles they may lie
-// anywhere.
+// Prefetch distance, in triangles: their half-edges may lie anywhere.
 constexpr int kAhead = 24;
 
-// Of the half-edges that leave a vertex, it keeps the lowest one.
+// Each vertex keeps the lowest half-edge that leaves it.
 void link_vertices(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   for_rows(workers, surface.vertex_count, [&](int v) { mesh.set_halfedge_handle(VertexHandle(v), HalfedgeHandle()); });
   for_rows(workers, static_cast<int>(surface.edges.size()), [&](int e) {
@@ -22,7 +21,7 @@ void link_vertices(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   });
 }
 
-// What half-edges without a face are to have; the others are linked later.
+// Links half-edges as if none had a face; those with a face are linked later.
 void set_outside(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   for_rows(workers, static_cast<int>(surface.edges.size()), [&](int e) {
     for (const int i : {0, 1}) {
@@ -45,7 +44,7 @@ std::unordered_map<int, int> first_sides_of_loops(const Surface& surface) {
   return first;
 }
 
-// Each triangle writes where no other does.
+// In parallel: no two triangles write to the same place.
 void link_triangles(HalfEdges& mesh, const Surface& surface, Workers& workers) {
   const Sides sides(surface);
   const int count = static_cast<int>(surface.triangles.size());
@@ -85,13 +84,13 @@ void link_boundary(HalfEdges& mesh) {
 int fan_size(const HalfEdges& mesh, int vertex) {
   const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
   if (!start.is_valid()) return 0;
-  int met = 0;
+  int size = 0;
   HalfedgeHandle h = start;
   do {
-    ++met;
+    ++size;
     h = next(mesh, opposite(h));
   } while (h != start);
-  return met;
+  return size;
 }
 
 }  // namespace
@@ -112,12 +111,12 @@ HalfEdges half_edges(const Surface& surface, Execution& execution) {
   return mesh;
 }
 
-// Every half-edge is in one fan, so that the fans of the vertices are all there are if together they have them all.
+// Each half-edge is in one fan: if the vertices' fans have all half-edges, no vertex has a second fan.
 void refuse_pinched_vertices(const HalfEdges& mesh, Workers& workers) {
   const int n = static_cast<int>(mesh.n_vertices());
-  const auto met = sum_over_rows(workers, n, std::size_t{0},
-                                 [&](int v, std::size_t& sum) { sum += static_cast<std::size_t>(fan_size(mesh, v)); });
-  if (met == mesh.n_halfedges()) return;
+  const auto in_fans = sum_over_rows(
+      workers, n, std::size_t{0}, [&](int v, std::size_t& sum) { sum += static_cast<std::size_t>(fan_size(mesh, v)); });
+  if (in_fans == mesh.n_halfedges()) return;
   std::vector<int> leaving(n, 0);
   for (int i = 0; i < static_cast<int>(mesh.n_halfedges()); ++i) ++leaving[from_vertex(mesh, HalfedgeHandle(i))];
   for (int v = 0; v < n; ++v) {
@@ -156,13 +155,13 @@ void flip_links(HalfEdges& mesh, EdgeHandle e) {
 }
 
 int boundary_count(const HalfEdges& mesh) {
-  std::vector<char> met(mesh.n_halfedges(), 0);
+  std::vector<char> visited(mesh.n_halfedges(), 0);
   int loops = 0;
   for (int i = 0; i < static_cast<int>(mesh.n_halfedges()); ++i) {
     HalfedgeHandle h(i);
-    if (mesh.face_handle(h).is_valid() || met[i]) continue;
+    if (mesh.face_handle(h).is_valid() || visited[i]) continue;
     ++loops;
-    for (; !met[h.idx()]; h = next(mesh, h)) met[h.idx()] = 1;
+    for (; !visited[h.idx()]; h = next(mesh, h)) visited[h.idx()] = 1;
   }
   return loops;
 }

@@ -51,8 +51,8 @@ inline bool is_first_of_face(const HalfEdges& mesh, HalfedgeHandle h) {
   return h < after && h < next(mesh, after);
 }
 
-/// Turns edge e inside the quadrilateral of its two triangles, links only. @pre two different faces at e.
-/// Threads may turn edges of different faces.
+/// Flips edge e inside the quadrilateral of its two triangles, links only. @pre two different faces at e.
+/// Threads may flip edges of different faces.
 void flip_links(HalfEdges& mesh, EdgeHandle e);
 
 /// Number of boundary loops.

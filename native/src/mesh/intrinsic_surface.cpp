@@ -15,13 +15,30 @@ namespace holomorph::mesh {
 namespace {
 
 using std::to_string;
-using Names = std::vector<std::array<std::int64_t, 3>>;
+using Indices = std::vector<std::array<std::int64_t, 3>>;
 
 // Two triangles may give the length of their common edge with this relative difference: rounding of the caller's.
 constexpr double kLengthAgreement = 1e-9;
 
-void check_input(int vertex_count, const Names& faces, const std::vector<std::array<double, 3>>& lengths,
-                 const Names& face_edges) {
+void check_face(std::size_t f, int vertex_count, const std::array<std::int64_t, 3>& vertices,
+                const std::array<double, 3>& lengths, bool has_edge_names) {
+  const std::string face = "face " + to_string(f);
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t v = vertices[i];
+    if (v < 0) throw InvalidMesh(face + " has the negative vertex index " + to_string(v));
+    if (v >= vertex_count) {
+      throw InvalidMesh(face + " names vertex " + to_string(v) + ", but there are only " + to_string(vertex_count) +
+                        " vertices");
+    }
+    if (!std::isfinite(lengths[i]) || lengths[i] < 0)
+      throw InvalidMesh(face + " has an edge length that is negative or not finite");
+    if (!has_edge_names && v == vertices[(i + 1) % 3])
+      throw InvalidMesh(face + " has vertex " + to_string(v) + " twice; name its edges with face_edges");
+  }
+}
+
+void check_input(int vertex_count, const Indices& faces, const std::vector<std::array<double, 3>>& lengths,
+                 const Indices& face_edges) {
   if (faces.empty()) throw InvalidMesh("the mesh has no faces");
   if (lengths.size() != faces.size()) {
     throw InvalidMesh("edge_lengths has " + to_string(lengths.size()) + " rows for " + to_string(faces.size()) +
@@ -31,23 +48,7 @@ void check_input(int vertex_count, const Names& faces, const std::vector<std::ar
     throw InvalidMesh("face_edges has " + to_string(face_edges.size()) + " rows for " + to_string(faces.size()) +
                       " faces");
   }
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (int i = 0; i < 3; ++i) {
-      if (faces[f][i] < 0)
-        throw InvalidMesh("face " + to_string(f) + " has the negative vertex index " + to_string(faces[f][i]));
-      if (faces[f][i] >= vertex_count) {
-        throw InvalidMesh("face " + to_string(f) + " names vertex " + to_string(faces[f][i]) + ", but there are only " +
-                          to_string(vertex_count) + " vertices");
-      }
-      if (!std::isfinite(lengths[f][i]) || lengths[f][i] < 0) {
-        throw InvalidMesh("face " + to_string(f) + " has an edge length that is negative or not finite");
-      }
-      if (face_edges.empty() && faces[f][i] == faces[f][(i + 1) % 3]) {
-        throw InvalidMesh("face " + to_string(f) + " has vertex " + to_string(faces[f][i]) +
-                          " twice; name its edges with face_edges");
-      }
-    }
-  }
+  for (std::size_t f = 0; f < faces.size(); ++f) check_face(f, vertex_count, faces[f], lengths[f], !face_edges.empty());
 }
 
 struct Side {
@@ -56,7 +57,7 @@ struct Side {
 };
 
 // The sides in the order of their keys, so that the sides of an edge are neighbours.
-std::vector<Side> sorted_sides(const Names& faces, const Names& face_edges) {
+std::vector<Side> sorted_sides(const Indices& faces, const Indices& face_edges) {
   std::vector<Side> sides;
   sides.reserve(3 * faces.size());
   for (int t = 0; t < static_cast<int>(faces.size()); ++t) {
@@ -134,8 +135,9 @@ void reverse_triangles(Surface& surface) {
 
 }  // namespace
 
-Surface make_intrinsic_surface(int vertex_count, const Names& faces, const std::vector<std::array<double, 3>>& lengths,
-                               const Names& face_edges, Execution& execution) {
+Surface make_intrinsic_surface(int vertex_count, const Indices& faces,
+                               const std::vector<std::array<double, 3>>& lengths, const Indices& face_edges,
+                               Execution& execution) {
   check_input(vertex_count, faces, lengths, face_edges);
   Surface surface;
   surface.vertex_count = vertex_count;

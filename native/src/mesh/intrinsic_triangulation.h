@@ -8,7 +8,7 @@
 
 namespace holomorph::mesh {
 
-/// An edge that was turned: a closed form has on it the value  -(value along `a` + value along `b`),
+/// An edge flip. A closed form has on the new edge the value  -(value along `a` + value along `b`),
 /// where a and b are half-edges of two sides of the quadrilateral, as they were numbered at that moment.
 struct Flip {
   int edge;
@@ -18,11 +18,11 @@ struct Flip {
 struct IntrinsicTriangulation {
   HalfEdges half_edges;
   Array<double> lengths;     ///< #E
-  Array<double> cotangents;  ///< of the angle opposite each half-edge; 0 outside the surface
-  std::vector<Flip> flips;   ///< in order, from the artist's triangulation to this one
+  Array<double> cotangents;  ///< #half-edges: cotangent of the angle opposite; 0 outside the surface
+  std::vector<Flip> flips;   ///< in order, from the input triangulation to this one
   double mollification = 0;  ///< added to every length, in their unit
 
-  /// Gives the memory of lengths and cotangents back: once there are weights, nothing else may be asked of them.
+  /// Frees lengths and cotangents, which only the weights need.
   void forget_metric() {
     lengths = Array<double>();
     cotangents = Array<double>();
@@ -32,7 +32,7 @@ struct IntrinsicTriangulation {
 /// 0 if no triangle is degenerate; else the increment of all lengths that intrinsic_triangulation takes.
 double smallest_increment(const Surface& surface, Workers& workers);
 
-/// The artist's triangulation in its own metric. Where a triangle is degenerate, all lengths grow by the smallest
+/// The input triangulation in its own metric. Where a triangle is degenerate, all lengths grow by the smallest
 /// common amount that leaves every triangle a slack of 1e-6 times the mean length (Sharp & Crane 2020,
 /// doi:10.1111/cgf.14069, section 4.5).
 /// @param half_edges of the surface

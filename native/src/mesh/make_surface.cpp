@@ -14,7 +14,7 @@
 namespace holomorph::mesh {
 namespace {
 
-void make_room(Surface& surface) {
+void resize_arrays(Surface& surface) {
   const Polygons& mesh = surface.polygons;
   const std::size_t corners = mesh.corner_vertices.size(), faces = mesh.face_offsets.size() - 1;
   const std::size_t edges = surface.edges.size() + corners - 3 * faces;
@@ -27,8 +27,8 @@ void make_room(Surface& surface) {
   surface.edge_face_count.resize(edges);
 }
 
-// Writes the triangles of polygons, each where its number of corners and those before it say. Diagonals get new edges,
-// each known to its two triangles only.
+// Writes the triangles of polygons, at places known from the number of corners before each polygon. Diagonals get new
+// edges, each known to its two triangles only.
 class PolygonCutter {
  public:
   PolygonCutter(Surface& surface, const PolygonEdges& edges, const std::vector<int>& loop_of_vertex)
@@ -84,8 +84,9 @@ class PolygonCutter {
   const std::vector<int>& loop_of_vertex_;  // #V, -1 in the interior; empty where all polygons are triangles
   int triangle_ = 0, diagonal_ = 0;         // the next ones
   std::vector<std::array<double, 3>> points_;
-  std::vector<int> loops_;         // of the polygon being cut
-  std::map<Pair, int> diagonals_;  // of the polygon being cut, by its local corners
+  // The polygon being cut: the boundary loop at each corner, and its diagonals by their local corners.
+  std::vector<int> loops_;
+  std::map<Pair, int> diagonals_;
 };
 
 void cut_polygons(Surface& surface, const PolygonEdges& edges, const std::vector<int>& loop_of_vertex,
@@ -131,7 +132,7 @@ Surface surface_of(Polygons polygons, Execution& execution) {
   const auto loop_of_vertex = all_triangles ? std::vector<int>{} : boundary_loop_of_vertex(edges, surface.vertex_count);
   surface.edges = std::move(edges.edges);
   record_orientation(surface, orientation);
-  make_room(surface);
+  resize_arrays(surface);
   for_rows(workers, surface.polygon_edge_count,
            [&](int e) { surface.edge_face_count[e] = edges.edge_sides[e][1] < 0 ? 1 : 2; });
   cut_polygons(surface, edges, loop_of_vertex, orientation.reversed, workers);

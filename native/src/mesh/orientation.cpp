@@ -86,7 +86,7 @@ Orientation oriented_as_given(const Polygons& mesh, const Array<Pair>& edges) {
   Orientation result;
   result.reversed.assign(face_count, 0);
   result.face_component.resize(face_count);
-  std::vector<int> number(vertex_count, -1);  // of the component of each root
+  std::vector<int> number(vertex_count, -1);  // component of each root
   for (int f = 0; f < face_count; ++f) {
     int& component = number[root[mesh.corner_vertices[mesh.face_offsets[f]]]];
     if (component < 0) component = result.component_count++;

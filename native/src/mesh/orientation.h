@@ -20,7 +20,7 @@ struct EdgeMeeting {
   bool same_direction;
 };
 
-/// Orients each component as the larger part of its faces is given (as its first face where the parts are equal).
+/// Orients each component as the majority of its faces is given; if there is none, as its first face.
 Orientation orient(int face_count, const std::vector<EdgeMeeting>& meetings);
 
 /// The same where no face is to be reversed, from the vertices, which two faces of one component share if any do.

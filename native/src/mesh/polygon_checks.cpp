@@ -12,7 +12,7 @@
 namespace holomorph::mesh {
 namespace {
 
-// Half-edges are numbered by int, two for each side of a triangle: this bound leaves room for all of them.
+// Half-edges are numbered by int, two for each side of a triangle: this bound keeps them in range.
 constexpr std::int64_t kMaxCorners = std::numeric_limits<int>::max() / 8;
 
 using std::to_string;
@@ -32,7 +32,7 @@ void check_sizes(const BasicPolygons<Index>& mesh) {
   }
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
     if (offsets[f + 1] < offsets[f]) throw InvalidMesh("face_offsets decrease at face " + to_string(f));
-    const auto size = offsets[f + 1] - offsets[f];  // of two numbers from 0 on
+    const auto size = offsets[f + 1] - offsets[f];  // no overflow: both are at least 0
     if (size < 3)
       throw InvalidMesh("face " + to_string(f) + " has " + to_string(size) + " corners; it needs at least 3");
   }
@@ -57,7 +57,7 @@ std::span<const Index> corners_of(const BasicPolygons<Index>& mesh, int face) {
           mesh.corner_vertices.data() + mesh.face_offsets[face + 1]};
 }
 
-// A vertex that comes twice, or -1.
+// A vertex that occurs twice, or -1.
 template <class Index>
 Index vertex_met_twice(std::span<const Index> corners) {
   std::vector<Index> sorted(corners.begin(), corners.end());

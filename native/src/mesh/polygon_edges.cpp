@@ -17,7 +17,7 @@ using std::to_string;
 struct Side {
   int lower, higher;    // its two vertices
   int directed_corner;  // 2 x its corner, + 1 where it runs from the higher vertex to the lower one
-  unsigned vertex_sum;  // of its polygon: equal where two polygons have the same vertices
+  unsigned vertex_sum;  // sum over its polygon: equal where two polygons have the same vertices
 
   int corner() const { return directed_corner >> 1; }
   bool runs_down() const { return (directed_corner & 1) != 0; }
@@ -46,7 +46,7 @@ class Blocks {
         size_(std::max(kChunk, (vertex_count_ + kMost - 1) / kMost)) {
     const int faces = static_cast<int>(mesh.face_offsets.size()) - 1, batch = 4 * kChunk;
     const int batches = (faces + batch - 1) / batch;
-    // Where the sides of each batch of polygons go in each block.
+    // Place in each block for the next side of each batch of polygons.
     std::vector<std::vector<int>> place(batches, std::vector<int>(count(), 0));
     const auto sides_of = [&](int i, const auto& each) {
       each_side(mesh, i * batch, std::min((i + 1) * batch, faces), each);
@@ -88,7 +88,7 @@ class Blocks {
   static constexpr int kMost = 256;
 
   Array<Side> sides_;
-  std::vector<int> start_;  // of each block, and the end
+  std::vector<int> start_;  // start of each block, and the end
   int vertex_count_, size_;
 };
 
@@ -136,7 +136,7 @@ Pair duplicates(const Polygons& mesh, const Side* begin, const Side* end) {
 // Sorts all blocks. @return the number of the first edge of each block, and of all edges
 std::vector<int> first_edges(const Polygons& mesh, Blocks& blocks, Workers& workers) {
   struct Bad {
-    int edge = -1;  // of the block's
+    int edge = -1;  // number in the block
     const Side *begin = nullptr, *end = nullptr;
   };
   std::vector<int> first(blocks.count() + 1, 0);

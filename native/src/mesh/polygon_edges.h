@@ -1,4 +1,4 @@
-// The edges of a polygon mesh, found from pairs of vertices: the only place where an edge is known by its ends.
+// The edges of a polygon mesh, found from pairs of vertices.
 #pragma once
 
 #include <vector>

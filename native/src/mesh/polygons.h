@@ -14,9 +14,9 @@ struct BasicPolygons {
   std::vector<Index> face_offsets;  ///< #F + 1; polygon f has corners face_offsets[f] .. face_offsets[f+1]-1
 };
 
-/// With the indices that everything is computed with.
+/// Indices as in all computations.
 using Polygons = BasicPolygons<int>;
-/// With whatever indices a file or an application gives.
+/// Indices as files and applications give them, unchecked.
 using GivenPolygons = BasicPolygons<std::int64_t>;
 
 }  // namespace holomorph::mesh

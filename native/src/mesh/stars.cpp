@@ -6,18 +6,10 @@
 
 #include "base/errors.h"
 #include "mesh/triangle_geometry.h"
+#include "mesh/vertex_labels.h"
 
 namespace holomorph::mesh {
 namespace {
-
-class Names {
- public:
-  explicit Names(const std::vector<int>& names) : names_(names) {}
-  std::string operator()(int vertex) const { return std::to_string(names_.empty() ? vertex : names_[vertex]); }
-
- private:
-  const std::vector<int>& names_;
-};
 
 // Angle at the apex of the triangle on side h.
 double apex_angle(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle h) {
@@ -26,15 +18,15 @@ double apex_angle(const HalfEdges& mesh, std::span<const double> lengths, Halfed
   return std::atan2(4 * triangle_area(a, b, c), (b - a) * (b + a) + c * c);
 }
 
-Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, const Names& name) {
+Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, const VertexLabels& label) {
   Star result;
   result.vertex = vertex;
   const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
-  if (!start.is_valid()) throw TopologyError("puncture " + name(vertex) + " is a vertex of no face");
+  if (!start.is_valid()) throw TopologyError("puncture " + label(vertex) + " is a vertex of no face");
   HalfedgeHandle h = start;
   do {  // h leaves the vertex; the face to its left is the next one counter-clockwise
     if (!mesh.face_handle(h).is_valid())
-      throw TopologyError("puncture " + name(vertex) + " lies on the boundary; an interior vertex is needed");
+      throw TopologyError("puncture " + label(vertex) + " lies on the boundary; an interior vertex is needed");
     const HalfedgeHandle outer = next(mesh, h);
     result.link.push_back(outer);
     result.faces.push_back(face_of(mesh, outer));
@@ -49,36 +41,36 @@ bool on_boundary(const HalfEdges& mesh, int vertex) {
   return !mesh.face_handle(mesh.halfedge_handle(VertexHandle(vertex))).is_valid();
 }
 
-// Marks the vertices of a star with its owner; refuses what another star, the same one or the boundary has taken.
-void claim(const HalfEdges& mesh, const Star& star, const Names& name, std::vector<int>& owner) {
-  const std::string itself = "the star of puncture " + name(star.vertex);
+// Marks the vertices of a star with its centre. Refuses those of another star, of the boundary, and any twice.
+void claim(const HalfEdges& mesh, const Star& star, const VertexLabels& label, std::vector<int>& owner) {
+  const std::string itself = "the star of puncture " + label(star.vertex);
   const auto take = [&](int v) {
     if (owner[v] == star.vertex)
-      throw TopologyError(itself + " meets itself at vertex " + name(v) + ": the mesh is too coarse there");
+      throw TopologyError(itself + " meets itself at vertex " + label(v) + ": the mesh is too coarse there");
     if (owner[v] >= 0) {
-      throw TopologyError("the stars of the punctures " + name(owner[v]) + " and " + name(star.vertex) +
-                          " share vertex " + name(v) + ": take punctures farther apart, or subdivide the mesh");
+      throw TopologyError("the stars of the punctures " + label(owner[v]) + " and " + label(star.vertex) +
+                          " share vertex " + label(v) + ": take punctures farther apart, or subdivide the mesh");
     }
     owner[v] = star.vertex;
   };
   take(star.vertex);
   for (const HalfedgeHandle h : star.link) {
     const int v = to_vertex(mesh, h);
-    if (on_boundary(mesh, v)) throw TopologyError(itself + " touches the boundary at vertex " + name(v));
+    if (on_boundary(mesh, v)) throw TopologyError(itself + " touches the boundary at vertex " + label(v));
     take(v);
   }
 }
 
-// The vertex and its neighbours along the artist's edges.
+// The vertex and its neighbours along edges of polygons.
 std::vector<int> star_vertices(const Surface& surface, const HalfEdges& mesh, int vertex) {
-  std::vector<int> met{vertex};
+  std::vector<int> vertices{vertex};
   const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
   HalfedgeHandle h = start;
   do {
-    if (!surface.is_diagonal(edge_of(h))) met.push_back(to_vertex(mesh, h));
+    if (!surface.is_diagonal(edge_of(h))) vertices.push_back(to_vertex(mesh, h));
     h = next(mesh, opposite(h));
   } while (h != start);
-  return met;
+  return vertices;
 }
 
 struct Side {
@@ -99,8 +91,9 @@ Side across(const Surface& surface, Side s) {
   throw Error("diagonal " + std::to_string(edge) + " has one triangle");
 }
 
-// 1 for each of the vertices.
-std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vector<int>& vertices, const Names& name) {
+// Refuses polygons with two of the vertices. @return #V 1 for each of the vertices
+std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vector<int>& vertices,
+                                         const VertexLabels& label) {
   std::vector<char> chosen(surface.vertex_count, 0);
   for (const int v : vertices) chosen[v] = 1;
   const auto& offsets = surface.polygons.face_offsets;
@@ -110,7 +103,7 @@ std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vect
       const int v = surface.polygons.corner_vertices[c];
       if (!chosen[v]) continue;
       if (first >= 0 && first != v) {
-        throw TopologyError("the punctures " + name(first) + " and " + name(v) +
+        throw TopologyError("the punctures " + label(first) + " and " + label(v) +
                             " are corners of one face: take punctures farther apart, or subdivide the mesh");
       }
       first = v;
@@ -119,8 +112,8 @@ std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vect
   return chosen;
 }
 
-// The diagonal x -> y of triangle s and y -> x of the one behind it becomes the one between their other corners.
-void turn(Surface& surface, Side s) {
+// Flips the diagonal x -> y of triangle s: it joins the other corners of s and of the triangle across it then.
+void flip(Surface& surface, Side s) {
   const Side o = across(surface, s);
   const auto corner = [&](const Side& side, int i) {
     return surface.triangle_corners[side.triangle][(side.side + i) % 3];
@@ -145,40 +138,40 @@ void turn(Surface& surface, Side s) {
 }  // namespace
 
 std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
-                        const std::vector<int>& names) {
-  const Names name(names);
+                        const std::vector<int>& labels) {
+  const VertexLabels label(labels);
   std::vector<Star> result;
   std::vector<int> owner(half_edges.n_vertices(), -1);
   for (const int v : vertices) {
-    result.push_back(star(half_edges, lengths, v, name));
-    claim(half_edges, result.back(), name, owner);
+    result.push_back(star(half_edges, lengths, v, label));
+    claim(half_edges, result.back(), label, owner);
   }
   return result;
 }
 
 bool has_free_star(const Surface& surface, const HalfEdges& mesh, int vertex, const std::vector<char>& taken) {
   if (!mesh.halfedge_handle(VertexHandle(vertex)).is_valid()) return false;
-  std::vector<int> met = star_vertices(surface, mesh, vertex);
-  for (const int v : met) {
+  std::vector<int> vertices = star_vertices(surface, mesh, vertex);
+  for (const int v : vertices) {
     if (taken[v] || on_boundary(mesh, v)) return false;
   }
-  std::sort(met.begin(), met.end());
-  return std::adjacent_find(met.begin(), met.end()) == met.end();
+  std::sort(vertices.begin(), vertices.end());
+  return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end();
 }
 
 void mark_star(const Surface& surface, const HalfEdges& mesh, int vertex, std::vector<char>& taken) {
   for (const int v : star_vertices(surface, mesh, vertex)) taken[v] = 1;
 }
 
-void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names) {
+void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& labels) {
   if (surface.intrinsic()) return;  // triangles have no diagonals
-  const std::vector<char> chosen = refuse_shared_polygons(surface, vertices, Names(names));
+  const std::vector<char> chosen = refuse_shared_polygons(surface, vertices, VertexLabels(labels));
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
-    // Each turn lowers the number of the polygon's diagonals at its one chosen corner.
+    // Each flip lowers the number of the polygon's diagonals at its one chosen corner.
     for (int i = 0; i < 3;) {
       const int e = surface.triangle_edges[t][i];
       if (surface.is_diagonal(e) && (chosen[surface.edges[e][0]] || chosen[surface.edges[e][1]])) {
-        turn(surface, {t, i});
+        flip(surface, {t, i});
         i = 0;
       } else {
         ++i;

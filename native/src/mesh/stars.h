@@ -14,28 +14,28 @@ struct Star {
   int vertex = 0;
   std::vector<HalfedgeHandle> link;  ///< opposite the vertex in each of its faces, counter-clockwise
   std::vector<int> faces;            ///< the face of each link half-edge
-  std::vector<double> angles;        ///< at the vertex, of each face, in radians
+  std::vector<double> angles;        ///< at the vertex in each face, in radians
   double total_angle = 0;
 
   std::size_t size() const { return link.size(); }
 };
 
 /// @param lengths #E
-/// @param names what a vertex is called in messages; empty: its index
+/// @param labels #V number of each vertex in messages; empty: its index
 /// @throws TopologyError if a vertex has no face, a star touches the boundary or itself, or two stars share a vertex
 std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
-                        const std::vector<int>& names = {});
+                        const std::vector<int>& labels = {});
 
-/// Whether `stars` would take the vertex, once its diagonals are turned away: its neighbours along the artist's edges
+/// Whether `stars` accepts the vertex once diagonals are flipped away from it: its neighbours along edges of polygons
 /// are distinct, not on the boundary and, like itself, not marked in `taken` (#V). It marks nothing.
 bool has_free_star(const Surface& surface, const HalfEdges& half_edges, int vertex, const std::vector<char>& taken);
 
-/// Marks the vertex and its neighbours along the artist's edges.
+/// Marks the vertex and its neighbours along edges of polygons.
 void mark_star(const Surface& surface, const HalfEdges& half_edges, int vertex, std::vector<char>& taken);
 
-/// Turns the diagonals of polygons that end at one of the vertices, so that each polygon has one triangle there: then
-/// every spoke is an edge of the artist's. Edges keep their indices.
+/// Flips the diagonals of polygons that end at one of the vertices, so that each polygon has one triangle there and
+/// every spoke is an edge of a polygon. Edges keep their indices.
 /// @throws TopologyError if two of the vertices are corners of one polygon
-void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& names = {});
+void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& labels = {});
 
 }  // namespace holomorph::mesh

@@ -1,5 +1,7 @@
 #include "mesh/surface.h"
 
+#include <algorithm>
+
 #include "base/chunks.h"
 #include "mesh/triangle_geometry.h"
 
@@ -21,6 +23,12 @@ std::vector<double> vertex_areas(const Surface& surface, std::span<const double>
     for (const int v : surface.triangles[t]) areas[v] += area / 3;
   }
   return areas;
+}
+
+int edge_between(std::span<const Pair> edges, int a, int b) {
+  const Pair ends{std::min(a, b), std::max(a, b)};
+  const auto found = std::lower_bound(edges.begin(), edges.end(), ends);
+  return found != edges.end() && *found == ends ? static_cast<int>(found - edges.begin()) : -1;
 }
 
 }  // namespace holomorph::mesh

@@ -32,7 +32,7 @@ struct Surface {
   Array<Triple> triangle_edges;    ///< #T edge of each side
   Array<int> triangle_faces;       ///< #T polygon of each triangle
   Array<Pair> edges;               ///< #E ends, lower vertex first: the polygons' edges, then the diagonals
-  int polygon_edge_count = 0;      ///< edges before this index are the artist's, the others diagonals
+  int polygon_edge_count = 0;      ///< edges before this index are the polygons', the others diagonals
   Array<double> edge_lengths;      ///< #E, in the unit of the positions
   Array<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
   int component_count = 0;
@@ -48,5 +48,9 @@ double area(const Surface& surface, Workers& workers);
 
 /// #V a third of the areas of the triangles at each vertex. @param lengths #E
 std::vector<double> vertex_areas(const Surface& surface, std::span<const double> lengths);
+
+/// The edge between two vertices, -1 if there is none, in O(log #E). @param edges lower end first, in lexicographic
+/// order, as those of polygons are
+int edge_between(std::span<const Pair> edges, int a, int b);
 
 }  // namespace holomorph::mesh

@@ -1,4 +1,4 @@
-// What both kinds of surface record about themselves once their triangles and edges are known.
+// Records and checks that both kinds of surface share, once triangles and edges are known.
 #pragma once
 
 #include "base/execution.h"

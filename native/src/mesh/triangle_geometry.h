@@ -7,8 +7,8 @@
 
 namespace holomorph::mesh {
 
-/// A triangle is degenerate where its longest side is not shorter than the two others together, up to this fraction
-/// of it: that much is lost when lengths come from rounded positions. (It means angles below 1.4e-6 rad.)
+/// A triangle is degenerate where its longest side is not shorter than the sum of the others by this fraction of it,
+/// the rounding of lengths from rounded positions. (Then an angle is below 1.4e-6 rad.)
 inline constexpr double kDegenerateMargin = 1e-12;
 
 inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -23,7 +23,7 @@ inline bool is_degenerate(double a, double b, double c) {
 
 /// Heron's formula in Kahan's stable order; 0 where the triangle inequality fails.
 inline double triangle_area(double a, double b, double c) {
-  // sorted without branches: which side is longest is unforeseeable
+  // sorted without branches, which could not be predicted
   const double higher = std::max(a, b), lower = std::min(a, b);
   const double longest = std::max(higher, c), other = std::min(higher, c);
   const double middle = std::max(lower, other), shortest = std::min(lower, other);

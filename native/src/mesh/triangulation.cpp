@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 using Triangles = std::vector<std::array<int, 3>>;
 
 constexpr int kExactSize = 64;
-// Cost of a triangle that is degenerate or turned over; the factor times its squared size orders such triangles.
+// Cost of a triangle that is degenerate or inverted: above that of any other.
 constexpr double kBadTriangle = 1e12;
 // Below this ratio of area to squared size a triangle counts as degenerate.
 constexpr double kThin = 1e-10;

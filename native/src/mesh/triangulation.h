@@ -13,7 +13,7 @@ namespace holomorph::mesh {
 /// boundary loop are avoided where another choice of diagonals has fewer of them: maps that make the loop straight
 /// would collapse them.
 /// @param loops n boundary loops of the corners, -1 in the interior; empty: no corner is on the boundary
-/// Exact by dynamic programming up to 64 corners, O(n^3); above, the best ear is cut off again and again, O(n log n).
+/// Exact by dynamic programming up to 64 corners, O(n^3); above, by cutting off the best ear repeatedly, O(n log n).
 std::vector<std::array<int, 3>> triangulate_polygon(const std::vector<std::array<double, 3>>& corners,
                                                     const std::vector<int>& loops = {});
 

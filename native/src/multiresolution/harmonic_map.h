@@ -14,12 +14,11 @@ struct HarmonicMap {
   structure::SolverReport solver;
 };
 
-/// m UV maps made harmonic without a change of their periods: the forms du, dv plus df as in Eq. 8 of the paper, with
-/// L f = -d* du. That is step 5(c) of its § 9 with the forms carried down instead of up. With a boundary, v keeps its
-/// values there and u gets the natural condition, as for natural and Dirichlet forms. Free constants are
-/// chosen so that the map stays in place on the average: `moves` has the mean 0, each vertex weighted by a third of the
-/// area of its triangles.
-/// @param corner_values #C x 2m, u and v in turn
+/// m UV maps made harmonic, with the same periods: the forms du, dv plus df as in Eq. 8 of the paper, with
+/// L f = -d* du. That is step 5(c) of its § 9 applied to a coarser level. With a boundary, v keeps its values there and
+/// u gets the natural condition, as for natural and Dirichlet forms. Free constants are chosen so that the map does not
+/// move on average: `moves` has the mean 0, each vertex weighted by a third of the area of its triangles.
+/// @param corner_values #C x 2m, columns u, v, u, v, ...
 /// @throws InvalidMesh naming the edge across which a map is not continued by a translation, or the boundary edge along
 /// which v changes; TopologyError unless the surface is connected and has handles or two boundary loops; SolverError;
 /// Cancelled

@@ -28,11 +28,11 @@ class PaperSolve {
     for (const int k : thresholds(levels_, options_)) {
       const auto start = Clock::now();
       LevelSystem system = level_system(levels_, k);
-      X = carried(X, row, system.row_of_vertex, system.B.rows(), system.B.cols());
+      X = prolonged(X, row, system.row_of_vertex, system.B.rows(), system.B.cols());
       improve(system.L, system.B, X, options_.level_residual, k, start);
       row = std::move(system.row_of_vertex);
     }
-    return carried(X, row, own, static_cast<Eigen::Index>(own.size()), levels_.base_classes.form_count);
+    return prolonged(X, row, own, static_cast<Eigen::Index>(own.size()), levels_.base_classes.form_count);
   }
 
   // Step 6.
@@ -53,8 +53,8 @@ class PaperSolve {
   double faces(int splits) const { return static_cast<double>(levels_.mesh->base.triangles.size()) + 2.0 * splits; }
 
   // Step 5(b) for all splits between two levels; on M0 nothing is known yet.
-  static Eigen::MatrixXd carried(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
-                                 Eigen::Index rows, Eigen::Index columns) {
+  static Eigen::MatrixXd prolonged(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
+                                   Eigen::Index rows, Eigen::Index columns) {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns);
     for (Eigen::Index c = 0; c < X.cols(); ++c) {
       for (std::size_t v = 0; v < from.size(); ++v) result(to[v], c) = X(from[v], c);

@@ -10,7 +10,7 @@
 //   6  conjugate gradients on M
 //
 // Forms are kept as w = eta + df. Rule 5(b) is the pull-back by the map that takes each vertex to the one it was
-// collapsed into: eta stays an integer class, and f(v_t) = f(v_s).
+// collapsed into: eta remains an integer class, and f(v_t) = f(v_s).
 #pragma once
 
 #include "base/execution.h"
@@ -22,20 +22,19 @@ namespace holomorph::multiresolution {
 
 struct PaperOptions {
   double ratio = 4;                     ///< faces of a threshold over those of the one before
-  std::int64_t least_faces = 500;       ///< of the first threshold above M0
-  double level_residual = 1e-4;         ///< relative, asked for on M0 and at the thresholds
-  double residual = solver::kResidual;  ///< relative, asked for on M
+  std::int64_t least_faces = 500;       ///< fewest faces of a threshold above M0
+  double level_residual = 1e-4;         ///< relative, goal on M0 and at the thresholds
+  double residual = solver::kResidual;  ///< relative, goal on M
   solver::Scaling scaling = solver::Scaling::diagonal;
 };
 
-/// Numbers of splits of M0 and the thresholds, ascending; that of M itself is not among them.
+/// Numbers of splits of M0 and of the thresholds, ascending, without that of M.
 std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options);
 
 using structure::HarmonicFunctions;
 
-/// Steps 4 and 5: the estimation on M that the levels give; its report has all levels but M.
-/// A threshold's residual need not be small: what it gives differs from the finer level's solution by what simplifying
-/// has changed of the surface, some thousandths.
+/// Steps 4 and 5: the initial guess on M; its report has all levels but M. A threshold's residual need not be small:
+/// simplification changes the solution by some thousandths from one level to the next.
 HarmonicFunctions paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
 
 /// Steps 4 to 6: functions f of the harmonic forms eta + df, eta the classes of `levels.bases`.

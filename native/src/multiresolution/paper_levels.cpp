@@ -8,36 +8,17 @@
 #include "multiresolution/polygon_paths.h"
 #include "progressive/simplify.h"
 #include "progressive/single_edges.h"
-#include "topology/fundamental_domain.h"
 
 namespace holomorph::multiresolution {
 namespace {
 
 using progressive::ProgressiveMesh;
 
-// Least area of a triangle of a level in parts of the sum of its squared sides, 0.144 for an equilateral one. All its
-// cotangents shrink together, so that the matrix stays positive semi-definite.
+// Least area of a triangle of a level over the sum of its squared sides, which is 0.144 for an equilateral one. All its
+// cotangents shrink by one factor, so that the matrix remains positive semi-definite.
 constexpr double kLeastLevelArea = 1e-3;
-// Of the time of paper_levels, for the progress function.
+// Part of the time of paper_levels that edge collapses take, for the progress function.
 constexpr double kCollapsing = 0.8;
-
-struct BaseBases {
-  std::vector<std::vector<int>> loops;  // of vertices of M0
-  topology::IntegerForms classes;
-};
-
-// Steps 2 and 3.
-BaseBases base_bases(const mesh::Surface& base) {
-  Execution silent;
-  const auto half_edges = mesh::half_edges(base, silent);
-  const auto domain = topology::fundamental_domain(base, half_edges, silent);
-  BaseBases result{{}, topology::cohomology_basis(half_edges, domain)};
-  for (const auto& loop : topology::homology_basis(half_edges, domain)) {
-    result.loops.emplace_back();
-    for (const auto h : loop) result.loops.back().push_back(mesh::from_vertex(half_edges, h));
-  }
-  return result;
-}
 
 // Cotangents / 2 of a triangle's angles, entry i opposite side i from corner i to the next.
 std::array<double, 3> side_weights(const std::array<std::array<double, 3>, 3>& corners) {
@@ -54,7 +35,7 @@ struct Entry {
   double weight;
 };
 
-// The matrix of sums of weights between rows: entries of each row lie behind one another, doubles among them.
+// The matrix of sums of weights between rows: the entries of a row are consecutive, duplicates among them.
 solver::Laplacian assembled(const std::vector<int>& start, std::vector<Entry>& entries) {
   const int n = static_cast<int>(start.size()) - 1;
   solver::Laplacian L{{0}, {}, {}};
@@ -95,7 +76,7 @@ PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
         "take one of auto, direct, multigrid");
   }
   PaperLevels levels;
-  // The stage stays the caller's, who is asked all the same.
+  // The stage's name remains the caller's; its progress function is called all the same.
   Execution silent(execution.threads(), [&](double done, const std::string&) {
     execution.report(kCollapsing * done);
     return true;
@@ -105,25 +86,25 @@ PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
   levels.splits = static_cast<int>(mesh.splits.size());
   levels.place.resize(mesh.vertex_index.size());
   for (std::size_t p = 0; p < levels.place.size(); ++p) levels.place[mesh.vertex_index[p]] = static_cast<int>(p);
-  const auto turned = progressive::with_single_edges(surface);
-  const mesh::Surface& triangulation = turned ? *turned : surface;
+  const auto flipped = progressive::with_single_edges(surface);
+  const mesh::Surface& triangulation = flipped ? *flipped : surface;
   levels.triangles.reserve(mesh.triangle_index.size());
   for (const int t : mesh.triangle_index) {
     levels.triangles.push_back(triangulation.triangles[t]);
     for (int& v : levels.triangles.back()) v = levels.place[v];
   }
 
-  BaseBases base = base_bases(mesh.base);
+  topology::BaseBases base = topology::base_bases(mesh.base);
   levels.base_classes = std::move(base.classes);
   const std::vector<int> to_base = progressive::vertex_map(mesh, 0);
   std::vector<int> map(levels.place.size());
   for (std::size_t v = 0; v < map.size(); ++v) map[v] = to_base[levels.place[v]];
-  levels.bases.classes = topology::carry_classes(mesh.base, levels.base_classes, triangulation, map);
-  auto loops = topology::carry_loops(mesh, levels.splits, base.loops);
+  levels.bases.classes = topology::pull_back_classes(mesh.base, levels.base_classes, triangulation, map);
+  auto loops = topology::lift_loops(mesh, levels.splits, base.loops);
   for (auto& loop : loops) {
     for (int& v : loop) v = mesh.vertex_index[v];
   }
-  if (turned) values_of_diagonals(surface, *turned, levels.bases.classes);
+  if (flipped) values_of_diagonals(surface, *flipped, levels.bases.classes);
   levels.bases.loops = loops_of_half_edges(surface, triangulation, loops);
   return levels;
 }
@@ -135,8 +116,8 @@ PaperLevels paper_levels(const ProgressiveMesh& mesh, int splits, const mesh::Su
   levels.place.resize(static_cast<std::size_t>(level.vertex_count));
   std::iota(levels.place.begin(), levels.place.end(), 0);
   levels.triangles.assign(level.triangles.begin(), level.triangles.end());
-  levels.base_classes = base_bases(mesh.base).classes;
-  levels.bases = topology::carried_bases(mesh, splits, level);
+  levels.base_classes = topology::base_bases(mesh.base).classes;
+  levels.bases = topology::lifted_bases(mesh, splits, level);
   return levels;
 }
 
@@ -174,7 +155,7 @@ LevelSystem level_system(const PaperLevels& levels, int splits) {
       entries[end[row[head]]++] = {row[tail], weights[i]};
       const int a = to_base[tail], b = to_base[head];
       if (a == b) continue;
-      const int edge = topology::edge_between(mesh.base.edges, a, b);
+      const int edge = mesh::edge_between(mesh.base.edges, a, b);
       for (const auto& [form, value] : levels.base_classes.rows[edge]) {
         const double flux = weights[i] * (a < b ? value : -value);
         system.B(row[head], form) -= flux;

@@ -6,7 +6,7 @@
 #include "base/execution.h"
 #include "progressive/progressive_mesh.h"
 #include "solver/laplace_solver.h"
-#include "topology/carried_classes.h"
+#include "topology/pulled_back_classes.h"
 
 namespace holomorph::multiresolution {
 
@@ -17,20 +17,20 @@ struct PaperLevels {
   std::vector<int> place;               ///< #V of the surface, in the numbering of the progressive mesh
   std::vector<mesh::Triple> triangles;  ///< #T in that numbering and order
   topology::IntegerForms base_classes;  ///< on the edges of M0
-  topology::DualBases bases;            ///< carried to the surface's half-edges
+  topology::DualBases bases;            ///< on the surface's half-edges
 };
 
-/// Steps 1 to 3: the progressive mesh in the order of quadric errors, homology and cohomology of M0, and both carried
-/// to the surface (step 5b), which is exact.
+/// Steps 1 to 3: the progressive mesh in the order of quadric errors, homology and cohomology bases of M0, loops lifted
+/// to the surface and classes pulled back (step 5b), which is exact.
 /// @pre connected, closed, genus at least 1, no isolated vertices
 /// @throws InvalidMesh for an intrinsic surface, and where no triangulation of the polygons is without double edges
 PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution);
 
-/// The same for a level of a progressive mesh that there is already, and that outlives the result.
+/// The same for a level of a given progressive mesh, which outlives the result.
 PaperLevels paper_levels(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
 
-/// L f = b on the level with this many splits. Its vertices are in the order in which they lie on the surface, which
-/// keeps neighbours near in memory.
+/// L f = B on the level with this many splits. Rows are in the order of the vertices of the surface, which keeps
+/// neighbours near in memory.
 struct LevelSystem {
   solver::Laplacian L;
   Eigen::MatrixXd B;               ///< -d* eta, as forms::codifferentials
@@ -38,8 +38,8 @@ struct LevelSystem {
   std::int64_t faces = 0;
 };
 
-/// Weights from the positions; triangles thinner than about 1 : 100 count as that thin, for they would cost iterations
-/// and the level is an estimation only.
+/// Weights from the positions; triangles thinner than about 1 : 100 count as that thin: they would cost iterations,
+/// and a level gives only an initial guess.
 /// Cost: linear in the number of vertices of the surface.
 LevelSystem level_system(const PaperLevels& levels, int splits);
 

@@ -11,9 +11,9 @@
 
 namespace holomorph::multiresolution {
 
-/// Loops and classes are those of the base mesh, carried to the surface; harmonic forms come from paper_forms. No edge
-/// is flipped: all that is computed belongs to the surface's own triangulation.
-/// @param levels a progressive mesh that there is already; by default it is made here
+/// Loops are lifted from the base mesh, classes are pulled back; harmonic forms come from paper_forms. No edge is
+/// flipped: all results belong to the surface's own triangulation.
+/// @param levels of a given progressive mesh; by default it is made here
 /// @pre connected, no isolated vertices
 /// @throws TopologyError for genus 0 or a boundary; InvalidMesh for an intrinsic surface; SolverError; Cancelled
 structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,

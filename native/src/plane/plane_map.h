@@ -1,4 +1,4 @@
-// Maps of disks and spheres to the plane and the sphere: what their results have in common.
+// The result of maps of disks to the plane.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,9 +16,9 @@ using structure::Options;
 /// One fixed map of a disk to the plane, continuous everywhere.
 struct PlaneMap {
   Eigen::VectorXcd points;                   ///< #V
-  std::vector<int> corners;                  ///< of a rectangle: four vertices
-  double modulus = 0, lower = 0, upper = 0;  ///< of a rectangle: height over width, and its bounds
-  std::vector<int> collapsed_triangles;      ///< of a rectangle: triangles all of whose corners lie on one side
+  std::vector<int> corners;                  ///< four vertices of a rectangle
+  double modulus = 0, lower = 0, upper = 0;  ///< height over width of a rectangle, and its bounds
+  std::vector<int> collapsed_triangles;      ///< triangles all of whose corners lie on one side of a rectangle
   double harmonicity = 0;                    ///< largest |L f| at a free vertex over the largest sum of its terms
   double mollification = 0;
   int flip_count = 0;

@@ -35,12 +35,12 @@ Coordinates coordinates(const mesh::IntrinsicTriangulation& triangulation, const
 
 }  // namespace
 
-PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& names,
+PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& labels,
                        const Options& options, Execution& execution) {
   PlaneMap result;
   execution.stage("half-edges", 0.0, 0.1);
   auto half_edges = mesh::half_edges(surface, execution);
-  const Sides sides = rectangle_sides(surface, half_edges, corners, names);
+  const Sides sides = rectangle_sides(surface, half_edges, corners, labels);
   result.corners = corners;
   result.collapsed_triangles = collapsed_triangles(surface, sides);
 

@@ -19,11 +19,11 @@ namespace holomorph::plane {
 ///
 /// The rectangle has the width 1 and the height `modulus`, corner 0 at the origin, corner 1 at 1.
 /// @param corners four vertices
-/// @param names what a vertex is called in messages; empty: its index
+/// @param labels #V number of each vertex in messages; empty: its index
 /// @throws TopologyError for a surface that is no disk, corners that are repeated, out of range, not on the boundary or
 /// not in its order; SolverError; Cancelled
 /// Cost: four solves, of four matrices; two where no edge is flipped.
-PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& names,
+PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& labels,
                        const Options& options, Execution& execution);
 
 }  // namespace holomorph::plane

@@ -7,13 +7,15 @@
 #include "base/errors.h"
 #include "mesh/components.h"
 #include "mesh/triangle_geometry.h"
+#include "mesh/vertex_labels.h"
 
 namespace holomorph::plane {
 namespace {
 
 using mesh::HalfedgeHandle;
+using mesh::VertexLabels;
 
-// From this change of direction on, in radians, a boundary vertex is a corner.
+// Least exterior angle of a corner, in radians.
 constexpr double kCorner = std::numbers::pi / 4;
 
 // The vertices of the boundary, the surface on its left, from the lowest.
@@ -31,39 +33,39 @@ mesh::BoundaryLoops checked_boundary(const mesh::Surface& surface, const mesh::H
   throw TopologyError("the surface has " + type.text() + "; rectangle corners need a disk");
 }
 
-Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
-               const std::vector<int>& names) {
-  const auto name = [&](int v) { return std::to_string(names.empty() ? v : names[v]); };
+// @param place #V index of each vertex in the loop, -1 for others
+void check_corners(const std::vector<int>& corners, const std::vector<int>& place, const VertexLabels& label) {
   if (corners.size() != 4)
     throw TopologyError("there are " + std::to_string(corners.size()) + " rectangle corners; four are needed");
+  for (const int v : corners) {
+    if (v < 0 || v >= static_cast<int>(place.size()))
+      throw TopologyError("rectangle corner " + std::to_string(v) + " is no vertex: there are " +
+                          std::to_string(place.size()));
+    if (std::count(corners.begin(), corners.end(), v) > 1)
+      throw TopologyError("rectangle corner " + label(v) + " is given twice");
+    if (place[v] < 0) throw TopologyError("rectangle corner " + label(v) + " does not lie on the boundary");
+  }
+}
+
+Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
+               const VertexLabels& label) {
   const int n = static_cast<int>(loop.size());
   std::vector<int> place(vertex_count, -1);
   for (int i = 0; i < n; ++i) place[loop[i]] = i;
-  std::array<int, 4> steps{};  // from corner 0
-  for (int i = 0; i < 4; ++i) {
-    const int v = corners[i];
-    if (v < 0 || v >= vertex_count)
-      throw TopologyError("rectangle corner " + std::to_string(v) + " is no vertex: there are " +
-                          std::to_string(vertex_count));
-    if (std::count(corners.begin(), corners.end(), v) > 1)
-      throw TopologyError("rectangle corner " + name(v) + " is given twice");
-    if (place[v] < 0) throw TopologyError("rectangle corner " + name(v) + " does not lie on the boundary");
-    steps[i] = (place[v] - place[corners[0]] + n) % n;
-  }
-  if (!std::is_sorted(steps.begin(), steps.end())) {
-    std::vector<int> order(corners);
-    std::sort(order.begin() + 1, order.end(), [&](int a, int b) {
-      return (place[a] - place[corners[0]] + n) % n < (place[b] - place[corners[0]] + n) % n;
-    });
-    std::string wanted;
-    for (const int v : order) wanted += (wanted.empty() ? "" : ", ") + name(v);
+  check_corners(corners, place, label);
+  const auto steps = [&](int v) { return (place[v] - place[corners[0]] + n) % n; };
+  std::vector<int> ordered(corners);
+  std::sort(ordered.begin(), ordered.end(), [&](int a, int b) { return steps(a) < steps(b); });
+  if (ordered != corners) {
+    std::string order;
+    for (const int v : ordered) order += (order.empty() ? "" : ", ") + label(v);
     throw TopologyError(
-        "the rectangle corners are not in the order of the boundary, the surface on its left: that is " + wanted);
+        "the rectangle corners are not in the order of the boundary, the surface on its left: that is " + order);
   }
   Sides result;
   for (int i = 0; i < 4; ++i) {
-    const int end = i < 3 ? steps[i + 1] : n;
-    for (int s = steps[i]; s <= end; ++s) result[i].push_back(loop[(place[corners[0]] + s) % n]);
+    const int end = i < 3 ? steps(corners[i + 1]) : n;
+    for (int s = steps(corners[i]); s <= end; ++s) result[i].push_back(loop[(place[corners[0]] + s) % n]);
   }
   return result;
 }
@@ -71,9 +73,9 @@ Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, in
 }  // namespace
 
 Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& corners,
-                      const std::vector<int>& names) {
+                      const std::vector<int>& labels) {
   const auto boundary = checked_boundary(surface, half_edges);
-  return sides_of(around(half_edges, boundary), corners, surface.vertex_count, names);
+  return sides_of(around(half_edges, boundary), corners, surface.vertex_count, VertexLabels(labels));
 }
 
 std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides) {
@@ -92,18 +94,18 @@ std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& 
 std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution) {
   const auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
-  std::vector<double> turn(surface.vertex_count, std::numbers::pi);
+  std::vector<double> exterior(surface.vertex_count, std::numbers::pi);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const auto length = [&](int side) { return surface.edge_lengths[surface.triangle_edges[t][(i + side) % 3]]; };
       const double a = length(1), b = length(2), c = length(0);  // a opposite corner i
-      turn[surface.triangles[t][i]] -= std::atan2(4 * mesh::triangle_area(a, b, c), (b - a) * (b + a) + c * c);
+      exterior[surface.triangles[t][i]] -= std::atan2(4 * mesh::triangle_area(a, b, c), (b - a) * (b + a) + c * c);
     }
   }
   std::vector<int> corners;
   for (const int v : around(half_edges, boundary)) {
-    if (std::abs(turn[v]) <= kCorner) continue;
-    if (turn[v] < 0 || corners.size() == 4) return {};
+    if (std::abs(exterior[v]) <= kCorner) continue;
+    if (exterior[v] < 0 || corners.size() == 4) return {};
     corners.push_back(v);
   }
   if (corners.size() != 4) return {};
@@ -117,7 +119,7 @@ int boundary_length(const mesh::Surface& surface, Execution& execution) {
 std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execution) {
   const auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
-  const auto& loop = boundary.loops[0];  // the hole on its left: turned round at the end
+  const auto& loop = boundary.loops[0];  // the hole on its left: reversed at the end
   const int n = static_cast<int>(loop.size());
   if (n < 4) throw TopologyError("the boundary has three edges; four are needed for four corners");
   std::vector<double> until(n, 0.0);  // length from the first vertex to each

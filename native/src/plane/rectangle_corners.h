@@ -1,4 +1,4 @@
-// The four corners of a disk that is to become a rectangle: which fit, and which are taken without a choice.
+// The four corners of a disk that is mapped to a rectangle: checks of given ones, and default ones.
 #pragma once
 
 #include <array>
@@ -14,16 +14,16 @@ namespace holomorph::plane {
 using Sides = std::array<std::vector<int>, 4>;
 
 /// @param corners four vertices on the boundary, in its order, the surface on its left
-/// @param names what a vertex is called in messages; empty: its index
+/// @param labels #V number of each vertex in messages; empty: its index
 /// @throws TopologyError for a surface that is no disk, corners that are repeated, out of range, not on the boundary or
 /// not in its order
 Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& corners,
-                      const std::vector<int>& names);
+                      const std::vector<int>& labels);
 
 /// Triangles all of whose corners lie on one side, ascending: a map that makes the side straight collapses them.
 std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides);
 
-/// The four corners of a disk whose boundary has exactly four vertices at which it turns by more than 45 degrees, all
+/// The four corners of a disk whose boundary has exactly four vertices with an exterior angle beyond 45 degrees, all
 /// of them inwards, in its order from the lowest; nothing for other disks.
 std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution);
 

@@ -16,7 +16,7 @@ PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Exec
   execution.stage("boundary", 0.0, 0.3);
   auto half_edges = mesh::half_edges(surface, execution);
   const auto boundary = mesh::boundary_loops(surface, half_edges);
-  const auto& loop = boundary.loops[0];  // the hole on its left: the surface has it the other way round
+  const auto& loop = boundary.loops[0];  // the hole on its left: clockwise around the surface
   if (loop.size() != 3)
     throw TopologyError("the boundary has " + std::to_string(loop.size()) + " edges; three are needed");
   const auto triangulation = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());

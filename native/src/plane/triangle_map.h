@@ -1,4 +1,4 @@
-// Disks with three edges on their boundary and no room for a centre.
+// Disks with three boundary edges and no vertex for a centre.
 #pragma once
 
 #include "base/execution.h"
@@ -8,7 +8,7 @@
 namespace holomorph::plane {
 
 /// The harmonic map whose boundary is the triangle with the lengths of the three edges, its longest side 1,
-/// counter-clockwise, the lowest boundary vertex at 0 and the next one on the real axis. A single triangle goes to
+/// counter-clockwise, the lowest boundary vertex at 0 and the next one on the real axis. A single triangle is mapped to
 /// itself.
 /// @pre a disk
 /// @throws TopologyError for a boundary of more than three edges; SolverError; Cancelled

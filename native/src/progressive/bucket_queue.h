@@ -21,15 +21,16 @@ class BucketQueue {
   /// Eight buckets to an octave: the leading bits of the number, whose order is that of the numbers. @pre cost >= 0
   static int bucket(float cost) { return static_cast<int>(std::bit_cast<std::uint32_t>(cost) >> kShift); }
 
-  /// Never pushes below the bucket that is being popped, so that popping goes forward only.
+  /// Never pushes below the bucket that is being popped, so that popping is monotone.
   void push(int v, int bucket) {
     if (bucket < current_) bucket = current_;
     mesh_.vertex(v).next = first_[bucket];
     first_[bucket] = v;
   }
 
-  /// Takes out up to kBatch vertices of the lowest bucket, so that their memory can be asked for together. They wait:
-  /// they are not pushed until `visiting` says so. 0 at the end, after which popping begins again at bucket 0.
+  /// Takes out up to kBatch vertices of the lowest bucket, so that their memory can be prefetched together. They wait:
+  /// they are not pushed until `visiting` is called for them. 0 at the end, after which popping begins again at bucket
+  /// 0.
   int pop(std::array<int, kBatch>& batch) {
     while (first_[current_] == kEnd) {
       if (++current_ == kBuckets) return current_ = 0;

@@ -16,10 +16,11 @@ void require(bool valid, const std::string& what) {
 }
 
 void check_permutation(const std::vector<int>& index, const char* what) {
-  std::vector<char> met(index.size(), 0);
+  std::vector<char> found(index.size(), 0);
   for (const int i : index) {
-    require(i >= 0 && static_cast<std::size_t>(i) < index.size() && !met[i], std::string(what) + " are no permutation");
-    met[i] = 1;
+    require(i >= 0 && static_cast<std::size_t>(i) < index.size() && !found[i],
+            std::string(what) + " are no permutation");
+    found[i] = 1;
   }
 }
 
@@ -38,7 +39,7 @@ std::vector<int> polygons_of_triangles(const ProgressiveMesh& mesh) {
   return polygon;
 }
 
-// Each corner of a polygon is met, always at the same vertex, and by triangles of its own polygon.
+// Each corner of a polygon occurs, always at the same vertex, in triangles of its own polygon only.
 void check_corners(const ProgressiveMesh& mesh, const std::vector<Triple>& triangles) {
   std::vector<int> polygon;
   if (!mesh.face_offsets.empty()) polygon = polygons_of_triangles(mesh);

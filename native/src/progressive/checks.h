@@ -1,4 +1,4 @@
-// What must be true of a progressive mesh that comes from elsewhere.
+// Checks of a progressive mesh from a file.
 #pragma once
 
 #include "progressive/progressive_mesh.h"

@@ -5,11 +5,11 @@ namespace holomorph::progressive {
 CornerTable::CornerTable(std::span<const Triple> triangles, std::span<const Triple> edges, std::size_t edge_count,
                          std::size_t triangle_capacity) {
   sides_.reserve(4 * triangle_capacity);
-  std::vector<int> met(edge_count, -1);
+  std::vector<int> first_side(edge_count, -1);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const int first = add(triangles[t][0], triangles[t][1], triangles[t][2]);
     for (int i = 0; i < 3; ++i) {
-      int& other = met[static_cast<std::size_t>(edges[t][i])];
+      int& other = first_side[static_cast<std::size_t>(edges[t][i])];
       if (other < 0) {
         other = first + i;
       } else {

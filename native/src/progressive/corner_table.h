@@ -17,12 +17,12 @@ struct Side {
   int opposite;  ///< the same edge in the other triangle; -1 at a boundary
 };
 
-/// Each vertex keeps one side that leaves it; at the boundary the one without an opposite, so that turning
-/// counter-clockwise from it meets all its triangles.
+/// Each vertex keeps one side that leaves it; at the boundary the one without an opposite, so that a
+/// counter-clockwise walk from it visits all its triangles.
 class CornerTable {
  public:
   /// @param triangles #T consistently oriented; `edges` #T edge of each side, numbers below `edge_count`
-  /// @param triangle_capacity room for this many triangles in all
+  /// @param triangle_capacity largest number of triangles
   CornerTable(std::span<const Triple> triangles, std::span<const Triple> edges, std::size_t edge_count,
               std::size_t triangle_capacity);
 
@@ -44,10 +44,21 @@ class CornerTable {
     if (a >= 0) (*this)[a].opposite = b;
     if (b >= 0) (*this)[b].opposite = a;
   }
-  /// Of a boundary vertex: the side to begin with, found from any side that leaves it.
+  /// The side without an opposite that leaves a boundary vertex, found from any side that leaves it.
   int first_side(int side) const {
     while (opposite(side) >= 0) side = turn_right(side);
     return side;
+  }
+  /// Calls each(w) for the neighbours of a vertex, counter-clockwise from the head of `start`, its kept side.
+  template <class Each>
+  void each_neighbour(int start, const Each& each) const {
+    int side = start;
+    do {
+      each(to(side));
+      const int left = turn_left(side);
+      if (left < 0) each(apex(side));
+      side = left;
+    } while (side >= 0 && side != start);
   }
   /// Appends a triangle without opposites; returns its first side.
   int add(int a, int b, int c);

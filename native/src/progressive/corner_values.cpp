@@ -110,15 +110,15 @@ class Wedges {
     }
   }
 
-  // Of a wedge whose vertex is settled.
+  // @pre the wedge's vertex is settled
   double value(int wedge, std::size_t k) const { return row(wedge)[k] + offset_[at(vertex_[wedge], k)]; }
 
   const std::vector<double>& values_;
   std::size_t width_;
   std::vector<Triple> original_;
-  std::vector<int> parent_;         // of corners: those of one wedge have the same root
-  std::vector<int> vertex_;         // of each corner, in the finest level
-  std::vector<int> vertex_parent_;  // vertex that each was collapsed into, itself if it is still there
+  std::vector<int> parent_;         // union-find of corners: those of one wedge have the same root
+  std::vector<int> vertex_;         // vertex of each corner, in the finest level
+  std::vector<int> vertex_parent_;  // vertex that each was collapsed into, itself if it is not collapsed
   std::vector<double> offset_;      // #V x width translation on the way to the parent
   std::vector<int> path_;
   std::vector<double> scratch_;

@@ -1,4 +1,4 @@
-// Values at polygon corners, such as UVs, carried from the original to coarser levels.
+// Values at polygon corners, such as UVs, of the original on coarser levels.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace holomorph::progressive {
 
-/// What the corners of one level have.
+/// Values at the corners of one level.
 struct CornerValues {
   std::vector<double> values;  ///< 3#T x width
-  std::vector<int> corners;    ///< 3#T polygon corner of the original whose data it takes over
+  std::vector<int> corners;    ///< 3#T polygon corner of the original whose data each has
 };
 
 /// Corners of the original at the same vertex with the same values are one wedge (Hoppe 1996). The collapse of v_t into
 /// v_s takes the wedges of v_t in the two triangles that vanish to those of v_s in the same triangles. A wedge of v_t
-/// in neither of them lies beyond a cut that v_t is on and v_s is not: v_s has no value there, and the wedge is
+/// in neither of them lies beyond a cut through v_t that does not contain v_s: v_s has no value there, and the wedge is
 /// translated by the same vector as the others.
 ///
 /// For UVs that only jump by translations across their cuts, those of holomorphic forms, that vector is the same in all

@@ -9,7 +9,7 @@
 namespace holomorph::progressive {
 namespace {
 
-// A triangle may turn by at most 75 degrees: cos 75.
+// Cosine of the largest rotation of a normal, 75 degrees.
 constexpr float kLeastCosine = 0.2588F;
 // Weight of area times squared length against area times squared distance from a plane.
 constexpr float kLengthWeight = 1e-5F;
@@ -29,7 +29,7 @@ Vector cross(const Vector& a, const Vector& b) {
 
 double norm(const Vector& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
-// Adds weight * (n.d / |n|)^2; the plane goes through v, so b and c stay 0.
+// Adds weight * (n.d / |n|)^2; the plane contains v, so b and c remain 0.
 void add_plane(Vertex& v, const Vector& n, double weight) {
   const double length = norm(n), scale = length > 0 ? weight / (length * length) : 0;
   int k = 0;
@@ -62,7 +62,7 @@ EdgeCollapse::EdgeCollapse(const mesh::Surface& surface)
   for (std::size_t v = 0; v < vertices_.size(); ++v) {
     const int side = leaving[v];
     std::uint32_t flags = 0;
-    if (side < 0) flags = Vertex::kGone;
+    if (side < 0) flags = Vertex::kRemoved;
     if (side >= 0 && table_.opposite(side) < 0) flags = Vertex::kBoundary;
     vertices_[v] = {{}, 0, {}, {}, side, Vertex::kNowhere, flags};
   }
@@ -136,29 +136,24 @@ float EdgeCollapse::quadric_error(int i) const {
          kLengthWeight * area * squared_length(i);
 }
 
+bool EdgeCollapse::is_neighbour(int w) const {
+  if ((signature_ >> (w & 63) & 1) == 0) return false;
+  const int* const end = neighbours_.data() + neighbour_count_;
+  return std::find(neighbours_.data(), end, w) != end;
+}
+
 bool EdgeCollapse::keeps_topology(int i) {
   const int u = neighbours_[i];
   const bool u_boundary = boundary(u), edge_on_boundary = !closed_ && (i == 0 || i == neighbour_count_ - 1);
   if (!closed_ && u_boundary && !edge_on_boundary) return false;
-  const auto is_neighbour = [&](int w) {
-    return (signature_ >> (w & 63) & 1) != 0 && std::find(neighbours_.data(), neighbours_.data() + neighbour_count_,
-                                                          w) != neighbours_.data() + neighbour_count_;
-  };
   int common = 0, valence = 0;
-  const int start = vertex(u).side;
-  int side = start;
-  do {
-    common += is_neighbour(table_.to(side)) ? 1 : 0;
+  table_.each_neighbour(vertex(u).side, [&](int w) {
+    common += is_neighbour(w) ? 1 : 0;
     ++valence;
-    const int left = table_.turn_left(side);
-    if (left < 0) {
-      common += is_neighbour(table_.apex(side)) ? 1 : 0;
-      valence += 2;  // the last neighbour, and the boundary
-    }
-    side = left;
-  } while (side >= 0 && side != start);
+  });
   if (common != (edge_on_boundary ? 1 : 2)) return false;
-  return valence > 3 || neighbour_count_ + (closed_ ? 0 : 1) > 3;
+  // The boundary counts as one vertex.
+  return valence + (u_boundary ? 1 : 0) > 3 || neighbour_count_ + (closed_ ? 0 : 1) > 3;
 }
 
 bool EdgeCollapse::keeps_normals(int i) const {
@@ -196,6 +191,14 @@ void EdgeCollapse::keep_side(int v, int side) {
   vertex(v).side = boundary(v) ? table_.first_side(side) : side;
 }
 
+// Links the two sides across from those of the triangle other than `side`, whose ends are one vertex now.
+EdgeCollapse::Gap EdgeCollapse::remove_triangle(int side) {
+  if (side < 0) return {};
+  const int a = table_.opposite(CornerTable::next(side)), b = table_.opposite(CornerTable::previous(side));
+  table_.link(a, b);
+  return {table_.apex(side), a >= 0 ? a : CornerTable::next(b), b >= 0 ? b : CornerTable::next(a), b >= 0};
+}
+
 void EdgeCollapse::collapse(int i) {
   const int u = neighbours_[i];
   // The sides v_t -> v_s and v_s -> v_t, in the triangles to the right and to the left of v_s -> v_t.
@@ -204,26 +207,13 @@ void EdgeCollapse::collapse(int i) {
   if (closed_ || i > 0) left = CornerTable::previous(sides_[(i + triangle_count_ - 1) % triangle_count_]);
   Collapse record{u, v_, -1, -1, left, right};
   for (int k = 0; k < triangle_count_; ++k) table_[sides_[k]].vertex = u;
-  // The sides around the two triangles that vanish: of v_s and of their apexes.
-  int s_side = -1, l_side = -1, r_side = -1;
-  if (right >= 0) {
-    const int a = table_.opposite(CornerTable::next(right)), b = table_.opposite(CornerTable::previous(right));
-    record.v_r = table_.apex(right);
-    table_.link(a, b);  // v_r -> v_s and v_s -> v_r
-    s_side = b >= 0 ? b : CornerTable::next(a);
-    r_side = a >= 0 ? a : CornerTable::next(b);
-  }
-  if (left >= 0) {
-    const int a = table_.opposite(CornerTable::next(left)), b = table_.opposite(CornerTable::previous(left));
-    record.v_l = table_.apex(left);
-    table_.link(a, b);  // v_l -> v_s and v_s -> v_l
-    if (s_side < 0 || b >= 0) s_side = b >= 0 ? b : CornerTable::next(a);
-    l_side = a >= 0 ? a : CornerTable::next(b);
-  }
-  keep_side(u, s_side);
-  keep_side(record.v_l, l_side);
-  keep_side(record.v_r, r_side);
-  vertex(v_).flags |= Vertex::kGone;
+  const Gap r = remove_triangle(right), l = remove_triangle(left);
+  record.v_r = r.apex;
+  record.v_l = l.apex;
+  keep_side(u, r.from_base < 0 || l.has_opposite ? l.from_base : r.from_base);
+  keep_side(l.apex, l.from_apex);
+  keep_side(r.apex, r.from_apex);
+  vertex(v_).flags |= Vertex::kRemoved;
   collapses_.push_back(record);
 }
 

@@ -19,7 +19,7 @@ struct alignas(64) Vertex {
   int side;  ///< leaves v; see CornerTable
   int next;  ///< in its bucket of the queue; kNowhere if it is in none, kWaiting between queue and visit
   std::uint32_t flags;
-  static constexpr std::uint32_t kBoundary = 1, kGone = 2, kTouched = 4;
+  static constexpr std::uint32_t kBoundary = 1, kRemoved = 2, kTouched = 4;
   static constexpr int kNowhere = -2, kWaiting = -3;
 };
 
@@ -42,21 +42,23 @@ class EdgeCollapse {
   void gather(int v);
   int neighbour_count() const { return neighbour_count_; }
   int neighbour(int i) const { return neighbours_[i]; }
-  /// Neighbours that v may be collapsed into as far as the boundary goes: all, or the two along the boundary.
+  /// Whether the boundary permits that v is collapsed into neighbour i: any neighbour, or the two along the boundary.
   bool along_boundary(int i) const { return closed_ || i == 0 || i == neighbour_count_ - 1; }
   float squared_length(int i) const { return x_[i] * x_[i] + y_[i] * y_[i] + z_[i] * z_[i]; }
   /// Q_v + Q_u at the neighbour's position, plus a small multiple of area times squared length, which decides where all
   /// is flat: towards short edges.
   float quadric_error(int i) const;
-  /// The complex stays a surface of the same topology (Dey et al. 1999): v and u have no common neighbours but the
+  /// The complex remains a surface of the same topology (Dey et al. 1999): v and u have no common neighbours but the
   /// apexes of the triangles at their edge, the boundary counting as one vertex, and are not two corners of a
   /// tetrahedron.
   bool keeps_topology(int i);
-  /// No triangle of the star turns by more than 75 degrees.
+  /// No normal of a triangle of the star rotates by more than 75 degrees.
   bool keeps_normals(int i) const;
 
-  /// Collapses over vertices: nearly 1 at the end.
-  double part_gone() const { return static_cast<double>(collapses_.size()) / static_cast<double>(vertices_.size()); }
+  /// Fraction of the vertices removed: nearly 1 at the end.
+  double removed_fraction() const {
+    return static_cast<double>(collapses_.size()) / static_cast<double>(vertices_.size());
+  }
 
   /// Collapses v into neighbour i.
   void collapse(int i);
@@ -68,12 +70,19 @@ class EdgeCollapse {
   const std::vector<Collapse>& collapses() const { return collapses_; }
   void reserve(std::size_t collapses) { collapses_.reserve(collapses); }
 
-  /// Asks for the memory that `gather` will read for each of these vertices. A walk around one vertex waits for memory
-  /// at each step; walks side by side wait together.
+  /// Prefetches what `gather` will read for each of these vertices: walks around several vertices wait for memory
+  /// together.
   void prefetch_stars(const int* v, int count) const;
 
  private:
   bool boundary(int v) const { return (vertices_[static_cast<std::size_t>(v)].flags & Vertex::kBoundary) != 0; }
+  bool is_neighbour(int w) const;
+  // Where a triangle was removed: its apex, and sides that leave the apex and v_s there.
+  struct Gap {
+    int apex = -1, from_apex = -1, from_base = -1;
+    bool has_opposite = false;  // whether a triangle was across the side that ends at v_s
+  };
+  Gap remove_triangle(int side);
   void keep_side(int v, int side);
   void grow();
 

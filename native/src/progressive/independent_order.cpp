@@ -1,5 +1,6 @@
 #include "progressive/independent_order.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -15,11 +16,11 @@ class IndependentOrder {
  public:
   explicit IndependentOrder(EdgeCollapse& mesh) : mesh_(mesh) {
     for (int v = 0; v < mesh.vertex_count(); ++v) {
-      if ((mesh.vertex(v).flags & Vertex::kGone) == 0) left_.push_back(v);
+      if ((mesh.vertex(v).flags & Vertex::kRemoved) == 0) left_.push_back(v);
     }
   }
 
-  /// One round; returns how many vertices were removed. Vertices that are left stay in ascending order.
+  /// One round; returns how many vertices were removed. Vertices that are left are in ascending order.
   std::size_t round(Geometry geometry) {
     for (const int v : left_) mesh_.vertex(v).flags &= ~Vertex::kTouched;
     for (std::size_t k = 0; k < left_.size(); ++k) {
@@ -27,7 +28,7 @@ class IndependentOrder {
       if ((mesh_.vertex(v).flags & Vertex::kTouched) == 0) visit(v, geometry);
     }
     const std::size_t before = left_.size();
-    std::erase_if(left_, [this](int v) { return (mesh_.vertex(v).flags & Vertex::kGone) != 0; });
+    std::erase_if(left_, [this](int v) { return (mesh_.vertex(v).flags & Vertex::kRemoved) != 0; });
     return before - left_.size();
   }
 
@@ -42,16 +43,18 @@ class IndependentOrder {
     constexpr float kRefused = std::numeric_limits<float>::infinity();
     for (int i = 0; i < n; ++i) costs_[i] = mesh_.along_boundary(i) ? mesh_.squared_length(i) : kRefused;
     while (true) {
-      int best = 0;
-      for (int i = 1; i < n; ++i) best = costs_[i] < costs_[best] ? i : best;
-      if (costs_[best] == kRefused) return;
-      if (mesh_.keeps_topology(best) && (geometry == Geometry::ignored || mesh_.keeps_normals(best))) {
-        mesh_.collapse(best);
-        for (int i = 0; i < n; ++i) mesh_.vertex(mesh_.neighbour(i)).flags |= Vertex::kTouched;
-        return;
-      }
-      costs_[best] = kRefused;
+      const auto best = std::min_element(costs_.begin(), costs_.begin() + n);
+      if (*best == kRefused) return;
+      if (collapse(static_cast<int>(best - costs_.begin()), geometry)) return;
+      *best = kRefused;
     }
+  }
+
+  bool collapse(int i, Geometry geometry) {
+    if (!mesh_.keeps_topology(i) || (geometry == Geometry::checked && !mesh_.keeps_normals(i))) return false;
+    mesh_.collapse(i);
+    for (int k = 0; k < mesh_.neighbour_count(); ++k) mesh_.vertex(mesh_.neighbour(k)).flags |= Vertex::kTouched;
+    return true;
   }
 
   EdgeCollapse& mesh_;
@@ -65,7 +68,7 @@ void collapse_independent_sets(EdgeCollapse& mesh, Execution& execution) {
   mesh.reserve(mesh.vertex_count());
   IndependentOrder order(mesh);
   while (static_cast<double>(order.round(Geometry::checked)) > kLeastRemoved * static_cast<double>(order.left())) {
-    execution.report(mesh.part_gone());
+    execution.report(mesh.removed_fraction());
   }
   while (order.round(Geometry::ignored) > 0) {
   }

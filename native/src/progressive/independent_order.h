@@ -8,7 +8,7 @@ namespace holomorph::progressive {
 
 /// By rounds: in each, a maximal set of vertices that are pairwise not adjacent is collapsed, each along its shortest
 /// edge that keeps topology and normals.
-/// Reports the part of the vertices that are gone. @throws Cancelled
+/// Reports the fraction of vertices removed. @throws Cancelled
 void collapse_independent_sets(EdgeCollapse& mesh, Execution& execution);
 
 }  // namespace holomorph::progressive

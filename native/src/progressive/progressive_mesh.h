@@ -13,8 +13,8 @@ namespace holomorph::progressive {
 using mesh::Triple;
 
 /// The vertex split {v_s, v_t, v_l, v_r, A}: v_t is the next vertex, the triangles {v_s, v_t, v_l} and {v_t, v_s, v_r}
-/// are the next triangles, and the triangles counter-clockwise from v_r to v_l around v_s move to v_t. v_s stays where
-/// it is: an edge collapse takes v_t to v_s.
+/// are the next triangles, and the triangles counter-clockwise from v_r to v_l around v_s move to v_t. v_s does not
+/// move: an edge collapse takes v_t to v_s.
 struct Split {
   int v_s, v_l, v_r;            ///< v_l or v_r is -1 where the edge is on the boundary
   std::uint8_t slot_l, slot_r;  ///< corner of the left triangle that is v_s, of the right one that is v_t
@@ -32,7 +32,7 @@ struct ProgressiveMesh {
   std::vector<int> vertex_index;                 ///< #V in the original
   std::vector<int> triangle_index;               ///< #T in the original surface's triangulation
   std::vector<Triple> triangle_corners;          ///< #T polygon corners; empty: triangle t has 3t, 3t+1, 3t+2
-  std::vector<int> face_offsets;                 ///< of the original polygons; empty: all are triangles
+  std::vector<int> face_offsets;                 ///< offsets of the original polygons; empty: all are triangles
   std::string corner_type;                       ///< what one row of corner_data is, in the caller's words
   std::vector<char> corner_data;                 ///< rows of equal size, one for each polygon corner
 

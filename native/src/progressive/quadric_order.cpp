@@ -17,11 +17,11 @@ class QuadricOrder {
   void run(Geometry geometry) {
     geometry_ = geometry;
     for (int v = mesh_.vertex_count() - 1; v >= 0; --v) {
-      if ((mesh_.vertex(v).flags & Vertex::kGone) == 0) queue_.push(v, 0);
+      if ((mesh_.vertex(v).flags & Vertex::kRemoved) == 0) queue_.push(v, 0);
     }
     std::array<int, BucketQueue::kBatch> batch;
     for (int count = queue_.pop(batch); count > 0; count = queue_.pop(batch)) {
-      if (++batches_ % kReportEvery == 0) progress_.report(mesh_.part_gone());
+      if (++batches_ % kReportEvery == 0) progress_.report(mesh_.removed_fraction());
       mesh_.prefetch_stars(batch.data(), count);
       for (int i = 0; i < count; ++i) {
         queue_.visiting(batch[i]);
@@ -73,8 +73,8 @@ void collapse_by_quadrics(EdgeCollapse& mesh, Execution& execution) {
   mesh.reserve(mesh.vertex_count());
   QuadricOrder order(mesh, execution);
   order.run(Geometry::checked);
-  // A refused vertex is tried again when its own star changes, not when a neighbour's does: so once more until nothing
-  // is left. Each round but the last makes a collapse.
+  // A refused vertex is tried again when its own star changes, not when a neighbour's does: so it is repeated until no
+  // collapse is left. It ends, because each round but the last makes a collapse.
   for (std::size_t before = 0; before != mesh.collapses().size() || before == 0;) {
     before = mesh.collapses().size();
     order.run(Geometry::ignored);

@@ -6,9 +6,9 @@
 
 namespace holomorph::progressive {
 
-/// By quadric error, lazily: each vertex is in the queue once, with a cost that was right when it was pushed. When it
-/// comes up its star is gathered and its cheapest collapse made, or, if that has become dearer, it is pushed again.
-/// Reports the part of the vertices that are gone. @throws Cancelled
+/// By quadric error, lazily: each vertex is in the queue at most once, with its cost when it was pushed. When popped,
+/// its star is gathered and its cheapest collapse made, or, if the cost has grown, it is pushed again. Reports the
+/// fraction of vertices removed. @throws Cancelled
 void collapse_by_quadrics(EdgeCollapse& mesh, Execution& execution);
 
 }  // namespace holomorph::progressive

@@ -34,22 +34,27 @@ void Refinement::find_star(int v) {
   } while (side >= 0 && side != start);
 }
 
+void Refinement::require(bool valid, const char* what) const {
+  if (!valid) throw InvalidMesh("vertex split " + std::to_string(made_) + " " + what);
+}
+
+void Refinement::check_vertices(const Split& split, int t) const {
+  require(split.slot_l < 3 && split.slot_r < 3, "names a corner beyond the third");
+  require(split.v_l < t && split.v_r < t && split.v_l != split.v_r,
+          "has the same vertex on both sides, or one too early");
+}
+
 Refinement::Sector Refinement::sector_of(const Split& split, int t) const {
-  const auto check = [this](bool valid, const char* what) {
-    if (!valid) throw InvalidMesh("vertex split " + std::to_string(made_) + " " + what);
-  };
   const int n = static_cast<int>(star_sides_.size()), count = static_cast<int>(star_vertices_.size());
   const bool closed = count == n;
   const auto place = [&](int v) {
     return static_cast<int>(std::find(star_vertices_.begin(), star_vertices_.end(), v) - star_vertices_.begin());
   };
   const int from = split.v_r < 0 ? 0 : place(split.v_r), to = split.v_l < 0 ? n : place(split.v_l);
-  check(split.slot_l < 3 && split.slot_r < 3, "names a corner beyond the third");
-  check(split.v_l < t && split.v_r < t && split.v_l != split.v_r,
-        "has the same vertex on both sides, or one too early");
-  check(from < count && (to < count || split.v_l < 0), "names a vertex that is no neighbour of v_s");
+  check_vertices(split, t);
+  require(from < count && (to < count || split.v_l < 0), "names a vertex that is no neighbour of v_s");
   const bool open_end = split.v_l < 0 || split.v_r < 0;
-  check(closed ? !open_end : from < to || (open_end && from == to), "crosses the boundary");
+  require(closed ? !open_end : from < to || (open_end && from == to), "crosses the boundary");
   return {from, closed && to < from ? to + n : to, closed};
 }
 
@@ -110,13 +115,11 @@ void Refinement::split() {
   const Split& split = mesh_.splits[made_];
   const auto& [s, l, r, slot_l, slot_r] = split;
   const int t = mesh_.base.vertex_count + made_;
-  if (s < 0 || s >= t || l < -1 || r < -1) {
-    throw InvalidMesh("vertex split " + std::to_string(made_) + " names a vertex that is not there yet");
-  }
+  require(s >= 0 && s < t && l >= -1 && r >= -1, "names a vertex that is not there yet");
   find_star(s);
   const Sector sector = sector_of(split, t);
   const auto& [from, to, closed] = sector;
-  // The sides that stay with v_s, and those that move to v_t.
+  // The sides that v_s keeps, and those that move to v_t.
   const int s_to_l = l < 0 ? -1 : leaving(to, closed), l_to_t = l < 0 ? -1 : arriving(to, closed);
   const int t_to_r = r < 0 ? -1 : leaving(from, closed), r_to_s = r < 0 ? -1 : arriving(from, closed);
   move(sector, split, t);

@@ -13,8 +13,8 @@ class Refinement {
   /// @param splits how many will be made at most
   Refinement(const ProgressiveMesh& mesh, int splits);
 
-  /// Makes the next split. A valid mesh stays valid: what could spoil it is refused.
-  /// @throws InvalidMesh naming the split, if its vertices are no edges at v_s in the right order
+  /// Makes the next split. A valid mesh remains valid.
+  /// @throws InvalidMesh naming the split, if v_l and v_r are not neighbours of v_s in the right order
   void split();
 
   /// Neighbours of v_s that became neighbours of v_t instead in the last split.
@@ -23,12 +23,14 @@ class Refinement {
   std::vector<Triple> triangles() const;
 
  private:
-  // What moves to v_t: the triangles from `from` to before `to` of the star of v_s.
+  // The triangles from .. to-1 of the star of v_s, which move to v_t.
   struct Sector {
     int from, to;
     bool closed;  // no boundary at v_s
   };
+  void require(bool valid, const char* what) const;
   void find_star(int v);
+  void check_vertices(const Split& split, int t) const;
   Sector sector_of(const Split& split, int t) const;
   int leaving(int i, bool closed) const;
   int arriving(int i, bool closed) const;

@@ -19,7 +19,8 @@ class Recorder {
  public:
   Recorder(const mesh::Surface& surface, const std::vector<Collapse>& collapses, std::size_t count)
       : surface_(surface), collapses_(collapses.begin(), collapses.begin() + static_cast<std::ptrdiff_t>(count)) {
-    number();
+    number_base();
+    number_splits();
   }
 
   bool base_has_area() const {
@@ -49,23 +50,26 @@ class Recorder {
   }
 
  private:
-  void number() {
-    std::vector<char> gone(surface_.vertex_count, 0), triangle_gone(surface_.triangles.size(), 0);
-    for (const int v : surface_.repairs.isolated_vertices) gone[v] = 1;
+  void number_base() {
+    std::vector<char> removed(surface_.vertex_count, 0), triangle_removed(surface_.triangles.size(), 0);
+    for (const int v : surface_.repairs.isolated_vertices) removed[v] = 1;
     for (const Collapse& c : collapses_) {
-      gone[c.v_t] = 1;
+      removed[c.v_t] = 1;
       for (const int side : {c.left, c.right}) {
-        if (side >= 0) triangle_gone[side / 4] = 1;
+        if (side >= 0) triangle_removed[side / 4] = 1;
       }
     }
     for (int v = 0; v < surface_.vertex_count; ++v) {
-      if (!gone[v]) vertices_.push_back(v);
+      if (!removed[v]) vertices_.push_back(v);
     }
     for (int t = 0; t < static_cast<int>(surface_.triangles.size()); ++t) {
-      if (!triangle_gone[t]) triangles_.push_back(t);
+      if (!triangle_removed[t]) triangles_.push_back(t);
     }
     base_vertices_ = static_cast<std::ptrdiff_t>(vertices_.size());
     base_triangles_ = triangles_.size();
+  }
+
+  void number_splits() {
     for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c) {
       vertices_.push_back(c->v_t);
       for (const int side : {c->left, c->right}) {
@@ -111,8 +115,8 @@ class Recorder {
 
 ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Execution& execution) {
   execution.stage("edge collapses", 0.0, 1.0);
-  const auto turned = with_single_edges(given);
-  const mesh::Surface& surface = turned ? *turned : given;
+  const auto flipped = with_single_edges(given);
+  const mesh::Surface& surface = flipped ? *flipped : given;
   EdgeCollapse collapse(surface);
   order == Order::quadric ? collapse_by_quadrics(collapse, execution) : collapse_independent_sets(collapse, execution);
   execution.finish();

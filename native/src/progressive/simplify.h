@@ -15,11 +15,11 @@ enum class Order {
 /// Collapses edges until none is left that can be collapsed: genus 0 ends with 4 triangles, genus 1 with at most 20,
 /// for there are no larger irreducible triangulations (Lawrencenko 1987). Collapses obey the link condition (Dey
 /// et al. 1999), so that every level has the topology of the original and no two edges with the same ends; boundary
-/// vertices move along the boundary only. As long as possible no triangle turns by more than 75 degrees. Where that
+/// vertices move along the boundary only. As long as possible no normal rotates by more than 75 degrees. Where that
 /// would leave a base without any area, the last collapses are left out.
-/// Where a diagonal of the triangulation joins vertices that another edge joins too, it is turned.
-/// @throws InvalidMesh for an intrinsic surface, or if turning helps nothing; Cancelled. Deterministic, one thread,
-/// O(#T) apart from very large stars.
+/// A diagonal with the same ends as another edge is flipped first (with_single_edges).
+/// @throws InvalidMesh for an intrinsic surface, or if a flip gives another double edge; Cancelled. Deterministic, one
+/// thread, O(#T) apart from very large stars.
 ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Execution& execution);
 
 }  // namespace holomorph::progressive

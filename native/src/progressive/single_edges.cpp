@@ -15,14 +15,14 @@ using mesh::Pair;
 using mesh::Surface;
 using mesh::Triple;
 
-// Diagonals beside another edge with the same ends; of several diagonals and no other edge the first may stay.
+// Diagonals with the same ends as an edge before them, ascending.
 std::vector<int> doubled_diagonals(const Surface& surface) {
   std::vector<int> order(surface.edges.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return surface.edges[a] != surface.edges[b] ? surface.edges[a] < surface.edges[b] : a < b;
   });
-  std::vector<int> doubled;  // polygons' edges come before diagonals, and no two of them have the same ends
+  std::vector<int> doubled;  // edges of polygons come before diagonals, and no two of them have the same ends
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (surface.edges[order[i]] == surface.edges[order[i - 1]]) doubled.push_back(order[i]);
   }
@@ -34,7 +34,7 @@ struct Place {
   int triangle = -1, side = 0;
 };
 
-// The two places of a diagonal, among the triangles of its polygon; these lie one behind the other.
+// The two places of a diagonal, among the triangles of its polygon; these are consecutive.
 std::array<Place, 2> places_of(const Surface& surface, int e, int polygon) {
   const auto [begin, end] = std::equal_range(surface.triangle_faces.begin(), surface.triangle_faces.end(), polygon);
   std::array<Place, 2> places;
@@ -48,8 +48,8 @@ std::array<Place, 2> places_of(const Surface& surface, int e, int polygon) {
   return places;
 }
 
-// Turns edge e of the triangles p q r and q p w: they become p w r and w q r.
-void turn(Surface& surface, int e, Place a, Place b) {
+// Flips edge e of the triangles p q r and q p w: they become p w r and w q r.
+void flip(Surface& surface, int e, Place a, Place b) {
   const auto rotated = [](const Triple& t, int side) { return Triple{t[side], t[(side + 1) % 3], t[(side + 2) % 3]}; };
   for (auto* rows : {&surface.triangles, &surface.triangle_corners}) {
     const auto [p, q, r] = rotated((*rows)[a.triangle], a.side);
@@ -80,14 +80,14 @@ std::optional<Surface> with_single_edges(const Surface& surface) {
     const auto places = places_of(result, e, polygon[e]);
     const auto apex = [&](const Place& p) { return result.triangles[p.triangle][(p.side + 2) % 3]; };
     const int a = apex(places[0]), b = apex(places[1]);
-    const Pair turned{std::min(a, b), std::max(a, b)};
-    if (a == b || !ends.insert(turned).second) {
+    const Pair flipped{std::min(a, b), std::max(a, b)};
+    if (a == b || !ends.insert(flipped).second) {
       throw InvalidMesh("the triangulated polygons have two edges between vertices " +
                         std::to_string(result.edges[e][0]) + " and " + std::to_string(result.edges[e][1]) +
                         "; subdivide them for a progressive mesh");
     }
-    turn(result, e, places[0], places[1]);
-    result.edges[e] = turned;
+    flip(result, e, places[0], places[1]);
+    result.edges[e] = flipped;
   }
   return result;
 }

@@ -7,11 +7,11 @@
 
 namespace holomorph::progressive {
 
-/// A diagonal of a polygon may join two vertices that another edge joins as well: the polygons are a valid mesh, their
-/// triangles as a mesh of their own are none. Turns such diagonals inside the quadrilateral of their two triangles.
-/// @return the surface with other triangles, their corners and edges (its lengths are no longer right), or nothing if
-/// all is well as it is
-/// @throws InvalidMesh for an intrinsic surface, and where turning helps nothing
+/// A diagonal of a polygon may join two vertices that another edge joins as well: then the polygons are a valid mesh,
+/// but their triangles are none. Flips such diagonals inside the quadrilateral of their two triangles.
+/// @return the surface with other triangles, their corners and edges (its lengths are not updated); nothing if no two
+/// edges have the same ends
+/// @throws InvalidMesh for an intrinsic surface, and where a flip gives another double edge
 std::optional<mesh::Surface> with_single_edges(const mesh::Surface& surface);
 
 }  // namespace holomorph::progressive

@@ -51,11 +51,11 @@ IntegerForms all_classes(const mesh::HalfEdges& half_edges, const FundamentalDom
   families.natural = natural.form_count;
   families.dirichlet = result.type.closed() ? 0 : natural.form_count;
   if (families.dirichlet > 0)
-    natural = topology::beside(natural, topology::first_forms(natural, handles, families.dirichlet));
+    natural = topology::concatenated(natural, topology::first_forms(natural, handles, families.dirichlet));
   if (stars.empty()) return natural;
   const auto poles = topology::puncture_classes(half_edges, domain, stars);
   families.poles = poles.form_count;
-  return topology::beside(natural, topology::first_forms(poles, families.poles, 2 * families.poles));
+  return topology::concatenated(natural, topology::first_forms(poles, families.poles, 2 * families.poles));
 }
 
 void add_spokes(const mesh::HalfEdges& half_edges, const std::vector<mesh::Star>& stars, std::vector<int>& seams) {
@@ -94,7 +94,7 @@ IntegerForms harmonic_classes(const Topology& topology, const mesh::HalfEdges& h
   const int handles = 2 * topology.type.genus;
   auto relative = topology::first_forms(natural, handles, handles);
   topology::add_loop_indicators(half_edges, topology.boundary, relative);
-  return topology::beside(natural, relative);
+  return topology::concatenated(natural, relative);
 }
 
 void add_loop_indicators(const Topology& topology, Eigen::Ref<forms::RowMajorMatrix> functions) {

@@ -7,8 +7,8 @@
 #include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/components.h"
-#include "topology/carried_classes.h"
 #include "topology/homology.h"
+#include "topology/pulled_back_classes.h"
 #include "uv/corner_sheets.h"
 
 namespace holomorph::structure {

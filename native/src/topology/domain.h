@@ -1,13 +1,13 @@
 // The paper's fundamental domain D, its graph G and a spanning tree T of G (paper § 4), chosen so that loops are short.
 //
-// D grows face by face; a face joins it through one edge, so the edges that were crossed form a spanning tree C of the
+// D grows face by face; each face is joined through one edge, so the crossed edges form a spanning tree C of the
 // dual graph: D is the tree of a tree-cotree decomposition (Eppstein 2003). G is all other edges; what T leaves over of
 // G are the 2g edges e_i. The paper takes faces from a plain queue. Here C is the spanning tree of the edges whose
 // loops through T are longest (diagonals of polygons before all others, edges of T never), so the edges left over close
 // the shortest loops: the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a root.
 //
 // With boundary: no boundary edge is crossed. T has all edges of each loop but one, e_k: the search for shortest paths
-// goes along a loop at no cost, because the surface need not be cut there. 2g interior edges are left over, as before.
+// runs along a loop at no cost, because the surface need not be cut there. Again 2g interior edges are left over.
 #pragma once
 
 #include <vector>
@@ -24,12 +24,12 @@ using mesh::HalfEdges;
 /// @pre connected; every vertex has a face.
 struct FundamentalDomain {
   Array<HalfedgeHandle>
-      to_parent_face;     ///< #T the half-edge of the face behind which its parent in D lies; invalid at the first
+      to_parent_face;     ///< #T half-edge of the face across which its parent in D lies; invalid at the first
   Array<int> face_order;  ///< #T faces, each after its parent
-  Array<int> face_rank;   ///< #T place of each face in that order
+  Array<int> face_rank;   ///< #T rank of each face in that order
   Array<char> crossed;    ///< #E 1 for the edges of C, which are inside D; the others are G
   Array<HalfedgeHandle> to_parent_vertex;  ///< #V the half-edge towards the root of T; invalid at the root
-  Array<int> vertex_rank;                  ///< #V its place in an order in which each is after its parent
+  Array<int> vertex_rank;                  ///< #V rank in an order in which each vertex is after its parent
   std::vector<int> left_over;              ///< the 2g interior edges of G outside T, ascending
   mesh::BoundaryLoops boundary;
   std::vector<HalfedgeHandle> gaps;  ///< e_k, the edge of boundary loop k outside T: the half-edge without a face

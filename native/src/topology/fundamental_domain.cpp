@@ -15,10 +15,10 @@ using mesh::face_of;
 using mesh::opposite;
 using mesh::to_vertex;
 
-// Finds C. There are 2g edges more outside T than a spanning tree of the dual graph has. Faces from which only one edge
-// is left to be crossed are taken off again and again: that edge is in C, and what is taken off is rooted trees. The
-// rest, the core, is what the 2g dual loops run through; of its edges Kruskal's algorithm takes those with the longest
-// loops. So C is the tree that Prim's algorithm finds by a queue of all faces, in linear time but for the core.
+// Finds C. Outside T there are 2g edges more than a spanning tree of the dual graph has. Faces with one free edge are
+// peeled until none is left: that edge is in C, and peeled faces form rooted trees. The 2g dual loops run through the
+// remaining core, where Kruskal's algorithm chooses the edges with the longest loops. So C is the tree that Prim's
+// algorithm finds with a queue of all faces, in linear time but for the core.
 class DualTree {
  public:
   DualTree(const mesh::Surface& surface, const HalfEdges& mesh, const Array<double>& distance,
@@ -35,57 +35,56 @@ class DualTree {
   }
 
   void grow(const std::vector<mesh::Star>& stars, Execution& execution) {
-    const Array<int> taken_off = take_off_leaves(stars, execution);
+    const Array<int> peeled = peel_leaves(stars, execution);
     cut_core();
     root_core();
-    domain_.face_order.insert(domain_.face_order.end(), taken_off.rbegin(), taken_off.rend());
+    domain_.face_order.insert(domain_.face_order.end(), peeled.rbegin(), peeled.rend());
     for (std::size_t i = 0; i < domain_.face_order.size(); ++i)
       domain_.face_rank[domain_.face_order[i]] = static_cast<int>(i);
   }
 
  private:
-  // The half-edge of edge e in face f, and the face behind it.
+  // The half-edge of edge e in face f, and the face across it.
   HalfedgeHandle inside(int f, int e) const {
     const HalfedgeHandle h(2 * e);
     return face_of(mesh_, h) == f ? h : opposite(h);
   }
-  int behind(int f, int e) const {
+  int across(int f, int e) const {
     return face_of(mesh_, HalfedgeHandle(2 * e)) ^ face_of(mesh_, HalfedgeHandle(2 * e + 1)) ^ f;
   }
 
-  // The free edges of a face: how many, and the bits of their indices added without carry. When one is left, it is
-  // that.
+  // The free edges of a face: their number, and the exclusive or of their indices, which is the index of the last one.
   struct Links {
     int count, edges;
   };
 
   // The faces of stars first, so that none of them becomes the root. @return the faces, each before its parent
-  Array<int> take_off_leaves(const std::vector<mesh::Star>& stars, Execution& execution) {
+  Array<int> peel_leaves(const std::vector<mesh::Star>& stars, Execution& execution) {
     const int faces = static_cast<int>(mesh_.n_faces());
     Array<Links> links(faces, {0, 0});
     for (int f = 0; f < faces; ++f) {
       for (const int e : surface_.triangle_edges[f])
         links[f] = {links[f].count + free_[e], links[f].edges ^ (free_[e] ? e : 0)};
     }
-    Array<int> taken_off;
-    taken_off.reserve(faces);
-    const auto take_off = [&](int f) {
-      const int e = links[f].edges, parent = behind(f, e);
+    Array<int> peeled;
+    peeled.reserve(faces);
+    const auto peel = [&](int f) {
+      const int e = links[f].edges, parent = across(f, e);
       domain_.crossed[e] = 1;
       domain_.to_parent_face[f] = inside(f, e);
-      taken_off.push_back(f);
+      peeled.push_back(f);
       links[f].count = 0;
       links[parent] = {links[parent].count - 1, links[parent].edges ^ e};
       return parent;
     };
     for (const mesh::Star& star : stars) {
-      for (const HalfedgeHandle h : star.link) take_off(face_of(mesh_, h));
+      for (const HalfedgeHandle h : star.link) peel(face_of(mesh_, h));
     }
     for (int f = 0; f < faces; ++f) {
       execution.step(f, faces, 0.7, 1.0);
-      for (int leaf = f; links[leaf].count == 1;) leaf = take_off(leaf);
+      for (int leaf = f; links[leaf].count == 1;) leaf = peel(leaf);
     }
-    return taken_off;
+    return peeled;
   }
 
   // Length of the loop that an edge closes in T; diagonals are crossed in any case.
@@ -125,7 +124,7 @@ class DualTree {
     std::sort(domain_.left_over.begin(), domain_.left_over.end());
   }
 
-  // Breadth first, from the first face that was not taken off. Without a core only one is left.
+  // Breadth first, from the first face that was not peeled. Without a core only one is left.
   void root_core() {
     auto& order = domain_.face_order;
     const auto is_left = [](HalfedgeHandle h) { return !h.is_valid(); };
@@ -134,7 +133,7 @@ class DualTree {
     order.push_back(root);
     for (std::size_t i = 0; i < order.size(); ++i) {
       for (const int e : surface_.triangle_edges[order[i]]) {
-        const int f = behind(order[i], e);
+        const int f = across(order[i], e);
         if (!domain_.crossed[e] || f == root || domain_.to_parent_face[f].is_valid()) continue;
         domain_.to_parent_face[f] = inside(f, e);
         order.push_back(f);
@@ -172,11 +171,12 @@ std::vector<int> cut_graph(const HalfEdges& mesh, const FundamentalDomain& domai
   for (const int e : domain.left_over) add_ends(HalfedgeHandle(2 * e));
   for (const HalfedgeHandle h : domain.gaps) add_ends(h);
 
-  std::vector<char> met(mesh.n_vertices(), 0);
-  std::vector<int> beyond(mesh.n_vertices(), 0), on_paths;  // beyond: terminals whose path to the root comes by
+  std::vector<char> visited(mesh.n_vertices(), 0);
+  std::vector<int> beyond(mesh.n_vertices(), 0),
+      on_paths;  // beyond: number of terminals whose path to the root has the vertex
   for (int v : terminals) {
     ++beyond[v];
-    for (; !std::exchange(met[v], 1); v = to_vertex(mesh, domain.to_parent_vertex[v])) {
+    for (; !std::exchange(visited[v], 1); v = to_vertex(mesh, domain.to_parent_vertex[v])) {
       on_paths.push_back(v);
       if (!domain.to_parent_vertex[v].is_valid()) break;
     }

@@ -11,8 +11,8 @@
 
 namespace holomorph::topology {
 
-/// 2g closed loops zeta_i as half-edges one behind the other: e_i in its own direction, closed through T. The stretch
-/// that both paths to the root share is left out; it is walked to and fro.
+/// 2g closed loops zeta_i of consecutive half-edges: e_i in its own direction, closed through T. The common part of
+/// both paths to the root cancels.
 std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain);
 
 /// 2g closed integer forms eta_i with eta_i(zeta_j) = delta_ij: the signed number of times an edge is crossed by the

@@ -24,7 +24,7 @@ IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, in
   return sum;
 }
 
-IntegerForms beside(const IntegerForms& a, const IntegerForms& b) {
+IntegerForms concatenated(const IntegerForms& a, const IntegerForms& b) {
   IntegerForms both = a;
   both.form_count += b.form_count;
   for (const int e : b.rows.edges()) {

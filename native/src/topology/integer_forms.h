@@ -46,7 +46,7 @@ class EdgeRows {
 
  private:
   static constexpr std::size_t kPage = 64;
-  using Page = std::array<int, kPage>;  // of each edge's row; 0 is an empty one
+  using Page = std::array<int, kPage>;  // number of each edge's row; 0 is the empty one
 
   Page& page(std::size_t number) {
     if (page_of_[number] == 0) {
@@ -57,8 +57,8 @@ class EdgeRows {
   }
 
   std::size_t size_ = 0;
-  std::vector<int> page_of_;    // of kPage edges each
-  std::vector<Page> pages_{1};  // one of empty rows, then those of edges_
+  std::vector<int> page_of_;    // page of each group of kPage edges
+  std::vector<Page> pages_{1};  // one of empty rows, then those with rows
   std::vector<Row> rows_{1};    // an empty one, then those of edges_
   std::vector<int> edges_;
 };
@@ -70,7 +70,7 @@ struct IntegerForms {
   EdgeRows rows;  ///< #E
 };
 
-/// The part of a row that belongs to the forms begin .. end - 1, for a loop over its entries.
+/// The entries of a row that belong to the forms begin .. end - 1.
 struct RowPart {
   IntegerForms::Row::const_iterator first, last;
   auto begin() const { return first; }
@@ -86,8 +86,8 @@ inline RowPart forms_between(const IntegerForms::Row& row, int begin, int end) {
 /// a + factor * b
 IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, int factor);
 
-/// Both families as one: first the forms of `a`, then those of `b`.
-IntegerForms beside(const IntegerForms& a, const IntegerForms& b);
+/// The forms of `a`, followed by those of `b`.
+IntegerForms concatenated(const IntegerForms& a, const IntegerForms& b);
 
 /// The first `count` forms, and zeros up to `form_count`.
 IntegerForms first_forms(const IntegerForms& forms, int count, int form_count);

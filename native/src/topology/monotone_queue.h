@@ -8,8 +8,8 @@
 
 namespace holomorph::topology {
 
-/// Only the keys of the current bucket are in a heap, which is small enough for the nearest cache; those of later
-/// buckets wait unsorted. What is taken is the same as from one heap: the lowest key, at equal keys the lowest index.
+/// Only the keys of the current bucket are in a heap, which is small enough for the L1 cache; those of later
+/// buckets are unsorted. What is taken is the same as from one heap: the lowest key, at equal keys the lowest index.
 class MonotoneQueue {
  public:
   struct Entry {
@@ -51,8 +51,8 @@ class MonotoneQueue {
   static bool later(const Entry& a, const Entry& b) { return a.key != b.key ? a.key > b.key : a.index > b.index; }
 
   double width_;
-  std::vector<Entry> heap_;                  // of the current bucket
-  std::vector<std::vector<Entry>> buckets_;  // those after it
+  std::vector<Entry> heap_;                  // the current bucket
+  std::vector<std::vector<Entry>> buckets_;  // the buckets after it
   std::size_t current_ = 0, size_ = 0;
 };
 

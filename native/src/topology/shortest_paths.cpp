@@ -15,7 +15,7 @@ using mesh::to_vertex;
 using mesh::VertexHandle;
 
 constexpr int kReportEvery = 4096;
-// Buckets of the queue to an edge of mean length.
+// Buckets of the queue per edge of mean length.
 constexpr double kBucketsPerEdge = 8;
 
 double mean(std::span<const double> lengths) {
@@ -92,7 +92,7 @@ class ShortestPathTree {
     for (const HalfedgeHandle h : star.link) join(to_vertex(mesh_, h), first, next(mesh_, h));
   }
 
-  // `between` lies between v and its parent, in either direction; it becomes the way of v to its parent.
+  // The half-edge `between` joins v and its parent, in either direction.
   void join(int v, int first, HalfedgeHandle between) {
     if (settled_[v]) return;
     distance[v] = distance[first];
@@ -100,7 +100,7 @@ class ShortestPathTree {
     settle(v);
   }
 
-  // From v both ways to the edge opposite, which stays outside T.
+  // From v both ways to the edge opposite, which is not in T.
   void settle_loop(int v) {
     std::vector<HalfedgeHandle> loop;
     const HalfedgeHandle start = mesh_.halfedge_handle(VertexHandle(v));
@@ -121,7 +121,7 @@ class ShortestPathTree {
   FundamentalDomain& domain_;
   Array<int> star_of_;  // #V star that the vertex belongs to, or -1; empty without stars
   MonotoneQueue queue_;
-  Array<char> settled_;  // #V, small enough to stay in the cache
+  Array<char> settled_;  // #V bytes, which fit into the cache
   int done_ = 0;
 };
 

@@ -10,8 +10,8 @@ namespace holomorph::topology {
 
 /// Fills in to_parent_vertex, vertex_rank and the gaps of a domain whose boundary is known.
 /// @return #V distances from the root along T
-/// Dijkstra along the artist's edges. A star is entered as a whole: with the first vertex of it that is settled come
-/// its centre and all its spokes. So is a boundary loop, at no cost, because the surface need not be cut along it.
+/// Dijkstra along edges of polygons. The first vertex of a star that is settled settles its centre and link through
+/// the spokes. So does the first vertex of a boundary loop, at no cost, because the surface need not be cut along it.
 /// Cost: O(n log n), of which the logarithm is that of a bucket's few vertices.
 Array<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
                                   const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,

@@ -16,7 +16,7 @@ std::int64_t checked_subtract_product(std::int64_t a, std::int64_t factor, std::
   return result;
 }
 
-// Rows of S, and their products W(i, j) = S_i W S_j^T kept beside them. Every step is a unimodular change of the rows.
+// Rows of S, and their products W(i, j) = S_i W S_j^T, kept up to date. Every step is a unimodular change of the rows.
 class GramSchmidt {
  public:
   explicit GramSchmidt(const IntegerMatrix& W) : n_(W.rows()), rows_(IntegerMatrix::Identity(n_, n_)), W_(W) {}

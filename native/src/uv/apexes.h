@@ -8,9 +8,9 @@
 
 namespace holomorph::uv {
 
-/// Gives each triangle of the stars an apex of its own: the similarity that takes the side of the link to its UVs takes
-/// the triangle (p, a, b) to apex = uv_a + z (uv_b - uv_a), z the place of p where a is 0 and b is 1. So the angles of
-/// these triangles are exact, their UVs finite, and the spokes are seams.
+/// Gives each triangle (p, a, b) of the stars an apex of its own, by the similarity that takes its link side to its
+/// UVs: apex = uv_a + z (uv_b - uv_a), z the position of p where a is 0 and b is 1. So the angles of these triangles
+/// are exact, their UVs finite, and the spokes are seams.
 /// @param surface the triangulation of the stars, in which no diagonal ends at a puncture
 /// @param uv #C x 2, changed at the corners of the punctures only
 void place_apexes(const mesh::Surface& surface, const std::vector<mesh::Star>& stars, Eigen::Ref<UvArray> uv);

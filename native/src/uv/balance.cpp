@@ -17,18 +17,18 @@ using Complex = std::complex<double>;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kSamples = 3000;  // faces that the density is sampled on, spaced evenly by area
-// The floor under the density is lowered step by step: from fixed pseudo-random starts on every kThinning-th sample
-// first, then from the best few of their ends on all samples.
+constexpr int kSamples = 3000;  // triangles on which the density is sampled, evenly spaced by area
+// The floor under the density is lowered step by step, first from fixed pseudo-random starts on every kThinning-th
+// sample, then from the best of their ends on all samples.
 constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSteps = 100;
-// From this many forms on fewer starts are made, in inverse proportion: the work of each grows faster than they.
+// From this many forms on, the number of starts falls in inverse proportion, as the cost of each grows faster.
 constexpr int kManyForms = 64;
 constexpr double kDistortion = 3;  // weight of the distortion against the variance
 constexpr double kRoughFloors[] = {1.0, 0.1}, kFineFloors[] = {0.01, 1e-3, 1e-4};
 
 }  // namespace
 
-// Triangles met at kSamples equal steps through the total area.
+// Triangles at kSamples equal steps through the total area.
 std::vector<int> sample_triangles(const mesh::Surface& surface) {
   const std::size_t count = surface.triangles.size();
   std::vector<double> until(count);
@@ -97,8 +97,8 @@ Parts sampled_parts(const mesh::Surface& surface, const FormSamples& samples, co
 }
 
 // Variance over the samples of log(q / mean q + floor), q = |A|^2, plus kDistortion times the mean of
-// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is next to nothing for
-// a good map; without it |A| may be made even where B, the error of the mesh, outweighs it and the map turns over.
+// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is nearly 0 for a
+// good map; without it |A| may be even where B, the discretisation error, exceeds it and the map is flipped.
 class LogVariance {
  public:
   LogVariance(const Parts& parts, Coefficients kind, double floor) : parts_(parts), kind_(kind), floor_(floor) {}
@@ -111,7 +111,7 @@ class LogVariance {
     const Eigen::ArrayXd y = (q / mean + floor_).log(), deviation = y - y.mean();
     const Eigen::ArrayXd inverse = 1 / (q + floor_ * mean);
     const Eigen::ArrayXd sum = 1 / (q + b + floor_ * mean), r = b * sum;
-    // by q and b of each sample, and through the mean, which is the same for all samples
+    // Derivatives by q and b of each sample, and through the mean, which is the same for all samples.
     const double through_mean = -2 * (deviation * q * inverse).mean() / mean - kDistortion * floor_ * (r * sum).mean();
     const Eigen::ArrayXd by_q = (2 * deviation * inverse - kDistortion * r * sum + through_mean) / count;
     const Eigen::ArrayXd by_b = kDistortion * (1 - r) * sum / count;
@@ -160,7 +160,7 @@ VectorXcd lowest_variance(const Parts& parts, Coefficients kind, Workers& worker
     // One number in [-1, 1) from each draw: the standard's distributions differ between libraries.
     for (auto& value : candidate.x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
   }
-  // Each descent is on its own, so the number of threads changes nothing.
+  // Descents are independent, so the result does not depend on the number of threads.
   run_throwing(workers, starts, [&](int i) {
     candidates[i] = descend(thinned, kind, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
   });

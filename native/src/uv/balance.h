@@ -10,7 +10,7 @@
 
 namespace holomorph::uv {
 
-/// What the balance needs to know of the forms: their values on two sides of a few thousand triangles.
+/// Samples of forms for the balance: their values on two sides of a few thousand triangles.
 struct FormSamples {
   std::vector<int> triangles;      ///< evenly spaced by area; all of them on a small surface, some more than once
   forms::RowMajorMatrix on_sides;  ///< (2 #triangles) x #forms, along sides 0 and 1 of each
@@ -25,9 +25,9 @@ enum class Coefficients { complex, real };
 /// even: least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against distortion
 /// (balance.cpp); the scale is free. The minimum is local, the best from several fixed starts; the same
 /// input gives the same bits.
-/// @param samples not looked at where g = 1
+/// @param samples not used where g = 1
 /// @param basis #forms x g, the theta_j in the forms
-/// @param kind real on bounded surfaces, so that boundaries stay straight
+/// @param kind real on bounded surfaces, so that boundaries remain straight
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples,
                                        const Eigen::MatrixXcd& basis, Coefficients kind, Workers& workers);
 

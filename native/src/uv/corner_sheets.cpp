@@ -1,9 +1,9 @@
 #include "uv/corner_sheets.h"
 
-#include <string>
 #include <unordered_map>
 
 #include "base/errors.h"
+#include "mesh/vertex_labels.h"
 
 namespace holomorph::uv {
 namespace {
@@ -48,7 +48,7 @@ class SheetTable {
   std::unordered_map<IntegerForms::Row, int, RowHash> numbers_;
 };
 
-// Faces in an order in which each comes after its parent, behind the half-edge to_parent of its own (invalid at roots).
+// Faces, each after its parent, which lies across its half-edge `to_parent` (invalid at roots).
 struct Walk {
   Array<int> order;
   Array<HalfedgeHandle> to_parent;
@@ -58,34 +58,34 @@ struct Walk {
 Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
   const int faces = static_cast<int>(mesh.n_faces());
   Walk walk{{}, Array<HalfedgeHandle>(faces)};
-  Array<char> met(faces, 0);
+  Array<char> visited(faces, 0);
   for (int root = 0; root < faces; ++root) {
-    if (met[root]) continue;
-    met[root] = 1;
+    if (visited[root]) continue;
+    visited[root] = 1;
     walk.order.push_back(root);
     for (std::size_t i = walk.order.size() - 1; i < walk.order.size(); ++i) {
       HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(walk.order[i]));
       for (int side = 0; side < 3; ++side, h = next(mesh, h)) {
         const HalfedgeHandle o = opposite(h);
         if (is_cut[edge_of(h)] || !mesh.face_handle(o).is_valid()) continue;
-        const int behind = mesh::face_of(mesh, o);
-        if (std::exchange(met[behind], 1)) continue;
-        walk.to_parent[behind] = o;
-        walk.order.push_back(behind);
+        const int across = mesh::face_of(mesh, o);
+        if (std::exchange(visited[across], 1)) continue;
+        walk.to_parent[across] = o;
+        walk.order.push_back(across);
       }
     }
   }
   return walk;
 }
 
-// The sheet of the corner at which each half-edge starts, in its face; nothing is said of those without a face.
+// #half-edges: sheet of the corner at which each starts, in its face; undefined for those without a face.
 Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table, Execution& execution) {
   Array<int> at_start(mesh.n_halfedges());
   for (std::size_t i = 0; i < walk.order.size(); ++i) {
     execution.step(i, walk.order.size(), 0.5, 1.0);
     const int f = walk.order[i];
     HalfedgeHandle h = walk.to_parent[f];
-    if (h.is_valid()) {  // both ends are on the sheets that they are on in the parent
+    if (h.is_valid()) {  // both ends have the sheets that they have in the parent
       at_start[h.idx()] = at_start[next(mesh, opposite(h)).idx()];
       at_start[next(mesh, h).idx()] = at_start[opposite(h).idx()];
     } else {
@@ -99,8 +99,8 @@ Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, Sheet
   return at_start;
 }
 
-CornerSheets of_corners(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const Array<int>& at_start,
-                        SheetTable&& table) {
+CornerSheets sheets_of_corners(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const Array<int>& at_start,
+                               SheetTable&& table) {
   CornerSheets result;
   result.corner_sheet.resize(surface.polygons.corner_vertices.size());
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
@@ -119,11 +119,11 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
                            Execution& execution) {
   SheetTable table(classes);
   const auto at_start = sheets_at_starts(mesh, {domain.face_order, domain.to_parent_face}, table, execution);
-  return of_corners(surface, mesh, at_start, std::move(table));
+  return sheets_of_corners(surface, mesh, at_start, std::move(table));
 }
 
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<int>& cut,
-                           const IntegerForms& classes, Execution& execution, const std::vector<int>& names) {
+                           const IntegerForms& classes, Execution& execution, const std::vector<int>& labels) {
   std::vector<char> is_cut(surface.edges.size(), 0);
   for (const int e : cut) is_cut[e] = 1;
   SheetTable table(classes);
@@ -134,11 +134,11 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
     if (at_start[h.idx()] == at_start[next(mesh, o).idx()] && at_start[o.idx()] == at_start[next(mesh, h).idx()])
       continue;
     const auto [a, b] = surface.edges[e];
-    throw TopologyError("the cut does not leave disks: between the vertices " +
-                        std::to_string(names.empty() ? a : names[a]) + " and " +
-                        std::to_string(names.empty() ? b : names[b]) + ", where it does not run, the map still jumps");
+    const mesh::VertexLabels label(labels);
+    throw TopologyError("the cut does not leave disks: between the vertices " + label(a) + " and " + label(b) +
+                        ", where it does not run, the map still jumps");
   }
-  return of_corners(surface, mesh, at_start, std::move(table));
+  return sheets_of_corners(surface, mesh, at_start, std::move(table));
 }
 
 }  // namespace holomorph::uv

@@ -17,18 +17,18 @@ struct CornerSheets {
   std::vector<topology::IntegerForms::Row> sheets;  ///< sparse vectors P of each sheet; sheet 0 is 0
 };
 
-/// @pre D takes all diagonals, so that all triangles of a polygon lie on one sheet at each of its corners.
+/// @pre D has all diagonals inside, so that all triangles of a polygon lie on one sheet at each of its corners.
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                            const topology::FundamentalDomain& domain, const topology::IntegerForms& classes,
                            Execution& execution);
 
-/// The same for the caller's own cut: potentials on the pieces that are left when the surface is cut along the edges of
-/// `cut`, each with the sheet 0 at its first corner.
+/// The same for a given cut: potentials on the pieces of the surface cut along the edges of `cut`, each with the sheet
+/// 0 at its first corner.
 /// @param cut polygon edges; boundary edges do not matter
-/// @param names what a vertex is called in messages; empty: its index
+/// @param labels #V number of each vertex in messages; empty: its index
 /// @throws TopologyError if a class has a period in a piece, naming an edge where its potential jumps
 CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& cut,
                            const topology::IntegerForms& classes, Execution& execution,
-                           const std::vector<int>& names = {});
+                           const std::vector<int>& labels = {});
 
 }  // namespace holomorph::uv

@@ -1,4 +1,4 @@
-// Where a UV map lies in the plane, and the map moved elsewhere, as applications store it.
+// The frame of a UV map in the plane, and similarities of the map, in the precision of applications.
 #pragma once
 
 #include <complex>
@@ -10,15 +10,15 @@ namespace holomorph::uv {
 
 struct Frame {
   std::complex<double> low, high;  ///< corners of the bounding box, u + i v
-  double area = 0;                 ///< sum of the areas of the triangles, whichever way they lie
+  double area = 0;                 ///< sum of the absolute areas of the triangles
 };
 
-/// The frame of the map turned by an angle about 0. @param uv #C x 2. @param rotation radians, counter-clockwise
+/// The frame of the map rotated by an angle about 0. @param uv #C x 2. @param rotation radians, counter-clockwise
 /// The area is summed in a fixed order. Cost: O(#T).
 Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation, Workers& workers);
 
-/// z goes to factor (z - origin) + target: moved to the middle first and rounded last, so that corners whose u or v
-/// are the same keep them so.
+/// Maps z to factor (z - origin) + target: centred first and rounded last, so that equal u or v of
+/// corners remain equal.
 struct Placement {
   std::complex<double> factor, origin, target;
 };

@@ -15,7 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// A triangle has collapsed where s2 is below this fraction of s1: what is left of it is rounding.
+// Largest s2 / s1 of a collapsed triangle: rounding.
 constexpr double kCollapsed = 1e-12;
 
 struct Weighted {
@@ -41,7 +41,7 @@ double weighted_quantile(std::vector<Weighted>& items, double wanted) {
 }
 
 // Weights of values >= 0 by the leading bits of the values, of which there are 16 classes in each octave: they are in
-// the order of the values. Only the items of the class in which a quantile lies are looked at again.
+// the order of the values. Only the items of the class with a quantile are visited again.
 class Distribution {
  public:
   Distribution(const Array<double>& values, const Array<double>& weights, Workers& workers)

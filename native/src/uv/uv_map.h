@@ -1,4 +1,4 @@
-// UVs from potentials, and the combination of forms that is shown first.
+// UVs from potentials.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,7 @@ UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const f
 /// UV(corner) = at_vertex(vertex) + sum_k p_k P_k(corner): the same from any potentials, #V x 2.
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                const Eigen::VectorXcd& p, Workers& workers);
-/// The same into memory that there is, #C x 2.
+/// The same into given memory, #C x 2.
 void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                   const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv, Workers& workers);
 

@@ -13,7 +13,7 @@ struct FileText {
   std::string name;
   std::string bytes;
 
-  /// \throw InvalidMesh "name: reason"
+  /// @throws InvalidMesh "name: reason"
   [[noreturn]] void fail(std::string_view reason) const;
 };
 

@@ -48,7 +48,7 @@ constexpr TypeName type_names[] = {
     {"float32", Type::float32}, {"float64", Type::float64},
 };
 
-/// The header line by line. It ends with the first newline after `end_header`, whatever byte comes next.
+/// The header line by line. It ends with the first newline after `end_header`, whatever the next byte is.
 class HeaderLines {
  public:
   explicit HeaderLines(const FileText& file) : file_(file) {}
@@ -119,6 +119,19 @@ Element element_of(const std::vector<std::string_view>& words, const FileText& f
   return {std::string(words[1]), count, {}};
 }
 
+// Adds the element that a line declares, or the property of the last element.
+void declare(const std::vector<std::string_view>& words, const FileText& file, const HeaderLines& lines,
+             std::vector<Element>& elements) {
+  if (words[0] == "element") {
+    elements.push_back(element_of(words, file, lines));
+  } else if (words[0] == "property") {
+    if (elements.empty()) lines.fail("a property is declared before any element");
+    elements.back().properties.push_back(property_of(words, lines));
+  } else {
+    lines.fail("a declaration is expected, but found " + quoted(words[0]));
+  }
+}
+
 }  // namespace
 
 Header read_header(const FileText& file) {
@@ -132,13 +145,8 @@ Header read_header(const FileText& file) {
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "format" && words.size() >= 2) {
       encoding = encoding_named(words[1], lines);
-    } else if (words[0] == "element") {
-      header.elements.push_back(element_of(words, file, lines));
-    } else if (words[0] == "property") {
-      if (header.elements.empty()) lines.fail("a property is declared before any element");
-      header.elements.back().properties.push_back(property_of(words, lines));
     } else {
-      lines.fail("a declaration is expected, but found " + quoted(words[0]));
+      declare(words, file, lines, header.elements);
     }
   }
   if (!encoding) lines.fail("the header does not declare a format");

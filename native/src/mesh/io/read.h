@@ -14,8 +14,8 @@ namespace holomorph::mesh {
 /// STL: text and binary; corners with equal coordinates (-0 equals 0) become one vertex, in order of first appearance.
 /// Indices beyond the vertices, coordinates that are not finite and faces with fewer than 3 corners pass: they are
 /// the mesh's faults, and its validation names them.
-/// \throw InvalidMesh if the file cannot be read or is malformed; the sentence names file and line, byte or element.
-/// Cost: linear in the file's size, which is held in memory.
+/// @throws InvalidMesh if the file cannot be read or is malformed; the sentence names file and line, byte or element.
+/// Cost: linear in the file's size, which is kept in memory.
 GivenPolygons read(const std::filesystem::path& path);
 
 }  // namespace holomorph::mesh

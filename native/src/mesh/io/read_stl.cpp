@@ -18,7 +18,8 @@ constexpr std::size_t header_size = 80;    // bytes of comment before the count
 constexpr std::size_t triangle_size = 50;  // bytes: normal and three corners as float32, two bytes of attribute
 constexpr std::size_t normal_size = 12;
 
-/// Gives equal points equal numbers, counted by first appearance. NaN equals nothing, so each such point stays alone.
+/// Gives equal points equal numbers, counted by first appearance. NaN equals nothing, so each such point is a vertex of
+/// its own.
 class Weld {
  public:
   explicit Weld(std::size_t corners) : slots_(std::bit_ceil(2 * corners + 1), empty) {}
@@ -68,9 +69,10 @@ std::vector<Point> binary_corners(const FileText& file) {
   const auto& bytes = file.bytes;
   const std::size_t triangles = load_as<std::uint32_t>(bytes.data() + header_size, std::endian::little);
   const auto body = bytes.data() + header_size + 4;
-  const auto room = (bytes.size() - header_size - 4) / triangle_size;
-  if (triangles > room)
-    file.fail("the file announces " + std::to_string(triangles) + " triangles, but ends after " + std::to_string(room));
+  const auto capacity = (bytes.size() - header_size - 4) / triangle_size;
+  if (triangles > capacity)
+    file.fail("the file announces " + std::to_string(triangles) + " triangles, but ends after " +
+              std::to_string(capacity));
   std::vector<Point> corners(3 * triangles);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const char* p = body + triangle_size * (i / 3) + normal_size + 12 * (i % 3);

@@ -127,8 +127,9 @@ std::int64_t Scanner::integer(std::string_view word, std::string_view what) cons
 std::int64_t Scanner::count(std::string_view word, std::string_view what, std::size_t bytes_each) const {
   const auto value = integer(word, what);
   if (value < 0) fail(std::string(what) + " is negative: " + std::to_string(value));
-  const auto room = static_cast<std::uint64_t>(end_ - next_) / bytes_each + 1;  // the last word may lack its separator
-  if (static_cast<std::uint64_t>(value) > room)
+  const auto capacity =
+      static_cast<std::uint64_t>(end_ - next_) / bytes_each + 1;  // the last word may lack its separator
+  if (static_cast<std::uint64_t>(value) > capacity)
     fail(std::string(what) + " is " + std::to_string(value) + ", more than the rest of the file can hold");
   return value;
 }

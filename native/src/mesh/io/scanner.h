@@ -20,7 +20,7 @@ class Scanner {
 
   /// The next word on this line, empty at the line's end.
   std::string_view word();
-  /// The next word, on this line or a later one. \throw InvalidMesh naming `what` if the text ends before it.
+  /// The next word, on this line or a later one. @throws InvalidMesh naming `what` if the text ends before it.
   std::string_view word_on_any_line(std::string_view what);
   /// To the start of the next line, past whatever is left of this one.
   void next_line();
@@ -36,7 +36,7 @@ class Scanner {
   /// An integer >= 0 that is no larger than what the rest of the text can hold at `bytes_each`: check before reserving.
   std::int64_t count(std::string_view word, std::string_view what, std::size_t bytes_each) const;
 
-  /// \throw InvalidMesh "name, line n: reason"
+  /// @throws InvalidMesh "name, line n: reason"
   [[noreturn]] void fail(std::string_view reason) const;
 
  private:

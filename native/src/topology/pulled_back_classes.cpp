@@ -1,4 +1,4 @@
-#include "topology/carried_classes.h"
+#include "topology/pulled_back_classes.h"
 
 #include <algorithm>
 #include <string>
@@ -10,10 +10,10 @@
 namespace holomorph::topology {
 namespace {
 
-// Vertices of all loops as rings of entries; the entries of one vertex are a list, so that a split finds them.
-class Loops {
+// Loops of vertices as rings of entries; the entries of one vertex are a list, so that a split finds them.
+class LiftedLoops {
  public:
-  Loops(const std::vector<std::vector<int>>& loops, int vertex_count)
+  LiftedLoops(const std::vector<std::vector<int>>& loops, int vertex_count)
       : first_(static_cast<std::size_t>(vertex_count), -1) {
     for (const auto& loop : loops) {
       starts_.push_back(static_cast<int>(entries_.size()));
@@ -77,75 +77,74 @@ class Loops {
 
 }  // namespace
 
-int edge_between(std::span<const mesh::Pair> edges, int a, int b) {
-  const mesh::Pair ends{std::min(a, b), std::max(a, b)};
-  const auto found = std::lower_bound(edges.begin(), edges.end(), ends);
-  return found != edges.end() && *found == ends ? static_cast<int>(found - edges.begin()) : -1;
-}
-
 std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map) {
   // The base has triangles only and no two edges with the same ends, and its edges are in lexicographic order.
   std::vector<int> half_edges;
   half_edges.reserve(surface.edges.size());
   for (const auto& [a, b] : surface.edges) {
-    const int u = map[a], v = map[b], edge = u == v ? -1 : edge_between(base.edges, u, v);
+    const int u = map[a], v = map[b], edge = u == v ? -1 : mesh::edge_between(base.edges, u, v);
     half_edges.push_back(edge < 0 ? -1 : 2 * edge + (u > v));
   }
   return half_edges;
 }
 
-IntegerForms carry_classes(const mesh::Surface& base, const IntegerForms& forms, const mesh::Surface& surface,
-                           const std::vector<int>& map) {
-  IntegerForms carried;
-  carried.form_count = forms.form_count;
-  carried.rows.resize(surface.edges.size());
+IntegerForms pull_back_classes(const mesh::Surface& base, const IntegerForms& forms, const mesh::Surface& surface,
+                               const std::vector<int>& map) {
+  IntegerForms result;
+  result.form_count = forms.form_count;
+  result.rows.resize(surface.edges.size());
   const std::vector<int> half_edges = base_half_edges(base, surface, map);
   for (std::size_t e = 0; e < half_edges.size(); ++e) {
     const int h = half_edges[e];
-    if (h >= 0) carried.rows.set(e, add({}, forms.rows[h / 2], h & 1 ? -1 : 1));
+    if (h >= 0) result.rows.set(e, add({}, forms.rows[h / 2], h & 1 ? -1 : 1));
   }
-  return carried;
+  return result;
 }
 
-std::vector<std::vector<int>> carry_loops(const progressive::ProgressiveMesh& mesh, int splits,
-                                          const std::vector<std::vector<int>>& loops) {
+std::vector<std::vector<int>> lift_loops(const progressive::ProgressiveMesh& mesh, int splits,
+                                         const std::vector<std::vector<int>>& loops) {
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const auto& loop = loops[i];
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const int a = loop[k], b = loop[(k + 1) % loop.size()];
-      if (edge_between(mesh.base.edges, a, b) < 0) {
+      if (mesh::edge_between(mesh.base.edges, a, b) < 0) {
         throw InvalidMesh("loop " + std::to_string(i) + " goes from vertex " + std::to_string(a) + " to " +
                           std::to_string(b) + ", and the base mesh has no such edge");
       }
     }
   }
-  Loops carried(loops, mesh.base_vertex_count());
+  LiftedLoops lifted(loops, mesh.base_vertex_count());
   progressive::Refinement refinement(mesh, splits);
   for (int k = 0; k < splits; ++k) {
     refinement.split();
-    carried.split(mesh.splits[k].v_s, mesh.base_vertex_count() + k, refinement.moved());
+    lifted.split(mesh.splits[k].v_s, mesh.base_vertex_count() + k, refinement.moved());
   }
-  return carried.vertices();
+  return lifted.vertices();
 }
 
-DualBases carried_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level) {
+BaseBases base_bases(const mesh::Surface& base) {
   Execution silent;
-  const HalfEdges half_edges = mesh::half_edges(mesh.base, silent);
-  const FundamentalDomain domain = fundamental_domain(mesh.base, half_edges, silent);
-  std::vector<std::vector<int>> loops;
+  const HalfEdges half_edges = mesh::half_edges(base, silent);
+  const FundamentalDomain domain = fundamental_domain(base, half_edges, silent);
+  BaseBases result{{}, cohomology_basis(half_edges, domain)};
   for (const auto& loop : homology_basis(half_edges, domain)) {
-    loops.emplace_back();
-    for (const auto h : loop) loops.back().push_back(mesh::from_vertex(half_edges, h));
+    result.loops.emplace_back();
+    for (const auto h : loop) result.loops.back().push_back(mesh::from_vertex(half_edges, h));
   }
+  return result;
+}
+
+DualBases lifted_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level) {
+  const BaseBases base = base_bases(mesh.base);
   std::vector<int> map = progressive::vertex_map(mesh, 0);
   map.resize(static_cast<std::size_t>(level.vertex_count));
   DualBases bases;
-  bases.classes = carry_classes(mesh.base, cohomology_basis(half_edges, domain), level, map);
-  for (const auto& loop : carry_loops(mesh, splits, loops)) {
+  bases.classes = pull_back_classes(mesh.base, base.classes, level, map);
+  for (const auto& loop : lift_loops(mesh, splits, base.loops)) {
     bases.loops.emplace_back();
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const int a = loop[i], b = loop[(i + 1) % loop.size()];
-      bases.loops.back().push_back(HalfedgeHandle(2 * edge_between(level.edges, a, b) + (a > b)));
+      bases.loops.back().push_back(HalfedgeHandle(2 * mesh::edge_between(level.edges, a, b) + (a > b)));
     }
   }
   return bases;

@@ -1,0 +1,19 @@
+"""Edges found by their ends."""
+
+import numpy as np
+
+
+def edge_keys(ends, vertex_count):
+    """One int64 for each pair of vertices, (#, 2) in either order: equal for equal pairs, ascending lexicographically
+    with the lower vertex first."""
+    ends = ends.astype(np.int64)
+    return ends.min(axis=1) * vertex_count + ends.max(axis=1)
+
+
+def edges_of_keys(edges, keys, vertex_count):
+    """Index into `edges`, (#E, 2) vertices, of the edge with each of the keys. @pre every key is that of one edge only
+
+    Cost: O((#E + #keys) log #E)."""
+    known = edge_keys(edges, vertex_count)
+    order = np.argsort(known)
+    return order[np.searchsorted(known, keys, sorter=order)]

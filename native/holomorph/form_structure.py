@@ -1,0 +1,108 @@
+"""What the results have in common that have forms to combine."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import arrays
+from .results import MemoryPlan, SolverReport, Structure, checked_coefficients
+
+
+@dataclass(frozen=True, eq=False)
+class FormStructure(Structure):
+    """Base of the results with forms to combine: differentials made of real harmonic forms h_1 .. h_m, whose integrals'
+    real and imaginary parts are UV maps."""
+
+    coefficient_type = np.complex128
+
+    @cached_property
+    def _triangulation(self):
+        return self._native.surface()
+
+    @cached_property
+    def homology_basis(self):
+        """Tuple of integer arrays: 2g closed loops zeta_i of vertices, the first not repeated (paper § 4), then, with
+        b boundary loops, the loops 1 .. b-1."""
+        return tuple(self._of_surface(loop) for loop in self._native.homology_basis())
+
+    @cached_property
+    def seams(self):
+        """(#S,) indices into `edges` of the cut graph, on edges of polygons only: cut open there, a disk is left. The
+        cut graph ends at punctures, and the edges there are seams, too."""
+        return self._native.seams()
+
+    @cached_property
+    def period_matrix(self):
+        """(n, n) complex Omega: symmetric, Im Omega > 0 (paper Eq. 13). Closed: the integral of theta_j over b_i. With
+        boundary that of the double: (i/2) `capacity_matrix` on planar surfaces."""
+        return self._native.period_matrix()
+
+    @cached_property
+    def period_bounds(self):
+        """(lower, upper), (n, n) each: guaranteed bounds of Im Omega of the polyhedral surface, with boundary of its
+        double, as quadratic forms."""
+        return self._native.period_bounds()
+
+    @cached_property
+    def memory(self):
+        """`MemoryPlan`: whether all forms are kept, and the memory that was reckoned with."""
+        return MemoryPlan(*self._native.memory())
+
+    def prepare_uv(self, progress=None):
+        """Solves for the forms on the surface's own triangles, of which forms and UVs are made; done by itself when
+        first needed, and without work where no edge had to be flipped.
+
+        Invariants come from the intrinsic Delaunay triangulation, but UVs with the least distortion on the surface's
+        triangles come from those triangles. `progress` as in `conformal_structure`."""
+        self._native.prepare_uv(progress)
+
+    @cached_property
+    def uv_solver(self):
+        """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
+        return SolverReport(*self._native.uv_solver())
+
+    @cached_property
+    def _differentials(self):
+        """(m, n) complex: column j is theta_j in the basis of the harmonic forms."""
+        return self._native.differentials()
+
+    @cached_property
+    def _harmonic_forms(self):
+        """(m, #E): all of them."""
+        count, edges = sum(self._native.families()) + self._native.families()[2], len(self.edges)
+        self._native.require_memory(f"the {count} harmonic forms on {edges} edges", 8 * count * edges)
+        return self._native.basis_forms()
+
+    @cached_property
+    def holomorphic_forms(self):
+        """(n, #E) complex, paper § 7. Closed: theta_j has the period 1 over a_j and 0 over the other a. With boundary:
+        theta_i = h^N_i + i sum_j C#_ij h^D_j. With punctures theta_0 comes first, NaN on the edges that end at one."""
+        n, edges = self._differentials.shape[1], len(self.edges)
+        # The harmonic forms, and two matrices of the size of the result.
+        self._native.require_memory(f"the {n} holomorphic forms on {edges} edges", 3 * 16 * n * edges)
+        values = self._differentials.T @ self._harmonic_forms
+        values[:1, self._native.spokes()] = np.nan
+        return arrays.frozen(values)
+
+    def uv(self, coefficients):
+        """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
+        with boundary and without punctures. No solve: one small product; where the forms were not kept (`memory`), a
+        solve for this map alone.
+
+        Across every seam the UVs jump by a constant translation, without rotation or change of scale; only the edges at
+        a puncture, where each triangle has an apex of its own, are cut. On a boundary loop v is the same number at all
+        corners, up to a period where a seam meets it; with punctures for real coefficients and residues."""
+        c = checked_coefficients(coefficients, self._differentials.shape[1], self.coefficient_type)
+        return self._native.uv(self._differentials @ c)
+
+    def balanced_coefficients(self):
+        """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over
+        the surface's area), scaled so that the UV area of the surface is 1."""
+        return self._balanced
+
+    @cached_property
+    def _balanced(self):
+        is_real = self.coefficient_type is np.float64
+        c = self._native.balanced_coefficients(is_real)
+        return arrays.frozen(c.real.copy() if is_real else c)

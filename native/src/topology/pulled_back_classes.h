@@ -1,0 +1,51 @@
+// Classes pulled back, and loops lifted, from the base of a progressive mesh to finer levels (paper § 9, step 5).
+#pragma once
+
+#include <vector>
+
+#include "progressive/progressive_mesh.h"
+#include "topology/homology.h"
+
+namespace holomorph::topology {
+
+/// Rule 5(b) of the paper for all splits at once: the new edge v_s v_t gets 0, and an edge of v_t the value of the edge
+/// of v_s that it comes from. That is the pull-back by the simplicial map which takes each vertex to the one it was
+/// collapsed into: w(u -> v) = w_base(m(u) -> m(v)), 0 where m(u) = m(v). Closed forms remain closed, and the period
+/// over a loop is that over its image.
+/// @param forms closed forms on the edges of `base`
+/// @param surface a finer level, or the original
+/// @param map #V of `surface` vertex of `base`
+IntegerForms pull_back_classes(const mesh::Surface& base, const IntegerForms& forms, const mesh::Surface& surface,
+                               const std::vector<int>& map);
+
+/// #E of `surface` edge of `base` to which the map takes each edge, as 2e or, against its direction, 2e + 1; -1
+/// where both ends have the same image. Real forms are pulled back by it, too.
+std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map);
+
+/// Closed loops of vertices of the base, lifted to the level with this many splits: where a split separates the two
+/// neighbours of v_s on a loop, the edge v_s v_t is inserted. The map above takes the lifted loops to the given ones.
+/// @throws InvalidMesh if a loop has two consecutive vertices without an edge between them
+std::vector<std::vector<int>> lift_loops(const progressive::ProgressiveMesh& mesh, int splits,
+                                         const std::vector<std::vector<int>>& loops);
+
+/// A homology basis as loops of vertices, and the integer classes dual to it.
+struct BaseBases {
+  std::vector<std::vector<int>> loops;
+  IntegerForms classes;
+};
+
+/// Homology and cohomology bases of a base mesh (paper § 9, steps 2 and 3). @pre connected, closed, genus at least 1
+BaseBases base_bases(const mesh::Surface& base);
+
+/// A homology basis and the integer classes dual to it: eta_i(zeta_j) = delta_ij exactly.
+struct DualBases {
+  std::vector<std::vector<HalfedgeHandle>> loops;
+  IntegerForms classes;
+};
+
+/// The bases of the base mesh on the half-edges of the level with this many splits, loops lifted and classes pulled
+/// back. So all levels have the same classes, the same intersection matrix and the same canonical basis.
+/// @param level the surface of that level; @pre connected, closed, genus at least 1
+DualBases lifted_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
+
+}  // namespace holomorph::topology
