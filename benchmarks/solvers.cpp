@@ -21,8 +21,8 @@
 #include "base/kept_pages.h"
 #include "linear_system.h"
 #include "mesh/io/read.h"
-#include "solver/laplace_solver.h"
 #include "mesh/make_surface.h"
+#include "solver/solver_choice.h"
 
 extern "C" void openblas_set_num_threads(int);
 

@@ -10,6 +10,7 @@
 #include "mesh/boundary_loops.h"
 #include "mesh/components.h"
 #include "mesh/intrinsic_triangulation.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::multiresolution {
 namespace {

@@ -1,6 +1,7 @@
 #include "plane/dirichlet_problem.h"
 
 #include "forms/laplacian.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::plane {
 

@@ -4,6 +4,7 @@
 
 #include "forms/codifferential.h"
 #include "forms/laplacian.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::structure {
 namespace {

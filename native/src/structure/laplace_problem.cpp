@@ -3,6 +3,7 @@
 #include "forms/laplacian.h"
 #include "mesh/delaunay.h"
 #include "mesh/intrinsic_triangulation.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::structure {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/errors.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::structure {
 namespace {

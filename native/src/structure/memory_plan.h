@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "solver/laplace_solver.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::structure {
 

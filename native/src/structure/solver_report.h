@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/laplace_solver.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::structure {
 

@@ -1,4 +1,4 @@
-#include "solver/laplace_solver.h"
+#include "solver/solver_choice.h"
 
 #include <algorithm>
 #include <cassert>
