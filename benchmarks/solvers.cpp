@@ -18,7 +18,6 @@
 #include <string>
 #include <thread>
 
-#include "base/kept_pages.h"
 #include "linear_system.h"
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
@@ -59,7 +58,6 @@ double peak_bytes() {
 
 // What is freed from now on stays with the program, for its next run.
 void keep_memory() {
-  static const KeptPages arrays;
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, -1);
 }

@@ -103,6 +103,5 @@ class FormStructure(Structure):
 
     @cached_property
     def _balanced(self):
-        is_real = self.coefficient_type is np.float64
-        c = self._native.balanced_coefficients(is_real)
-        return arrays.frozen(c.real.copy() if is_real else c)
+        c = self._native.balanced_coefficients()
+        return arrays.frozen(c.real.copy() if self.coefficient_type is np.float64 else c)

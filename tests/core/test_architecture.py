@@ -7,6 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 NATIVE = ROOT / "native" / "src"
+PUBLIC = ROOT / "native" / "include" / "holomorph"
 FACADE = ROOT / "native" / "holomorph"
 ADDON = ROOT / "addon"
 
@@ -15,6 +16,7 @@ ROOM_BELOW = {
     "base": [],
     "mesh": ["base"],
     "progressive": ["mesh"],
+    "openmesh": ["progressive"],
     "solver": ["base"],
     "topology": ["progressive"],
     "forms": ["topology", "solver"],
@@ -116,6 +118,24 @@ def test_files_have_no_circle():
         visit(name, [])
 
 
+def test_public_headers_include_rooms_alone():
+    """OpenMesh's meshes come in through holomorph/openmesh.h alone; no header that others read knows Python."""
+    rooms = {path.stem: {include.strip('"').split("/")[0] for include in includes(path)} for path in PUBLIC.iterdir()}
+    assert set(rooms) == {"holomorph", "openmesh"}
+    assert rooms["openmesh"] == {"openmesh"}
+    assert rooms["holomorph"] <= set(ROOM_BELOW) - {"bindings", "openmesh"}
+    missing = {include for path in PUBLIC.iterdir() for include in includes(path)} - {
+        f'"{path.relative_to(NATIVE)}"' for path in NATIVE.rglob("*.h")
+    }
+    assert not missing
+
+
+def test_all_rooms_are_installed():
+    text = (ROOT / "native" / "install.cmake").read_text(encoding="utf-8")
+    (rooms,) = re.findall(r"^set\(rooms ([\w ]+)\)", text, re.MULTILINE)
+    assert sorted(rooms.split()) == sorted(set(ROOM_BELOW) - {"bindings"})
+
+
 def test_each_source_has_its_header():
     """Bindings are declared together: each defines one function."""
     sources = [path for path in cpp_files() if path.suffix == ".cpp" and path.parent.name != "bindings"]
@@ -185,7 +205,8 @@ def test_only_mesh_io_touches_mesh_arrays():
 
 
 def test_headers_fit_a_screen():
-    assert not {identify(path): count for path in NATIVE.rglob("*.h") if (count := length(path)) > HEADER_LINES}
+    headers = [*NATIVE.rglob("*.h"), *PUBLIC.iterdir()]
+    assert not {identify(path): count for path in headers if (count := length(path)) > HEADER_LINES}
 
 
 def test_long_files_are_listed():

@@ -12,10 +12,10 @@
 #include "multiresolution/paper_structure.h"
 #include "plane/disk_map.h"
 #include "plane/sphere_map.h"
+#include "structure/balanced_map.h"
 #include "structure/conformal_structure.h"
 #include "structure/punctured_structure.h"
 #include "structure/uv_forms.h"
-#include "uv/balance.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -124,16 +124,10 @@ py::array basis_forms(Structure& s) {
   return read_only(std::move(values));
 }
 
-// @param real whether the coefficients are to be real, so that boundaries stay straight
-Eigen::VectorXcd balanced_coefficients(Structure& s, bool real) {
+Eigen::VectorXcd balanced_coefficients(Structure& s) {
   Eigen::VectorXcd c;
-  s.with_forms([&](auto& forms, Execution& execution) {
-    const auto& basis = s.value.differentials;
-    const auto samples = basis.cols() > 1 ? forms.samples(execution) : uv::FormSamples();
-    c = uv::balanced_coefficients(*s.value.surface, samples, basis,
-                                  real ? uv::Coefficients::real : uv::Coefficients::complex, execution.workers());
-    c /= std::sqrt(structure::uv_area(s.value, basis * c));
-  });
+  s.with_forms(
+      [&](auto& forms, Execution& execution) { c = structure::balanced_coefficients(s.value, forms, execution); });
   return c;
 }
 

@@ -1,0 +1,33 @@
+// Conformal UV maps from holomorphic one-forms: what a C++ program needs. holomorph/openmesh.h takes OpenMesh meshes.
+//
+//   holomorph::Execution execution;  // threads and, if you like, a progress function
+//   const holomorph::structure::Options options;
+//   const auto surface = holomorph::mesh::make_surface(holomorph::mesh::read("kitten.obj"), execution);
+//   const auto part = std::make_shared<holomorph::mesh::Surface>(holomorph::mesh::component(surface, 0,
+//   execution).surface); auto structure = holomorph::structure::conformal_structure(part, options, execution);  // e.g.
+//   its period matrix const auto forms = holomorph::structure::uv_forms(structure, options); const auto c =
+//   holomorph::structure::balanced_coefficients(structure, *forms, execution); const auto uv =
+//   holomorph::structure::uv_map(structure, *forms, c, execution);  // #corners x 2
+//
+// The last four lines are holomorph::structure::balanced_map(part, options, execution). Errors are exceptions, those of
+// base/errors.h.
+#pragma once
+
+#include "base/errors.h"
+#include "base/execution.h"
+#include "mesh/components.h"
+#include "mesh/io/read.h"
+#include "mesh/make_surface.h"
+#include "mesh/surface.h"
+#include "plane/disk_map.h"
+#include "plane/rectangle.h"
+#include "plane/sphere_map.h"
+#include "progressive/levels.h"
+#include "progressive/simplify.h"
+#include "structure/balanced_map.h"
+#include "structure/conformal_structure.h"
+#include "structure/options.h"
+#include "structure/punctured_structure.h"
+#include "structure/structure.h"
+#include "structure/uv_forms.h"
+#include "uv/quality.h"

@@ -1,0 +1,99 @@
+// A surface from an OpenMesh mesh, triangles or polygons, and which element of the mesh each of its elements is.
+#pragma once
+
+#include <OpenMesh/Core/Mesh/Handles.hh>
+#include <OpenMesh/Core/Utils/vector_traits.hh>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/errors.h"
+#include "base/execution.h"
+#include "mesh/surface.h"
+
+namespace holomorph::openmesh {
+
+/// The surface's elements are the mesh's in their order, without what is deleted and without isolated vertices. So the
+/// lower vertex of an edge is that of the lower handle.
+struct SurfaceOfMesh {
+  std::shared_ptr<const mesh::Surface> surface;
+  std::vector<OpenMesh::VertexHandle> vertices;   ///< #V
+  std::vector<OpenMesh::FaceHandle> faces;        ///< #F
+  std::vector<OpenMesh::HalfedgeHandle> corners;  ///< #C inside the corner's face, ends at the corner: where OpenMesh
+                                                  ///< keeps the texture coordinate of a corner
+  std::vector<OpenMesh::HalfedgeHandle> edges;  ///< #polygon edges, from the lower to the higher vertex; the diagonals
+                                                ///< of polygons, which come after, are no edges of the mesh
+};
+
+/// @param mesh any TriMesh_ArrayKernelT or PolyMesh_ArrayKernelT, points of three floats or doubles; faces stay
+/// polygons of any number of corners, which begin with halfedge_handle(face), as fv_range does
+/// @throws InvalidMesh for links or polygons that are none (see mesh::make_surface), and for two edges with the same
+/// ends. Where elements are left out, its message says that its numbers are the surface's. Cost: linear.
+template <class Mesh>
+SurfaceOfMesh to_surface(const Mesh& mesh, Execution& execution);
+
+/// The connected components, each with the handles of the whole mesh: what the conformal structure is computed of.
+std::vector<SurfaceOfMesh> components(const SurfaceOfMesh& whole, Execution& execution);
+
+/// An element is deleted where its status says so; a mesh without status has no deleted elements.
+template <class Mesh>
+bool is_deleted(const Mesh& mesh, OpenMesh::VertexHandle v) {
+  return mesh.has_vertex_status() && mesh.status(v).deleted();
+}
+template <class Mesh>
+bool is_deleted(const Mesh& mesh, OpenMesh::FaceHandle f) {
+  return mesh.has_face_status() && mesh.status(f).deleted();
+}
+
+namespace detail {
+
+/// The surface of the handles gathered so far. @param corner_vertices the mesh's. @param left_out whether elements are
+SurfaceOfMesh finish(SurfaceOfMesh part, mesh::Polygons polygons, bool left_out, Execution& execution);
+
+/// Appends the corners of a face. @throws InvalidMesh for links that lead nowhere or to a deleted vertex
+template <class Mesh>
+void append_face(const Mesh& mesh, OpenMesh::FaceHandle f, SurfaceOfMesh& part, mesh::Polygons& polygons) {
+  const OpenMesh::HalfedgeHandle first = mesh.halfedge_handle(f);
+  OpenMesh::HalfedgeHandle h = first;
+  do {
+    const bool linked = h.is_valid() && mesh.face_handle(h) == f && part.corners.size() < mesh.n_halfedges();
+    if (!linked) throw InvalidMesh("the half-edges of face " + std::to_string(f.idx()) + " are no closed loop");
+    const OpenMesh::VertexHandle v = mesh.to_vertex_handle(h);
+    if (is_deleted(mesh, v)) {
+      throw InvalidMesh("face " + std::to_string(f.idx()) + " has the deleted vertex " + std::to_string(v.idx()));
+    }
+    part.corners.push_back(h);
+    polygons.corner_vertices.push_back(v.idx());
+    h = mesh.next_halfedge_handle(h);
+  } while (h != first);
+  part.faces.push_back(f);
+  polygons.face_offsets.push_back(static_cast<int>(part.corners.size()));
+}
+
+}  // namespace detail
+
+template <class Mesh>
+SurfaceOfMesh to_surface(const Mesh& mesh, Execution& execution) {
+  static_assert(OpenMesh::vector_traits<typename Mesh::Point>::size_ == 3, "points need three coordinates");
+  SurfaceOfMesh part;
+  mesh::Polygons polygons;
+  polygons.face_offsets.push_back(0);
+  for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
+    if (!is_deleted(mesh, OpenMesh::FaceHandle(f))) detail::append_face(mesh, OpenMesh::FaceHandle(f), part, polygons);
+  }
+  std::vector<int> number(mesh.n_vertices(), -1);
+  for (const int v : polygons.corner_vertices) number[v] = 0;
+  for (int v = 0; v < static_cast<int>(number.size()); ++v) {
+    if (number[v] < 0) continue;
+    number[v] = static_cast<int>(part.vertices.size());
+    part.vertices.emplace_back(v);
+    const auto& point = mesh.point(OpenMesh::VertexHandle(v));
+    polygons.vertices.push_back(
+        {static_cast<double>(point[0]), static_cast<double>(point[1]), static_cast<double>(point[2])});
+  }
+  for (int& v : polygons.corner_vertices) v = number[v];
+  const bool left_out = part.vertices.size() < mesh.n_vertices() || part.faces.size() < mesh.n_faces();
+  return detail::finish(std::move(part), std::move(polygons), left_out, execution);
+}
+
+}  // namespace holomorph::openmesh
