@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "forms/codifferential.h"
+#include "forms/laplacian.h"
 #include "mesh/components.h"
 #include "mesh/io/read.h"
 #include "multiresolution/paper_forms.h"

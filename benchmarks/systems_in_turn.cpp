@@ -14,6 +14,7 @@
 
 #include "linear_system.h"
 #include "mesh/io/read.h"
+#include "mesh/make_surface.h"
 #include "solver/multigrid/block_solve.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/laplace_solver.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::solver {
 

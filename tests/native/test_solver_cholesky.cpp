@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "laplacians.h"
-#include "solver/sparse_cholesky.h"
+#include "solver/direct/sparse_cholesky.h"
 
 #ifdef HOLOMORPH_WITH_OPENBLAS
 extern "C" {
@@ -54,7 +54,7 @@ TEST_P(HeldUnknowns, BothSystemsAreSolved) {
   factor.compute(lower(A), held);
   const Eigen::MatrixXd whole = positive_solution(A, B), part = positive_solution(A, B, places);
   EXPECT_LE((factor.solve(B) - whole).norm(), kRounding * whole.norm());
-  const Eigen::MatrixXd X = factor.solve_held(B);
+  const Eigen::MatrixXd X = factor.solve_fixed(B);
   EXPECT_LE((X - part).norm(), kRounding * part.norm());
   for (const int i : places) EXPECT_EQ(X.row(i).cwiseAbs().maxCoeff(), 0.0);
 }

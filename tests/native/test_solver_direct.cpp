@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "laplacians.h"
+#include "solver/direct/direct_solver.h"
 
 namespace holomorph::solver {
 namespace {

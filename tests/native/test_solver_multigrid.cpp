@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "laplacians.h"
-#include "solver/multigrid_cycle.h"
+#include "solver/direct/direct_solver.h"
+#include "solver/multigrid/cycle.h"
+#include "solver/multigrid/multigrid_solver.h"
 
 namespace holomorph::solver {
 namespace {
@@ -15,9 +17,7 @@ constexpr double kSinglePrecision = 1e-5;
 template <int K>
 class CycleMatrix {
  public:
-  CycleMatrix(const Laplacian& L, const std::vector<int>& fixed, int threads) : execution_(threads) {
-    make_hierarchy(copy_of(L), fixed, execution_.workers(), execution_, hierarchy_);
-  }
+  CycleMatrix(const Laplacian& L, const std::vector<int>& fixed, int threads) : execution_(threads), hierarchy_(make_hierarchy(L, fixed, execution_)) {}
 
   int levels() const { return static_cast<int>(hierarchy_.levels.size()); }
 
@@ -28,10 +28,9 @@ class CycleMatrix {
     for (Eigen::Index i = 0; i < R.rows(); ++i) {
       Block<K> r = Block<K>::Zero();
       for (Eigen::Index k = 0; k < R.cols(); ++k) r[k] = static_cast<float>(R(i, k));
-      cycle.start()[i] = jacobi_step<K>(hierarchy_.levels[0].omega[i], r, natural);
+      cycle.step()[i] = jacobi_step<K>(hierarchy_.levels[0].op.omega[i], r, natural);
     }
-    cycle.down();
-    cycle.up([](int, const Ahead&) {});
+    cycle.run([](int, Rows) {});
     Eigen::MatrixXd Z(R.rows(), R.cols());
     for (Eigen::Index i = 0; i < R.rows(); ++i) {
       for (Eigen::Index k = 0; k < R.cols(); ++k) Z(i, k) = cycle.result()[i][k];
