@@ -34,9 +34,9 @@ struct Structure {
   /// `use(forms, execution)` without the interpreter's lock, one call at a time.
   template <class Use>
   void with_forms(Use use, Execution::Callback callback = {}) {
+    Execution execution(threads, std::move(callback));  // it goes with the lock held: it owns Python's function
     const py::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> one_at_a_time(mutex);
-    Execution execution(threads, std::move(callback));
     use(*forms, execution);
   }
 };
