@@ -7,8 +7,8 @@
 #include <random>
 
 #include "forms/laplacian.h"
-#include "mesh/intrinsic_triangulation.h"
 #include "mesh/delaunay.h"
+#include "mesh/intrinsic_triangulation.h"
 
 namespace holomorph::benchmarks {
 

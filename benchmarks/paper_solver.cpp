@@ -8,8 +8,8 @@
 #include "forms/laplacian.h"
 #include "mesh/components.h"
 #include "mesh/io/read.h"
-#include "multiresolution/paper_forms.h"
 #include "mesh/make_surface.h"
+#include "multiresolution/paper_forms.h"
 #include "progressive/simplify.h"
 #include "topology/fundamental_domain.h"
 

@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "mesh/io/read.h"
-#include "progressive/progressive_mesh.h"
 #include "mesh/make_surface.h"
 #include "progressive/levels.h"
+#include "progressive/progressive_mesh.h"
 #include "progressive/simplify.h"
 
 namespace {

@@ -3,11 +3,10 @@
 import re
 
 import families
+import holomorph
 import numpy as np
 import pytest
 from programs import run
-
-import holomorph
 
 # Part of a unit: with it positions are the same in single and in double precision, and in text.
 GRAIN = 1024.0

@@ -17,7 +17,8 @@ constexpr double kSinglePrecision = 1e-5;
 template <int K>
 class CycleMatrix {
  public:
-  CycleMatrix(const Laplacian& L, const std::vector<int>& fixed, int threads) : execution_(threads), hierarchy_(make_hierarchy(L, fixed, execution_)) {}
+  CycleMatrix(const Laplacian& L, const std::vector<int>& fixed, int threads)
+      : execution_(threads), hierarchy_(make_hierarchy(L, fixed, execution_)) {}
 
   int levels() const { return static_cast<int>(hierarchy_.levels.size()); }
 
