@@ -42,6 +42,43 @@ int farthest(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, co
   return -1;
 }
 
+std::string label(const Punctures& punctures, int vertex) {
+  return std::to_string(punctures.names.empty() ? vertex : punctures.names[vertex]);
+}
+
+void check_vertices(const Punctures& punctures, int vertex_count, bool closed) {
+  const auto& vertices = punctures.vertices;
+  std::vector<char> met(vertex_count, 0);
+  for (const int v : vertices) {
+    if (v < 0 || v >= vertex_count)
+      throw TopologyError("puncture " + std::to_string(v) + " is no vertex: there are " + std::to_string(vertex_count));
+    if (std::exchange(met[v], 1)) throw TopologyError("puncture " + label(punctures, v) + " is given twice");
+  }
+  if (closed && vertices.size() == 1) {
+    throw TopologyError("puncture " + label(punctures, vertices[0]) +
+                        " is the only one: a closed surface needs two or more, as the residues sum to 0");
+  }
+}
+
+void check_residues(const Punctures& punctures, bool closed) {
+  const auto& residues = punctures.residues;
+  if (residues.size() != punctures.vertices.size()) {
+    throw TopologyError("there are " + std::to_string(residues.size()) + " residues for " +
+                        std::to_string(punctures.vertices.size()) + " punctures");
+  }
+  std::complex<double> sum = 0;
+  double size = 0;
+  for (std::size_t i = 0; i < residues.size(); ++i) {
+    if (!(std::abs(residues[i]) > 0) || !std::isfinite(std::abs(residues[i])))
+      throw TopologyError("residue " + std::to_string(i) + " is " + text(residues[i]) +
+                          "; finite numbers other than 0 are needed");
+    sum += residues[i];
+    size += std::abs(residues[i]);
+  }
+  if (closed && std::abs(sum) > kSumTolerance * size)
+    throw TopologyError("the residues sum to " + text(sum) + "; on a closed surface they must sum to 0");
+}
+
 }  // namespace
 
 std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
@@ -94,35 +131,8 @@ std::vector<std::complex<double>> default_residues(const mesh::Surface& surface,
 }
 
 void check_punctures(const Punctures& punctures, int vertex_count, bool closed) {
-  const auto& [vertices, residues, names] = punctures;
-  std::vector<char> met(vertex_count, 0);
-  for (const int v : vertices) {
-    if (v < 0 || v >= vertex_count)
-      throw TopologyError("puncture " + std::to_string(v) + " is no vertex: there are " + std::to_string(vertex_count));
-    if (std::exchange(met[v], 1))
-      throw TopologyError("puncture " + std::to_string(names.empty() ? v : names[v]) + " is given twice");
-  }
-  if (closed && vertices.size() == 1) {
-    const int v = vertices[0];
-    throw TopologyError("puncture " + std::to_string(names.empty() ? v : names[v]) +
-                        " is the only one: a closed surface needs two or more, as the residues sum to 0");
-  }
-  if (residues.empty()) return;
-  if (residues.size() != vertices.size()) {
-    throw TopologyError("there are " + std::to_string(residues.size()) + " residues for " +
-                        std::to_string(vertices.size()) + " punctures");
-  }
-  std::complex<double> sum = 0;
-  double size = 0;
-  for (std::size_t i = 0; i < residues.size(); ++i) {
-    if (!(std::abs(residues[i]) > 0) || !std::isfinite(std::abs(residues[i])))
-      throw TopologyError("residue " + std::to_string(i) + " is " + text(residues[i]) +
-                          "; finite numbers other than 0 are needed");
-    sum += residues[i];
-    size += std::abs(residues[i]);
-  }
-  if (closed && std::abs(sum) > kSumTolerance * size)
-    throw TopologyError("the residues sum to " + text(sum) + "; on a closed surface they must sum to 0");
+  check_vertices(punctures, vertex_count, closed);
+  if (!punctures.residues.empty()) check_residues(punctures, closed);
 }
 
 }  // namespace holomorph::structure

@@ -40,6 +40,14 @@ topology::IntegerForms pole_classes(const Topology& topology) {
   return classes;
 }
 
+forms::Poles poles_of(const Structure& s, const mesh::HalfEdges& half_edges, std::span<const double> lengths,
+                      const Array<double>& weights) {
+  const auto stars = static_cast<Eigen::Index>(s.stars.size());
+  return {s.stars, forms::pole_residues(stars, s.topology.type.closed()), pole_classes(s.topology),
+          forms::singular_part(half_edges, lengths, s.stars),
+          forms::outer_weights(half_edges, lengths, weights, s.stars)};
+}
+
 // Behind the harmonic functions those of the poles.
 void append(const forms::PoleFunctions& poles, forms::RowMajorMatrix& functions) {
   forms::RowMajorMatrix all(poles.u.rows(), functions.cols() + poles.u.cols() + poles.v.cols());
@@ -138,10 +146,7 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
 
   execution.stage("solver", 0.25, 0.4);
   const auto weights = mesh::cotangent_weights(triangulation, execution);
-  forms::Poles poles{result.stars, forms::pole_residues(static_cast<Eigen::Index>(vertices.size()), closed),
-                     pole_classes(result.topology),
-                     forms::singular_part(half_edges, triangulation.lengths, result.stars),
-                     forms::outer_weights(half_edges, triangulation.lengths, weights, result.stars)};
+  const auto poles = poles_of(result, half_edges, triangulation.lengths, weights);
   const auto fixed = mesh::boundary_vertices(result.topology.boundary);
   result.memory = plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), families.count()},
                               options.solver, options.memory_limit, Keeping::all);
