@@ -51,6 +51,18 @@ def test_seams_shift_by_whole_periods(sides):
     assert forms.shape == (1, len(structure.edges)) and np.array_equal(np.isnan(forms[0]), spoke)
 
 
+@pytest.mark.parametrize("sides", SIDES)
+def test_the_averaged_star_is_that_of_the_mesh_itself(sides):
+    """Not of its truncation, which has more edges."""
+    surface, structure = solved(sides)
+    height = surface.vertices[:, 2]
+    tails, heads = structure.edges.T
+    star = structure.averaged_star(height[heads] - height[tails])
+    assert star.shape == (len(structure.edges),)
+    assert np.isfinite(star).all() and np.abs(star).max() <= np.abs(surface.vertices).max() * len(structure.edges)
+    assert np.array_equal(structure.averaged_star(2 * (height[heads] - height[tails])), 2 * star)
+
+
 def test_the_truncated_mesh_is_the_same_surface():
     vertices, faces = pyramid(5)
     surface = holomorph.Surface(vertices, faces).components[0]
