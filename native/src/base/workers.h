@@ -37,7 +37,7 @@ class Workers {
   }
 
  private:
-  static constexpr int kTooFew = 2;  // of the usual size: less work than waking a thread
+  static constexpr int kTooFew = 2;  // chunks: less work than waking a thread
   struct Call {
     void (*function)(const void*, int, int) = nullptr;
     const void* task = nullptr;
