@@ -1,0 +1,64 @@
+// A surface as the search for poles sees it: its holomorphic forms and the differentials of the third kind with a pole
+// at any vertex, on samples spread over the area.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "structure/harmonic_systems.h"
+#include "structure/options.h"
+#include "structure/structure.h"
+#include "uv/log_variance.h"
+
+namespace holomorph::tiling {
+
+/// Everything on the surface's own triangles.
+class Landscape {
+ public:
+  /// @pre connected, no isolated vertices. @throws SolverError, Cancelled
+  Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, Execution& execution);
+  Landscape(const Landscape&) = delete;
+  Landscape& operator=(const Landscape&) = delete;
+
+  const mesh::Surface& surface() const { return *structure_.surface; }
+  const mesh::HalfEdges& half_edges() const { return half_edges_; }
+  const Array<double>& lengths() const { return lengths_; }
+  const Array<double>& weights() const { return weights_; }
+  double area() const { return area_; }
+  bool closed() const { return structure_.topology.type.closed(); }
+
+  /// Harmonic forms, differentials theta_j and period matrix of the surface without poles.
+  const structure::Structure& structure() const { return structure_; }
+  const forms::ClosedForms& harmonic() const { return harmonic_; }
+  int form_count() const { return static_cast<int>(structure_.differentials.cols()); }
+
+  /// theta_j on the samples: A, and B of the discretisation (uv/log_variance.h).
+  const uv::SampledParts& holomorphic() const { return holomorphic_; }
+  const std::vector<int>& samples() const { return samples_; }
+
+  /// #samples x #vertices: A of the differentials with the residue 1 at each vertex and v single-valued; with boundary
+  /// v = 0 there; closed, the residue -1 is spread over the area, so that it cancels where residues sum to 0.
+  /// Solved for once for each vertex and kept. @throws SolverError, Cancelled
+  Eigen::MatrixXcd poles(const std::vector<int>& vertices, Execution& execution);
+
+  /// #triangles x #harmonic forms: h_x - i h_y of the harmonic forms on triangles, x along side 0.
+  Eigen::MatrixXcd derivatives(const std::vector<int>& triangles) const;
+
+ private:
+  void solve_for(const std::vector<int>& vertices, Execution& execution);
+
+  structure::Structure structure_;
+  mesh::HalfEdges half_edges_;
+  Array<double> lengths_, weights_;
+  std::vector<double> vertex_share_;  // #V of the area
+  double area_ = 0;
+  std::unique_ptr<structure::HarmonicSystems> systems_;
+  forms::ClosedForms harmonic_;
+  std::vector<int> samples_;
+  uv::SampledParts holomorphic_;
+  std::unordered_map<int, Eigen::VectorXcd> pole_parts_;
+};
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,33 @@
+#include "tiling/leverage.h"
+
+#include <Eigen/LU>
+
+namespace holomorph::tiling {
+
+using Complex = std::complex<double>;
+
+Leverage::Leverage(const Landscape& landscape) : landscape_(landscape) {
+  const auto& theta = landscape.structure().differentials;
+  Eigen::MatrixXcd both(theta.rows(), 2 * theta.cols());
+  both << theta, theta.conjugate();
+  split_ = both.inverse();
+  inverse_wedge_ = landscape.structure().topology.pairing.cast<double>().inverse();
+}
+
+Eigen::MatrixXcd Leverage::abel_jacobi_derivatives(const std::vector<int>& triangles) const {
+  return inverse_wedge_ * landscape_.derivatives(triangles).transpose();
+}
+
+// X loses r Pi: Re and Im of dz move it by -r Re and r Im of the derivative, and t follows conj(dz) alone.
+Eigen::MatrixXcd Leverage::tau(const std::vector<int>& triangles) const {
+  const auto g = landscape_.form_count();
+  return -(split_.bottomRows(g) * abel_jacobi_derivatives(triangles).real().cast<Complex>());
+}
+
+Eigen::MatrixXcd weighted_gram(const Eigen::MatrixXcd& theta, const Eigen::ArrayXd& density) {
+  const Eigen::ArrayXd weight =
+      1 / ((density + uv::kDensityFloor * density.mean()) * static_cast<double>(density.size()));
+  return theta.transpose() * weight.matrix().cast<Complex>().asDiagonal() * theta.conjugate();
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,375 @@
+#include "tiling/pole_placement.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "base/chunks.h"
+#include "base/errors.h"
+#include "mesh/graph_distances.h"
+#include "structure/puncture_choice.h"
+#include "tiling/leverage.h"
+#include "uv/balance.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::VectorXcd;
+
+constexpr int kThinning = 2;           // every second sample is enough for the search
+constexpr double kApart = 0.06;        // poles are this far from each other, in square roots of the area
+constexpr int kSpread = 200;           // candidates all over the surface
+constexpr int kNear = 40;              // candidates around a pole, in balls of these radii:
+constexpr double kBalls[] = {0.3, 0.15, 0.08, 0.04};
+constexpr int kTried = 3, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
+constexpr int kSweeps = 3;
+constexpr double kLeverage = 0.02, kEnough = 0.4;  // weight of the leverage; singular values that are enough
+constexpr double kGain = 1e-3;                     // less is no gain
+constexpr int kSteps = 40;                         // of the minimiser
+// Residues that a new pole is tried with, relative to the root of mean density times area.
+constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
+constexpr int kTrialPhases = 6;
+const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor}, kFromNear = {uv::kDensityFloor};
+
+MatrixXcd thinned(const MatrixXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning), Eigen::all); }
+
+class Search {
+ public:
+  Search(Landscape& landscape, const PlacementRules& rules, Execution& execution)
+      : landscape_(landscape),
+        rules_(rules),
+        execution_(execution),
+        theta_(thinned(landscape.holomorphic().M)),
+        distance_(kApart * std::sqrt(landscape.area())) {
+    if (landscape.closed() && landscape.form_count() > 0) leverage_.emplace(landscape);
+    first_triangle_.assign(landscape.surface().vertex_count, -1);
+    for (int t = static_cast<int>(landscape.surface().triangles.size()) - 1; t >= 0; --t) {
+      for (const int v : landscape.surface().triangles[t]) first_triangle_[v] = t;
+    }
+  }
+
+  // The best form with these poles, from the coefficients given. @pre their columns and leverage are prepared
+  void optimise(Poles& poles, const std::vector<double>& floors) {
+    const uv::SampledParts parts{columns(poles.vertices), {}};
+    Eigen::VectorXd x = uv::as_unknowns(unknowns(poles), rules_.kind);
+    uv::descend(parts, rules_.kind, x, floors, kSteps);
+    set(uv::as_complex(x, rules_.kind), poles);
+    poles.variance = objective(poles, (parts.M * unknowns(poles)).cwiseAbs2().array());
+  }
+
+  Poles begin() {
+    Poles poles;
+    poles.vertices = rules_.fixed;
+    if (poles.vertices.empty() && landscape_.form_count() == 0) poles.vertices = first_poles();
+    const auto k = static_cast<Index>(poles.vertices.size());
+    poles.residues = VectorXcd::Ones(k);
+    if (landscape_.closed() && k > 0) poles.residues[k - 1] = -static_cast<double>(k - 1);
+    poles.coefficients = VectorXcd::Zero(landscape_.form_count());
+    if (landscape_.form_count() > 0 && k == 0) {
+      const uv::SampledParts parts{theta_, thinned(landscape_.holomorphic().N)};
+      poles.coefficients = landscape_.form_count() == 1
+                               ? VectorXcd::Ones(1)
+                               : uv::lowest_variance(parts, rules_.kind, execution_.workers());
+    }
+    prepare_leverage(poles.vertices);
+    optimise(poles, kFromAfar);
+    return poles;
+  }
+
+  Poles with_one_more(const Poles& poles) {
+    std::vector<Trial> trials = trials_everywhere(poles);
+    std::vector<Poles> tried;
+    for (const Trial& trial : trials) {
+      if (static_cast<int>(tried.size()) == kTried) break;
+      const bool known = std::any_of(tried.begin(), tried.end(),
+                                     [&](const Poles& p) { return p.vertices.back() == trial.vertex; });
+      if (!known) tried.push_back(joined(poles, trial));
+    }
+    if (tried.empty()) throw TopologyError("no vertex is left for another pole: its star must be apart from those of the others");
+    landscape_.poles(vertices_of(tried), execution_);
+    prepare_leverage(vertices_of(tried));
+    run_throwing(execution_.workers(), static_cast<int>(tried.size()), [&](int i) { optimise(tried[i], kFromAfar); });
+    return best(std::move(tried));
+  }
+
+  // One sweep over all poles; whether one moved.
+  bool sweep(Poles& poles) {
+    bool moved = false;
+    for (Index i = 0; i < poles.residues.size(); ++i) {
+      execution_.report(static_cast<double>(i) / static_cast<double>(poles.residues.size()));
+      if (std::find(rules_.fixed.begin(), rules_.fixed.end(), poles.vertices[i]) != rules_.fixed.end()) continue;
+      std::vector<int> candidates = spread();
+      std::vector<int> around = near(poles.vertices[i]);
+      candidates.insert(candidates.end(), around.begin(), around.end());
+      moved |= exchange(poles, i, candidates);
+    }
+    return moved;
+  }
+
+ private:
+  struct Trial {
+    double value;
+    int vertex;
+    Complex residue;
+  };
+
+  static std::vector<int> vertices_of(const std::vector<Poles>& list) {
+    std::vector<int> all;
+    for (const Poles& poles : list) all.insert(all.end(), poles.vertices.begin(), poles.vertices.end());
+    return all;
+  }
+
+  static Poles best(std::vector<Poles> list) {
+    return *std::min_element(list.begin(), list.end(),
+                             [](const Poles& a, const Poles& b) { return a.variance < b.variance; });
+  }
+
+  MatrixXcd pole_columns(const std::vector<int>& vertices) {
+    return thinned(landscape_.poles(vertices, execution_));
+  }
+
+  // Closed: the last pole takes the rest.
+  MatrixXcd columns(const std::vector<int>& vertices) {
+    MatrixXcd poles = pole_columns(vertices);
+    if (landscape_.closed() && poles.cols() > 0)
+      poles = (poles.leftCols(poles.cols() - 1).colwise() - poles.col(poles.cols() - 1)).eval();
+    MatrixXcd all(theta_.rows(), theta_.cols() + poles.cols());
+    all << theta_, poles;
+    return all;
+  }
+
+  VectorXcd unknowns(const Poles& poles) const {
+    const Index free = std::max<Index>(0, poles.residues.size() - (landscape_.closed() ? 1 : 0));
+    VectorXcd x(poles.coefficients.size() + free);
+    x << poles.coefficients, poles.residues.head(free);
+    return x;
+  }
+
+  void set(const VectorXcd& x, Poles& poles) const {
+    const Index n = poles.coefficients.size(), free = x.size() - n;
+    poles.coefficients = x.head(n);
+    poles.residues.head(free) = x.tail(free);
+    if (poles.residues.size() > free) poles.residues[free] = -x.tail(free).sum();
+  }
+
+  double objective(const Poles& poles, const Eigen::ArrayXd& density) {
+    return uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, density);
+  }
+
+  // kLeverage sum log(1 + (kEnough / sigma)^2) over the singular values of [r_i tau_i] in the weighted Gram matrix.
+  double leverage_term(const std::vector<int>& vertices, const VectorXcd& residues, const Eigen::ArrayXd& density) {
+    const auto g = theta_.cols();
+    if (!leverage_ || residues.size() < g) return 0;
+    MatrixXcd rows(g, residues.size());
+    for (Index i = 0; i < residues.size(); ++i) rows.col(i) = residues[i] * tau_.at(vertices[i]);
+    const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
+    const MatrixXcd V = metric.matrixU() * rows * std::sqrt(landscape_.area());
+    MatrixXcd S = V * V.adjoint();
+    S += 1e-9 * MatrixXcd::Identity(g, g);
+    const MatrixXcd sum = S + kEnough * kEnough * MatrixXcd::Identity(g, g);
+    return kLeverage * (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
+  }
+
+  // Before threads look it up.
+  void prepare_leverage(std::vector<int> vertices) {
+    if (!leverage_) return;
+    std::erase_if(vertices, [&](int v) { return tau_.contains(v); });
+    std::vector<int> triangles;
+    for (const int v : vertices) triangles.push_back(first_triangle_[v]);
+    const MatrixXcd tau = leverage_->tau(triangles);
+    for (std::size_t i = 0; i < vertices.size(); ++i) tau_.emplace(vertices[i], tau.col(static_cast<Index>(i)));
+  }
+
+  std::vector<int> first_poles() {
+    if (landscape_.closed()) return structure::far_apart(landscape_.surface(), landscape_.half_edges());
+    return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
+  }
+
+  bool is_allowed(int vertex) const { return rules_.allowed.empty() || rules_.allowed[vertex]; }
+
+  // #V: 1 where no further pole may be, so that stars are apart and poles not too near to each other.
+  std::vector<char> taken(const std::vector<int>& vertices) {
+    std::vector<char> marks(landscape_.surface().vertex_count, 0);
+    for (const int v : vertices) {
+      mesh::mark_star(landscape_.surface(), landscape_.half_edges(), v, marks);
+      const auto& distance = distances(v);
+      for (std::size_t u = 0; u < marks.size(); ++u) {
+        if (distance[u] < distance_) marks[u] = 1;
+      }
+    }
+    return marks;
+  }
+
+  const std::vector<double>& distances(int vertex) {
+    auto& found = distances_[vertex];
+    if (found.empty()) found = mesh::graph_distances(landscape_.half_edges(), landscape_.lengths(), {vertex});
+    return found;
+  }
+
+  bool is_free(int vertex, const std::vector<char>& taken) const {
+    return is_allowed(vertex) && !taken[vertex] &&
+           mesh::has_free_star(landscape_.surface(), landscape_.half_edges(), vertex, taken);
+  }
+
+  static std::vector<int> evenly(const std::vector<int>& list, int count) {
+    if (static_cast<int>(list.size()) <= count) return list;
+    std::vector<int> some;
+    for (int i = 0; i < count; ++i) some.push_back(list[static_cast<std::size_t>(i) * list.size() / count]);
+    return some;
+  }
+
+  // Corners of evenly spaced samples.
+  std::vector<int> spread() const {
+    std::vector<int> corners;
+    for (const int t : evenly(landscape_.samples(), kSpread)) {
+      for (const int v : landscape_.surface().triangles[t]) {
+        if (is_allowed(v)) {
+          corners.push_back(v);
+          break;
+        }
+      }
+    }
+    return corners;
+  }
+
+  std::vector<int> near(int vertex) {
+    std::vector<int> all;
+    const auto& distance = distances(vertex);
+    for (const double ball : kBalls) {
+      std::vector<int> inside;
+      const double radius = ball * std::sqrt(landscape_.area());
+      for (int v = 0; v < static_cast<int>(distance.size()); ++v) {
+        if (distance[v] < radius && v != vertex && is_allowed(v)) inside.push_back(v);
+      }
+      const auto some = evenly(inside, kNear);
+      all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+  }
+
+  static void make_distinct(std::vector<int>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+
+  // All candidates with all trial residues beside the form as it is, the best first.
+  std::vector<Trial> trials_everywhere(const Poles& poles) {
+    const std::vector<char> marks = taken(poles.vertices);
+    std::vector<int> candidates = spread();
+    std::erase_if(candidates, [&](int v) { return !is_free(v, marks); });
+    make_distinct(candidates);
+    const MatrixXcd green = pole_columns(candidates);
+    const VectorXcd A = columns(poles.vertices) * unknowns(poles);
+    const double scale = std::sqrt(A.cwiseAbs2().mean() * landscape_.area());
+    const int phases = rules_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
+    std::vector<Trial> trials;
+    for (const int v : candidates) {
+      for (const double size : kTrialSizes) {
+        for (int j = 0; j < phases; ++j)
+          trials.push_back({0, v, std::polar(size * scale, 2 * std::numbers::pi * j / phases)});
+      }
+    }
+    const int each = static_cast<int>(std::size(kTrialSizes)) * phases;
+    run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int i) {
+      for (int j = i * each; j < (i + 1) * each; ++j)
+        trials[j].value = uv::log_variance((A + trials[j].residue * green.col(i)).cwiseAbs2().array());
+    });
+    std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.value < b.value; });
+    return trials;
+  }
+
+  // With the trial's pole; the others share what it needs on a closed surface.
+  Poles joined(const Poles& poles, const Trial& trial) const {
+    Poles more = poles;
+    const Index k = poles.residues.size();
+    if (landscape_.closed() && k > 0) more.residues.array() -= trial.residue / static_cast<double>(k);
+    more.vertices.push_back(trial.vertex);
+    more.residues.conservativeResize(k + 1);
+    more.residues[k] = landscape_.closed() && k == 0 ? 0 : trial.residue;
+    return more;
+  }
+
+  // Scores all candidates for pole i with everything else as it is, and optimises the best ones.
+  bool exchange(Poles& poles, Index i, std::vector<int> candidates) {
+    std::vector<int> others = poles.vertices;
+    others.erase(others.begin() + i);
+    const std::vector<char> marks = taken(others);
+    std::erase_if(candidates, [&](int v) { return v == poles.vertices[i] || !is_free(v, marks); });
+    make_distinct(candidates);
+    if (candidates.empty()) return false;
+    const MatrixXcd green = pole_columns(candidates);
+    const VectorXcd without = columns(poles.vertices) * unknowns(poles) -
+                              poles.residues[i] * pole_columns({poles.vertices[i]}).col(0);
+    prepare_leverage(candidates);
+    prepare_leverage(poles.vertices);
+    std::vector<std::pair<double, int>> scores(candidates.size());
+    run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
+      std::vector<int> vertices = poles.vertices;
+      vertices[i] = candidates[j];
+      const Eigen::ArrayXd density = (without + poles.residues[i] * green.col(j)).cwiseAbs2().array();
+      scores[j] = {uv::log_variance(density) + leverage_term(vertices, poles.residues, density), candidates[j]};
+    });
+    std::sort(scores.begin(), scores.end());
+    std::vector<Poles> tried;
+    for (int j = 0; j < std::min<int>(kRefined, static_cast<int>(scores.size())); ++j) {
+      tried.push_back(poles);
+      tried.back().vertices[i] = scores[j].second;
+    }
+    run_throwing(execution_.workers(), static_cast<int>(tried.size()), [&](int j) { optimise(tried[j], kFromNear); });
+    Poles found = best(std::move(tried));
+    if (found.variance > poles.variance * (1 - kGain)) return false;
+    poles = std::move(found);
+    return true;
+  }
+
+  Landscape& landscape_;
+  const PlacementRules& rules_;
+  Execution& execution_;
+  MatrixXcd theta_;
+  double distance_;
+  std::optional<Leverage> leverage_;
+  std::vector<int> first_triangle_;
+  std::map<int, VectorXcd> tau_;
+  std::map<int, std::vector<double>> distances_;
+};
+
+}  // namespace
+
+Poles without_more_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
+  return Search(landscape, rules, execution).begin();
+}
+
+Poles exchanged(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {
+  Search search(landscape, rules, execution);
+  for (int i = 0; i < kSweeps && search.sweep(start); ++i) execution.report(static_cast<double>(i) / kSweeps);
+  return start;
+}
+
+Poles with_more_poles(Landscape& landscape, const PlacementRules& rules, Poles start, int count,
+                      Execution& execution) {
+  Search search(landscape, rules, execution);
+  while (static_cast<int>(start.vertices.size()) < count) start = search.with_one_more(start);
+  return exchanged(landscape, rules, std::move(start), execution);
+}
+
+Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution) {
+  return (landscape.holomorphic().M * poles.coefficients + landscape.poles(poles.vertices, execution) * poles.residues)
+      .cwiseAbs2()
+      .array();
+}
+
+double density_ratio(const Eigen::ArrayXd& density) {
+  std::vector<double> sorted(density.begin(), density.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = [&](double q) { return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))]; };
+  return at(0.95) / at(0.05);
+}
+
+}  // namespace holomorph::tiling

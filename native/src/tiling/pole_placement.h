@@ -1,0 +1,43 @@
+// Where poles go so that the texture density becomes even.
+#pragma once
+
+#include <vector>
+
+#include "tiling/landscape.h"
+
+namespace holomorph::tiling {
+
+/// theta_0 = sum_j c_j theta_j + sum_i r_i omega_i; its scale is free.
+struct Poles {
+  std::vector<int> vertices;
+  Eigen::VectorXcd coefficients;  ///< c_j
+  Eigen::VectorXcd residues;      ///< r_i; they sum to 0 on a closed surface
+  double variance = 0;            ///< of log |theta_0|^2 over the area, floored
+};
+
+struct PlacementRules {
+  uv::Coefficients kind = uv::Coefficients::complex;
+  std::vector<char> allowed;  ///< #V of the landscape: may a pole be there; empty: anywhere
+  std::vector<int> fixed;     ///< poles that stay where they are
+};
+
+/// The most even form without further poles: the basis alone, or with the fixed poles.
+/// @throws TopologyError where the surface has no form without poles and no two vertices far apart
+Poles without_more_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution);
+
+/// Adds poles one by one where they help most, until there are `count`, then moves each in turn to where the density
+/// becomes more even, until nothing is gained. On a closed surface with handles a small term keeps the poles where
+/// moving them can take up the rounding of the periods (leverage.h).
+/// @throws TopologyError if no vertex is left whose star is apart from those of the others; Cancelled
+Poles with_more_poles(Landscape& landscape, const PlacementRules& rules, Poles start, int count, Execution& execution);
+
+/// Moves poles without adding any.
+Poles exchanged(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution);
+
+/// |theta_0|^2 on the samples.
+Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution);
+
+/// 95 % over 5 % quantile.
+double density_ratio(const Eigen::ArrayXd& density);
+
+}  // namespace holomorph::tiling

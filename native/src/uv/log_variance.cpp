@@ -1,0 +1,154 @@
+#include "uv/log_variance.h"
+
+#include <algorithm>
+#include <complex>
+
+#include "mesh/half_edges.h"
+#include "mesh/triangle_geometry.h"
+#include "uv/minimise.h"
+
+namespace holomorph::uv {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+constexpr int kSamples = 3000;     // triangles on which the density is sampled, evenly spaced by area
+constexpr double kDistortion = 3;  // weight of the distortion against the variance
+
+// A triangle in the plane: corner 0 at 0, corner 1 at a > 0, corner 2 at x + i y.
+struct Placed {
+  double a, x, y;
+
+  Placed(const mesh::Surface& surface, int triangle) {
+    const auto [side0, side1, side2] = surface.triangle_edges[triangle];
+    a = surface.edge_lengths[side0];
+    const double b = surface.edge_lengths[side1], c = surface.edge_lengths[side2];
+    x = (a * a + (c - b) * (c + b)) / (2 * a);
+    y = 2 * mesh::triangle_area(a, b, c) / a;
+  }
+
+  // h_x - i h_y of forms with the values h(e0), h(e1) on sides 0 and 1: h(e0) = a h_x, h(e0) + h(e1) = x h_x + y h_y
+  template <class Row0, class Row1>
+  Eigen::RowVectorXcd derivative(const Row0& on_side0, const Row1& on_side1) const {
+    if (!(y > 0)) return Eigen::RowVectorXcd::Zero(on_side0.size());
+    const Eigen::RowVectorXd h_x = on_side0 / a, h_y = (on_side0 + on_side1 - x * h_x) / y;
+    return h_x.cast<Complex>() - Complex(0, 1) * h_y.cast<Complex>();
+  }
+};
+
+}  // namespace
+
+// Triangles at kSamples equal steps through the total area.
+std::vector<int> sample_triangles(const mesh::Surface& surface) {
+  const std::size_t count = surface.triangles.size();
+  std::vector<double> until(count);
+  double total = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto& s = surface.triangle_edges[t];
+    total += mesh::triangle_area(surface.edge_lengths[s[0]], surface.edge_lengths[s[1]], surface.edge_lengths[s[2]]);
+    until[t] = total;
+  }
+  std::vector<int> samples;
+  for (int i = 0; i < kSamples; ++i) {
+    const double at = total * (i + 0.5) / kSamples;
+    samples.push_back(static_cast<int>(std::min<std::ptrdiff_t>(
+        std::lower_bound(until.begin(), until.end(), at) - until.begin(), static_cast<std::ptrdiff_t>(count) - 1)));
+  }
+  return samples;
+}
+
+forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const forms::ClosedForms& forms,
+                                      const std::vector<int>& triangles) {
+  const mesh::Sides side(surface);
+  forms::RowMajorMatrix values(2 * static_cast<Eigen::Index>(triangles.size()), forms.functions.cols());
+  Eigen::Index row = 0;
+  for (const int t : triangles) {
+    for (const int i : {0, 1}) {
+      const mesh::HalfedgeHandle h = side(t, i);
+      values.row(row++) = mesh::sign(h) * forms::edge_values(surface, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
+    }
+  }
+  return values;
+}
+
+// For a harmonic form h, A = (h_x - i h_y) / 2, and B = conj(A).
+SampledParts sampled_parts(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis) {
+  Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples.triangles.size()), samples.on_sides.cols());
+  for (Eigen::Index s = 0; s < parts.rows(); ++s) {
+    const Placed placed(surface, samples.triangles[s]);
+    parts.row(s) = 0.5 * placed.derivative(samples.on_sides.row(2 * s), samples.on_sides.row(2 * s + 1));
+  }
+  return {parts * basis, parts.conjugate() * basis};
+}
+
+// du + i dv = A dz with A = v_y + i v_x.
+Eigen::MatrixXcd parts_of_imaginary(const mesh::Surface& surface, const std::vector<int>& triangles,
+                                    const forms::RowMajorMatrix& v) {
+  Eigen::MatrixXcd parts(static_cast<Eigen::Index>(triangles.size()), v.cols());
+  for (Eigen::Index s = 0; s < parts.rows(); ++s) {
+    const auto [p, q, r] = surface.triangles[triangles[s]];
+    const Placed placed(surface, triangles[s]);
+    parts.row(s) = Complex(0, 1) * placed.derivative(v.row(q) - v.row(p), v.row(r) - v.row(q));
+  }
+  return parts;
+}
+
+VectorXcd as_complex(const VectorXd& x, Coefficients kind) {
+  const auto g = kind == Coefficients::real ? x.size() : x.size() / 2;
+  VectorXcd c = VectorXcd::Zero(g);
+  c.real() = x.head(g);
+  if (kind == Coefficients::complex) c.imag() = x.tail(g);
+  return c;
+}
+
+VectorXd as_unknowns(const VectorXcd& c, Coefficients kind) {
+  if (kind == Coefficients::real) return c.real();
+  VectorXd x(2 * c.size());
+  x << c.real(), c.imag();
+  return x;
+}
+
+double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
+  const VectorXcd c = as_complex(x, kind_);
+  const VectorXcd A = parts_.M * c;
+  const Eigen::ArrayXd q = A.cwiseAbs2().array();
+  const double mean = q.mean(), count = static_cast<double>(q.size());
+  const Eigen::ArrayXd y = (q / mean + floor_).log(), deviation = y - y.mean();
+  const Eigen::ArrayXd inverse = 1 / (q + floor_ * mean);
+  // Derivatives by q and b of each sample, and through the mean, which is the same for all samples.
+  double value = deviation.square().mean(), through_mean = -2 * (deviation * q * inverse).mean() / mean;
+  Eigen::ArrayXd by_q = 2 * deviation * inverse;
+  VectorXcd by_c = VectorXcd::Zero(c.size());
+  if (parts_.N.rows() > 0) {
+    const VectorXcd B = parts_.N * c;
+    const Eigen::ArrayXd b = B.cwiseAbs2().array(), sum = 1 / (q + b + floor_ * mean), r = b * sum;
+    value += kDistortion * r.mean();
+    through_mean -= kDistortion * floor_ * (r * sum).mean();
+    by_q -= kDistortion * r * sum;
+    const Eigen::ArrayXd by_b = kDistortion * (1 - r) * sum / count;
+    by_c += 2 * (parts_.N.adjoint() * (by_b.cast<Complex>() * B.array()).matrix());
+  }
+  by_q = (by_q + through_mean) / count;
+  by_c += 2 * (parts_.M.adjoint() * (by_q.cast<Complex>() * A.array()).matrix());
+  gradient = as_unknowns(by_c, kind_);
+  return value;
+}
+
+double log_variance(const Eigen::ArrayXd& q) {
+  const Eigen::ArrayXd y = (q / q.mean() + kDensityFloor).log();
+  return (y - y.mean()).square().mean();
+}
+
+double descend(const SampledParts& parts, Coefficients kind, VectorXd& x, const std::vector<double>& floors,
+               int most_steps) {
+  double variance = INFINITY;
+  for (const double floor : floors) {
+    variance = minimise(LogVariance(parts, kind, floor), x, most_steps);
+    x.normalize();  // the variance does not depend on the scale
+  }
+  return variance;
+}
+
+}  // namespace holomorph::uv

@@ -1,0 +1,64 @@
+// How uneven the texture density of a form is: the variance of its logarithm on samples of the surface.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "forms/closed_forms.h"
+#include "mesh/surface.h"
+
+namespace holomorph::uv {
+
+/// Samples of forms: their values on two sides of a few thousand triangles.
+struct FormSamples {
+  std::vector<int> triangles;      ///< evenly spaced by area; all of them on a small surface, some more than once
+  forms::RowMajorMatrix on_sides;  ///< (2 #triangles) x #forms, along sides 0 and 1 of each
+};
+std::vector<int> sample_triangles(const mesh::Surface& surface);
+forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const forms::ClosedForms& forms,
+                                      const std::vector<int>& triangles);
+
+/// A form is A dz + B conj(dz) on each triangle, z along its side 0; A = M c and B = N c on the samples.
+struct SampledParts {
+  Eigen::MatrixXcd M;  ///< #samples x #coefficients
+  Eigen::MatrixXcd N;  ///< the same, or without rows where B is known to be 0
+};
+
+/// Of combinations of harmonic forms. @param basis #forms x #coefficients
+SampledParts sampled_parts(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis);
+
+/// A of the holomorphic du + i dv from v alone, one column for each column of v. @param v #V x m
+Eigen::MatrixXcd parts_of_imaginary(const mesh::Surface& surface, const std::vector<int>& triangles,
+                                    const forms::RowMajorMatrix& v);
+
+enum class Coefficients { complex, real };
+
+/// c as the unknowns of the minimiser: real parts, then imaginary ones where they are free; and back.
+Eigen::VectorXcd as_complex(const Eigen::VectorXd& x, Coefficients kind);
+Eigen::VectorXd as_unknowns(const Eigen::VectorXcd& c, Coefficients kind);
+
+/// Variance over the samples of log(q / mean q + floor), q = |A|^2, plus 3 times the mean of
+/// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is nearly 0 for a
+/// good map; without it |A| may be even where B, the discretisation error, exceeds it and the map is flipped.
+class LogVariance {
+ public:
+  LogVariance(const SampledParts& parts, Coefficients kind, double floor) : parts_(parts), kind_(kind), floor_(floor) {}
+  double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
+
+ private:
+  const SampledParts& parts_;
+  Coefficients kind_;
+  double floor_;
+};
+
+/// The last floor under the density, relative to its mean.
+inline constexpr double kDensityFloor = 1e-4;
+
+/// log(q / mean q + kDensityFloor): its variance alone.
+double log_variance(const Eigen::ArrayXd& q);
+
+/// Minimises with one floor after the other, from `x`, whose scale is free. @return the last variance
+double descend(const SampledParts& parts, Coefficients kind, Eigen::VectorXd& x, const std::vector<double>& floors,
+               int most_steps);
+
+}  // namespace holomorph::uv
