@@ -5,25 +5,53 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
-#include "tiling/pole_placement.h"
+#include "tiling/tiler.h"
 
 namespace holomorph::bindings {
 namespace {
 
-py::tuple try_poles(const std::shared_ptr<mesh::Surface>& surface, int count, bool real, int threads) {
-  Execution execution(threads);
-  tiling::Landscape landscape(surface, {}, execution);
-  tiling::PlacementRules rules;
-  rules.kind = real ? uv::Coefficients::real : uv::Coefficients::complex;
-  auto poles = tiling::without_more_poles(landscape, rules, execution);
-  const double before = tiling::density_ratio(tiling::density(landscape, poles, execution));
-  poles = tiling::with_more_poles(landscape, rules, poles, count, execution);
-  const double after = tiling::density_ratio(tiling::density(landscape, poles, execution));
-  return py::make_tuple(copy(poles.vertices), copy(poles.residues), poles.variance, before, after);
-}
+using tiling::Tiler;
+using tiling::Tiling;
+
+struct PyTiler {
+  int threads;
+  std::unique_ptr<Tiler> value;
+};
 
 }  // namespace
 
-void bind_tiling(py::module_& m) { m.def("try_poles", &try_poles); }
+void bind_tiling(py::module_& m) {
+  py::class_<Tiling, std::shared_ptr<Tiling>>(m, "Tiling")
+      .def("uv", [](const Tiling& t) { return copy(t.uv); })
+      .def("periods", [](const Tiling& t) { return copy(t.periods); })
+      .def("poles", [](const Tiling& t) { return copy(t.poles); })
+      .def("residues", [](const Tiling& t) { return copy(t.residues); })
+      .def("surface", [](const Tiling& t) { return std::const_pointer_cast<mesh::Surface>(t.structure->surface); })
+      .def("seams", [](const Tiling& t) { return copy(t.structure->topology.seams); })
+      .def_readonly("tiles", &Tiling::tiles)
+      .def_readonly("distortion", &Tiling::distortion)
+      .def_readonly("left_over", &Tiling::left_over);
+  py::class_<PyTiler>(m, "Tiler")
+      .def(py::init([](const std::shared_ptr<mesh::Surface>& surface, bool straight, const std::vector<int>& names,
+                       const std::string& solver, int threads) {
+        Execution execution(threads);
+        return PyTiler{threads, std::make_unique<Tiler>(surface, structure::Options{solver}, straight, names, execution)};
+      }))
+      .def("place",
+           [](PyTiler& t, std::optional<int> count, std::vector<int> vertices, std::vector<char> allowed,
+              const py::object& progress) {
+             Execution execution(t.threads, callback(progress));
+             const py::gil_scoped_release unlocked;
+             t.value->place({count, std::move(vertices), std::move(allowed)}, execution);
+           })
+      .def("poles", [](const PyTiler& t) { return py::make_tuple(copy(t.value->poles().vertices), copy(t.value->poles().residues), t.value->optimal_density_ratio()); })
+      .def("tile", [](PyTiler& t, double tiles, std::complex<double> a, std::complex<double> b,
+                      std::optional<double> phase, std::optional<std::array<double, 3>> direction, bool move,
+                      const py::object& progress) {
+        Execution execution(t.threads, callback(progress));
+        const py::gil_scoped_release unlocked;
+        return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, phase, direction, move}, execution));
+      });
+}
 
 }  // namespace holomorph::bindings

@@ -57,13 +57,13 @@ void append(const forms::PoleFunctions& poles, forms::RowMajorMatrix& functions)
 
 // omega_i = d(u_i - sum_j C_ji h_j) + i dv_i with the residue 1 at puncture i, and theta_0 = sum r_i omega_i in front
 // of the holomorphic forms.
-Eigen::MatrixXcd differentials_with(const Eigen::MatrixXd& C, const Punctures& punctures, const Structure& s) {
+Eigen::MatrixXcd differentials_with(const Punctures& punctures, const Structure& s) {
   const Families& families = s.topology.families;
   const Eigen::VectorXcd r =
       Eigen::Map<const Eigen::VectorXcd>(punctures.residues.data(), families.poles);  // closed: the last is the rest
   const auto& holomorphic = s.holomorphic.differentials;
   Eigen::MatrixXcd all = Eigen::MatrixXcd::Zero(families.count(), 1 + holomorphic.cols());
-  all.col(0).head(families.natural) = -(C * r);
+  all.col(0).head(families.natural) = -(s.pole_parts * r);
   all.col(0).segment(families.harmonic(), families.poles) = r;
   all.col(0).tail(families.poles) = Complex(0, 1) * r;
   all.topRightCorner(families.harmonic(), holomorphic.cols()) = holomorphic;
@@ -156,13 +156,13 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
   const auto third = forms::pole_functions(half_edges, weights, poles, systems.solver(), fixed, execution);
 
   execution.stage("harmonic forms", 0.6, 0.9);
-  Eigen::MatrixXd C(0, families.poles);
+  result.pole_parts.resize(0, families.poles);
   if (families.natural > 0) {
     result.functions = systems.solve(classes, families.natural, result.memory.block, execution).functions;
     complete(half_edges, weights, classes, result, execution);
     forms::ClosedForms natural{result.topology.classes, {}};
     natural.functions.swap(result.functions);
-    C = forms::harmonic_part(half_edges, poles, natural, result.gram[0]);
+    result.pole_parts = forms::harmonic_part(half_edges, poles, natural, result.gram[0]);
     result.functions.swap(natural.functions);
   } else {
     result.functions.resize(surface.vertex_count, 0);
@@ -171,7 +171,7 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
 
   execution.stage("certificates", 0.9, 1.0);
   append(third, result.functions);
-  result.differentials = differentials_with(C, result.punctures, result);
+  result.differentials = differentials_with(result.punctures, result);
   forms::ClosedForms basis{result.topology.classes, {}};
   basis.functions.swap(result.functions);
   certify(basis, third.harmonicity, result);

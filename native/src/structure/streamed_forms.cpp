@@ -30,7 +30,7 @@ void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const dou
     certificate.periods =
         std::max(certificate.periods, forms::period_residual(surface, on_surface, result.topology.homology_basis));
     result.samples.on_sides.middleCols(first, width) =
-        uv::values_on_sides(surface, on_surface, result.samples.triangles);
+        uv::values_on_sides(surface, mesh::Sides(surface), on_surface, result.samples.triangles);
   };
   systems.solve_in_blocks(solved.classes, n, result.memory.block, execution, measure);
   result.solver = systems.report();

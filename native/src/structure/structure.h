@@ -39,6 +39,9 @@ struct Structure {
                                     ///< solved on; none if streamed, or once UvForms has taken them over
   Eigen::MatrixXcd differentials;  ///< #forms x n: with punctures theta_0 of the chosen residues, then holomorphic ones
 
+  /// #natural x #poles: C, with omega_i = d(u_i - sum_j C_ji h_j) + i dv_i
+  Eigen::MatrixXd pole_parts;
+
   std::vector<Eigen::MatrixXd> gram;        ///< of the natural and, with boundary, of the Dirichlet forms
   conformal::HolomorphicBasis holomorphic;  ///< of the natural and Dirichlet forms
 

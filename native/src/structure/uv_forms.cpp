@@ -62,7 +62,7 @@ class KeptForms final : public UvForms {
   uv::FormSamples samples(Execution& execution) override {
     prepare(execution);
     auto triangles = uv::sample_triangles(*structure_.surface);
-    auto values = uv::values_on_sides(*structure_.surface, forms_, triangles);
+    auto values = uv::values_on_sides(*structure_.surface, mesh::Sides(*structure_.surface), forms_, triangles);
     return {std::move(triangles), std::move(values)};
   }
 

@@ -13,7 +13,8 @@ constexpr int kBlock = 32;  // poles solved for at a time
 }  // namespace
 
 Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
-                     Execution& execution) {
+                     Execution& execution, std::vector<int> samples)
+    : samples_(std::move(samples)) {
   structure_.surface = std::move(surface);
   half_edges_ = mesh::half_edges(*structure_.surface, execution);
   auto triangulation = mesh::intrinsic_triangulation(*structure_.surface, half_edges_.copy(execution.workers()),
@@ -24,6 +25,8 @@ Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structu
   area_ = 0;
   for (const double a : vertex_share_) area_ += a;
   for (double& a : vertex_share_) a /= area_;
+
+  sides_.emplace(*structure_.surface);
 
   structure_.topology = structure::find_topology(*structure_.surface, half_edges_, execution);
   const auto& topology = structure_.topology;
@@ -36,14 +39,14 @@ Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structu
       options.solver, options.memory_limit, structure::Keeping::all);
   systems_ = std::make_unique<structure::HarmonicSystems>(
       half_edges_, weights_, mesh::boundary_vertices(topology.boundary), structure_.memory.choice, execution);
-  samples_ = uv::sample_triangles(*structure_.surface);
+  if (samples_.empty()) samples_ = uv::sample_triangles(*structure_.surface);
   harmonic_.classes = topology.classes;
   if (natural > 0) {
     structure_.functions = systems_->solve(classes, natural, structure_.memory.block, execution).functions;
     structure::complete(half_edges_, weights_, classes, structure_, execution);
     harmonic_.functions.swap(structure_.functions);
     holomorphic_ = uv::sampled_parts(*structure_.surface,
-                                     {samples_, uv::values_on_sides(*structure_.surface, harmonic_, samples_)},
+                                     {samples_, uv::values_on_sides(*structure_.surface, *sides_, harmonic_, samples_)},
                                      structure_.differentials);
   } else {
     holomorphic_.M.resize(static_cast<Eigen::Index>(samples_.size()), 0);
@@ -83,7 +86,7 @@ void Landscape::solve_for(const std::vector<int>& vertices, Execution& execution
 
 Eigen::MatrixXcd Landscape::derivatives(const std::vector<int>& triangles) const {
   const auto count = harmonic_.functions.cols();
-  return 2 * uv::sampled_parts(surface(), {triangles, uv::values_on_sides(surface(), harmonic_, triangles)},
+  return 2 * uv::sampled_parts(surface(), {triangles, uv::values_on_sides(surface(), *sides_, harmonic_, triangles)},
                                Eigen::MatrixXcd::Identity(count, count))
                  .M;
 }

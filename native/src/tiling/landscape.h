@@ -17,8 +17,10 @@ namespace holomorph::tiling {
 /// Everything on the surface's own triangles.
 class Landscape {
  public:
+  /// @param samples triangles; empty: evenly spaced by area
   /// @pre connected, no isolated vertices. @throws SolverError, Cancelled
-  Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, Execution& execution);
+  Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, Execution& execution,
+            std::vector<int> samples = {});
   Landscape(const Landscape&) = delete;
   Landscape& operator=(const Landscape&) = delete;
 
@@ -43,6 +45,7 @@ class Landscape {
   /// Solved for once for each vertex and kept. @throws SolverError, Cancelled
   Eigen::MatrixXcd poles(const std::vector<int>& vertices, Execution& execution);
 
+  const mesh::Sides& sides() const { return *sides_; }
   /// #triangles x #harmonic forms: h_x - i h_y of the harmonic forms on triangles, x along side 0.
   Eigen::MatrixXcd derivatives(const std::vector<int>& triangles) const;
 
@@ -51,6 +54,7 @@ class Landscape {
 
   structure::Structure structure_;
   mesh::HalfEdges half_edges_;
+  std::optional<mesh::Sides> sides_;
   Array<double> lengths_, weights_;
   std::vector<double> vertex_share_;  // #V of the area
   double area_ = 0;

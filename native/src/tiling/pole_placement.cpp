@@ -64,6 +64,11 @@ class Search {
     poles.variance = objective(poles, (parts.M * unknowns(poles)).cwiseAbs2().array());
   }
 
+  void refine(Poles& poles) {
+    prepare_leverage(poles.vertices);
+    optimise(poles, kFromNear);
+  }
+
   Poles begin() {
     Poles poles;
     poles.vertices = rules_.fixed;
@@ -344,6 +349,11 @@ class Search {
 
 Poles without_more_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
   return Search(landscape, rules, execution).begin();
+}
+
+Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {
+  Search(landscape, rules, execution).refine(start);
+  return start;
 }
 
 Poles exchanged(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {

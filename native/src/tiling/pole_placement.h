@@ -34,6 +34,9 @@ Poles with_more_poles(Landscape& landscape, const PlacementRules& rules, Poles s
 /// Moves poles without adding any.
 Poles exchanged(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution);
 
+/// With the best coefficients and residues near those given.
+Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution);
+
 /// |theta_0|^2 on the samples.
 Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <complex>
 
-#include "mesh/half_edges.h"
 #include "mesh/triangle_geometry.h"
 #include "uv/minimise.h"
 
@@ -59,14 +58,13 @@ std::vector<int> sample_triangles(const mesh::Surface& surface) {
   return samples;
 }
 
-forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const forms::ClosedForms& forms,
-                                      const std::vector<int>& triangles) {
-  const mesh::Sides side(surface);
+forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const mesh::Sides& sides,
+                                      const forms::ClosedForms& forms, const std::vector<int>& triangles) {
   forms::RowMajorMatrix values(2 * static_cast<Eigen::Index>(triangles.size()), forms.functions.cols());
   Eigen::Index row = 0;
   for (const int t : triangles) {
     for (const int i : {0, 1}) {
-      const mesh::HalfedgeHandle h = side(t, i);
+      const mesh::HalfedgeHandle h = sides(t, i);
       values.row(row++) = mesh::sign(h) * forms::edge_values(surface, forms, mesh::edge_of(h), mesh::edge_of(h) + 1);
     }
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "forms/closed_forms.h"
-#include "mesh/surface.h"
+#include "mesh/half_edges.h"
 
 namespace holomorph::uv {
 
@@ -15,8 +15,8 @@ struct FormSamples {
   forms::RowMajorMatrix on_sides;  ///< (2 #triangles) x #forms, along sides 0 and 1 of each
 };
 std::vector<int> sample_triangles(const mesh::Surface& surface);
-forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const forms::ClosedForms& forms,
-                                      const std::vector<int>& triangles);
+forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const mesh::Sides& sides,
+                                      const forms::ClosedForms& forms, const std::vector<int>& triangles);
 
 /// A form is A dz + B conj(dz) on each triangle, z along its side 0; A = M c and B = N c on the samples.
 struct SampledParts {

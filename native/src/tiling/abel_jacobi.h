@@ -1,0 +1,33 @@
+// The Abel-Jacobi map of the vertices of a closed surface with handles, exact on its triangulation.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tiling/landscape.h"
+
+namespace holomorph::tiling {
+
+/// C(p), real and modulo integers: the differential with residue r at p and -r at q, its v single-valued, has the
+/// periods -r (C(p) - C(q)). It is minus the Abel-Jacobi map, and forms::harmonic_part without its solves: C = G^-1 P,
+/// P_j(p) = <u_s, h_j> over the faces outside the star of p - b_u . (h_j measured from p), where the class of u_s runs
+/// along a dual path to triangle 0, over which *h_j integrates to a dual potential.
+class AbelJacobi {
+ public:
+  /// The landscape outlives this. Cost: 2g numbers per triangle.
+  AbelJacobi(const Landscape& landscape, Execution& execution);
+
+  /// @param vertex whose star is free (mesh::has_free_star)
+  Eigen::VectorXd at(int vertex) const;
+
+ private:
+  Eigen::RowVectorXd along(mesh::HalfedgeHandle h) const;
+
+  const Landscape& landscape_;
+  forms::RowMajorMatrix dual_potentials_;  // #T x 2g: the fluxes of h_j along the dual path to triangle 0
+};
+
+/// `value` plus the integers that bring it nearest to `near`.
+Eigen::VectorXd nearest_representative(const Eigen::VectorXd& value, const Eigen::VectorXd& near);
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,23 @@
+// A level of the progressive mesh on which poles are looked for: its vertices are vertices of the surface.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/surface.h"
+
+namespace holomorph::tiling {
+
+/// From this many triangles on poles are looked for on a level of about as many.
+inline constexpr int kLevelTriangles = 10'000;
+
+struct CoarseLevel {
+  std::shared_ptr<const mesh::Surface> surface;
+  std::vector<int> vertex;  ///< #V of the level: the same vertex of the surface
+};
+
+/// @throws InvalidMesh for an intrinsic surface of more triangles; Cancelled
+CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution);
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,272 @@
+#include "tiling/pole_moves.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "tiling/surface_walk.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+constexpr int kSteps = 40;              // of Newton's method
+constexpr double kDone = 1e-8;          // rms |mu| that is nothing
+constexpr double kStride = 0.03;        // longest step, in square roots of the area
+constexpr double kDamping = 1e-6;       // relative
+constexpr int kRounds = 12;             // of exchanges of pairs
+constexpr std::size_t kAround = 36;     // vertices around a pole that are exchanged
+
+// The poles while they move. One that has gone to a vertex is held there.
+class Moving {
+ public:
+  Moving(const Landscape& landscape, const AbelJacobi& abel_jacobi, const Leverage& leverage, const VectorXcd& periods,
+         const VectorXcd& residues, const MatrixXcd& metric, const MoveRules& rules, PlacedPoles poles,
+         const std::vector<int>& first_triangle)
+      : landscape_(landscape),
+        abel_jacobi_(abel_jacobi),
+        leverage_(leverage),
+        periods_(periods),
+        residues_(residues),
+        to_defect_(metric * leverage.split().bottomRows(metric.cols())),
+        metric_(metric),
+        rules_(rules),
+        poles_(std::move(poles)),
+        held_(poles_.vertices.size(), 0),
+        gone_(poles_.vertices.size(), 0.0) {
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      points_.push_back(at_vertex(landscape.surface(), first_triangle[poles_.vertices[i]], poles_.vertices[i]));
+      if (!rules.fixed.empty() && rules.fixed[i]) held_[i] = 1;
+    }
+  }
+
+  PlacedPoles run() {
+    newton();
+    for (const std::size_t i : by_leverage()) {
+      if (held_[i]) continue;
+      hold(i);
+      newton();
+    }
+    exchange_pairs();
+    return std::move(poles_);
+  }
+
+ private:
+  VectorXcd defect() const {
+    VectorXcd X = periods_;
+    for (std::size_t i = 0; i < poles_.parts.size(); ++i) X += residues_[static_cast<Index>(i)] * poles_.parts[i];
+    return to_defect_ * X;
+  }
+
+  VectorXcd lever(std::size_t i) const {
+    return metric_ * leverage_.tau({points_[i].triangle}) * residues_[static_cast<Index>(i)];
+  }
+
+  std::vector<std::size_t> by_leverage() const {
+    std::vector<std::size_t> order(poles_.vertices.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<double> size;
+    for (const std::size_t i : order) size.push_back(lever(i).norm());
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+    return order;
+  }
+
+  // Steps of least length, minimal |J dz + defect|.
+  void newton() {
+    const double root = std::sqrt(landscape_.area());
+    std::vector<std::size_t> free;
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      if (!held_[i]) free.push_back(i);
+    }
+    if (free.empty()) return;
+    for (int step = 0; step < kSteps; ++step) {
+      const VectorXcd e = defect();
+      if (e.norm() < kDone) return;
+      const Index g = e.size();
+      MatrixXd J(2 * g, 2 * static_cast<Index>(free.size()));
+      for (std::size_t f = 0; f < free.size(); ++f) {
+        const VectorXcd l = lever(free[f]);  // changes by l conj(dz)
+        const auto column = 2 * static_cast<Index>(f);
+        J.col(column) << l.real(), l.imag();
+        J.col(column + 1) << l.imag(), -l.real();
+      }
+      VectorXd residual(2 * g);
+      residual << e.real(), e.imag();
+      MatrixXd JJ = J * J.transpose();
+      JJ.diagonal().array() += kDamping * JJ.trace() / static_cast<double>(2 * g);
+      const VectorXd dz = -J.transpose() * JJ.ldlt().solve(residual);
+      double longest = 0;
+      for (Index f = 0; f < dz.size(); f += 2) longest = std::max(longest, std::hypot(dz[f], dz[f + 1]));
+      if (longest < 1e-9 * root) return;
+      const double shrink = std::min(1.0, kStride * root / longest);
+      for (std::size_t f = 0; f < free.size(); ++f)
+        move(free[f], shrink * Complex(dz[2 * static_cast<Index>(f)], dz[2 * static_cast<Index>(f) + 1]));
+    }
+  }
+
+  void move(std::size_t i, Complex dz) {
+    const double left = rules_.most * std::sqrt(landscape_.area()) - gone_[i];
+    if (!(left > 0)) return;
+    if (std::abs(dz) > left) dz *= left / std::abs(dz);
+    gone_[i] += std::abs(dz);
+    for (const auto& [triangle, part] :
+         walk(landscape_.surface(), landscape_.half_edges(), landscape_.sides(), points_[i], dz))
+      poles_.parts[i] -= (leverage_.abel_jacobi_derivatives({triangle}) * part).real();
+  }
+
+  // Marks of the stars of all poles but two.
+  std::vector<char> stars_but(std::size_t i, std::size_t j) const {
+    std::vector<char> taken(landscape_.surface().vertex_count, 0);
+    for (std::size_t k = 0; k < poles_.vertices.size(); ++k) {
+      if (k != i && k != j && (held_[k] || settled_))
+        mesh::mark_star(landscape_.surface(), landscape_.half_edges(), poles_.vertices[k], taken);
+    }
+    return taken;
+  }
+
+  bool is_free(int vertex, const std::vector<char>& taken) const {
+    return (rules_.allowed.empty() || rules_.allowed[vertex]) &&
+           mesh::has_free_star(landscape_.surface(), landscape_.half_edges(), vertex, taken);
+  }
+
+  // At the nearest vertex that can take it, else back where it was.
+  void hold(std::size_t i) {
+    const std::vector<char> taken = stars_but(i, i);
+    for (const int v : nearest_corners(landscape_.surface(), points_[i])) {
+      if (!is_free(v, taken)) continue;
+      poles_.vertices[i] = v;
+      break;
+    }
+    poles_.parts[i] = nearest_representative(abel_jacobi_.at(poles_.vertices[i]), poles_.parts[i]);
+    held_[i] = 1;
+  }
+
+  struct Neighbour {
+    int vertex;
+    VectorXd part;
+    VectorXcd effect;  // on the defect, with the residue
+  };
+
+  // The vertices around a pole, itself among them.
+  std::vector<Neighbour> around(std::size_t i) const {
+    const auto& mesh = landscape_.half_edges();
+    std::vector<int> queue{poles_.vertices[i]};
+    std::map<int, char> seen{{poles_.vertices[i], 1}};
+    for (std::size_t next = 0; next < queue.size() && queue.size() < kAround; ++next) {
+      const mesh::HalfedgeHandle first = mesh.halfedge_handle(mesh::VertexHandle(queue[next]));
+      mesh::HalfedgeHandle h = first;
+      do {
+        const int v = mesh::to_vertex(mesh, h);
+        if (seen.emplace(v, 1).second) queue.push_back(v);
+        h = mesh::next(mesh, mesh::opposite(h));
+      } while (h != first);
+    }
+    const std::vector<char> nothing(landscape_.surface().vertex_count, 0);
+    std::vector<Neighbour> list;
+    for (const int v : queue) {
+      if (!is_free(v, nothing)) continue;
+      VectorXd part = nearest_representative(abel_jacobi_.at(v), poles_.parts[i]);
+      VectorXcd effect = residues_[static_cast<Index>(i)] * (to_defect_ * part.cast<Complex>());
+      list.push_back({v, std::move(part), std::move(effect)});
+    }
+    return list;
+  }
+
+  void exchange_pairs() {
+    settled_ = true;
+    for (int round = 0; round < kRounds; ++round) {
+      std::vector<std::vector<Neighbour>> near;
+      for (std::size_t i = 0; i < held_.size(); ++i)
+        near.push_back(is_held_by_rule(i) ? std::vector<Neighbour>{} : around(i));
+      bool better = false;
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        for (std::size_t j = i + 1; j < near.size(); ++j) better |= exchange(i, j, near);
+      }
+      if (!better) return;
+    }
+  }
+
+  bool is_held_by_rule(std::size_t i) const { return !rules_.fixed.empty() && rules_.fixed[i]; }
+
+  bool exchange(std::size_t i, std::size_t j, const std::vector<std::vector<Neighbour>>& near) {
+    const VectorXcd now = defect();
+    const auto effect = [&](std::size_t k) -> VectorXcd {
+      return residues_[static_cast<Index>(k)] * (to_defect_ * poles_.parts[k].cast<Complex>());
+    };
+    const VectorXcd rest = now - effect(i) - effect(j);
+    const std::vector<char> taken = stars_but(i, j);
+    double least = now.squaredNorm() * (1 - 1e-9);
+    const Neighbour *first = nullptr, *second = nullptr;
+    for (const Neighbour& a : near[i]) {
+      if (!is_free(a.vertex, taken)) continue;
+      const VectorXcd with = rest + a.effect;
+      for (const Neighbour& b : near[j]) {
+        const double size = (with + b.effect).squaredNorm();
+        if (size < least && is_free(b.vertex, taken) && are_apart(a.vertex, b.vertex)) {
+          least = size;
+          first = &a;
+          second = &b;
+        }
+      }
+    }
+    if (!first) return false;
+    poles_.vertices[i] = first->vertex;
+    poles_.parts[i] = first->part;
+    poles_.vertices[j] = second->vertex;
+    poles_.parts[j] = second->part;
+    return true;
+  }
+
+  bool are_apart(int a, int b) const {
+    std::vector<char> taken(landscape_.surface().vertex_count, 0);
+    mesh::mark_star(landscape_.surface(), landscape_.half_edges(), a, taken);
+    return mesh::has_free_star(landscape_.surface(), landscape_.half_edges(), b, taken);
+  }
+
+  const Landscape& landscape_;
+  const AbelJacobi& abel_jacobi_;
+  const Leverage& leverage_;
+  const VectorXcd& periods_;
+  const VectorXcd& residues_;
+  MatrixXcd to_defect_;  // g x 2g
+  const MatrixXcd& metric_;
+  const MoveRules& rules_;
+  PlacedPoles poles_;
+  std::vector<SurfacePoint> points_;
+  std::vector<char> held_;
+  std::vector<double> gone_;
+  bool settled_ = false;
+};
+
+}  // namespace
+
+PoleMoves::PoleMoves(const Landscape& landscape, const AbelJacobi& abel_jacobi)
+    : landscape_(landscape), abel_jacobi_(abel_jacobi), leverage_(landscape) {
+  first_triangle_.assign(landscape.surface().vertex_count, -1);
+  for (int t = static_cast<int>(landscape.surface().triangles.size()) - 1; t >= 0; --t) {
+    for (const int v : landscape.surface().triangles[t]) first_triangle_[v] = t;
+  }
+}
+
+VectorXcd PoleMoves::left_over(const PlacedPoles& poles, const VectorXcd& periods, const VectorXcd& residues) const {
+  VectorXcd X = periods;
+  for (std::size_t i = 0; i < poles.parts.size(); ++i) X += residues[static_cast<Index>(i)] * poles.parts[i];
+  return leverage_.split(X).tail(leverage_.split().rows() / 2);
+}
+
+PlacedPoles PoleMoves::moved(PlacedPoles poles, const VectorXcd& periods, const VectorXcd& residues,
+                             const MatrixXcd& metric, const MoveRules& rules) const {
+  return Moving(landscape_, abel_jacobi_, leverage_, periods, residues, metric, rules, std::move(poles),
+                first_triangle_)
+      .run();
+}
+
+}  // namespace holomorph::tiling

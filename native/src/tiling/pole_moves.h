@@ -1,0 +1,48 @@
+// Jacobi inversion: poles move until nothing is left over of the rounding, and go to vertices like a vernier.
+#pragma once
+
+#include <vector>
+
+#include "tiling/abel_jacobi.h"
+#include "tiling/leverage.h"
+
+namespace holomorph::tiling {
+
+/// Poles of a closed surface with handles at vertices, and the harmonic parts C there that the periods are meant with.
+struct PlacedPoles {
+  std::vector<int> vertices;
+  std::vector<Eigen::VectorXd> parts;  ///< C at each, 2g
+};
+
+struct MoveRules {
+  std::vector<char> allowed;  ///< #V, empty: anywhere
+  std::vector<char> fixed;    ///< of each pole; empty: none
+  double most = 0.2;          ///< how far a pole may go, in square roots of the area
+};
+
+class PoleMoves {
+ public:
+  /// The landscape and the map outlive this.
+  PoleMoves(const Landscape& landscape, const AbelJacobi& abel_jacobi);
+
+  const Leverage& leverage() const { return leverage_; }
+
+  /// t of the form with these periods and residues, g numbers (leverage.h).
+  Eigen::VectorXcd left_over(const PlacedPoles& poles, const Eigen::VectorXcd& periods,
+                             const Eigen::VectorXcd& residues) const;
+
+  /// Newton's method with the poles anywhere on the surface until t vanishes, or as small as it becomes; then one pole
+  /// after the other goes to its nearest vertex, the one of highest leverage first, and the others follow; at last pairs
+  /// of poles are exchanged for better pairs of vertices near them.
+  /// @param metric g x g, R with |R t| the left-over that counts
+  PlacedPoles moved(PlacedPoles poles, const Eigen::VectorXcd& periods, const Eigen::VectorXcd& residues,
+                    const Eigen::MatrixXcd& metric, const MoveRules& rules) const;
+
+ private:
+  const Landscape& landscape_;
+  const AbelJacobi& abel_jacobi_;
+  Leverage leverage_;
+  std::vector<int> first_triangle_;
+};
+
+}  // namespace holomorph::tiling

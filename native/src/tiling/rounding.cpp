@@ -1,0 +1,124 @@
+#include "tiling/rounding.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/chunks.h"
+#include "tiling/leverage.h"
+#include "tiling/pole_placement.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+constexpr double kChange = 0.2;  // relative change of the form that costs 1
+constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
+constexpr int kPhases = 60, kScales = 7;
+constexpr double kScaleRange = 0.12;
+constexpr double kEvenness = 0.15, kTolerated = 1.1;  // of the rank
+constexpr double kFlipped = 1e3;                      // distortion of a rounding that flips or collapses a sample
+
+// Complex rows as real ones.
+MatrixXd as_real(const MatrixXcd& rows) {
+  MatrixXd result(2 * rows.rows(), rows.cols());
+  result << rows.real(), rows.imag();
+  return result;
+}
+
+// Upper R with R^H R = H; a small multiple of the identity keeps it regular.
+MatrixXcd root(MatrixXcd H) {
+  if (H.rows() == 0) return H;
+  H += 1e-12 * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
+  return Eigen::LLT<MatrixXcd>(H).matrixU();
+}
+
+// Rows that measure y near the target: its change, and its defects at a price of `defect`.
+MatrixXcd measure_rows(const RoundingProblem& p, const Eigen::ArrayXd& density, double defect) {
+  const Index all = p.forms.cols(), l = p.defects.cols();
+  const Eigen::ArrayXd weight =
+      1 / ((density + uv::kDensityFloor * density.mean()) * static_cast<double>(density.size()));
+  const auto W = weight.matrix().cast<Complex>().asDiagonal();
+  MatrixXcd rows(all + l, all);
+  rows.setZero();
+  rows.topRows(all) = root(p.forms.adjoint() * W * p.forms) / kChange;
+  if (l == 0) return rows;
+  const MatrixXcd gram = p.defects.adjoint() * W * p.defects;
+  MatrixXcd covariance = defect * defect * gram.inverse();
+  if (p.repairable.size() > 0) covariance += p.repairable;
+  rows.bottomRightCorner(l, l) = root(covariance.inverse());
+  return rows;
+}
+
+}  // namespace
+
+Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
+  Eigen::Matrix2d A;
+  A << a.real(), b.real(), a.imag(), b.imag();
+  return A.inverse() * Eigen::Vector2d(z.real(), z.imag());
+}
+
+Complex TextureLattice::nearest(Complex z) const {
+  const Eigen::Vector2d c = coordinates(z);
+  return point(std::round(c[0]), std::round(c[1]));
+}
+
+void measure(const RoundingProblem& p, Rounding& rounding) {
+  const Eigen::ArrayXd A = (p.forms * rounding.y).cwiseAbs().array();
+  rounding.density_ratio = density_ratio(A.square());
+  if (p.defects.cols() > 0) {
+    const Eigen::ArrayXd mu = (p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs().array() / A;
+    const Eigen::ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
+    rounding.distortion = K.mean();
+  }
+}
+
+std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& wishes, Execution& execution) {
+  const Eigen::ArrayXd density = (p.forms * p.target).cwiseAbs2().array();
+  std::vector<double> sorted(density.begin(), density.end());
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double scale = std::sqrt(wishes.tiles / (wishes.area * sorted[sorted.size() / 2]));
+  const double even = density_ratio(density);
+  const bool free_phase = p.kind == uv::Coefficients::complex && !wishes.phase;
+  const int phases = free_phase ? kPhases : 1;
+
+  std::map<std::vector<std::int64_t>, Rounding> found;
+  for (std::size_t d = 0; d < std::size(kDefects); ++d) {
+    execution.report(static_cast<double>(d) / std::size(kDefects));
+    if (d > 0 && p.defects.cols() == 0) break;
+    const MatrixXcd rows = measure_rows(p, density, kDefects[d]);
+    const ReducedBasis reduced = reduce(as_real(rows * p.Z));
+    std::vector<IntegerVector> nearest(static_cast<std::size_t>(phases * kScales));
+    run_throwing(execution.workers(), phases * kScales, [&](int i) {
+      const double turn = free_phase ? std::numbers::pi * 2 * (i / kScales) / phases : wishes.phase.value_or(0);
+      const double size = scale * (1 + kScaleRange * (2.0 * (i % kScales) / (kScales - 1) - 1));
+      const VectorXcd y = p.target * std::polar(size, turn);
+      nearest[i] = nearest_plane(reduced, as_real(rows * y));
+    });
+    for (const IntegerVector& z : nearest) found.try_emplace({z.begin(), z.end()}, Rounding{z, {}});
+  }
+  std::vector<Rounding> list;
+  for (auto& [key, rounding] : found) list.push_back(std::move(rounding));
+  run_throwing(execution.workers(), static_cast<int>(list.size()), [&](int i) {
+    Rounding& rounding = list[i];
+    rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
+    measure(p, rounding);
+    rounding.rank = rounding.distortion - 1 +
+                    kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even)));
+  });
+  std::erase_if(list, [](const Rounding& r) { return !(r.distortion < kFlipped) || !std::isfinite(r.density_ratio); });
+  std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });
+  if (static_cast<int>(list.size()) > wishes.count) list.resize(wishes.count);
+  return list;
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,58 @@
+// Periods and residues rounded together to a lattice: a closest-vector problem.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "base/execution.h"
+#include "tiling/lattice.h"
+#include "uv/log_variance.h"
+
+namespace holomorph::tiling {
+
+/// The translations of the texture that leave it as it is: all integer combinations of two complex numbers.
+struct TextureLattice {
+  std::complex<double> a = 1, b = {0, 1};
+
+  std::complex<double> point(double m, double n) const { return m * a + n * b; }
+  /// Coordinates (m, n), integers at the lattice's points.
+  Eigen::Vector2d coordinates(std::complex<double> z) const;
+  std::complex<double> nearest(std::complex<double> z) const;
+};
+
+/// Forms in coordinates y = (c_j, r_i, t_l): A = forms y on the samples, and B = defects t, what keeps the form from
+/// being conformal. With D integers z for the periods and residues, y = Z z.
+struct RoundingProblem {
+  uv::Coefficients kind;
+  Eigen::MatrixXcd forms;    ///< #samples x (n + k + l)
+  Eigen::MatrixXcd defects;  ///< #samples x l
+  Eigen::MatrixXcd Z;        ///< (n + k + l) x D
+  Eigen::VectorXcd target;   ///< n + k + l: the form as it would be without rounding, t = 0
+  Eigen::MatrixXcd repairable;  ///< l x l covariance of the t that moving the poles takes up; empty: none
+};
+
+struct RoundingWishes {
+  double tiles = 64;                  ///< over the surface, at its median density
+  double area = 1;                    ///< of the surface
+  std::optional<double> phase;        ///< of the target, in radians; free where none is given
+  int count = 16;                     ///< roundings that are wanted
+};
+
+struct Rounding {
+  IntegerVector z;
+  Eigen::VectorXcd y;        ///< Z z
+  double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
+  double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
+  double rank = 0;           ///< distortion - 1 + 0.15 log+ (density ratio / 1.1 that of the target)
+};
+
+/// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere.
+/// @throws SolverError as lattice.h does
+/// Cost: a reduction for each of five weights, and some thousand nearest planes.
+std::vector<Rounding> roundings(const RoundingProblem& problem, const RoundingWishes& wishes, Execution& execution);
+
+/// Of one y, as in Rounding.
+void measure(const RoundingProblem& problem, Rounding& rounding);
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,88 @@
+#include "tiling/surface_walk.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kInwards = 1e-3;  // of the way to the centre
+
+std::array<Complex, 3> corners(const mesh::Surface& surface, int triangle) {
+  const auto [e0, e1, e2] = surface.triangle_edges[triangle];
+  const double a = surface.edge_lengths[e0], b = surface.edge_lengths[e1], c = surface.edge_lengths[e2];
+  return {0, a, Complex((a * a + (c - b) * (c + b)) / (2 * a), 2 * mesh::triangle_area(a, b, c) / a)};
+}
+
+double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
+
+// The side through which a point leaves a triangle, and the part of dz until then; part >= 1: it stays inside.
+struct Exit {
+  int side = -1;
+  double part = INFINITY;
+};
+
+Exit exit_of(const std::array<Complex, 3>& corner, Complex z, Complex dz) {
+  Exit exit;
+  for (int i = 0; i < 3; ++i) {
+    const Complex side = corner[(i + 1) % 3] - corner[i];
+    const double outwards = cross(dz, side);  // > 0: towards the right of the side, which is outside
+    if (!(outwards > 0)) continue;
+    const double part = std::max(0.0, cross(corner[i] - z, side) / outwards);
+    if (part < exit.part) exit = {i, part};
+  }
+  return exit;
+}
+
+}  // namespace
+
+SurfacePoint at_vertex(const mesh::Surface& surface, int triangle, int vertex) {
+  const auto corner = corners(surface, triangle);
+  const auto& v = surface.triangles[triangle];
+  const auto i = static_cast<std::size_t>(std::find(v.begin(), v.end(), vertex) - v.begin());
+  const Complex centre = (corner[0] + corner[1] + corner[2]) / 3.0;
+  return {triangle, corner[i] + kInwards * (centre - corner[i])};
+}
+
+WalkSteps walk(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const mesh::Sides& sides,
+               SurfacePoint& point, Complex dz, int most_triangles) {
+  WalkSteps steps;
+  for (int n = 0; n < most_triangles; ++n) {
+    const auto corner = corners(surface, point.triangle);
+    const Exit exit = exit_of(corner, point.z, dz);
+    const double part = std::min(1.0, exit.part);
+    steps.emplace_back(point.triangle, part * dz);
+    point.z += part * dz;
+    if (exit.part >= 1) break;
+    dz *= 1 - part;
+    const mesh::HalfedgeHandle across = mesh::opposite(sides(point.triangle, exit.side));
+    const int next = mesh::face_of(half_edges, across);
+    if (next < 0) break;
+    int side = 0;
+    while (sides(next, side) != across) ++side;
+    // The same edge in the two frames, once from either end.
+    const auto other = corners(surface, next);
+    const Complex here = corner[exit.side], there = other[(side + 1) % 3];
+    Complex turn = (other[side] - there) / (corner[(exit.side + 1) % 3] - here);
+    turn /= std::abs(turn);
+    point = {next, there + turn * (point.z - here)};
+    dz *= turn;
+  }
+  return steps;
+}
+
+std::array<int, 3> nearest_corners(const mesh::Surface& surface, const SurfacePoint& point) {
+  const auto corner = corners(surface, point.triangle);
+  std::array<int, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::abs(corner[i] - point.z) < std::abs(corner[j] - point.z); });
+  for (int& i : order) i = surface.triangles[point.triangle][i];
+  return order;
+}
+
+}  // namespace holomorph::tiling
