@@ -22,9 +22,12 @@ from .levels import LevelOfDetail
 from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
-from .results import SOLVERS, MemoryPlan, Quality, Residuals, SolverReport
+from .checks import SOLVERS
+from .quality import Quality
+from .results import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure
 from .surface import Repairs, Surface
+from .tiling import PlacedPoles, Tiler, Tiling, place_poles
 
 __all__ = [
     "BoundedStructure",
@@ -37,6 +40,7 @@ __all__ = [
     "LevelOfDetail",
     "MemoryPlan",
     "ProgressiveMesh",
+    "PlacedPoles",
     "PuncturedStructure",
     "Quality",
     "RectangleMap",
@@ -46,6 +50,8 @@ __all__ = [
     "SolverError",
     "SolverReport",
     "Surface",
+    "Tiler",
+    "Tiling",
     "TopologyError",
     "TriangleMap",
     "__version__",
@@ -53,5 +59,6 @@ __all__ = [
     "double_cover",
     "frame",
     "place",
+    "place_poles",
     "report",
 ]

@@ -6,7 +6,7 @@ import sys
 
 from . import Error, Surface, __version__, conformal_structure
 from .report import component_report, repairs_report, skipped_report
-from .results import SOLVERS, check_options
+from .checks import SOLVERS, check_options
 
 
 def main(arguments=None):

@@ -5,7 +5,7 @@ import numpy as np
 from ._native import TopologyError
 from .disk import PlaneMap
 from .edges import edge_keys, edges_of_keys
-from .results import own_vertices
+from .checks import own_vertices
 from .truncated import TruncatedStructure
 
 

@@ -6,7 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from . import arrays
-from .results import MemoryPlan, SolverReport, Structure, checked_coefficients
+from .checks import checked_coefficients
+from .results import MemoryPlan, SolverReport, Structure
 
 
 @dataclass(frozen=True, eq=False)

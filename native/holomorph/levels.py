@@ -6,7 +6,8 @@ import numpy as np
 
 from . import _native, arrays
 from ._native import InvalidMesh
-from .results import SolverReport, check_options
+from .checks import check_options
+from .results import SolverReport
 from .surface import Surface
 
 

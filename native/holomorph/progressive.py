@@ -8,7 +8,8 @@ import numpy as np
 from . import _native, arrays, checked_file, levels
 from ._native import InvalidMesh, TopologyError
 from .closed import ConformalStructure
-from .results import check_memory_limit, check_options, result
+from .checks import check_memory_limit, check_options
+from .results import result
 from .splits import structured_splits
 from .surface import Surface
 

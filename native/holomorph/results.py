@@ -1,17 +1,14 @@
-"""What the results of all kinds of surfaces have in common, and checks of what they are made from."""
+"""What the results of all kinds of surfaces have in common."""
 
-import os
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 
 import numpy as np
 
 from . import _native, arrays
-from ._native import TopologyError
+from .quality import Quality
 from .surface import Surface
-
-SOLVERS = ("auto", "direct", "multigrid", "paper")
-
+from .tiling import Tiler
 
 @dataclass(frozen=True)
 class SolverReport:
@@ -71,28 +68,6 @@ class BoundedResiduals(Residuals):
 
 
 @dataclass(frozen=True, eq=False)
-class Quality:
-    """Distortion of a UV map per triangle, s1 >= s2 its singular values.
-
-    angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed); area: (#T,) s1 s2, UV area
-    per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the triangles that have not
-    collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 % quantile.
-    """
-
-    angle: np.ndarray
-    area: np.ndarray
-    flipped: np.ndarray
-    mean_angle: float
-    density_ratio: float
-    median_density: float
-
-    @property
-    def collapsed(self):
-        """(#T,) bool: the map leaves a triangle with area next to none."""
-        return np.isinf(self.angle)
-
-
-@dataclass(frozen=True, eq=False)
 class Structure:
     """Base of the results of `conformal_structure`. All arrays are read-only; the large ones are computed when first
     used. Each kind of result adds its forms, its invariants and
@@ -132,6 +107,60 @@ class Structure:
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
         return Quality(*_native.quality(self._triangulation, self._checked_uv(uv), self._threads))
 
+    def tile(
+        self,
+        tiles=None,
+        density=None,
+        poles="auto",
+        lattice="square",
+        direction=None,
+        boundary="straight",
+        max_turn=0.2,
+        turn=None,
+        progress=None,
+    ):
+        """A `Tiling`: a map of even density without visible seams, for textures that tile.
+
+        All jumps of the UVs are translations that leave the texture as it is. Poles, around which the texture closes up
+        by whole tiles, make the density even, and on surfaces with handles they move until nothing of the rounding is
+        left over (Jacobi inversion), so that the map is conformal and its periods are integers at once.
+
+        Parameters
+        ----------
+        tiles : tiles of the texture over the surface, at its median density; default: a number that suits the genus
+        density : tiles per unit of area, instead
+        poles : "auto" for none where the density is even without, else as many as it asks for, up to 16; a number; or a
+            list of vertices, which stay where they are. Two at least on a closed surface of genus 0
+        lattice : "square", "brick" (rows shifted by half), "hex", or a 2 x 2 matrix whose columns are the translations
+        direction : (3,) vector in space along which u runs, as far as it can; turn : radians, rotates the texture
+            beside it; max_turn : by how many radians the rounding may turn away from that
+        boundary : "straight" or "free", see `Tiler`
+
+        Raises
+        ------
+        TopologyError
+            poles that do not fit; fewer tiles than the surface needs (names how many are enough)
+
+        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
+        """
+        if density is not None:
+            if tiles is not None or not (np.isfinite(density) and density > 0):
+                raise ValueError("density must be a positive number, given without tiles")
+            tiles = density * self._component.area
+        key = (poles if isinstance(poles, str) else tuple(np.ravel(poles).tolist()), np.ndim(poles), boundary)
+        if key not in self._tilers:
+            self._tilers.clear()
+            self._tilers[key] = Tiler(
+                self.surface, poles, boundary=boundary, threads=self._threads, progress=progress
+            )
+        return self._tilers[key].tile(
+            tiles, lattice=lattice, direction=direction, turn=turn, max_turn=max_turn, progress=progress
+        )
+
+    @cached_property
+    def _tilers(self):
+        return {}
+
     def averaged_star(self, form):
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
         edge. It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
@@ -162,53 +191,6 @@ class Structure:
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
 
 
-def check_options(solver, threads):
-    """The number of threads to use. @throws ValueError"""
-    if solver not in SOLVERS:
-        raise ValueError(f"solver is {solver!r}; one of {', '.join(SOLVERS)} is needed")
-    if threads is not None and (threads != int(threads) or threads < 1):
-        raise ValueError(f"threads is {threads!r}; a positive integer or None is needed")
-    return int(threads or os.cpu_count() or 1)
-
-
-def check_memory_limit(memory_limit):
-    """The limit in bytes, 0 for none. @throws ValueError"""
-    if memory_limit is None:
-        return 0
-    if isinstance(memory_limit, bool) or not 1 <= memory_limit < 2**63:
-        raise ValueError(f"memory_limit is {memory_limit!r}; a positive number of bytes or None is needed")
-    return int(memory_limit)
-
-
-def only_component(surface):
-    """The one component of a connected surface, without isolated vertices. @throws TopologyError"""
-    count = len(surface.components)
-    if count != 1:
-        raise TopologyError(f"the surface has {count} connected components; take one of surface.components")
-    return surface.components[0]
-
-
-def own_vertices(surface, component, vertices, noun):
-    """`vertices` of the surface as a list of the component's, and labels: the surface's index of each of the
-    component's vertices, [] if both are the same. `noun` says in messages what they are.
-
-    Raises TopologyError for anything but indices of vertices that have a face.
-    """
-    given = np.asarray(vertices)
-    if given.ndim != 1 or not (np.issubdtype(given.dtype, np.integer) or given.size == 0):
-        raise TopologyError(f"{noun}s must be a list of vertex indices, not an array of {given.dtype} of {given.shape}")
-    count = surface._native.vertex_count
-    for vertex in given[(given < 0) | (given >= count)]:
-        raise TopologyError(f"{noun} {vertex} is no vertex: there are {count}")
-    if component is surface:
-        return given.tolist(), []
-    own = np.full(count, -1)
-    own[component.vertex_index] = np.arange(len(component.vertex_index))
-    for vertex in given[own[given.astype(int)] < 0]:
-        raise TopologyError(f"{noun} {vertex} is a vertex of no face")
-    return own[given.astype(int)].tolist(), component.vertex_index.tolist()
-
-
 def result(kind, surface, component, native, threads):
     """A `kind` of `Structure` made of what the native core computed."""
     seconds = dict(native.timings())
@@ -216,12 +198,3 @@ def result(kind, surface, component, native, threads):
     certificate = dict(zip(("closedness", "harmonicity", "periods", "pairing", "asymmetry"), native.certificate()))
     residuals = kind.residuals_kind(**{entry.name: certificate[entry.name] for entry in fields(kind.residuals_kind)})
     return kind(surface, SolverReport(*native.solver()), residuals, seconds, native, component, threads)
-
-
-def checked_coefficients(coefficients, count, kind):
-    """`coefficients` as (count,) finite numbers of type `kind`. @throws ValueError"""
-    c = np.asarray(coefficients)
-    if c.shape != (count,) or not np.isfinite(c).all() or (kind is not np.complex128 and np.iscomplexobj(c)):
-        wanted = f"({count},) finite {'numbers are' if kind is np.complex128 else 'real numbers are'} needed"
-        raise ValueError(f"coefficients has the shape {c.shape}; {wanted}")
-    return c.astype(kind)

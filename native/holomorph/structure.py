@@ -7,7 +7,8 @@ from .closed import ConformalStructure
 from .cut import cut_along
 from .disk import automatic_map, disk, rectangle
 from .punctured import PuncturedStructure
-from .results import check_memory_limit, check_options, only_component, own_vertices, result
+from .checks import check_memory_limit, check_options, only_component, own_vertices
+from .results import result
 from .truncated import coarse_log_map
 
 BOUNDARIES = ("natural", "double_cover")

@@ -6,6 +6,7 @@
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
 #include "tiling/tiler.h"
+#include "uv/zeros.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -27,6 +28,15 @@ void bind_tiling(py::module_& m) {
       .def("poles", [](const Tiling& t) { return copy(t.poles); })
       .def("residues", [](const Tiling& t) { return copy(t.residues); })
       .def("surface", [](const Tiling& t) { return std::const_pointer_cast<mesh::Surface>(t.structure->surface); })
+      .def("zeros",
+           [](const Tiling& t) {
+             std::vector<int> vertices, orders;
+             for (const auto& [vertex, order] : uv::zeros(*t.structure->surface, t.uv, t.poles)) {
+               vertices.push_back(vertex);
+               orders.push_back(order);
+             }
+             return py::make_tuple(copy(vertices), copy(orders));
+           })
       .def("seams", [](const Tiling& t) { return copy(t.structure->topology.seams); })
       .def_readonly("tiles", &Tiling::tiles)
       .def_readonly("distortion", &Tiling::distortion)
@@ -46,11 +56,11 @@ void bind_tiling(py::module_& m) {
            })
       .def("poles", [](const PyTiler& t) { return py::make_tuple(copy(t.value->poles().vertices), copy(t.value->poles().residues), t.value->optimal_density_ratio()); })
       .def("tile", [](PyTiler& t, double tiles, std::complex<double> a, std::complex<double> b,
-                      std::optional<double> phase, std::optional<std::array<double, 3>> direction, bool move,
-                      const py::object& progress) {
+                      std::optional<double> phase, std::optional<std::array<double, 3>> direction,
+                      double turn, const py::object& progress) {
         Execution execution(t.threads, callback(progress));
         const py::gil_scoped_release unlocked;
-        return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, phase, direction, move}, execution));
+        return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, phase, turn, direction}, execution));
       });
 }
 

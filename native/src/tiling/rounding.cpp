@@ -24,6 +24,7 @@ using Eigen::VectorXd;
 constexpr double kChange = 0.2;  // relative change of the form that costs 1
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
 constexpr int kPhases = 60, kScales = 7;
+constexpr int kNearPhases = 7;  // around a phase that is given
 constexpr double kScaleRange = 0.12;
 constexpr double kEvenness = 0.15, kTolerated = 1.1;  // of the rank
 constexpr double kFlipped = 1e3;                      // distortion of a rounding that flips or collapses a sample
@@ -88,8 +89,13 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double scale = std::sqrt(wishes.tiles / (wishes.area * sorted[sorted.size() / 2]));
   const double even = density_ratio(density);
-  const bool free_phase = p.kind == uv::Coefficients::complex && !wishes.phase;
-  const int phases = free_phase ? kPhases : 1;
+  std::vector<double> phases{0};
+  if (p.kind == uv::Coefficients::complex) {
+    phases.clear();
+    for (int i = 0; !wishes.phase && i < kPhases; ++i) phases.push_back(2 * std::numbers::pi * i / kPhases);
+    for (int i = 0; wishes.phase && i < kNearPhases; ++i)
+      phases.push_back(*wishes.phase + wishes.turn * (2.0 * i / (kNearPhases - 1) - 1));
+  }
 
   std::map<std::vector<std::int64_t>, Rounding> found;
   for (std::size_t d = 0; d < std::size(kDefects); ++d) {
@@ -97,11 +103,10 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
     if (d > 0 && p.defects.cols() == 0) break;
     const MatrixXcd rows = measure_rows(p, density, kDefects[d]);
     const ReducedBasis reduced = reduce(as_real(rows * p.Z));
-    std::vector<IntegerVector> nearest(static_cast<std::size_t>(phases * kScales));
-    run_throwing(execution.workers(), phases * kScales, [&](int i) {
-      const double turn = free_phase ? std::numbers::pi * 2 * (i / kScales) / phases : wishes.phase.value_or(0);
+    std::vector<IntegerVector> nearest(phases.size() * kScales);
+    run_throwing(execution.workers(), static_cast<int>(nearest.size()), [&](int i) {
       const double size = scale * (1 + kScaleRange * (2.0 * (i % kScales) / (kScales - 1) - 1));
-      const VectorXcd y = p.target * std::polar(size, turn);
+      const VectorXcd y = p.target * std::polar(size, phases[i / kScales]);
       nearest[i] = nearest_plane(reduced, as_real(rows * y));
     });
     for (const IntegerVector& z : nearest) found.try_emplace({z.begin(), z.end()}, Rounding{z, {}});

@@ -36,6 +36,7 @@ struct RoundingWishes {
   double tiles = 64;                  ///< over the surface, at its median density
   double area = 1;                    ///< of the surface
   std::optional<double> phase;        ///< of the target, in radians; free where none is given
+  double turn = 0;                    ///< by which a given phase may change
   int count = 16;                     ///< roundings that are wanted
 };
 

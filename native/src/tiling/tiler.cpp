@@ -80,6 +80,7 @@ Tiler::Tiler(std::shared_ptr<const mesh::Surface> surface, const structure::Opti
 }
 
 void Tiler::place(const PoleWishes& wishes, Execution& execution) {
+  fixed_ = !wishes.vertices.empty();
   execution.stage("level for the poles", 0.0, 0.1);
   const auto level = wishes.vertices.empty() ? coarse_level(surface_, execution)
                                              : CoarseLevel{surface_, {}};
@@ -94,6 +95,8 @@ void Tiler::place(const PoleWishes& wishes, Execution& execution) {
   execution.stage("poles", 0.2, 0.7);
   Poles poles = without_more_poles(*landscape, rules, execution);
   if (wishes.count) {
+    if (landscape->closed() && *wishes.count + wishes.vertices.size() > 0 && std::max<std::size_t>(*wishes.count, poles.vertices.size()) == 1)
+      throw TopologyError("one pole is not enough on a closed surface, where the residues sum to 0: two or more are needed");
     if (*wishes.count > static_cast<int>(poles.vertices.size()))
       poles = with_more_poles(*landscape, rules, std::move(poles), *wishes.count, execution);
   } else if (wishes.vertices.empty()) {
@@ -263,7 +266,7 @@ Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
   }
   RoundingProblem p = problem(wishes.lattice, parts, execution);
   const Index n = land.form_count(), natural = land.structure().topology.families.natural;
-  const bool may_move = moves() && wishes.move && free > 0;
+  const bool may_move = moves() && free > 0 && !fixed_;
   MatrixXcd metric;
   if (p.defects.cols() > 0) {
     const Eigen::ArrayXd density = (p.forms * p.target).cwiseAbs2().array();
@@ -283,7 +286,7 @@ Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
     }
   }
   RoundingWishes rounding{wishes.tiles > 0 ? wishes.tiles : std::max(100.0, 64.0 * land.structure().topology.type.genus),
-                          land.area(), wishes.phase};
+                          land.area(), wishes.phase, wishes.turn};
   if (wishes.direction) rounding.phase = phase_along(*wishes.direction, execution) + wishes.phase.value_or(0);
   std::vector<Rounding> list = roundings(p, rounding, execution);
   if (list.empty()) {
@@ -357,7 +360,6 @@ Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
     }
     const VectorXcd wanted = N * X - s->pole_parts * r;
     for (Index j = 0; j < wanted.size(); ++j) periods[j] = wishes.lattice.nearest(wanted[j]);
-    fprintf(stderr, "DEBUG mismatch %g\n", wanted.size() ? (wanted - periods).cwiseAbs().maxCoeff() : 0.0);
     q.head(families.natural) = periods;
   } else {
     const VectorXcd wanted = N * best.rounding.y.head(n) - s->pole_parts * r;

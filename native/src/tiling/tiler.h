@@ -24,9 +24,9 @@ struct PoleWishes {
 struct TilingWishes {
   double tiles = 0;                        ///< over the surface at its median density; 0: a number that suits it
   TextureLattice lattice;
-  std::optional<double> phase;             ///< radians
+  std::optional<double> phase;             ///< radians, beside the direction
+  double turn = 0.2;  ///< by which a wished phase may change, in radians
   std::optional<std::array<double, 3>> direction;  ///< in space, along which u runs as far as it can
-  bool move = true;                        ///< whether poles may move
 };
 
 /// A map whose jumps all are translations of the texture.
@@ -76,6 +76,7 @@ class Tiler {
   std::unique_ptr<AbelJacobi> abel_jacobi_;
   std::unique_ptr<PoleMoves> pole_moves_;
   Poles poles_;
+  bool fixed_ = false;  // poles were chosen, and do not move
   double optimum_ = 1;
   std::shared_ptr<structure::Structure> structure_;  // at structure_poles_, kept for the next tiling
   std::vector<int> structure_poles_;

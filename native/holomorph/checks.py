@@ -1,0 +1,65 @@
+"""Checks of what results are made from."""
+
+import os
+
+import numpy as np
+
+from ._native import TopologyError
+
+SOLVERS = ("auto", "direct", "multigrid", "paper")
+
+
+def check_options(solver, threads):
+    """The number of threads to use. @throws ValueError"""
+    if solver not in SOLVERS:
+        raise ValueError(f"solver is {solver!r}; one of {', '.join(SOLVERS)} is needed")
+    if threads is not None and (threads != int(threads) or threads < 1):
+        raise ValueError(f"threads is {threads!r}; a positive integer or None is needed")
+    return int(threads or os.cpu_count() or 1)
+
+
+def check_memory_limit(memory_limit):
+    """The limit in bytes, 0 for none. @throws ValueError"""
+    if memory_limit is None:
+        return 0
+    if isinstance(memory_limit, bool) or not 1 <= memory_limit < 2**63:
+        raise ValueError(f"memory_limit is {memory_limit!r}; a positive number of bytes or None is needed")
+    return int(memory_limit)
+
+
+def only_component(surface):
+    """The one component of a connected surface, without isolated vertices. @throws TopologyError"""
+    count = len(surface.components)
+    if count != 1:
+        raise TopologyError(f"the surface has {count} connected components; take one of surface.components")
+    return surface.components[0]
+
+
+def own_vertices(surface, component, vertices, noun):
+    """`vertices` of the surface as a list of the component's, and labels: the surface's index of each of the
+    component's vertices, [] if both are the same. `noun` says in messages what they are.
+
+    Raises TopologyError for anything but indices of vertices that have a face.
+    """
+    given = np.asarray(vertices)
+    if given.ndim != 1 or not (np.issubdtype(given.dtype, np.integer) or given.size == 0):
+        raise TopologyError(f"{noun}s must be a list of vertex indices, not an array of {given.dtype} of {given.shape}")
+    count = surface._native.vertex_count
+    for vertex in given[(given < 0) | (given >= count)]:
+        raise TopologyError(f"{noun} {vertex} is no vertex: there are {count}")
+    if component is surface:
+        return given.tolist(), []
+    own = np.full(count, -1)
+    own[component.vertex_index] = np.arange(len(component.vertex_index))
+    for vertex in given[own[given.astype(int)] < 0]:
+        raise TopologyError(f"{noun} {vertex} is a vertex of no face")
+    return own[given.astype(int)].tolist(), component.vertex_index.tolist()
+
+
+def checked_coefficients(coefficients, count, kind):
+    """`coefficients` as (count,) finite numbers of type `kind`. @throws ValueError"""
+    c = np.asarray(coefficients)
+    if c.shape != (count,) or not np.isfinite(c).all() or (kind is not np.complex128 and np.iscomplexobj(c)):
+        wanted = f"({count},) finite {'numbers are' if kind is np.complex128 else 'real numbers are'} needed"
+        raise ValueError(f"coefficients has the shape {c.shape}; {wanted}")
+    return c.astype(kind)

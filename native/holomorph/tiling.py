@@ -1,0 +1,181 @@
+"""Seamless tilings: UV maps whose jumps all are translations of the texture, of even density."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _native, arrays
+from ._native import TopologyError
+from .checks import own_vertices
+from .quality import Quality
+
+LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
+BOUNDARIES = ("straight", "free")
+
+
+@dataclass(frozen=True, eq=False)
+class Tiling:
+    """Result of `tile`. All arrays are read-only.
+
+    uv : (#C, 2) UVs: one tile of the texture is the unit square. Multiply them by integers only, and move them by
+        integers only: else seams show. Rounded to single precision, the two sides of a cut still differ by whole tiles
+    periods : (2g + b - 1, 2) integers: the jumps of (u, v) along the loops of a homology basis, in the lattice's vectors
+    poles : (k,) vertices around which the texture closes up only by whole tiles; the density grows towards them
+    residues : (k,) complex points of the lattice: by how much the UVs change around each pole, counter-clockwise
+    zeros : ((k,) vertices, (k,) orders): where the texture branches, around 2 pi (order + 1)
+    added_distortion : mean s1 / s2 over the area that the rounding to integers alone would give; 1 where it costs none
+    left_over : root mean square of |mu|, the Beltrami coefficient of the rounding
+    optimal_density_ratio : 95 % over 5 % quantile of the density that these poles allow without integers
+    tiles : the number of tiles that was aimed at: area times median density
+    quality : `Quality` on the triangles of the surface, diagonals flipped away from the poles
+    seams : (#S, 2) vertices of the edges where the UVs jump
+    """
+
+    uv: np.ndarray
+    periods: np.ndarray
+    poles: np.ndarray
+    residues: np.ndarray
+    zeros: tuple
+    added_distortion: float
+    left_over: float
+    optimal_density_ratio: float
+    tiles: float
+    quality: Quality
+    seams: np.ndarray
+
+    @property
+    def density_ratio(self):
+        """95 % over 5 % quantile of s1 s2 by area."""
+        return self.quality.density_ratio
+
+
+@dataclass(frozen=True)
+class PlacedPoles:
+    """Vertices, complex residues up to a common factor, and the density ratio that they allow."""
+
+    vertices: np.ndarray
+    residues: np.ndarray
+    density_ratio: float
+
+
+class Tiler:
+    """The poles of a surface and what tilings with them are made of; changing tiles, lattice or direction is quick.
+
+    Parameters
+    ----------
+    surface : Surface, connected
+    poles : "auto" for as many as the density asks for, a number, or a list of vertices, which stay where they are
+    boundary : "straight" for boundary loops along lines of constant v, "free" for a more even density; a surface with
+        both handles and a boundary has straight ones in any case
+    allowed : (#V,) bool, where poles may be that are not chosen; default anywhere
+    solver, threads, progress : as in `conformal_structure`
+    """
+
+    def __init__(
+        self, surface, poles="auto", *, boundary="straight", allowed=None, solver="auto", threads=0, progress=None
+    ):
+        if boundary not in BOUNDARIES:
+            raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
+        if len(surface.components) != 1:
+            raise TopologyError(
+                f"the surface has {len(surface.components)} connected components; take one of surface.components"
+            )
+        self._surface, self._component = surface, surface.components[0]
+        count, chosen = _wished(poles)
+        vertices, labels = own_vertices(surface, self._component, chosen, "pole")
+        self._native = _native.Tiler(self._component._native, boundary == "straight", labels, solver, threads or 0)
+        self._native.place(count, vertices, _allowed(allowed, surface, self._component), progress)
+
+    @property
+    def poles(self):
+        """`PlacedPoles`."""
+        vertices, residues, ratio = self._native.poles()
+        return PlacedPoles(self._of_surface(vertices), residues, ratio)
+
+    def tile(self, tiles=None, *, lattice="square", direction=None, turn=None, max_turn=0.2, progress=None):
+        """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
+        if tiles is not None and not (math.isfinite(tiles) and tiles > 0):
+            raise ValueError(f"tiles is {tiles!r}; a positive number or None is needed")
+        a, b = _lattice(lattice)
+        made = self._native.tile(
+            float(tiles or 0), a, b, turn, None if direction is None else _direction(direction), max_turn, progress
+        )
+        uv, triangulation = made.uv(), made.surface()
+        zeros, orders = made.zeros()
+        basis = np.array([[a.real, b.real], [a.imag, b.imag]])
+        jumps = made.periods().ravel()
+        periods = np.linalg.solve(basis, np.stack([jumps.real, jumps.imag]))
+        return Tiling(
+            uv=uv,
+            periods=arrays.frozen(np.rint(periods.T).astype(np.int64).reshape(-1, 2)),
+            poles=self._of_surface(made.poles()),
+            residues=made.residues(),
+            zeros=(self._of_surface(zeros), orders),
+            added_distortion=made.distortion,
+            left_over=made.left_over,
+            optimal_density_ratio=self.poles.density_ratio,
+            tiles=made.tiles,
+            quality=Quality(*_native.quality(triangulation, uv, 0)),
+            seams=self._of_surface(triangulation.edges[made.seams()]),
+        )
+
+    def _of_surface(self, vertices):
+        same = self._component is self._surface
+        return vertices if same else arrays.frozen(self._component.vertex_index[vertices])
+
+
+def place_poles(surface, count="auto", *, boundary="straight", allowed=None, threads=0, progress=None):
+    """`PlacedPoles` of a connected surface: where poles make the texture density most even. Arguments as in `Tiler`.
+
+    A greedy start, then exchanges of one pole at a time, on a level of the progressive mesh of about 10,000 triangles.
+    Deterministic."""
+    return Tiler(
+        surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress
+    ).poles
+
+
+def _wished(poles):
+    """(count or None, chosen vertices)"""
+    if isinstance(poles, str):
+        if poles != "auto":
+            raise ValueError(f'poles is {poles!r}; "auto", a number or a list of vertices is needed')
+        return None, []
+    if np.ndim(poles) == 0:
+        if poles != int(poles) or not 0 <= poles <= 1000:
+            raise ValueError(f"poles is {poles!r}; a whole number from 0 on is needed")
+        return int(poles), []
+    return len(poles), poles
+
+
+def _allowed(allowed, surface, component):
+    if allowed is None:
+        return []
+    allowed = np.asarray(allowed, bool)
+    if allowed.shape != (len(surface.vertices),):
+        raise ValueError(f"allowed has the shape {allowed.shape}; ({len(surface.vertices)},) is needed")
+    own = allowed if component is surface else allowed[component.vertex_index]
+    if not own.any():
+        raise ValueError("allowed leaves no vertex for a pole")
+    return own.tolist()
+
+
+def _lattice(lattice):
+    """Its two generators as complex numbers. @throws ValueError"""
+    if isinstance(lattice, str):
+        if lattice not in LATTICES:
+            raise ValueError(f"lattice is {lattice!r}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
+        return tuple(complex(z) for z in LATTICES[lattice])
+    matrix = np.asarray(lattice, float)
+    if matrix.shape != (2, 2) or not np.isfinite(matrix).all():
+        raise ValueError(f"lattice has the shape {matrix.shape}; a finite 2 x 2 matrix is needed")
+    if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
+        raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
+    return complex(*matrix[:, 0]), complex(*matrix[:, 1])
+
+
+def _direction(direction):
+    vector = np.asarray(direction, float)
+    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
+        raise ValueError(f"direction is {direction!r}; three numbers, not all 0, are needed")
+    return vector.tolist()
