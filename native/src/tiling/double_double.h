@@ -1,0 +1,42 @@
+// Columns of numbers in twice the working precision: each is an unevaluated sum high + low, |low| <= ulp(high) / 2
+// (Dekker 1971, doi:10.1007/BF01397083).
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+
+namespace holomorph::tiling {
+
+/// The upper 26 bits of a double, and the rest: products of such halves are exact.
+inline std::pair<double, double> halves(double a) {
+  constexpr double kSplit = 134217729;  // 2^27 + 1
+  const double shifted = kSplit * a, upper = shifted - (shifted - a);
+  return {upper, a - upper};
+}
+
+struct DoubleDoubleColumns {
+  Eigen::MatrixXd high, low;
+
+  /// column(k) -= factor * column(j), for a factor that is exact. Error: some 1e-32 of the larger term.
+  void subtract(Eigen::Index k, double factor, Eigen::Index j) {
+    const auto [f, g] = halves(factor);
+    double *h = high.col(k).data(), *l = low.col(k).data();
+    const double *a = high.col(j).data(), *b = low.col(j).data();
+    for (Eigen::Index i = 0; i < high.rows(); ++i) {
+      const auto [u, v] = halves(a[i]);
+      const double product = factor * a[i], product_error = ((f * u - product) + f * v + g * u) + g * v;
+      const double sum = h[i] - product, taken = h[i] - sum;
+      const double sum_error = (h[i] - (sum + taken)) + (taken - product);
+      const double rest = l[i] + (sum_error - product_error - factor * b[i]);
+      h[i] = sum + rest;
+      l[i] = rest - (h[i] - sum);
+    }
+  }
+
+  void swap(Eigen::Index k, Eigen::Index j) {
+    high.col(k).swap(high.col(j));
+    low.col(k).swap(low.col(j));
+  }
+};
+
+}  // namespace holomorph::tiling

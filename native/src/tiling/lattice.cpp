@@ -1,0 +1,201 @@
+#include "tiling/lattice.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/errors.h"
+#include "tiling/double_double.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
+// Error of Q R that is tolerated, relative to the length of a column: far above rounding, far below kSizeReduction.
+constexpr double kDrift = 1e-12;
+constexpr double kLargestInteger = 9007199254740992;  // 2^53: up to here doubles count without gaps
+
+[[noreturn]] void refuse_integers() { throw Error("the lattice needs integers beyond 2^53"); }
+
+// Babai's rounding, from the last coordinate to the first: integral x that bring y - R x into the box |y_j| <= R_jj / 2.
+// y becomes that difference; `noise` is its rounding error, below which nothing is done.
+VectorXd round_off(const Eigen::Ref<const MatrixXd>& R, VectorXd& y, double noise) {
+  VectorXd x = VectorXd::Zero(y.size());
+  for (Index j = y.size() - 1; j >= 0; --j) {
+    if (std::abs(y[j]) <= (0.5 + kSizeReduction) * R(j, j) + noise) continue;
+    x[j] = std::round(y[j] / R(j, j));
+    y.head(j + 1) -= x[j] * R.col(j).head(j + 1);
+  }
+  return x;
+}
+
+// A column that is nearer to the span of others than this, relative to its length, is within the rounding errors of
+// the reduction; further away, every R_kk that `append` computes is positive.
+double dependence(Index columns) { return 4 * columns * kRounding; }
+
+void check_independence(const MatrixXd& B) {
+  if (!B.allFinite()) throw SolverError("the basis of the lattice has entries that are not finite");
+  MatrixXd unit = B;
+  for (auto column : unit.colwise()) column.stableNormalize();
+  Eigen::ColPivHouseholderQR<MatrixXd> factor(unit);
+  factor.setThreshold(dependence(B.cols()));
+  if (factor.rank() == B.cols()) return;
+  throw SolverError("column " + std::to_string(factor.colsPermutation().indices()[factor.rank()]) +
+                    " of the lattice's basis depends linearly on the others");
+}
+
+// The columns are in double-double, so that no exchange or multiple loses digits that a short vector needs. Q and R of
+// the first `known_` columns follow every step, by Givens rotations.
+class Reduction {
+ public:
+  Reduction(const MatrixXd& B, double delta) : delta_(delta), n_(B.cols()) {
+    std::vector<Index> order(n_);  // ascending by length: far fewer exchanges
+    std::iota(order.begin(), order.end(), 0);
+    const VectorXd length = B.colwise().norm();
+    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return length[i] < length[j]; });
+    columns_ = {B(Eigen::all, order), MatrixXd::Zero(B.rows(), n_)};
+    transform_ = MatrixXd::Identity(n_, n_)(Eigen::all, order);
+    Q_.resize(B.rows(), n_);
+    R_ = MatrixXd::Zero(n_, n_);
+  }
+
+  // Repeated with a new factorisation until it confirms the last one.
+  ReducedBasis run() {
+    constexpr int kMostSweeps = 100;
+    for (int sweeps = 0; sweep(); ++sweeps) {
+      if (sweeps == kMostSweeps) throw SolverError("the reduction of a lattice of rank " + std::to_string(n_) + " stalls");
+    }
+    return {columns_.high, transform_.cast<std::int64_t>(), Q_, R_};
+  }
+
+ private:
+  // One reduction from the first column on. Returns whether it changed the basis.
+  bool sweep() {
+    bool changed = false;
+    known_ = 0;
+    for (Index k = 0; k < n_;) {
+      if (k == known_) project(k);
+      changed |= size_reduce(k);
+      if (k == known_) append(k);
+      if (k == 0 || delta_ * R_(k - 1, k - 1) * R_(k - 1, k - 1) <= R_.col(k).segment(k - 1, 2).squaredNorm()) {
+        ++k;
+      } else {
+        exchange(k--);
+        changed = true;
+      }
+    }
+    return changed;
+  }
+
+  void project(Index k) { R_.col(k).head(k).noalias() = Q_.leftCols(k).transpose() * columns_.high.col(k); }
+
+  // The multiples are not exact where they are large, hence the repetition with new coefficients.
+  bool size_reduce(Index k) {
+    for (bool changed = false;; changed = true) {
+      VectorXd y = R_.col(k).head(k);
+      const VectorXd x = round_off(R_.topLeftCorner(k, k), y, kDrift * columns_.high.col(k).norm());
+      if ((x.array() == 0).all()) return changed;
+      for (Index j = 0; j < k; ++j) {
+        if (x[j] != 0) subtract(k, x[j], j);
+      }
+      project(k);
+      if (k < known_ && drift(k) > kDrift * columns_.high.col(k).norm()) factorise(k + 1);
+    }
+  }
+
+  double drift(Index k) const {
+    return (columns_.high.col(k) - Q_.leftCols(k + 1) * R_.col(k).head(k + 1)).norm();
+  }
+
+  // Q and R anew, of this many columns.
+  void factorise(Index columns) {
+    for (known_ = 0; known_ < columns;) {
+      project(known_);
+      append(known_);
+    }
+  }
+
+  void subtract(Index k, double factor, Index j) {
+    columns_.subtract(k, factor, j);
+    transform_.col(k) -= factor * transform_.col(j);
+    if (!(std::abs(factor) <= kLargestInteger && transform_.col(k).cwiseAbs().maxCoeff() <= kLargestInteger)) {
+      refuse_integers();
+    }
+  }
+
+  // Gram-Schmidt, twice: then q is orthogonal to rounding (Giraud et al. 2005, doi:10.1007/s00211-005-0615-4).
+  void append(Index k) {
+    const auto Q = Q_.leftCols(k);
+    VectorXd q = columns_.high.col(k) - Q * R_.col(k).head(k);
+    const VectorXd correction = Q.transpose() * q;
+    q -= Q * correction;
+    R_.col(k).head(k) += correction;
+    R_(k, k) = q.norm();
+    Q_.col(k) = q / R_(k, k);
+    ++known_;
+  }
+
+  // Of columns k - 1 and k. The rotation is followed by a reflection: the diagonal stays positive.
+  void exchange(Index k) {
+    columns_.swap(k - 1, k);
+    transform_.col(k - 1).swap(transform_.col(k));
+    R_.col(k - 1).head(k + 1).swap(R_.col(k).head(k + 1));
+    const double length = std::hypot(R_(k - 1, k - 1), R_(k, k - 1));
+    const double c = R_(k - 1, k - 1) / length, s = R_(k, k - 1) / length;
+    const auto rotate = [c, s](double& upper, double& lower) {
+      const double before = upper;
+      upper = c * before + s * lower;
+      lower = s * before - c * lower;
+    };
+    R_(k - 1, k - 1) = length;
+    R_(k, k - 1) = 0;
+    for (Index j = k; j < known_; ++j) rotate(R_(k - 1, j), R_(k, j));
+    for (Index i = 0; i < Q_.rows(); ++i) rotate(Q_(i, k - 1), Q_(i, k));
+  }
+
+  double delta_;
+  Index n_, known_ = 0;
+  DoubleDoubleColumns columns_;
+  MatrixXd transform_;  // integral
+  MatrixXd Q_, R_;
+};
+
+}  // namespace
+
+ReducedBasis reduce(const MatrixXd& B, double delta) {
+  assert(delta > 0.25 && delta < 1);
+  check_independence(B);
+  return Reduction(B, delta).run();
+}
+
+VectorXd nearest_coefficients(const ReducedBasis& reduced, const VectorXd& target) {
+  VectorXd c = VectorXd::Zero(reduced.R.cols()), residual = target;
+  for (;;) {
+    VectorXd y = reduced.Q.transpose() * residual;
+    const VectorXd x = round_off(reduced.R, y, kDrift * residual.norm());
+    if ((x.array() == 0).all()) return c;
+    c += x;
+    residual -= reduced.basis * x;
+  }
+}
+
+IntegerVector original_integers(const ReducedBasis& reduced, const VectorXd& c) {
+  const MatrixXd transform = reduced.transform.cast<double>();
+  if (!((transform.cwiseAbs() * c.cwiseAbs()).array() <= kLargestInteger).all()) refuse_integers();
+  return (transform * c).cast<std::int64_t>();
+}
+
+IntegerVector nearest_plane(const ReducedBasis& reduced, const VectorXd& target) {
+  return original_integers(reduced, nearest_coefficients(reduced, target));
+}
+
+}  // namespace holomorph::tiling
