@@ -44,8 +44,7 @@ void bind_tiling(py::module_& m) {
   py::class_<PyTiler>(m, "Tiler")
       .def(py::init([](const std::shared_ptr<mesh::Surface>& surface, bool straight, const std::vector<int>& names,
                        const std::string& solver, int threads) {
-        Execution execution(threads);
-        return PyTiler{threads, std::make_unique<Tiler>(surface, structure::Options{solver}, straight, names, execution)};
+        return PyTiler{threads, std::make_unique<Tiler>(surface, structure::Options{solver}, straight, names)};
       }))
       .def("place",
            [](PyTiler& t, std::optional<int> count, std::vector<int> vertices, std::vector<char> allowed,
@@ -56,11 +55,11 @@ void bind_tiling(py::module_& m) {
            })
       .def("poles", [](const PyTiler& t) { return py::make_tuple(copy(t.value->poles().vertices), copy(t.value->poles().residues), t.value->optimal_density_ratio()); })
       .def("tile", [](PyTiler& t, double tiles, std::complex<double> a, std::complex<double> b,
-                      std::optional<double> phase, std::optional<std::array<double, 3>> direction,
-                      double turn, const py::object& progress) {
+                      std::optional<double> turn, std::optional<std::array<double, 3>> direction,
+                      double most_turn, const py::object& progress) {
         Execution execution(t.threads, callback(progress));
         const py::gil_scoped_release unlocked;
-        return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, phase, turn, direction}, execution));
+        return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, direction, turn, most_turn}, execution));
       });
 }
 

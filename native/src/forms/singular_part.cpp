@@ -57,15 +57,6 @@ double mean_spoke(const HalfEdges& mesh, std::span<const double> lengths, const 
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// Adds `flux` with the weights of the ends a, b, and `excess` with the normal derivatives of the hat functions.
-void add(const StarTriangle& t, int p, int column, double flux_b, double flux, double excess, double scale,
-         Triplets& b) {
-  const double at_b = -t.t0 / t.length / t.height, at_p = -1 / t.height;
-  b.emplace_back(p, column, scale * at_p * excess);
-  b.emplace_back(t.a, column, scale * (flux - flux_b - (at_p + at_b) * excess));
-  b.emplace_back(t.b, column, scale * (flux_b + at_b * excess));
-}
-
 Eigen::SparseMatrix<double> assembled(const HalfEdges& mesh, std::size_t columns, const Triplets& entries) {
   Eigen::SparseMatrix<double> result(static_cast<Eigen::Index>(mesh.n_vertices()), static_cast<Eigen::Index>(columns));
   result.setFromTriplets(entries.begin(), entries.end());
@@ -74,20 +65,45 @@ Eigen::SparseMatrix<double> assembled(const HalfEdges& mesh, std::size_t columns
 
 }  // namespace
 
+StarPart star_part(const HalfEdges& mesh, std::span<const double> lengths, const mesh::Star& star) {
+  const double scale = 1 / star.total_angle, unit = mean_spoke(mesh, lengths, star);
+  const std::size_t count = star.size();
+  StarPart part{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
+                std::vector<double>(count)};
+  double alpha = -star.angles[0];  // 0 at the end of link[0]
+  for (std::size_t j = 0; j < count; ++j) {
+    const StarTriangle t(mesh, lengths, star.link[j], star.angles[j], unit);
+    alpha += t.angle;
+    part.u[j] = alpha * scale;
+    part.v[j] = -t.log_b * scale;
+    // `flux` with the weights of the ends a, b, and `excess` with the normal derivatives of the hat functions
+    const std::size_t at_a = (j + count - 1) % count;
+    const double at_b = -t.t0 / t.length / t.height, at_p = -1 / t.height;
+    const auto add = [&](double flux_b, double flux, double excess, std::vector<double>& b, double& b_at_puncture) {
+      b_at_puncture += scale * at_p * excess;
+      b[at_a] += scale * (flux - flux_b - (at_p + at_b) * excess);
+      b[j] += scale * (flux_b + at_b * excess);
+    };
+    add(t.flux_of_log(), t.angle, -t.excess_of_log(), part.b_v, part.b_v_at_puncture);
+    add(t.flux_of_angle(), t.log_ratio(), t.excess_of_angle(), part.b_u, part.b_u_at_puncture);
+  }
+  return part;
+}
+
 SingularPart singular_part(const HalfEdges& mesh, std::span<const double> lengths,
                            const std::vector<mesh::Star>& stars) {
   Triplets u, v, b_u, b_v;
   for (int i = 0; i < static_cast<int>(stars.size()); ++i) {
     const mesh::Star& star = stars[i];
-    const double scale = 1 / star.total_angle, unit = mean_spoke(mesh, lengths, star);
-    double alpha = -star.angles[0];  // 0 at the end of link[0]
+    const StarPart part = star_part(mesh, lengths, star);
+    b_u.emplace_back(star.vertex, i, part.b_u_at_puncture);
+    b_v.emplace_back(star.vertex, i, part.b_v_at_puncture);
     for (std::size_t j = 0; j < star.size(); ++j) {
-      const StarTriangle t(mesh, lengths, star.link[j], star.angles[j], unit);
-      alpha += t.angle;
-      u.emplace_back(t.b, i, alpha * scale);
-      v.emplace_back(t.b, i, -t.log_b * scale);
-      add(t, star.vertex, i, t.flux_of_log(), t.angle, -t.excess_of_log(), scale, b_v);
-      add(t, star.vertex, i, t.flux_of_angle(), t.log_ratio(), t.excess_of_angle(), scale, b_u);
+      const int b = mesh::to_vertex(mesh, star.link[j]);
+      u.emplace_back(b, i, part.u[j]);
+      v.emplace_back(b, i, part.v[j]);
+      b_u.emplace_back(b, i, part.b_u[j]);
+      b_v.emplace_back(b, i, part.b_v[j]);
     }
   }
   const auto matrix = [&](const Triplets& entries) { return assembled(mesh, stars.size(), entries); };

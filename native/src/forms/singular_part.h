@@ -17,6 +17,16 @@ namespace holomorph::forms {
 /// between u_s, v_s and their linear interpolants on the straight link edges, tested with the normal derivatives of the
 /// hat functions, which makes the result second order. Each column of b_u sums to 0 and of b_v to 1; both test linear
 /// functions exactly.
+struct StarPart {
+  std::vector<double> u, v;      ///< at the end of each link edge; u jumps by 1 at link[0]
+  std::vector<double> b_u, b_v;  ///< the same
+  double b_u_at_puncture = 0, b_v_at_puncture = 0;
+};
+
+/// @param lengths #E
+StarPart star_part(const mesh::HalfEdges& half_edges, std::span<const double> lengths, const mesh::Star& star);
+
+/// Those of several stars, as columns.
 struct SingularPart {
   Eigen::SparseMatrix<double> u, v;      ///< #V x #stars, supported on the links; u jumps by 1 at the link edge link[0]
   Eigen::SparseMatrix<double> b_u, b_v;  ///< #V x #stars, supported on the stars

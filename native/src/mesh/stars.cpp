@@ -18,25 +18,6 @@ double apex_angle(const HalfEdges& mesh, std::span<const double> lengths, Halfed
   return std::atan2(4 * triangle_area(a, b, c), (b - a) * (b + a) + c * c);
 }
 
-Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, const VertexLabels& label) {
-  Star result;
-  result.vertex = vertex;
-  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
-  if (!start.is_valid()) throw TopologyError("puncture " + label(vertex) + " is a vertex of no face");
-  HalfedgeHandle h = start;
-  do {  // h leaves the vertex; the face to its left is the next one counter-clockwise
-    if (!mesh.face_handle(h).is_valid())
-      throw TopologyError("puncture " + label(vertex) + " lies on the boundary; an interior vertex is needed");
-    const HalfedgeHandle outer = next(mesh, h);
-    result.link.push_back(outer);
-    result.faces.push_back(face_of(mesh, outer));
-    result.angles.push_back(apex_angle(mesh, lengths, outer));
-    result.total_angle += result.angles.back();
-    h = opposite(next(mesh, outer));
-  } while (h != start);
-  return result;
-}
-
 bool on_boundary(const HalfEdges& mesh, int vertex) {
   return !mesh.face_handle(mesh.halfedge_handle(VertexHandle(vertex))).is_valid();
 }
@@ -59,18 +40,6 @@ void claim(const HalfEdges& mesh, const Star& star, const VertexLabels& label, s
     if (on_boundary(mesh, v)) throw TopologyError(itself + " touches the boundary at vertex " + label(v));
     take(v);
   }
-}
-
-// The vertex and its neighbours along edges of polygons.
-std::vector<int> star_vertices(const Surface& surface, const HalfEdges& mesh, int vertex) {
-  std::vector<int> vertices{vertex};
-  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
-  HalfedgeHandle h = start;
-  do {
-    if (!surface.is_diagonal(edge_of(h))) vertices.push_back(to_vertex(mesh, h));
-    h = next(mesh, opposite(h));
-  } while (h != start);
-  return vertices;
 }
 
 struct Side {
@@ -137,26 +106,62 @@ void flip(Surface& surface, Side s) {
 
 }  // namespace
 
+Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex,
+          const std::vector<int>& labels) {
+  const VertexLabels label(labels);
+  Star result;
+  result.vertex = vertex;
+  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  if (!start.is_valid()) throw TopologyError("puncture " + label(vertex) + " is a vertex of no face");
+  HalfedgeHandle h = start;
+  do {  // h leaves the vertex; the face to its left is the next one counter-clockwise
+    if (!mesh.face_handle(h).is_valid())
+      throw TopologyError("puncture " + label(vertex) + " lies on the boundary; an interior vertex is needed");
+    const HalfedgeHandle outer = next(mesh, h);
+    result.link.push_back(outer);
+    result.faces.push_back(face_of(mesh, outer));
+    result.angles.push_back(apex_angle(mesh, lengths, outer));
+    result.total_angle += result.angles.back();
+    h = opposite(next(mesh, outer));
+  } while (h != start);
+  return result;
+}
+
+std::vector<int> star_vertices(const Surface& surface, const HalfEdges& mesh, int vertex) {
+  std::vector<int> vertices{vertex};
+  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  HalfedgeHandle h = start;
+  do {
+    if (!surface.is_diagonal(edge_of(h))) vertices.push_back(to_vertex(mesh, h));
+    h = next(mesh, opposite(h));
+  } while (h != start);
+  return vertices;
+}
+
 std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
                         const std::vector<int>& labels) {
   const VertexLabels label(labels);
   std::vector<Star> result;
   std::vector<int> owner(half_edges.n_vertices(), -1);
   for (const int v : vertices) {
-    result.push_back(star(half_edges, lengths, v, label));
+    result.push_back(star(half_edges, lengths, v, labels));
     claim(half_edges, result.back(), label, owner);
   }
   return result;
 }
 
-bool has_free_star(const Surface& surface, const HalfEdges& mesh, int vertex, const std::vector<char>& taken) {
+bool has_proper_star(const Surface& surface, const HalfEdges& mesh, int vertex) {
   if (!mesh.halfedge_handle(VertexHandle(vertex)).is_valid()) return false;
   std::vector<int> vertices = star_vertices(surface, mesh, vertex);
-  for (const int v : vertices) {
-    if (taken[v] || on_boundary(mesh, v)) return false;
-  }
+  if (std::any_of(vertices.begin(), vertices.end(), [&](int v) { return on_boundary(mesh, v); })) return false;
   std::sort(vertices.begin(), vertices.end());
   return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end();
+}
+
+bool has_free_star(const Surface& surface, const HalfEdges& mesh, int vertex, const std::vector<char>& taken) {
+  if (!has_proper_star(surface, mesh, vertex)) return false;
+  const std::vector<int> vertices = star_vertices(surface, mesh, vertex);
+  return std::none_of(vertices.begin(), vertices.end(), [&](int v) { return taken[v]; });
 }
 
 void mark_star(const Surface& surface, const HalfEdges& mesh, int vertex, std::vector<char>& taken) {

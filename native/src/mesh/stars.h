@@ -26,8 +26,18 @@ struct Star {
 std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
                         const std::vector<int>& labels = {});
 
-/// Whether `stars` accepts the vertex once diagonals are flipped away from it: its neighbours along edges of polygons
-/// are distinct, not on the boundary and, like itself, not marked in `taken` (#V). It marks nothing.
+/// One star, whatever it meets. @throws TopologyError if the vertex has no face, or lies on the boundary
+Star star(const HalfEdges& half_edges, std::span<const double> lengths, int vertex,
+          const std::vector<int>& labels = {});
+
+/// The vertex, which has a face and does not lie on the boundary, and its neighbours along edges of polygons.
+std::vector<int> star_vertices(const Surface& surface, const HalfEdges& half_edges, int vertex);
+
+/// Whether `stars` accepts the vertex alone once diagonals are flipped away from it: its neighbours along edges of
+/// polygons are distinct and not on the boundary.
+bool has_proper_star(const Surface& surface, const HalfEdges& half_edges, int vertex);
+
+/// The same beside others: nor are they, or itself, marked in `taken` (#V). It marks nothing.
 bool has_free_star(const Surface& surface, const HalfEdges& half_edges, int vertex, const std::vector<char>& taken);
 
 /// Marks the vertex and its neighbours along edges of polygons.

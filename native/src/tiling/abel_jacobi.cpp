@@ -1,7 +1,5 @@
 #include "tiling/abel_jacobi.h"
 
-#include <Eigen/Cholesky>
-
 #include "forms/singular_part.h"
 #include "mesh/triangle_geometry.h"
 
@@ -12,7 +10,7 @@ using mesh::HalfedgeHandle;
 using mesh::next;
 using mesh::opposite;
 
-AbelJacobi::AbelJacobi(const Landscape& landscape, Execution& execution) : landscape_(landscape) {
+AbelJacobi::AbelJacobi(const Landscape& landscape, Execution& execution) : landscape_(landscape), gram_(landscape.structure().gram[0]) {
   const auto& mesh = landscape.half_edges();
   const auto count = static_cast<int>(mesh.n_faces());
   dual_potentials_.setZero(count, landscape.harmonic().functions.cols());
@@ -42,9 +40,8 @@ Eigen::RowVectorXd AbelJacobi::along(HalfedgeHandle h) const {
 Eigen::VectorXd AbelJacobi::at(int vertex) const {
   const auto& mesh = landscape_.half_edges();
   const auto& lengths = landscape_.lengths();
-  const std::vector<mesh::Star> stars = mesh::stars(mesh, lengths, {vertex});
-  const mesh::Star& star = stars[0];
-  const forms::SingularPart part = forms::singular_part(mesh, lengths, stars);
+  const mesh::Star star = mesh::star(mesh, lengths, vertex);
+  const forms::StarPart part = forms::star_part(mesh, lengths, star);
   // k over the faces outside the star; `h` does not end at the puncture
   const auto outer_weight = [&](HalfedgeHandle h) {
     for (const HalfedgeHandle side : {h, opposite(h)}) {
@@ -57,16 +54,16 @@ Eigen::VectorXd AbelJacobi::at(int vertex) const {
   };
   Eigen::RowVectorXd P = dual_potentials_.row(mesh::face_of(mesh, opposite(star.link[0]))) +
                          outer_weight(star.link[0]) * along(star.link[0]);
-  for (const HalfedgeHandle link : star.link) {
-    const int a = mesh::from_vertex(mesh, link);
-    HalfedgeHandle h = link;
+  for (std::size_t j = 0; j < star.size(); ++j) {
+    const HalfedgeHandle to_b = star.link[j], first = star.link[(j + 1) % star.size()];
+    HalfedgeHandle h = first;  // those that leave b
     do {
-      if (mesh::to_vertex(mesh, h) != vertex) P -= outer_weight(h) * part.u.coeff(a, 0) * along(h);
+      if (mesh::to_vertex(mesh, h) != vertex) P -= outer_weight(h) * part.u[j] * along(h);
       h = next(mesh, opposite(h));
-    } while (h != link);
-    P -= part.b_u.coeff(mesh::to_vertex(mesh, link), 0) * along(opposite(next(mesh, link)));
+    } while (h != first);
+    P -= part.b_u[j] * along(opposite(next(mesh, to_b)));
   }
-  return landscape_.structure().gram[0].llt().solve(P.transpose());
+  return gram_.solve(P.transpose());
 }
 
 Eigen::VectorXd nearest_representative(const Eigen::VectorXd& value, const Eigen::VectorXd& near) {

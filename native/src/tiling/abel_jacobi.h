@@ -1,8 +1,7 @@
 // The Abel-Jacobi map of the vertices of a closed surface with handles, exact on its triangulation.
 #pragma once
 
-#include <span>
-#include <vector>
+#include <Eigen/Cholesky>
 
 #include "tiling/landscape.h"
 
@@ -24,6 +23,7 @@ class AbelJacobi {
   Eigen::RowVectorXd along(mesh::HalfedgeHandle h) const;
 
   const Landscape& landscape_;
+  Eigen::LLT<Eigen::MatrixXd> gram_;
   forms::RowMajorMatrix dual_potentials_;  // #T x 2g: the fluxes of h_j along the dual path to triangle 0
 };
 

@@ -122,41 +122,65 @@ class Moving {
       poles_.parts[i] -= (leverage_.abel_jacobi_derivatives({triangle}) * part).real();
   }
 
-  // Marks of the stars of all poles but two.
-  std::vector<char> stars_but(std::size_t i, std::size_t j) const {
-    std::vector<char> taken(landscape_.surface().vertex_count, 0);
-    for (std::size_t k = 0; k < poles_.vertices.size(); ++k) {
-      if (k != i && k != j && (held_[k] || settled_))
-        mesh::mark_star(landscape_.surface(), landscape_.half_edges(), poles_.vertices[k], taken);
-    }
-    return taken;
+  // Ascending.
+  std::vector<int> star_of(int vertex) const {
+    auto star = mesh::star_vertices(landscape_.surface(), landscape_.half_edges(), vertex);
+    std::sort(star.begin(), star.end());
+    return star;
   }
 
-  bool is_free(int vertex, const std::vector<char>& taken) const {
+  // The vertices of the stars of the settled poles but two, ascending.
+  std::vector<int> stars_but(std::size_t i, std::size_t j) const {
+    std::vector<int> all;
+    for (std::size_t k = 0; k < poles_.vertices.size(); ++k) {
+      if (k == i || k == j || !held_[k]) continue;
+      const auto star = star_of(poles_.vertices[k]);
+      all.insert(all.end(), star.begin(), star.end());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  static bool are_apart(const std::vector<int>& a, const std::vector<int>& b) {
+    for (auto x = a.begin(), y = b.begin(); x != a.end() && y != b.end();) {
+      if (*x == *y) return false;
+      ++(*x < *y ? x : y);
+    }
+    return true;
+  }
+
+  bool is_allowed(int vertex) const {
     return (rules_.allowed.empty() || rules_.allowed[vertex]) &&
-           mesh::has_free_star(landscape_.surface(), landscape_.half_edges(), vertex, taken);
+           mesh::has_proper_star(landscape_.surface(), landscape_.half_edges(), vertex);
+  }
+
+  const VectorXd& part_at(int vertex) {
+    auto& part = parts_[vertex];
+    if (part.size() == 0) part = abel_jacobi_.at(vertex);
+    return part;
   }
 
   // At the nearest vertex that can take it, else back where it was.
   void hold(std::size_t i) {
-    const std::vector<char> taken = stars_but(i, i);
+    const std::vector<int> others = stars_but(i, i);
     for (const int v : nearest_corners(landscape_.surface(), points_[i])) {
-      if (!is_free(v, taken)) continue;
+      if (!is_allowed(v) || !are_apart(star_of(v), others)) continue;
       poles_.vertices[i] = v;
       break;
     }
-    poles_.parts[i] = nearest_representative(abel_jacobi_.at(poles_.vertices[i]), poles_.parts[i]);
+    poles_.parts[i] = nearest_representative(part_at(poles_.vertices[i]), poles_.parts[i]);
     held_[i] = 1;
   }
 
   struct Neighbour {
     int vertex;
+    std::vector<int> star;
     VectorXd part;
     VectorXcd effect;  // on the defect, with the residue
   };
 
   // The vertices around a pole, itself among them.
-  std::vector<Neighbour> around(std::size_t i) const {
+  std::vector<Neighbour> around(std::size_t i) {
     const auto& mesh = landscape_.half_edges();
     std::vector<int> queue{poles_.vertices[i]};
     std::map<int, char> seen{{poles_.vertices[i], 1}};
@@ -169,19 +193,17 @@ class Moving {
         h = mesh::next(mesh, mesh::opposite(h));
       } while (h != first);
     }
-    const std::vector<char> nothing(landscape_.surface().vertex_count, 0);
     std::vector<Neighbour> list;
     for (const int v : queue) {
-      if (!is_free(v, nothing)) continue;
-      VectorXd part = nearest_representative(abel_jacobi_.at(v), poles_.parts[i]);
+      if (!is_allowed(v)) continue;
+      VectorXd part = nearest_representative(part_at(v), poles_.parts[i]);
       VectorXcd effect = residues_[static_cast<Index>(i)] * (to_defect_ * part.cast<Complex>());
-      list.push_back({v, std::move(part), std::move(effect)});
+      list.push_back({v, star_of(v), std::move(part), std::move(effect)});
     }
     return list;
   }
 
   void exchange_pairs() {
-    settled_ = true;
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::vector<Neighbour>> near;
       for (std::size_t i = 0; i < held_.size(); ++i)
@@ -202,15 +224,15 @@ class Moving {
       return residues_[static_cast<Index>(k)] * (to_defect_ * poles_.parts[k].cast<Complex>());
     };
     const VectorXcd rest = now - effect(i) - effect(j);
-    const std::vector<char> taken = stars_but(i, j);
+    const std::vector<int> others = stars_but(i, j);
     double least = now.squaredNorm() * (1 - 1e-9);
     const Neighbour *first = nullptr, *second = nullptr;
     for (const Neighbour& a : near[i]) {
-      if (!is_free(a.vertex, taken)) continue;
+      if (!are_apart(a.star, others)) continue;
       const VectorXcd with = rest + a.effect;
       for (const Neighbour& b : near[j]) {
         const double size = (with + b.effect).squaredNorm();
-        if (size < least && is_free(b.vertex, taken) && are_apart(a.vertex, b.vertex)) {
+        if (size < least && are_apart(b.star, others) && are_apart(a.star, b.star)) {
           least = size;
           first = &a;
           second = &b;
@@ -225,12 +247,6 @@ class Moving {
     return true;
   }
 
-  bool are_apart(int a, int b) const {
-    std::vector<char> taken(landscape_.surface().vertex_count, 0);
-    mesh::mark_star(landscape_.surface(), landscape_.half_edges(), a, taken);
-    return mesh::has_free_star(landscape_.surface(), landscape_.half_edges(), b, taken);
-  }
-
   const Landscape& landscape_;
   const AbelJacobi& abel_jacobi_;
   const Leverage& leverage_;
@@ -243,7 +259,7 @@ class Moving {
   std::vector<SurfacePoint> points_;
   std::vector<char> held_;
   std::vector<double> gone_;
-  bool settled_ = false;
+  std::map<int, VectorXd> parts_;
 };
 
 }  // namespace
@@ -256,10 +272,11 @@ PoleMoves::PoleMoves(const Landscape& landscape, const AbelJacobi& abel_jacobi)
   }
 }
 
-VectorXcd PoleMoves::left_over(const PlacedPoles& poles, const VectorXcd& periods, const VectorXcd& residues) const {
-  VectorXcd X = periods;
-  for (std::size_t i = 0; i < poles.parts.size(); ++i) X += residues[static_cast<Index>(i)] * poles.parts[i];
-  return leverage_.split(X).tail(leverage_.split().rows() / 2);
+MatrixXcd PoleMoves::reach(const std::vector<int>& vertices, const VectorXcd& residues) const {
+  std::vector<int> triangles;
+  for (const int v : vertices) triangles.push_back(first_triangle_[v]);
+  const MatrixXcd lever = leverage_.tau(triangles) * residues.asDiagonal();
+  return lever * lever.adjoint();
 }
 
 PlacedPoles PoleMoves::moved(PlacedPoles poles, const VectorXcd& periods, const VectorXcd& residues,

@@ -17,7 +17,7 @@ struct PlacedPoles {
 struct MoveRules {
   std::vector<char> allowed;  ///< #V, empty: anywhere
   std::vector<char> fixed;    ///< of each pole; empty: none
-  double most = 0.2;          ///< how far a pole may go, in square roots of the area
+  double most = 0.12;         ///< how far a pole may go, in square roots of the area
 };
 
 class PoleMoves {
@@ -27,9 +27,8 @@ class PoleMoves {
 
   const Leverage& leverage() const { return leverage_; }
 
-  /// t of the form with these periods and residues, g numbers (leverage.h).
-  Eigen::VectorXcd left_over(const PlacedPoles& poles, const Eigen::VectorXcd& periods,
-                             const Eigen::VectorXcd& residues) const;
+  /// g x g: the covariance of the t that moving these poles by about 1 takes up.
+  Eigen::MatrixXcd reach(const std::vector<int>& vertices, const Eigen::VectorXcd& residues) const;
 
   /// Newton's method with the poles anywhere on the surface until t vanishes, or as small as it becomes; then one pole
   /// after the other goes to its nearest vertex, the one of highest leverage first, and the others follow; at last pairs

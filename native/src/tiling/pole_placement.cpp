@@ -23,6 +23,9 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 
+// Poles by themselves.
+constexpr int kCounts[] = {2, 4, 8, 12, 16};
+constexpr double kEvenWithout = 3, kEvenWith = 6;
 constexpr int kThinning = 2;           // every second sample is enough for the search
 constexpr double kApart = 0.06;        // poles are this far from each other, in square roots of the area
 constexpr int kSpread = 200;           // candidates all over the surface
@@ -88,6 +91,13 @@ class Search {
     return poles;
   }
 
+  // Up to `count`, then moves them.
+  void add(Poles& poles, int count) {
+    while (static_cast<int>(poles.vertices.size()) < count) poles = with_one_more(poles);
+    for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
+  }
+
+ private:
   Poles with_one_more(const Poles& poles) {
     std::vector<Trial> trials = trials_everywhere(poles);
     std::vector<Poles> tried;
@@ -118,7 +128,6 @@ class Search {
     return moved;
   }
 
- private:
   struct Trial {
     double value;
     int vertex;
@@ -347,26 +356,33 @@ class Search {
 
 }  // namespace
 
-Poles without_more_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
-  return Search(landscape, rules, execution).begin();
+Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count, Execution& execution) {
+  const int least = landscape.form_count() > 0 ? 0 : landscape.closed() ? 2 : 1;
+  if (count < least || (count == 1 && landscape.closed())) {
+    throw TopologyError(std::to_string(count) + (count == 1 ? " pole is" : " poles are") + " not enough: " +
+                        (landscape.closed() ? "on a closed surface the residues sum to 0, so two or more are needed"
+                                            : "a disk needs one or more"));
+  }
+  Search search(landscape, rules, execution);
+  Poles poles = search.begin();
+  if (static_cast<int>(poles.vertices.size()) < count) search.add(poles, count);
+  return poles;
+}
+
+Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
+  Search search(landscape, rules, execution);
+  Poles poles = search.begin();
+  for (const int count : kCounts) {
+    const double ratio = density_ratio(density(landscape, poles, execution));
+    if (ratio <= (poles.vertices.empty() ? kEvenWithout : kEvenWith)) break;
+    if (count > static_cast<int>(poles.vertices.size())) search.add(poles, count);
+  }
+  return poles;
 }
 
 Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {
   Search(landscape, rules, execution).refine(start);
   return start;
-}
-
-Poles exchanged(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {
-  Search search(landscape, rules, execution);
-  for (int i = 0; i < kSweeps && search.sweep(start); ++i) execution.report(static_cast<double>(i) / kSweeps);
-  return start;
-}
-
-Poles with_more_poles(Landscape& landscape, const PlacementRules& rules, Poles start, int count,
-                      Execution& execution) {
-  Search search(landscape, rules, execution);
-  while (static_cast<int>(start.vertices.size()) < count) start = search.with_one_more(start);
-  return exchanged(landscape, rules, std::move(start), execution);
 }
 
 Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution) {

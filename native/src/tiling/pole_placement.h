@@ -21,18 +21,16 @@ struct PlacementRules {
   std::vector<int> fixed;     ///< poles that stay where they are
 };
 
-/// The most even form without further poles: the basis alone, or with the fixed poles.
-/// @throws TopologyError where the surface has no form without poles and no two vertices far apart
-Poles without_more_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution);
+/// Poles are added one by one where they help most, until there are `count`; then each in turn moves to where the
+/// density becomes more even, until nothing is gained. On a closed surface with handles a small term keeps them where
+/// moving them can take up the rounding of the periods (leverage.h). The fixed ones are among them.
+/// @throws TopologyError for a single pole on a closed surface, a surface of genus 0 without any, or where no vertex is
+/// left whose star is apart from those of the others; SolverError; Cancelled
+Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count, Execution& execution);
 
-/// Adds poles one by one where they help most, until there are `count`, then moves each in turn to where the density
-/// becomes more even, until nothing is gained. On a closed surface with handles a small term keeps the poles where
-/// moving them can take up the rounding of the periods (leverage.h).
-/// @throws TopologyError if no vertex is left whose star is apart from those of the others; Cancelled
-Poles with_more_poles(Landscape& landscape, const PlacementRules& rules, Poles start, int count, Execution& execution);
-
-/// Moves poles without adding any.
-Poles exchanged(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution);
+/// As many as the density asks for: none where its 95 % over 5 % quantile is at most 3 without; else the first of 2, 4,
+/// 8, 12, 16 with which it is at most 6.
+Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution);
 
 /// With the best coefficients and residues near those given.
 Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution);

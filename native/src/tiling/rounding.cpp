@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "base/chunks.h"
-#include "tiling/leverage.h"
 #include "tiling/pole_placement.h"
 
 namespace holomorph::tiling {
@@ -43,18 +42,22 @@ MatrixXcd root(MatrixXcd H) {
   return Eigen::LLT<MatrixXcd>(H).matrixU();
 }
 
+Eigen::ArrayXd target_density(const RoundingProblem& p) { return (p.forms * p.target).cwiseAbs2().array(); }
+
+// 1 / |theta_0|^2, for means over the samples.
+VectorXcd mean_weights(const Eigen::ArrayXd& density) {
+  const Eigen::ArrayXd floored = density + uv::kDensityFloor * density.mean();
+  return (1 / (floored * static_cast<double>(density.size()))).matrix().cast<Complex>();
+}
+
 // Rows that measure y near the target: its change, and its defects at a price of `defect`.
-MatrixXcd measure_rows(const RoundingProblem& p, const Eigen::ArrayXd& density, double defect) {
+MatrixXcd measure_rows(const RoundingProblem& p, const VectorXcd& weights, double defect) {
   const Index all = p.forms.cols(), l = p.defects.cols();
-  const Eigen::ArrayXd weight =
-      1 / ((density + uv::kDensityFloor * density.mean()) * static_cast<double>(density.size()));
-  const auto W = weight.matrix().cast<Complex>().asDiagonal();
-  MatrixXcd rows(all + l, all);
-  rows.setZero();
-  rows.topRows(all) = root(p.forms.adjoint() * W * p.forms) / kChange;
+  MatrixXcd rows = MatrixXcd::Zero(all + l, all);
+  rows.topRows(all) = root(p.forms.adjoint() * weights.asDiagonal() * p.forms) / kChange;
   if (l == 0) return rows;
-  const MatrixXcd gram = p.defects.adjoint() * W * p.defects;
-  MatrixXcd covariance = defect * defect * gram.inverse();
+  const MatrixXcd metric = defect_metric(p);
+  MatrixXcd covariance = defect * defect * (metric.adjoint() * metric).inverse();
   if (p.repairable.size() > 0) covariance += p.repairable;
   rows.bottomRightCorner(l, l) = root(covariance.inverse());
   return rows;
@@ -73,6 +76,10 @@ Complex TextureLattice::nearest(Complex z) const {
   return point(std::round(c[0]), std::round(c[1]));
 }
 
+MatrixXcd defect_metric(const RoundingProblem& p) {
+  return root(p.defects.adjoint() * mean_weights(target_density(p)).asDiagonal() * p.defects);
+}
+
 void measure(const RoundingProblem& p, Rounding& rounding) {
   const Eigen::ArrayXd A = (p.forms * rounding.y).cwiseAbs().array();
   rounding.density_ratio = density_ratio(A.square());
@@ -81,14 +88,17 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
     const Eigen::ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
     rounding.distortion = K.mean();
   }
+  const double even = density_ratio(target_density(p));
+  rounding.rank = rounding.distortion - 1 +
+                  kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even)));
 }
 
 std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& wishes, Execution& execution) {
-  const Eigen::ArrayXd density = (p.forms * p.target).cwiseAbs2().array();
+  const Eigen::ArrayXd density = target_density(p);
   std::vector<double> sorted(density.begin(), density.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double scale = std::sqrt(wishes.tiles / (wishes.area * sorted[sorted.size() / 2]));
-  const double even = density_ratio(density);
+  const VectorXcd weights = mean_weights(density);
   std::vector<double> phases{0};
   if (p.kind == uv::Coefficients::complex) {
     phases.clear();
@@ -101,7 +111,7 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
   for (std::size_t d = 0; d < std::size(kDefects); ++d) {
     execution.report(static_cast<double>(d) / std::size(kDefects));
     if (d > 0 && p.defects.cols() == 0) break;
-    const MatrixXcd rows = measure_rows(p, density, kDefects[d]);
+    const MatrixXcd rows = measure_rows(p, weights, kDefects[d]);
     const ReducedBasis reduced = reduce(as_real(rows * p.Z));
     std::vector<IntegerVector> nearest(phases.size() * kScales);
     run_throwing(execution.workers(), static_cast<int>(nearest.size()), [&](int i) {
@@ -117,8 +127,6 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
     Rounding& rounding = list[i];
     rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
     measure(p, rounding);
-    rounding.rank = rounding.distortion - 1 +
-                    kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even)));
   });
   std::erase_if(list, [](const Rounding& r) { return !(r.distortion < kFlipped) || !std::isfinite(r.density_ratio); });
   std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });

@@ -25,12 +25,16 @@ struct TextureLattice {
 /// being conformal. With D integers z for the periods and residues, y = Z z.
 struct RoundingProblem {
   uv::Coefficients kind;
-  Eigen::MatrixXcd forms;    ///< #samples x (n + k + l)
-  Eigen::MatrixXcd defects;  ///< #samples x l
-  Eigen::MatrixXcd Z;        ///< (n + k + l) x D
-  Eigen::VectorXcd target;   ///< n + k + l: the form as it would be without rounding, t = 0
-  Eigen::MatrixXcd repairable;  ///< l x l covariance of the t that moving the poles takes up; empty: none
+  Eigen::MatrixXcd forms;             ///< #samples x (n + k + l)
+  Eigen::MatrixXcd defects;           ///< #samples x l
+  Eigen::MatrixXcd periods, residues; ///< #loops x D, k x D: what the integers stand for
+  Eigen::MatrixXcd Z;                 ///< (n + k + l) x D
+  Eigen::VectorXcd target;            ///< n + k + l: the form as it would be without rounding, t = 0
+  Eigen::MatrixXcd repairable;        ///< l x l covariance of the t that moving the poles takes up; empty: none
 };
+
+/// Upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target, floored: the mean square of |mu|.
+Eigen::MatrixXcd defect_metric(const RoundingProblem& problem);
 
 struct RoundingWishes {
   double tiles = 64;                  ///< over the surface, at its median density
@@ -45,7 +49,7 @@ struct Rounding {
   Eigen::VectorXcd y;        ///< Z z
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
-  double rank = 0;           ///< distortion - 1 + 0.15 log+ (density ratio / 1.1 that of the target)
+  double rank = 0;           ///< the less the better: distortion - 1 + 0.15 log+(density ratio / 1.1 that of the target)
 };
 
 /// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere.
@@ -53,7 +57,7 @@ struct Rounding {
 /// Cost: a reduction for each of five weights, and some thousand nearest planes.
 std::vector<Rounding> roundings(const RoundingProblem& problem, const RoundingWishes& wishes, Execution& execution);
 
-/// Of one y, as in Rounding.
+/// What follows from y.
 void measure(const RoundingProblem& problem, Rounding& rounding);
 
 }  // namespace holomorph::tiling

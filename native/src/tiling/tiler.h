@@ -1,4 +1,4 @@
-// Seamless tilings: poles for even density, integer periods, no other jumps.
+// Seamless tilings: poles for even density, periods on the texture's lattice, nothing left over.
 #pragma once
 
 #include <complex>
@@ -22,21 +22,20 @@ struct PoleWishes {
 };
 
 struct TilingWishes {
-  double tiles = 0;                        ///< over the surface at its median density; 0: a number that suits it
+  double tiles = 0;  ///< over the surface at its median density; 0: a number that suits it
   TextureLattice lattice;
-  std::optional<double> phase;             ///< radians, beside the direction
-  double turn = 0.2;  ///< by which a wished phase may change, in radians
   std::optional<std::array<double, 3>> direction;  ///< in space, along which u runs as far as it can
+  std::optional<double> turn;                      ///< by which the texture is rotated beside that, in radians
+  double most_turn = 0.2;                          ///< by how much the rounding may turn away from these
 };
 
 /// A map whose jumps all are translations of the texture.
 struct Tiling {
   std::shared_ptr<const structure::Structure> structure;  ///< with the poles, its forms and its cut
-  Eigen::VectorXcd coefficients;                          ///< of the harmonic forms
   std::vector<int> poles;
   std::vector<std::complex<double>> residues;
   Eigen::VectorXcd periods;  ///< over the homology basis of the structure
-  double tiles = 0;          ///< as they were wanted
+  double tiles = 0;          ///< as wished, or the number that suits
   double distortion = 1;     ///< by the rounding alone: mean s1 / s2
   double left_over = 0;      ///< root mean square of |mu|
   uv::UvArray uv;            ///< #C x 2
@@ -44,39 +43,50 @@ struct Tiling {
 
 class Tiler {
  public:
-  /// @param straight whether boundary loops become straight horizontal lines; else they are free
+  /// @param straight whether boundary loops become lines of constant v; they do in any case beside handles, where free
+  /// ones would leave more over
   /// @param names what a vertex is called in messages; empty: its index
+  /// @pre connected, no isolated vertices
   Tiler(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, bool straight,
-        std::vector<int> names, Execution& execution);
+        std::vector<int> names);
 
   /// Places the poles, on a level of the progressive mesh where the surface is large.
+  /// @throws TopologyError for poles that do not fit; SolverError; Cancelled
   void place(const PoleWishes& wishes, Execution& execution);
 
-  /// The poles that were placed.
   const Poles& poles() const { return poles_; }
-  /// 95 % over 5 % quantile of the density that the poles alone would allow.
+  /// 95 % over 5 % quantile of the density that the poles allow without rounding.
   double optimal_density_ratio() const { return optimum_; }
 
-  /// @throws TopologyError where nothing with that few tiles is seamless
+  /// @pre placed. @throws TopologyError where nothing with that few tiles is seamless; SolverError; Cancelled
   Tiling tile(const TilingWishes& wishes, Execution& execution);
 
  private:
-  bool moves() const { return landscape_->closed() && landscape_->form_count() > 0; }
+  struct Candidate {
+    Rounding rounding;
+    PlacedPoles poles;
+    Eigen::VectorXcd residues;  // of all poles
+    Eigen::VectorXcd X;         // periods besides the poles; with boundary c
+  };
+
+  bool has_leverage() const { return pole_moves_ != nullptr; }
+  void adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& execution);
   void transfer(Landscape& level, const std::vector<int>& vertex, Poles poles, Execution& execution);
-  RoundingProblem problem(const TextureLattice& lattice, const Eigen::MatrixXd& parts, Execution& execution);
   std::shared_ptr<structure::Structure> structure_at(const std::vector<int>& vertices, Execution& execution);
-  Eigen::MatrixXd parts_of(const structure::Structure& s) const;
-  double phase_along(const std::array<double, 3>& direction, Execution& execution);
+  Eigen::MatrixXd parts(PlacedPoles& placed, Execution& execution);
+  RoundingWishes rounding_wishes(const TilingWishes& wishes, Execution& execution);
+  Candidate best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
+                 double tiles, Execution& execution);
 
   std::shared_ptr<const mesh::Surface> surface_;
   structure::Options options_;
   uv::Coefficients kind_;
   std::vector<int> names_;
   std::unique_ptr<Landscape> landscape_;
-  std::unique_ptr<AbelJacobi> abel_jacobi_;
-  std::unique_ptr<PoleMoves> pole_moves_;
+  std::unique_ptr<AbelJacobi> abel_jacobi_;  // of a closed surface with handles
+  std::unique_ptr<PoleMoves> pole_moves_;    // the same
   Poles poles_;
-  bool fixed_ = false;  // poles were chosen, and do not move
+  bool chosen_ = false;  // the poles were chosen, and stay
   double optimum_ = 1;
   std::shared_ptr<structure::Structure> structure_;  // at structure_poles_, kept for the next tiling
   std::vector<int> structure_poles_;
