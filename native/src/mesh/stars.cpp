@@ -150,6 +150,24 @@ std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> len
   return result;
 }
 
+std::vector<int> corners_around(const Surface& surface, const HalfEdges& mesh, int vertex) {
+  const auto& [positions, corner_vertices, offsets] = surface.polygons;
+  std::vector<int> vertices;
+  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  HalfedgeHandle h = start;
+  do {
+    if (mesh.face_handle(h).is_valid()) {
+      const int polygon = surface.triangle_faces[face_of(mesh, h)];
+      vertices.insert(vertices.end(), corner_vertices.begin() + offsets[polygon],
+                      corner_vertices.begin() + offsets[polygon + 1]);
+    }
+    h = next(mesh, opposite(h));
+  } while (h != start);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
 bool has_proper_star(const Surface& surface, const HalfEdges& mesh, int vertex) {
   if (!mesh.halfedge_handle(VertexHandle(vertex)).is_valid()) return false;
   std::vector<int> vertices = star_vertices(surface, mesh, vertex);

@@ -33,6 +33,10 @@ Star star(const HalfEdges& half_edges, std::span<const double> lengths, int vert
 /// The vertex, which has a face and does not lie on the boundary, and its neighbours along edges of polygons.
 std::vector<int> star_vertices(const Surface& surface, const HalfEdges& half_edges, int vertex);
 
+/// The corners of all polygons at a vertex that has a face, ascending. Where no corner of one is in the star of another
+/// vertex, the two can be punctures together.
+std::vector<int> corners_around(const Surface& surface, const HalfEdges& half_edges, int vertex);
+
 /// Whether `stars` accepts the vertex alone once diagonals are flipped away from it: its neighbours along edges of
 /// polygons are distinct and not on the boundary.
 bool has_proper_star(const Surface& surface, const HalfEdges& half_edges, int vertex);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 
 #include "tiling/surface_walk.h"
 
@@ -66,11 +67,24 @@ class Moving {
     return to_defect_ * X;
   }
 
-  VectorXcd lever(std::size_t i) const {
-    return metric_ * leverage_.tau({points_[i].triangle}) * residues_[static_cast<Index>(i)];
+  // What a triangle has to do with the poles on it, found once.
+  struct OnTriangle {
+    VectorXcd derivative;  // of the Abel-Jacobi map
+    VectorXcd tau;
+  };
+
+  const OnTriangle& on_triangle(int triangle) {
+    OnTriangle& found = on_triangle_[triangle];
+    if (found.tau.size() == 0)
+      found = {leverage_.abel_jacobi_derivatives({triangle}), metric_ * leverage_.tau({triangle})};
+    return found;
   }
 
-  std::vector<std::size_t> by_leverage() const {
+  VectorXcd lever(std::size_t i) {
+    return on_triangle(points_[i].triangle).tau * residues_[static_cast<Index>(i)];
+  }
+
+  std::vector<std::size_t> by_leverage() {
     std::vector<std::size_t> order(poles_.vertices.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::vector<double> size;
@@ -119,23 +133,20 @@ class Moving {
     gone_[i] += std::abs(dz);
     for (const auto& [triangle, part] :
          walk(landscape_.surface(), landscape_.half_edges(), landscape_.sides(), points_[i], dz))
-      poles_.parts[i] -= (leverage_.abel_jacobi_derivatives({triangle}) * part).real();
+      poles_.parts[i] -= (on_triangle(triangle).derivative * part).real();
   }
 
-  // Ascending.
-  std::vector<int> star_of(int vertex) const {
-    auto star = mesh::star_vertices(landscape_.surface(), landscape_.half_edges(), vertex);
-    std::sort(star.begin(), star.end());
-    return star;
+  std::vector<int> corners_around(int vertex) const {
+    return mesh::corners_around(landscape_.surface(), landscape_.half_edges(), vertex);
   }
 
-  // The vertices of the stars of the settled poles but two, ascending.
-  std::vector<int> stars_but(std::size_t i, std::size_t j) const {
+  // The corners around the settled poles but two, ascending.
+  std::vector<int> corners_but(std::size_t i, std::size_t j) const {
     std::vector<int> all;
     for (std::size_t k = 0; k < poles_.vertices.size(); ++k) {
       if (k == i || k == j || !held_[k]) continue;
-      const auto star = star_of(poles_.vertices[k]);
-      all.insert(all.end(), star.begin(), star.end());
+      const auto corners = corners_around(poles_.vertices[k]);
+      all.insert(all.end(), corners.begin(), corners.end());
     }
     std::sort(all.begin(), all.end());
     return all;
@@ -162,9 +173,9 @@ class Moving {
 
   // At the nearest vertex that can take it, else back where it was.
   void hold(std::size_t i) {
-    const std::vector<int> others = stars_but(i, i);
+    const std::vector<int> others = corners_but(i, i);
     for (const int v : nearest_corners(landscape_.surface(), points_[i])) {
-      if (!is_allowed(v) || !are_apart(star_of(v), others)) continue;
+      if (!is_allowed(v) || !are_apart(corners_around(v), others)) continue;
       poles_.vertices[i] = v;
       break;
     }
@@ -174,7 +185,7 @@ class Moving {
 
   struct Neighbour {
     int vertex;
-    std::vector<int> star;
+    std::vector<int> corners;
     VectorXd part;
     VectorXcd effect;  // on the defect, with the residue
   };
@@ -198,7 +209,7 @@ class Moving {
       if (!is_allowed(v)) continue;
       VectorXd part = nearest_representative(part_at(v), poles_.parts[i]);
       VectorXcd effect = residues_[static_cast<Index>(i)] * (to_defect_ * part.cast<Complex>());
-      list.push_back({v, star_of(v), std::move(part), std::move(effect)});
+      list.push_back({v, corners_around(v), std::move(part), std::move(effect)});
     }
     return list;
   }
@@ -224,15 +235,15 @@ class Moving {
       return residues_[static_cast<Index>(k)] * (to_defect_ * poles_.parts[k].cast<Complex>());
     };
     const VectorXcd rest = now - effect(i) - effect(j);
-    const std::vector<int> others = stars_but(i, j);
+    const std::vector<int> others = corners_but(i, j);
     double least = now.squaredNorm() * (1 - 1e-9);
     const Neighbour *first = nullptr, *second = nullptr;
     for (const Neighbour& a : near[i]) {
-      if (!are_apart(a.star, others)) continue;
+      if (!are_apart(a.corners, others)) continue;
       const VectorXcd with = rest + a.effect;
       for (const Neighbour& b : near[j]) {
         const double size = (with + b.effect).squaredNorm();
-        if (size < least && are_apart(b.star, others) && are_apart(a.star, b.star)) {
+        if (size < least && are_apart(b.corners, others) && are_apart(a.corners, b.corners)) {
           least = size;
           first = &a;
           second = &b;
@@ -260,6 +271,7 @@ class Moving {
   std::vector<char> held_;
   std::vector<double> gone_;
   std::map<int, VectorXd> parts_;
+  std::unordered_map<int, OnTriangle> on_triangle_;
 };
 
 }  // namespace

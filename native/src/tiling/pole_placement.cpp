@@ -26,20 +26,21 @@ using Eigen::VectorXcd;
 // Poles by themselves.
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
 constexpr double kEvenWithout = 3, kEvenWith = 6;
-constexpr int kThinning = 2;           // every second sample is enough for the search
+constexpr int kThinning = 3;           // every third sample is enough for the search
 constexpr double kApart = 0.06;        // poles are this far from each other, in square roots of the area
 constexpr int kSpread = 200;           // candidates all over the surface
 constexpr int kNear = 40;              // candidates around a pole, in balls of these radii:
 constexpr double kBalls[] = {0.3, 0.15, 0.08, 0.04};
-constexpr int kTried = 3, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
+constexpr int kTried = 2, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 3;
 constexpr double kLeverage = 0.02, kEnough = 0.4;  // weight of the leverage; singular values that are enough
 constexpr double kGain = 1e-3;                     // less is no gain
-constexpr int kSteps = 40;                         // of the minimiser
+constexpr int kSteps = 25;                         // of the minimiser
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
-const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor}, kFromNear = {uv::kDensityFloor};
+const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor}, kFromNear = {uv::kDensityFloor},
+                          kWithTrial = {0.03, uv::kDensityFloor};
 
 MatrixXcd thinned(const MatrixXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning), Eigen::all); }
 
@@ -110,7 +111,7 @@ class Search {
     if (tried.empty()) throw TopologyError("no vertex is left for another pole: its star must be apart from those of the others");
     landscape_.poles(vertices_of(tried), execution_);
     prepare_leverage(vertices_of(tried));
-    run_throwing(execution_.workers(), static_cast<int>(tried.size()), [&](int i) { optimise(tried[i], kFromAfar); });
+    run_throwing(execution_.workers(), static_cast<int>(tried.size()), [&](int i) { optimise(tried[i], kWithTrial); });
     return best(std::move(tried));
   }
 
@@ -174,21 +175,26 @@ class Search {
   }
 
   double objective(const Poles& poles, const Eigen::ArrayXd& density) {
-    return uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, density);
+    return uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, leverage_metric(density));
   }
 
   // kLeverage sum log(1 + (kEnough / sigma)^2) over the singular values of [r_i tau_i] in the weighted Gram matrix.
-  double leverage_term(const std::vector<int>& vertices, const VectorXcd& residues, const Eigen::ArrayXd& density) {
+  double leverage_term(const std::vector<int>& vertices, const VectorXcd& residues, const MatrixXcd& metric) const {
     const auto g = theta_.cols();
     if (!leverage_ || residues.size() < g) return 0;
     MatrixXcd rows(g, residues.size());
     for (Index i = 0; i < residues.size(); ++i) rows.col(i) = residues[i] * tau_.at(vertices[i]);
-    const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
-    const MatrixXcd V = metric.matrixU() * rows * std::sqrt(landscape_.area());
+    const MatrixXcd V = metric * rows;
     MatrixXcd S = V * V.adjoint();
     S += 1e-9 * MatrixXcd::Identity(g, g);
     const MatrixXcd sum = S + kEnough * kEnough * MatrixXcd::Identity(g, g);
     return kLeverage * (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
+  }
+
+  MatrixXcd leverage_metric(const Eigen::ArrayXd& density) const {
+    if (!leverage_) return {};
+    const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
+    return MatrixXcd(metric.matrixU()) * std::sqrt(landscape_.area());
   }
 
   // Before threads look it up.
@@ -212,7 +218,7 @@ class Search {
   std::vector<char> taken(const std::vector<int>& vertices) {
     std::vector<char> marks(landscape_.surface().vertex_count, 0);
     for (const int v : vertices) {
-      mesh::mark_star(landscape_.surface(), landscape_.half_edges(), v, marks);
+      for (const int u : mesh::corners_around(landscape_.surface(), landscape_.half_edges(), v)) marks[u] = 1;
       const auto& distance = distances(v);
       for (std::size_t u = 0; u < marks.size(); ++u) {
         if (distance[u] < distance_) marks[u] = 1;
@@ -323,12 +329,13 @@ class Search {
                               poles.residues[i] * pole_columns({poles.vertices[i]}).col(0);
     prepare_leverage(candidates);
     prepare_leverage(poles.vertices);
+    const MatrixXcd metric = leverage_metric((columns(poles.vertices) * unknowns(poles)).cwiseAbs2().array());
     std::vector<std::pair<double, int>> scores(candidates.size());
     run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
       std::vector<int> vertices = poles.vertices;
       vertices[i] = candidates[j];
       const Eigen::ArrayXd density = (without + poles.residues[i] * green.col(j)).cwiseAbs2().array();
-      scores[j] = {uv::log_variance(density) + leverage_term(vertices, poles.residues, density), candidates[j]};
+      scores[j] = {uv::log_variance(density) + leverage_term(vertices, poles.residues, metric), candidates[j]};
     });
     std::sort(scores.begin(), scores.end());
     std::vector<Poles> tried;

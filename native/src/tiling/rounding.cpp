@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 
 constexpr double kChange = 0.2;  // relative change of the form that costs 1
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
-constexpr int kPhases = 60, kScales = 7;
+constexpr int kPhases = 30, kScales = 7;
 constexpr int kNearPhases = 7;  // around a phase that is given
 constexpr double kScaleRange = 0.12;
 constexpr double kEvenness = 0.15, kTolerated = 1.1;  // of the rank
@@ -41,8 +41,6 @@ MatrixXcd root(MatrixXcd H) {
   H += 1e-12 * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
   return Eigen::LLT<MatrixXcd>(H).matrixU();
 }
-
-Eigen::ArrayXd target_density(const RoundingProblem& p) { return (p.forms * p.target).cwiseAbs2().array(); }
 
 // 1 / |theta_0|^2, for means over the samples.
 VectorXcd mean_weights(const Eigen::ArrayXd& density) {
@@ -77,7 +75,16 @@ Complex TextureLattice::nearest(Complex z) const {
 }
 
 MatrixXcd defect_metric(const RoundingProblem& p) {
-  return root(p.defects.adjoint() * mean_weights(target_density(p)).asDiagonal() * p.defects);
+  return root(p.defects.adjoint() * mean_weights(p.target_density).asDiagonal() * p.defects);
+}
+
+double TextureLattice::symmetry() const {
+  for (const int part : {3, 2}) {
+    const Complex turn = std::polar(1.0, std::numbers::pi / part);
+    const auto is_kept = [&](Complex z) { return std::abs(turn * z - nearest(turn * z)) < 1e-9 * std::abs(z); };
+    if (is_kept(a) && is_kept(b)) return std::numbers::pi / part;
+  }
+  return std::numbers::pi;
 }
 
 void measure(const RoundingProblem& p, Rounding& rounding) {
@@ -88,13 +95,13 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
     const Eigen::ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
     rounding.distortion = K.mean();
   }
-  const double even = density_ratio(target_density(p));
+  const double even = density_ratio(p.target_density);
   rounding.rank = rounding.distortion - 1 +
                   kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even)));
 }
 
 std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& wishes, Execution& execution) {
-  const Eigen::ArrayXd density = target_density(p);
+  const Eigen::ArrayXd& density = p.target_density;
   std::vector<double> sorted(density.begin(), density.end());
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double scale = std::sqrt(wishes.tiles / (wishes.area * sorted[sorted.size() / 2]));
@@ -102,7 +109,7 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
   std::vector<double> phases{0};
   if (p.kind == uv::Coefficients::complex) {
     phases.clear();
-    for (int i = 0; !wishes.phase && i < kPhases; ++i) phases.push_back(2 * std::numbers::pi * i / kPhases);
+    for (int i = 0; !wishes.phase && i < kPhases; ++i) phases.push_back(p.symmetry * i / kPhases);
     for (int i = 0; wishes.phase && i < kNearPhases; ++i)
       phases.push_back(*wishes.phase + wishes.turn * (2.0 * i / (kNearPhases - 1) - 1));
   }

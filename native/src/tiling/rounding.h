@@ -19,6 +19,8 @@ struct TextureLattice {
   /// Coordinates (m, n), integers at the lattice's points.
   Eigen::Vector2d coordinates(std::complex<double> z) const;
   std::complex<double> nearest(std::complex<double> z) const;
+  /// The least turn that takes it to itself, in radians: pi / 2, pi / 3 or, of most lattices, pi.
+  double symmetry() const;
 };
 
 /// Forms in coordinates y = (c_j, r_i, t_l): A = forms y on the samples, and B = defects t, what keeps the form from
@@ -30,6 +32,8 @@ struct RoundingProblem {
   Eigen::MatrixXcd periods, residues; ///< #loops x D, k x D: what the integers stand for
   Eigen::MatrixXcd Z;                 ///< (n + k + l) x D
   Eigen::VectorXcd target;            ///< n + k + l: the form as it would be without rounding, t = 0
+  Eigen::ArrayXd target_density;      ///< |forms target|^2
+  double symmetry = 0;                ///< radians by which the lattice is turned onto itself
   Eigen::MatrixXcd repairable;        ///< l x l covariance of the t that moving the poles takes up; empty: none
 };
 
@@ -41,7 +45,7 @@ struct RoundingWishes {
   double area = 1;                    ///< of the surface
   std::optional<double> phase;        ///< of the target, in radians; free where none is given
   double turn = 0;                    ///< by which a given phase may change
-  int count = 16;                     ///< roundings that are wanted
+  int count = 8;                     ///< roundings that are wanted
 };
 
 struct Rounding {

@@ -75,6 +75,7 @@ class Tiler {
   std::shared_ptr<structure::Structure> structure_at(const std::vector<int>& vertices, Execution& execution);
   Eigen::MatrixXd parts(PlacedPoles& placed, Execution& execution);
   RoundingWishes rounding_wishes(const TilingWishes& wishes, Execution& execution);
+  static std::vector<Candidate> best_of_each_way(std::vector<Candidate> candidates, int ways);
   Candidate best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
                  double tiles, Execution& execution);
 

@@ -97,6 +97,8 @@ RoundingProblem tiling_problem(Landscape& landscape, const Poles& poles, uv::Coe
           (p.periods.topRows(size.l).imag() - (star.transpose() * X.real()).topRows(size.l)).cast<Complex>();
     }
   }
+  p.target_density = (p.forms * p.target).cwiseAbs2().array();
+  p.symmetry = lattice.symmetry();
   return p;
 }
 
