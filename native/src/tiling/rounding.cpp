@@ -25,7 +25,7 @@ constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs
 constexpr int kPhases = 30, kScales = 7;
 constexpr int kNearPhases = 7;  // around a phase that is given
 constexpr double kScaleRange = 0.12;
-constexpr double kEvenness = 0.15, kTolerated = 1.1;  // of the rank
+constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1;  // of the rank
 constexpr double kFlipped = 1e3;                      // distortion of a rounding that flips or collapses a sample
 
 // Complex rows as real ones.
@@ -96,7 +96,7 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
     rounding.distortion = K.mean();
   }
   const double even = density_ratio(p.target_density);
-  rounding.rank = rounding.distortion - 1 +
+  rounding.rank = kConformal * (rounding.distortion - 1) +
                   kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even)));
 }
 

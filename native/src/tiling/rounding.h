@@ -53,7 +53,7 @@ struct Rounding {
   Eigen::VectorXcd y;        ///< Z z
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
-  double rank = 0;           ///< the less the better: distortion - 1 + 0.15 log+(density ratio / 1.1 that of the target)
+  double rank = 0;           ///< the less the better: 5 (distortion - 1) + 0.15 log+(density ratio / 1.1 that of the target)
 };
 
 /// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere.
