@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Between Blender's meshes and arrays: the only module that calls foreach_get and foreach_set.
+"""Between Blender's meshes, images and arrays: the only module that calls foreach_get and foreach_set.
 
 Positions and UVs are double precision on our side and float32 on Blender's. Corners are in the order of
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
@@ -54,6 +54,11 @@ def read_values(values):
 def write_values(values, array):
     """The reverse of `read_values`."""
     values.elements.foreach_set(values.name, np.ascontiguousarray(array, values.dtype).ravel())
+
+
+def write_pixels(image, pixels):
+    """Writes (height, width, 4) float32, the lowest row first, in the image's own colour space."""
+    image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())
 
 
 def _read_indices(values):

@@ -66,7 +66,7 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
-    """Bring back the materials that the checker covers"""
+    """Bring back the materials that the checker or a texture covers"""
 
     bl_idname = "uv.holomorphic_restore_materials"
     bl_label = "Restore Materials"
@@ -79,7 +79,7 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
     def execute(self, context):
         from . import material, targets
 
-        restored = [material.remove_checker(obj) for obj in targets.mesh_objects(context)]
+        restored = [material.uncover(obj) for obj in targets.mesh_objects(context)]
         return {"FINISHED"} if any(restored) else {"CANCELLED"}
 
 

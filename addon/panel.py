@@ -58,7 +58,7 @@ def _draw_sentence(layout, sentence):
 def _draw_result(layout, obj):
     from . import material, report
 
-    if material.has_checker(obj):
+    if material.is_covered(obj):
         layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
     stored = obj.get(report.PROPERTY)
     if stored:

@@ -21,7 +21,7 @@ class Outcome:
     notes: list = field(default_factory=list)
     entries: list = field(default_factory=list)
     forms: int = 0
-    squares: float = 0.0
+    look: object = None  # `material.Look` that all objects of the run share
 
     def refuse(self, name, sentence):
         self.problems.append(f"{name}: {sentence}")
@@ -54,8 +54,9 @@ class WriteOptions:
     """What is written besides the maps."""
 
     shown: int = 0  # 0 the main map, j the map of form j
-    checker: bool = True
-    checker_scale: float = 0.0  # squares per UV unit; 0 lets the first object decide
+    checker: bool = True  # whether the map is shown by a material
+    texture: str = material.CHECKER  # what it shows
+    checker_scale: float = 0.0  # squares, bricks, scales ... per UV unit; 0 lets the first object decide
     seams: bool = False
     shape: bool = False  # the conformal image in space
 
@@ -119,7 +120,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     if shape is not None:
         mesh_io.write_shape(mesh, shape)
     if options.checker:
-        _show_checker(outcome, obj, solved, shown, map_options, options)
+        _show(outcome, obj, solved, shown, map_options, options)
     mesh.update()
     entry = report.object_report(obj, solved, written, new_seams, map_options)
     report.store_on_object(obj, entry)
@@ -134,11 +135,11 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
         outcome.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
 
 
-def _show_checker(outcome, obj, solved, shown, map_options, options):
-    if not outcome.squares:  # all objects of a run share the material
-        outcome.squares = options.checker_scale or maps.squares_that_fit(solved, map_options)
-    is_attribute = shown.kind == "attribute"
-    material.show_checker(obj, material.checker_material(shown.name, is_attribute, outcome.squares))
+def _show(outcome, obj, solved, shown, map_options, options):
+    if outcome.look is None:
+        cells = options.checker_scale or maps.squares_that_fit(solved, map_options)
+        outcome.look = material.Look(options.texture, cells, maps.unit_length(solved, map_options))
+    material.cover(obj, material.showing(shown.name, shown.kind == "attribute", outcome.look))
 
 
 def _seam_pairs(solved):
