@@ -13,17 +13,21 @@ bl_info = {
 
 
 def register():
-    from . import lod, native, operators, panel
+    from . import heat, lod, native, operators, overlay, panel
 
     native.forget()
     operators.register()
     lod.register()
+    heat.register()
+    overlay.register()
     panel.register()
 
 
 def unregister():
-    from . import lod, operators, panel
+    from . import heat, lod, operators, overlay, panel
 
     panel.unregister()
+    overlay.unregister()
+    heat.unregister()
     lod.unregister()
     operators.unregister()

@@ -132,6 +132,16 @@ def write_shape(mesh, points):
     write_values(_attribute_vectors(attribute, 3), points)
 
 
+def write_face_values(mesh, name, values):
+    """Writes (#F,) numbers as a float attribute of the faces, in place of an attribute of that name."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or (attribute.domain, attribute.data_type) != ("FACE", "FLOAT"):
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
+        attribute = mesh.attributes.new(name, "FLOAT", "FACE")
+    write_values(Values(attribute.data, "value", np.float32), values)
+
+
 def _attribute_vectors(attribute, width):
     return Values(attribute.data, "vector", np.float32, width)
 

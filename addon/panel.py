@@ -5,9 +5,9 @@ import textwrap
 
 import bpy
 
-from . import native
+from . import heat, native
 from .lod import HOLOMORPH_OT_levels
-from .operators import HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
+from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
 
 LINE_WIDTH = 36  # characters that fit a sidebar of the default width
 
@@ -25,6 +25,8 @@ class _HolomorphPanel:
             return
         if context.mode == "EDIT_MESH":
             _draw_choices(layout)
+        if context.mode == "OBJECT":
+            _draw_heat(layout, context)
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
@@ -46,6 +48,13 @@ def _draw_choices(layout):
     column.label(text="Selected vertices as")
     for use, text in (("PUNCTURES", "Punctures"), ("RECTANGLE", "Corners of a Rectangle")):
         column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
+
+
+def _draw_heat(layout, context):
+    column = layout.column(align=True)
+    column.label(text="Heat map of the active UV map")
+    column.row(align=True).prop(context.window_manager, heat.SHOWN, expand=True)
+    column.operator(HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
 
 
 def _draw_sentence(layout, sentence):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import compatibility, maps, material, mesh_io, native, report
+from . import compatibility, heat, maps, material, mesh_io, native, report
 
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
@@ -121,6 +121,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
         mesh_io.write_shape(mesh, shape)
     if options.checker:
         _show(outcome, obj, solved, shown, map_options, options)
+    heat.refresh(obj)
     mesh.update()
     entry = report.object_report(obj, solved, written, new_seams, map_options)
     report.store_on_object(obj, entry)
