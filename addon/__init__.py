@@ -13,21 +13,21 @@ bl_info = {
 
 
 def register():
-    from . import heat, lod, native, operators, overlay, panel
+    from . import lod, native, operators, overlay, panel, tile
 
     native.forget()
     operators.register()
+    tile.register()
     lod.register()
-    heat.register()
     overlay.register()
     panel.register()
 
 
 def unregister():
-    from . import heat, lod, operators, overlay, panel
+    from . import lod, operators, overlay, panel, tile
 
     panel.unregister()
     overlay.unregister()
-    heat.unregister()
     lod.unregister()
+    tile.unregister()
     operators.unregister()

@@ -19,7 +19,7 @@ BAR_WIDTH, BAR_HEIGHT = 280, 12  # pixels, in a user interface of normal size
 BAR_ABOVE = 52  # pixels, from the lower edge of the view
 TEXT_COLOUR = (0.95, 0.95, 0.95, 1.0)
 BACKGROUND = (0.0, 0.0, 0.0, 0.55)
-DEPTH_BIAS = 2e-5  # of the whole depth: enough to lie over the same faces as the mesh draws them
+DEPTH_BIAS = 1e-6  # of the depth from -1 to 1: ten steps of a depth buffer, to lie over the faces as the mesh has them
 LIGHT = np.array((0.35, -0.45, 0.82), np.float32)  # direction to the light
 SHADE = 0.45  # how much darker a face is that is turned away from it
 

@@ -175,11 +175,6 @@ def _marks(mesh, mark):
     return Values(mesh.edges, mark, bool)
 
 
-def seam_vertices(mesh):
-    """(#S,2) vertices of the edges that are marked as seams."""
-    return marked_edges(mesh, "use_seam")
-
-
 def selected_vertices(mesh):
     """(n,) selected vertices: in edit mode in the order in which they were picked, as far as Blender remembers it."""
     selected = np.flatnonzero(read_values(Values(mesh.vertices, "select", bool)))
@@ -196,8 +191,14 @@ def are_neighbours(mesh, vertices):
 
 
 def marked_edges(mesh, mark):
-    """(n, 2) vertices of the edges with this mark, "use_seam" or "use_edge_sharp"."""
+    """(n, 2) vertices of the edges with this mark: "use_seam", "use_edge_sharp" or "select"."""
     return _edge_vertices(mesh)[read_values(_marks(mesh, mark))].astype(np.int64)
+
+
+def edge_vectors(mesh, vertex_pairs):
+    """(n, 3) from the first to the second of (n, 2) vertices."""
+    positions = read_values(compatibility.position_values(mesh)).astype(np.float64)
+    return positions[vertex_pairs[:, 1]] - positions[vertex_pairs[:, 0]]
 
 
 def mark_edges(mesh, mark, vertex_pairs):
@@ -242,8 +243,8 @@ def shade_smooth(mesh, sharp_angle):
     mesh.update()
 
 
-def world_points(obj):
-    """(#V,3) float64 positions of an object's mesh in the world."""
-    positions = read_values(compatibility.position_values(obj.data))
+def world_points(obj, vertices=slice(None)):
+    """(n,3) float64 positions in the world of vertices of an object's mesh, by default of all."""
+    positions = read_values(compatibility.position_values(obj.data))[vertices]
     matrix = np.array(obj.matrix_world, np.float64)
     return positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]

@@ -53,16 +53,7 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         results = targets.align(self._targets, work.results)
         outcome = run.write(context, self._targets, results, self.map_options(), self.write_options(), time_has_passed)
         self.form_count = outcome.forms
-        if not outcome.done:
-            self.report({"ERROR"}, "; ".join(outcome.problems) or "No mesh selected")
-            return {"CANCELLED"}
-        for sentence in outcome.problems:
-            self.report({"WARNING"}, sentence)
-        for sentence in outcome.notes:
-            self.report({"INFO"}, sentence)
-        if not outcome.problems and not outcome.notes:
-            self.report({"INFO"}, f"Holomorphic UV maps written: {', '.join(outcome.done)}")
-        return {"FINISHED"}
+        return self.tell(outcome)
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):

@@ -1,9 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""When something is drawn over the 3D view: handlers of Blender's, none in background mode. What: `heat_view`."""
+"""When something is drawn over the 3D view: switches, and handlers of Blender's, none in background mode.
+
+What is drawn is in `heat_view` and `marks_view`, which are imported when they are first needed.
+"""
 
 import bpy
+from bpy.props import BoolProperty, EnumProperty
 
-from . import heat, native
+from . import native
+
+HEAT, MARKS = "holomorphic_heat", "holomorphic_marks"  # properties of the window manager
+QUANTITIES = (
+    ("NONE", "Off", "Show no heat map"),
+    ("DENSITY", "Density", "Show where the texture is denser or coarser than at the median, by UV area"),
+    ("ANGLE", "Angle", "Show where squares are sheared or stretched: s1 / s2, 1 where they stay squares"),
+)
 
 _handles = []
 
@@ -11,30 +22,33 @@ _handles = []
 def _objects(context):
     """The selected meshes that this view shows with overlays, in object mode; the active one first."""
     space = context.space_data
-    if context.mode != "OBJECT" or not space.overlay.show_overlays:
+    if native.problem() or context.mode != "OBJECT" or not space.overlay.show_overlays:
         return []
     active = context.view_layer.objects.active
     selected = [o for o in context.view_layer.objects.selected if o.type == "MESH" and o.visible_get(viewport=space)]
     return sorted(selected, key=lambda o: o != active)
 
 
-def _draw(draw):
-    """Calls `draw(heat_view, context, objects, quantity)` where there is something to show."""
+def _draw_in_space():
     context = bpy.context
-    quantity = getattr(context.window_manager, heat.SHOWN)
-    objects = [] if quantity == "NONE" or native.problem() else _objects(context)
-    if objects:
+    objects, quantity = _objects(context), getattr(context.window_manager, HEAT)
+    if objects and quantity != "NONE":
         from . import heat_view
 
-        draw(heat_view, context, objects, quantity)
+        heat_view.draw_faces(context, objects, quantity)
+    if objects and getattr(context.window_manager, MARKS):
+        from . import marks_view
 
-
-def _draw_in_space():
-    _draw(lambda view, *arguments: view.draw_faces(*arguments))
+        marks_view.draw(context, objects)
 
 
 def _draw_on_screen():
-    _draw(lambda view, *arguments: view.draw_legend(*arguments))
+    context = bpy.context
+    objects, quantity = _objects(context), getattr(context.window_manager, HEAT)
+    if objects and quantity != "NONE":
+        from . import heat_view
+
+        heat_view.draw_legend(context, objects, quantity)
 
 
 @bpy.app.handlers.persistent
@@ -52,6 +66,13 @@ def _forget(*_arguments):
         heat_view.forget()
 
 
+def _redraw(manager, _context):
+    for window in manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
 HANDLERS = (
     (bpy.app.handlers.depsgraph_update_post, _forget_after_update),
     (bpy.app.handlers.undo_post, _forget),
@@ -60,7 +81,16 @@ HANDLERS = (
 )
 
 
+def _register_switches():
+    manager = bpy.types.WindowManager
+    text = "What is shown of the active UV maps of the selected meshes"
+    setattr(manager, HEAT, EnumProperty(name="Heat Map", description=text, items=QUANTITIES, update=_redraw))
+    text = "Show the poles and branch points of seamless tilings on the selected meshes"
+    setattr(manager, MARKS, BoolProperty(name="Show Poles", description=text, default=True, update=_redraw))
+
+
 def register():
+    _register_switches()
     if bpy.app.background:
         return
     for function, when in ((_draw_in_space, "POST_VIEW"), (_draw_on_screen, "POST_PIXEL")):
@@ -70,10 +100,11 @@ def register():
 
 
 def unregister():
-    if bpy.app.background:
-        return
-    for handlers, function in HANDLERS:
-        handlers.remove(function)
-    while _handles:
-        bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
-    _forget()
+    if not bpy.app.background:
+        for handlers, function in HANDLERS:
+            handlers.remove(function)
+        while _handles:
+            bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
+        _forget()
+    for name in (MARKS, HEAT):
+        delattr(bpy.types.WindowManager, name)

@@ -5,9 +5,10 @@ import textwrap
 
 import bpy
 
-from . import heat, native
+from . import native, overlay
 from .lod import HOLOMORPH_OT_levels
 from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
+from .tile import HOLOMORPH_OT_tile
 
 LINE_WIDTH = 36  # characters that fit a sidebar of the default width
 
@@ -19,19 +20,21 @@ class _HolomorphPanel:
 
     def draw(self, context):
         layout = self.layout
-        layout.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
+        column = layout.column(align=True)
+        column.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
+        column.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
         if native.problem():
             _draw_sentence(layout, native.problem())
             return
         if context.mode == "EDIT_MESH":
             _draw_choices(layout)
-        if context.mode == "OBJECT":
-            _draw_heat(layout, context)
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, obj)
+        if context.mode == "OBJECT":
+            _draw_overlays(layout, context)
 
 
 class HOLOMORPH_PT_view3d(_HolomorphPanel, bpy.types.Panel):
@@ -50,11 +53,12 @@ def _draw_choices(layout):
         column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
 
 
-def _draw_heat(layout, context):
+def _draw_overlays(layout, context):
     column = layout.column(align=True)
     column.label(text="Heat map of the active UV map")
-    column.row(align=True).prop(context.window_manager, heat.SHOWN, expand=True)
+    column.row(align=True).prop(context.window_manager, overlay.HEAT, expand=True)
     column.operator(HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
+    layout.prop(context.window_manager, overlay.MARKS)
 
 
 def _draw_sentence(layout, sentence):
@@ -81,6 +85,7 @@ def _draw_menu_entry(self, _context):
     self.layout.separator()
     self.layout.operator_context = "INVOKE_DEFAULT"
     self.layout.operator(HOLOMORPH_OT_maps.bl_idname)
+    self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
 
 
 CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image)

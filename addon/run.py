@@ -62,7 +62,19 @@ class WriteOptions:
 
 
 def write(context, targets, results, map_options, write_options, time_has_passed=False):
-    """Writes every solved object and reports every other; an object that is refused is not touched.
+    """Writes the maps of every solved object and reports every other; an object that is refused is not touched."""
+
+    def write_object(outcome, obj, polygons, solved):
+        if solved.done:
+            _write_object(outcome, obj, polygons, solved, map_options, write_options)
+        else:
+            _report_all_skipped(outcome, obj, solved, map_options)
+
+    return write_each(context, targets, results, write_object, time_has_passed)
+
+
+def write_each(context, targets, results, write_object, time_has_passed=False):
+    """Calls `write_object(outcome, obj, polygons, result)` for every object that is not refused.
 
     `time_has_passed`: Blender was alive during the solve, so each mesh is compared with what was read.
     """
@@ -77,11 +89,9 @@ def write(context, targets, results, map_options, write_options, time_has_passed
                 outcome.refuse(target.name, native.sentence(result))
             elif target.has_changed(time_has_passed):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")
-            elif not result.done:
-                _report_all_skipped(outcome, obj, result, map_options)
             else:
-                _write_object(outcome, obj, target.polygons, result, map_options, write_options)
-                outcome.notes += [target.note] if target.note else []
+                write_object(outcome, obj, target.polygons, result)
+                outcome.notes += [target.note] if target.note and result.done else []
         if outcome.done:
             report.store_text(outcome.entries)
     return outcome
@@ -106,7 +116,12 @@ def _modifier_notes(obj, solved):
 
 def _report_all_skipped(outcome, obj, solved, options):
     outcome.problems += _problems(obj, solved)
-    outcome.entries.append(report.object_report(obj, solved, [], 0, options))
+    outcome.entries.append(_entry(obj, solved, [], 0, options))
+
+
+def _entry(obj, solved, written, new_seams, options):
+    parts = [report.component_report(component, options) for component in solved.components]
+    return report.object_report(obj, solved, written, new_seams, options, parts)
 
 
 def _write_object(outcome, obj, polygons, solved, map_options, options):
@@ -123,7 +138,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
         _show(outcome, obj, solved, shown, map_options, options)
     heat.refresh(obj)
     mesh.update()
-    entry = report.object_report(obj, solved, written, new_seams, map_options)
+    entry = _entry(obj, solved, written, new_seams, map_options)
     report.store_on_object(obj, entry)
     outcome.entries.append(entry)
     outcome.done.append(obj.name)

@@ -176,6 +176,6 @@ def test_nothing_is_drawn_in_background_mode(addon):
     assert overlay._forget_after_update not in bpy.app.handlers.depsgraph_update_post
     assert bpy.context.window_manager.holomorphic_heat == "NONE"
     addon.unregister()
-    assert not hasattr(bpy.types.WindowManager, heat.SHOWN) and not hasattr(bpy.types, "UV_OT_holomorphic_heat")
+    assert not hasattr(bpy.types.WindowManager, overlay.HEAT) and not hasattr(bpy.types, "UV_OT_holomorphic_heat")
     addon.register()
-    assert hasattr(bpy.types.WindowManager, heat.SHOWN)
+    assert hasattr(bpy.types.WindowManager, overlay.HEAT)

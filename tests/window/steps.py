@@ -19,7 +19,7 @@ from screen import area, click, event, hover, inside, move, picture, region, tap
 
 PANEL_TABS_STEP = 30  # pixels; a tab is longer
 PATIENCE = 90  # seconds for a solve
-BUTTONS = {"maps": 44, "punctures": 91, "rectangle": 112}  # pixels below the top of the sidebar, in edit mode
+BUTTONS = {"maps": 44, "punctures": 112, "rectangle": 133}  # pixels below the top of the sidebar, in edit mode
 seen = {}
 drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
 
