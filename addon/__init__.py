@@ -13,17 +13,21 @@ bl_info = {
 
 
 def register():
-    from . import lod, native, operators, panel
+    from . import lod, native, operators, overlay, panel, tile
 
     native.forget()
     operators.register()
+    tile.register()
     lod.register()
+    overlay.register()
     panel.register()
 
 
 def unregister():
-    from . import lod, operators, panel
+    from . import lod, operators, overlay, panel, tile
 
     panel.unregister()
+    overlay.unregister()
     lod.unregister()
+    tile.unregister()
     operators.unregister()

@@ -53,13 +53,14 @@ def _add_choices(parser):
 
 
 def parse(arguments):
+    textures = [name.lower() for name, *_ in module("properties").TEXTURES]
     parser = Parser(
         prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
         description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
     )
     parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY or STL; else the meshes of the .blend")
     parser.add_argument("--output", type=Path, help="where to save the .blend with the maps")
-    parser.add_argument("--render", type=Path, help="where to save a picture (PNG) with the checker")
+    parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
     parser.add_argument("--forms", type=int, default=8, help="at most so many maps of single forms")
@@ -71,6 +72,7 @@ def parse(arguments):
     parser.add_argument("--shape", action="store_true", help="store maps to the sphere and the disk as an attribute")
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
     parser.add_argument("--checker-scale", type=float, default=0.0, help="squares per UV unit; 0 chooses")
+    parser.add_argument("--texture", choices=textures, default="checker", help="what the material shows")
     parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
     parser.add_argument("--resolution", type=int, default=800, help="pixels of the picture's sides")
     parser.add_argument("--samples", type=int, default=24, help="samples per pixel")
@@ -168,6 +170,11 @@ def collect(options, holomorph):
     return [targets.with_positions(target, positions) for target in targets.collect([obj], asked)]
 
 
+def write_options(options):
+    show = options.checker, options.texture.upper(), options.checker_scale
+    return module("run").WriteOptions(options.shown, *show, options.seams, options.shape)
+
+
 def make_maps(options, found):
     """Solves the targets and writes their maps; returns the `run.Outcome`."""
     maps, run, targets = module("maps"), module("run"), module("targets")
@@ -178,7 +185,7 @@ def make_maps(options, found):
         found,
         targets.align(found, job.results),
         maps.MapOptions(options.forms, options.density, math.radians(options.rotation), margin=options.margin),
-        run.WriteOptions(options.shown, options.checker, options.checker_scale, options.seams, options.shape),
+        write_options(options),
     )
 
 

@@ -162,12 +162,24 @@ def main_map(component, options, uv=None):
 
 
 def squares_that_fit(solved, options):
-    """Checker squares per UV unit so that about `SQUARES_ACROSS` of them span the largest part that has a map."""
+    """Checker squares per UV unit so that about `SQUARES_ACROSS` of them span the largest part that has a map, an even
+    number."""
+    size, unit = _largest(solved, options)
+    return min(max(2 * round(SQUARES_ACROSS * unit / size / 2), 2), SQUARES_LIMIT) if unit > 0 else SQUARES_ACROSS
+
+
+def unit_length(solved, options):
+    """The length on the surface of a UV unit, where the density is the median one; 0 for a map without area."""
+    return _largest(solved, options)[1]
+
+
+def _largest(solved, options):
+    """(diagonal, `unit_length`) of the largest part that has a map."""
     sizes = [_diagonal(c.surface.vertices) for c in solved.done]
     largest = int(np.argmax(sizes))
     part, place = solved.done[largest], _places(solved.done, 0, options)[largest]
-    density = abs(place.factor) * main_map(part, options).length_ratio * sizes[largest]
-    return min(max(2 * round(SQUARES_ACROSS / density / 2), 2), SQUARES_LIMIT) if density > 0 else SQUARES_ACROSS
+    density = abs(place.factor) * main_map(part, options).length_ratio
+    return sizes[largest], 1 / density if density > 0 else 0.0
 
 
 def _diagonal(points):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Between Blender's meshes and arrays: the only module that calls foreach_get and foreach_set.
+"""Between Blender's meshes, images and arrays: the only module that calls foreach_get and foreach_set.
 
 Positions and UVs are double precision on our side and float32 on Blender's. Corners are in the order of
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
@@ -54,6 +54,11 @@ def read_values(values):
 def write_values(values, array):
     """The reverse of `read_values`."""
     values.elements.foreach_set(values.name, np.ascontiguousarray(array, values.dtype).ravel())
+
+
+def write_pixels(image, pixels):
+    """Writes (height, width, 4) float32, the lowest row first, in the image's own colour space."""
+    image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())
 
 
 def _read_indices(values):
@@ -127,6 +132,16 @@ def write_shape(mesh, points):
     write_values(_attribute_vectors(attribute, 3), points)
 
 
+def write_face_values(mesh, name, values):
+    """Writes (#F,) numbers as a float attribute of the faces, in place of an attribute of that name."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or (attribute.domain, attribute.data_type) != ("FACE", "FLOAT"):
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
+        attribute = mesh.attributes.new(name, "FLOAT", "FACE")
+    write_values(Values(attribute.data, "value", np.float32), values)
+
+
 def _attribute_vectors(attribute, width):
     return Values(attribute.data, "vector", np.float32, width)
 
@@ -160,11 +175,6 @@ def _marks(mesh, mark):
     return Values(mesh.edges, mark, bool)
 
 
-def seam_vertices(mesh):
-    """(#S,2) vertices of the edges that are marked as seams."""
-    return marked_edges(mesh, "use_seam")
-
-
 def selected_vertices(mesh):
     """(n,) selected vertices: in edit mode in the order in which they were picked, as far as Blender remembers it."""
     selected = np.flatnonzero(read_values(Values(mesh.vertices, "select", bool)))
@@ -181,8 +191,14 @@ def are_neighbours(mesh, vertices):
 
 
 def marked_edges(mesh, mark):
-    """(n, 2) vertices of the edges with this mark, "use_seam" or "use_edge_sharp"."""
+    """(n, 2) vertices of the edges with this mark: "use_seam", "use_edge_sharp" or "select"."""
     return _edge_vertices(mesh)[read_values(_marks(mesh, mark))].astype(np.int64)
+
+
+def edge_vectors(mesh, vertex_pairs):
+    """(n, 3) from the first to the second of (n, 2) vertices."""
+    positions = read_values(compatibility.position_values(mesh)).astype(np.float64)
+    return positions[vertex_pairs[:, 1]] - positions[vertex_pairs[:, 0]]
 
 
 def mark_edges(mesh, mark, vertex_pairs):
@@ -227,8 +243,8 @@ def shade_smooth(mesh, sharp_angle):
     mesh.update()
 
 
-def world_points(obj):
-    """(#V,3) float64 positions of an object's mesh in the world."""
-    positions = read_values(compatibility.position_values(obj.data))
+def world_points(obj, vertices=slice(None)):
+    """(n,3) float64 positions in the world of vertices of an object's mesh, by default of all."""
+    positions = read_values(compatibility.position_values(obj.data))[vertices]
     matrix = np.array(obj.matrix_world, np.float64)
     return positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]

@@ -75,6 +75,19 @@ class WorkOperator:
         self._work.cancel()
         self._end_modal(context)
 
+    def tell(self, outcome):
+        """Reports a `run.Outcome`; what the operator returns."""
+        if not outcome.done:
+            self.report({"ERROR"}, "; ".join(outcome.problems) or "No mesh selected")
+            return {"CANCELLED"}
+        for sentence in outcome.problems:
+            self.report({"WARNING"}, sentence)
+        for sentence in outcome.notes:
+            self.report({"INFO"}, sentence)
+        if not outcome.problems and not outcome.notes:
+            self.report({"INFO"}, f"Holomorphic UV maps written: {', '.join(outcome.done)}")
+        return {"FINISHED"}
+
     def _work_here(self, context):
         manager = context.window_manager
         manager.progress_begin(0.0, 1.0)

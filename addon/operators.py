@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators: one computes the maps, one brings the object's own materials back."""
+"""The operators: one computes the maps, one measures a map, one brings the object's own materials back."""
 
 import bpy
 
@@ -53,20 +53,11 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         results = targets.align(self._targets, work.results)
         outcome = run.write(context, self._targets, results, self.map_options(), self.write_options(), time_has_passed)
         self.form_count = outcome.forms
-        if not outcome.done:
-            self.report({"ERROR"}, "; ".join(outcome.problems) or "No mesh selected")
-            return {"CANCELLED"}
-        for sentence in outcome.problems:
-            self.report({"WARNING"}, sentence)
-        for sentence in outcome.notes:
-            self.report({"INFO"}, sentence)
-        if not outcome.problems and not outcome.notes:
-            self.report({"INFO"}, f"Holomorphic UV maps written: {', '.join(outcome.done)}")
-        return {"FINISHED"}
+        return self.tell(outcome)
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
-    """Bring back the materials that the checker covers"""
+    """Bring back the materials that the checker or a texture covers"""
 
     bl_idname = "uv.holomorphic_restore_materials"
     bl_label = "Restore Materials"
@@ -79,8 +70,43 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
     def execute(self, context):
         from . import material, targets
 
-        restored = [material.remove_checker(obj) for obj in targets.mesh_objects(context)]
+        restored = [material.uncover(obj) for obj in targets.mesh_objects(context)]
         return {"FINISHED"} if any(restored) else {"CANCELLED"}
+
+
+class HOLOMORPH_OT_heat(bpy.types.Operator):
+    """Write how the active UV map distorts, as attributes of the faces of the selected meshes: "Holomorphic Density",
+    the binary logarithm of UV area per surface area over its median, and "Holomorphic Angle", s1 / s2"""
+
+    bl_idname = "uv.holomorphic_heat"
+    bl_label = "Holomorphic Heat Maps"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        sentence = native.problem() or cls._why_not(context)
+        if sentence:
+            cls.poll_message_set(sentence)
+        return not sentence
+
+    @classmethod
+    def _why_not(cls, context):
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            return "Go to Object Mode or Edit Mode"
+        selected = context.view_layer.objects.selected
+        return "" if any(o.type == "MESH" and o.data.uv_layers for o in selected) else "Select a mesh with a UV map"
+
+    def execute(self, context):
+        from . import heat, run, targets
+
+        with run.object_mode(context):
+            objects = [o for o in targets.mesh_objects(context) if heat.is_possible(o)]
+            for obj in objects:
+                found = heat.write(obj)
+                name = obj.data.uv_layers.active.name
+                density, angle = f"95 : 5 % of density {found.density_text}", f"mean angle {found.mean_angle:.4f}"
+                self.report({"INFO"}, f"{obj.name}, {name}: {density}, {angle}")
+        return {"FINISHED"} if objects else {"CANCELLED"}
 
 
 @bpy.app.handlers.persistent
@@ -93,7 +119,7 @@ def _forget_solves(*_arguments):
     cache.clear()
 
 
-CLASSES = (HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials)
+CLASSES = (HOLOMORPH_OT_maps, HOLOMORPH_OT_heat, HOLOMORPH_OT_restore_materials)
 
 
 def register():

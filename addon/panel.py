@@ -5,9 +5,10 @@ import textwrap
 
 import bpy
 
-from . import native
+from . import native, overlay
 from .lod import HOLOMORPH_OT_levels
-from .operators import HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
+from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
+from .tile import HOLOMORPH_OT_tile
 
 LINE_WIDTH = 36  # characters that fit a sidebar of the default width
 
@@ -19,7 +20,9 @@ class _HolomorphPanel:
 
     def draw(self, context):
         layout = self.layout
-        layout.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
+        column = layout.column(align=True)
+        column.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
+        column.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
         if native.problem():
             _draw_sentence(layout, native.problem())
             return
@@ -30,6 +33,8 @@ class _HolomorphPanel:
             if context.mode == "OBJECT":
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, obj)
+        if context.mode == "OBJECT":
+            _draw_overlays(layout, context)
 
 
 class HOLOMORPH_PT_view3d(_HolomorphPanel, bpy.types.Panel):
@@ -48,6 +53,14 @@ def _draw_choices(layout):
         column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
 
 
+def _draw_overlays(layout, context):
+    column = layout.column(align=True)
+    column.label(text="Heat map of the active UV map")
+    column.row(align=True).prop(context.window_manager, overlay.HEAT, expand=True)
+    column.operator(HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
+    layout.prop(context.window_manager, overlay.MARKS)
+
+
 def _draw_sentence(layout, sentence):
     column = layout.column(align=True)
     lines = textwrap.wrap(sentence, LINE_WIDTH)
@@ -58,7 +71,7 @@ def _draw_sentence(layout, sentence):
 def _draw_result(layout, obj):
     from . import material, report
 
-    if material.has_checker(obj):
+    if material.is_covered(obj):
         layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
     stored = obj.get(report.PROPERTY)
     if stored:
@@ -72,6 +85,7 @@ def _draw_menu_entry(self, _context):
     self.layout.separator()
     self.layout.operator_context = "INVOKE_DEFAULT"
     self.layout.operator(HOLOMORPH_OT_maps.bl_idname)
+    self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
 
 
 CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image)

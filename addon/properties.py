@@ -44,9 +44,18 @@ SOLVER_TEXTS = {
     "multigrid": ("Multigrid", "Linear time and memory"),
     "paper": ("Paper", "The published multiresolution method, on closed parts with handles: for comparison"),
 }
+TEXTURES = (
+    ("CHECKER", "Checker", "Squares"),
+    ("NUMBERED", "Numbered", "Coloured tiles from A1 to H8 with arrows: seams, flips and rotations are seen at once"),
+    ("BRICKS", "Bricks", "A brick wall"),
+    ("SCALES", "Scales", "Scales of a dragon or a fish"),
+    ("WEAVE", "Weave", "Woven cloth"),
+    ("PLANKS", "Planks", "Wooden boards"),
+    ("HEXAGONS", "Hexagons", "Glazed hexagonal tiles"),
+)
 DRAWN = (  # in groups
     ("density", "margin", "rotation", "forms", "shown"),
-    ("checker", "checker_scale", "seams", "shape"),
+    ("checker", "texture", "checker_scale", "seams", "shape"),
     ("use_selection", "residues", "cut_at_seams", "boundary", "solver"),
 )
 
@@ -138,13 +147,15 @@ class MapProperties:
         unit="ROTATION",
     )
     checker: BoolProperty(
-        name="Checker",
-        description="Show the map with a checker; the mesh's own materials stay and can be brought back",
+        name="Show Texture",
+        description="Show the map by a material; the mesh's own materials stay and can be brought back",
         default=True,
     )
+    texture: EnumProperty(name="Texture", description="What the material shows", items=TEXTURES, default="CHECKER")
     checker_scale: FloatProperty(
         name="Squares",
-        description="Checker squares per UV unit; 0 chooses a number that suits the object's size",
+        description="Squares, bricks, scales ... per UV unit, rounded to whole images of a texture; 0 chooses a number "
+        "that suits the object's size",
         default=0.0,
         min=0.0,
         soft_max=200.0,
@@ -194,4 +205,4 @@ class MapProperties:
     def write_options(self):
         from . import run
 
-        return run.WriteOptions(self.shown, self.checker, self.checker_scale, self.seams, self.shape)
+        return run.WriteOptions(self.shown, self.checker, self.texture, self.checker_scale, self.seams, self.shape)

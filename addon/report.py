@@ -16,8 +16,8 @@ COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
 TEXT = "Holomorphic Report"
 
 
-def object_report(obj, solved, written, new_seams, options):
-    """One object: its maps as written and the package's report of each component."""
+def object_report(obj, solved, written, new_seams, options, components):
+    """One object: its maps as written, the options with which they were, and the report of each component."""
     return {
         "object": obj.name,
         "mesh": obj.data.name,
@@ -29,11 +29,11 @@ def object_report(obj, solved, written, new_seams, options):
         "seams_added": new_seams,
         "repairs": native.load().report.repairs_report(solved.surface.repairs),
         "seconds": solved.seconds,
-        "components": [_component_report(c, options) for c in solved.components],
+        "components": components,
     }
 
 
-def _component_report(component, options):
+def component_report(component, options):
     """The package's report of one component, and the choice that was not followed on it."""
     package = native.load().report
     if component.structure is None:
@@ -78,10 +78,20 @@ def run_report(entries):
 
 
 @functools.lru_cache(maxsize=16)
+def parsed(stored):
+    """A stored report; an empty one if someone has edited it so that it is none."""
+    try:
+        entry = json.loads(stored)
+    except (ValueError, TypeError):
+        return {}
+    return entry if isinstance(entry, dict) else {}
+
+
+@functools.lru_cache(maxsize=16)
 def summary(stored):
     """Short lines for the panel out of a stored report; none if someone has edited it."""
     try:
-        return _summary(json.loads(stored))
+        return _summary(parsed(stored))
     except (ValueError, KeyError, TypeError, IndexError):
         return []
 
@@ -103,8 +113,14 @@ def _topology(part):
     return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
 
 
+def _tiling_lines(tiling):
+    yield tiling["verdict"]
+    yield f"added distortion {tiling['added_distortion']:.4f}"
+    yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
+
+
 def _result_lines(part):
-    yield part["description"]
+    yield from _tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
     angle = part["main_map"]["mean_angle"]  # none where it is infinite
     collapsed = angle is None or angle > COLLAPSED
     yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"

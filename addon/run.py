@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import compatibility, maps, material, mesh_io, native, report
+from . import compatibility, heat, maps, material, mesh_io, native, report
 
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
@@ -21,7 +21,7 @@ class Outcome:
     notes: list = field(default_factory=list)
     entries: list = field(default_factory=list)
     forms: int = 0
-    squares: float = 0.0
+    look: object = None  # `material.Look` that all objects of the run share
 
     def refuse(self, name, sentence):
         self.problems.append(f"{name}: {sentence}")
@@ -54,14 +54,27 @@ class WriteOptions:
     """What is written besides the maps."""
 
     shown: int = 0  # 0 the main map, j the map of form j
-    checker: bool = True
-    checker_scale: float = 0.0  # squares per UV unit; 0 lets the first object decide
+    checker: bool = True  # whether the map is shown by a material
+    texture: str = material.CHECKER  # what it shows
+    checker_scale: float = 0.0  # squares, bricks, scales ... per UV unit; 0 lets the first object decide
     seams: bool = False
     shape: bool = False  # the conformal image in space
 
 
 def write(context, targets, results, map_options, write_options, time_has_passed=False):
-    """Writes every solved object and reports every other; an object that is refused is not touched.
+    """Writes the maps of every solved object and reports every other; an object that is refused is not touched."""
+
+    def write_object(outcome, obj, polygons, solved):
+        if solved.done:
+            _write_object(outcome, obj, polygons, solved, map_options, write_options)
+        else:
+            _report_all_skipped(outcome, obj, solved, map_options)
+
+    return write_each(context, targets, results, write_object, time_has_passed)
+
+
+def write_each(context, targets, results, write_object, time_has_passed=False):
+    """Calls `write_object(outcome, obj, polygons, result)` for every object that is not refused.
 
     `time_has_passed`: Blender was alive during the solve, so each mesh is compared with what was read.
     """
@@ -76,11 +89,9 @@ def write(context, targets, results, map_options, write_options, time_has_passed
                 outcome.refuse(target.name, native.sentence(result))
             elif target.has_changed(time_has_passed):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")
-            elif not result.done:
-                _report_all_skipped(outcome, obj, result, map_options)
             else:
-                _write_object(outcome, obj, target.polygons, result, map_options, write_options)
-                outcome.notes += [target.note] if target.note else []
+                write_object(outcome, obj, target.polygons, result)
+                outcome.notes += [target.note] if target.note and result.done else []
         if outcome.done:
             report.store_text(outcome.entries)
     return outcome
@@ -105,7 +116,12 @@ def _modifier_notes(obj, solved):
 
 def _report_all_skipped(outcome, obj, solved, options):
     outcome.problems += _problems(obj, solved)
-    outcome.entries.append(report.object_report(obj, solved, [], 0, options))
+    outcome.entries.append(_entry(obj, solved, [], 0, options))
+
+
+def _entry(obj, solved, written, new_seams, options):
+    parts = [report.component_report(component, options) for component in solved.components]
+    return report.object_report(obj, solved, written, new_seams, options, parts)
 
 
 def _write_object(outcome, obj, polygons, solved, map_options, options):
@@ -119,9 +135,10 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     if shape is not None:
         mesh_io.write_shape(mesh, shape)
     if options.checker:
-        _show_checker(outcome, obj, solved, shown, map_options, options)
+        _show(outcome, obj, solved, shown, map_options, options)
+    heat.refresh(obj)
     mesh.update()
-    entry = report.object_report(obj, solved, written, new_seams, map_options)
+    entry = _entry(obj, solved, written, new_seams, map_options)
     report.store_on_object(obj, entry)
     outcome.entries.append(entry)
     outcome.done.append(obj.name)
@@ -134,11 +151,11 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
         outcome.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
 
 
-def _show_checker(outcome, obj, solved, shown, map_options, options):
-    if not outcome.squares:  # all objects of a run share the material
-        outcome.squares = options.checker_scale or maps.squares_that_fit(solved, map_options)
-    is_attribute = shown.kind == "attribute"
-    material.show_checker(obj, material.checker_material(shown.name, is_attribute, outcome.squares))
+def _show(outcome, obj, solved, shown, map_options, options):
+    if outcome.look is None:
+        cells = options.checker_scale or maps.squares_that_fit(solved, map_options)
+        outcome.look = material.Look(options.texture, cells, maps.unit_length(solved, map_options))
+    material.cover(obj, material.showing(shown.name, shown.kind == "attribute", outcome.look))
 
 
 def _seam_pairs(solved):

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From polygons to conformal structures, component by component. No bpy here: it runs in a worker thread."""
 
+import functools
 import time
 from dataclasses import dataclass, field, replace
 
 from . import choices, native
 
+KEPT_TILINGS = 4  # of each part: the redo panel goes back and forth between a few
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
 
 
@@ -37,11 +39,23 @@ class SolvedComponent:
     note: str = ""  # which choice was not followed, and why
     frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
     main_maps: dict = field(default_factory=dict, compare=False)  # `maps.MainMap` by dials
+    tilings: dict = field(default_factory=dict, compare=False)  # what was made for `tiling.TileOptions`, newest last
 
     @property
     def form_count(self):
         """How many forms there are to mix."""
         return 0 if self.balanced is None else len(self.balanced)
+
+    @functools.cached_property
+    def tiler(self):
+        """The structure with vertices as the part counts them; it keeps the poles that it has placed."""
+        return replace(self.structure, surface=self.surface)
+
+    def keep_tiling(self, options, tiling):
+        """Adds one, and drops the oldest beyond `KEPT_TILINGS`."""
+        self.tilings[options] = tiling
+        while len(self.tilings) > KEPT_TILINGS:
+            del self.tilings[next(iter(self.tilings))]
 
     @property
     def area(self):

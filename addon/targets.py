@@ -77,7 +77,7 @@ def collect(objects, request=Request()):
 
 def _choices(obj, request):
     """What was chosen on this object; @pre `read(obj)` has written pending edits to the mesh."""
-    seams = mesh_io.seam_vertices(obj.data) if request.cut_at_seams else np.empty((0, 2), np.int64)
+    seams = mesh_io.marked_edges(obj.data, "use_seam") if request.cut_at_seams else np.empty((0, 2), np.int64)
     selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
     return choices.Choices(request.use, tuple(selected), request.residues, seams, request.boundary, request.solver)
 

@@ -136,5 +136,5 @@ def test_a_loose_vertex_cannot_be_chosen():
 def test_seams_are_read_as_vertices():
     obj = torus()
     obj.data.edges[4].use_seam = True
-    (pair,) = mesh_io.seam_vertices(obj.data)
+    (pair,) = mesh_io.marked_edges(obj.data, "use_seam")
     assert sorted(pair) == sorted(obj.data.edges[4].vertices)

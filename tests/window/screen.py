@@ -4,7 +4,9 @@ import sys
 from pathlib import Path
 
 import bpy
+import numpy as np
 
+SCRIPT = Path(sys.argv[sys.argv.index("--python") + 1])  # whose steps are run
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])  # for pictures
 pointer = [0, 0]
 
@@ -51,3 +53,11 @@ def inside(owner):
 
 def picture(name):
     bpy.ops.screen.screenshot(filepath=str(FOLDER / name))
+
+
+def pixels(name):
+    """(height, width, 3) of a picture that was taken, its lowest row first."""
+    image = bpy.data.images.load(str(FOLDER / name))
+    values = np.array(image.pixels, np.float32).reshape(image.size[1], image.size[0], -1)[..., :3]
+    bpy.data.images.remove(image)
+    return values

@@ -1,28 +1,25 @@
 """Runs inside Blender with a window and simulated events: uses the add-on as an artist does, writes down what happened.
 
 blender --factory-startup --enable-event-simulate --addons holomorph --python steps.py -- FOLDER
-Leaves FOLDER/steps.json (name of the step: what was seen) and pictures. Each `yield` is a wait in seconds, while
-Blender handles events and draws.
+Leaves FOLDER/steps.json (name of the step: what was seen) and pictures.
 """
 
 import importlib
-import json
-import os
 import sys
 import threading
 import time
-import traceback
 from pathlib import Path
 
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
 from objects import maps, part_report, pick, pick_vertices, sheet, torus
-from screen import FOLDER, area, click, event, hover, inside, move, picture, region, tap, window
+from running import run
+from screen import area, click, event, hover, inside, move, picture, region, tap, window
 
 PANEL_TABS_STEP = 30  # pixels; a tab is longer
 PATIENCE = 90  # seconds for a solve
-BUTTONS = {"maps": 44, "punctures": 91, "rectangle": 112}  # pixels below the top of the sidebar, in edit mode
+BUTTONS = {"maps": 44, "punctures": 112, "rectangle": 133}  # pixels below the top of the sidebar, in edit mode
 seen = {}
 drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
 
@@ -293,23 +290,4 @@ def steps():
         yield from part()
 
 
-def finish():
-    (FOLDER / "steps.json").write_text(json.dumps(seen, indent=1))
-    sys.stdout.flush()
-    os._exit(0)
-
-
-running = steps()
-
-
-def tick():
-    try:
-        return next(running)
-    except StopIteration:
-        return finish()
-    except BaseException:  # noqa: BLE001  Blender would only drop the timer: the traceback goes to the test
-        seen["traceback"] = traceback.format_exc()
-        return finish()
-
-
-bpy.app.timers.register(tick, first_interval=3)
+run(steps(), seen)

@@ -1,59 +1,15 @@
 """The add-on in a real window on a display of its own: buttons, undo, redo, the redo panel, ESC."""
 
-import json
-import os
-import shutil
-import subprocess
-from pathlib import Path
-
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-BLENDER = os.environ.get("HOLOMORPH_BLENDER") or shutil.which("blender")
-SECONDS = 280
 BOTH_MAPS = ["Holomorphic", "Holomorphic 1"]
 PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "rectangle.png", "punctures.png"]
 PICTURES += ["running.png", "modal.png", "levels.png"]
 
-pytestmark = [
-    pytest.mark.skipif(not BLENDER, reason="there is no Blender program"),
-    pytest.mark.skipif(not shutil.which("xvfb-run"), reason="there is no xvfb-run"),
-]
 
-
-@pytest.fixture(scope="session")
-def folder(tmp_path_factory):
-    wanted = os.environ.get("HOLOMORPH_TEST_OUTPUT")
-    path = Path(wanted) if wanted else tmp_path_factory.mktemp("window")
-    path.mkdir(parents=True, exist_ok=True)
-    return path
-
-
-@pytest.fixture(scope="session")
-def seen(folder, tmp_path_factory):
-    """What the steps saw, after one run of Blender."""
-    scripts = tmp_path_factory.mktemp("scripts")
-    (scripts / "addons").mkdir()
-    (scripts / "addons" / "holomorph_addon").symlink_to(ROOT / "addon")
-    screen = "-screen 0 1600x1000x24 +extension GLX"
-    command = ["xvfb-run", "-a", "-s", screen, BLENDER, "--factory-startup", "--enable-event-simulate"]
-    command += ["--window-geometry", "0", "0", "1600", "1000", "--addons", "holomorph_addon"]
-    command += ["--python", str(ROOT / "tests" / "window" / "steps.py"), "--", str(folder)]
-    environment = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": str(scripts)}
-    environment.pop("PYTHONPATH", None)
-    with open(folder / "blender.log", "w") as log:
-        subprocess.run(
-            ["timeout", "--kill-after=10", str(SECONDS), *command],
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=log,
-            stderr=subprocess.STDOUT,
-            timeout=SECONDS + 30,
-            check=False,
-        )
-    written = folder / "steps.json"
-    assert written.exists(), (folder / "blender.log").read_text(errors="replace")[-3000:]
-    return json.loads(written.read_text())
+@pytest.fixture(scope="module")
+def seen(take_steps):
+    return take_steps("steps")
 
 
 def test_every_step_was_taken(seen):

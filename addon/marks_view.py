@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Poles and branch points of tilings as dots in the 3D view. Called from draw handlers only.
+
+A dot is a disc in space that faces the viewer and has the same size on the screen at every distance.
+"""
+
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from . import mesh_io, report, tile_report
+
+POLE, ZERO = (1.0, 0.55, 0.10), (0.95, 0.95, 0.95)  # sRGB
+RIM = (0.05, 0.05, 0.05)
+RADIUS, RIM_WIDTH = 6.0, 1.5  # pixels, in a user interface of normal size
+CORNERS = 20  # of a disc
+HIDDEN = 0.25  # opacity behind something
+NEARER = 2.0  # radii by which a disc is moved towards the viewer: the faces around its vertex must not cut it
+
+
+def draw(context, objects):
+    found = [_points(obj) for obj in objects if obj.get(report.PROPERTY)]
+    if not found:
+        return
+    points, is_pole = (np.concatenate(parts) for parts in zip(*found))
+    if not len(points):
+        return
+    view = context.region_data
+    unit = context.preferences.system.ui_scale
+    radii = RADIUS * unit * pixel_sizes(points, view, context.region.height)
+    axes = np.array(view.view_matrix.inverted())
+    towards = axes[:3, 3] - points if view.is_perspective else np.tile(axes[:3, 2], (len(points), 1))
+    towards = radii[:, None] * towards / np.linalg.norm(towards, axis=1, keepdims=True)
+    colours = np.repeat(np.where(is_pole[:, None], POLE, ZERO), 3 * CORNERS, axis=0)
+    dots = discs(points + NEARER * towards, radii, axes[:3, :2].T)
+    rims = discs(points + NEARER * towards, (1 + RIM_WIDTH / RADIUS) * radii, axes[:3, :2].T)
+    gpu.state.depth_mask_set(False)  # a disc is drawn over its rim, and hidden or not by the meshes alone
+    gpu.state.blend_set("ALPHA")
+    for test, opacity in (("GREATER", HIDDEN), ("LESS_EQUAL", 1.0)):
+        _draw_discs(rims, RIM, opacity, test)
+        _draw_discs(dots, colours, opacity, test)
+    gpu.state.blend_set("NONE")
+    gpu.state.depth_test_set("NONE")
+    gpu.state.depth_mask_set(True)
+
+
+def _points(obj):
+    """((n, 3) places in the world, (n,) whether it is a pole) of an object with a report."""
+    vertices, is_pole = tile_report.marks(obj[report.PROPERTY])
+    if len(vertices) and vertices.max() >= len(obj.data.vertices):  # the mesh is not what it was
+        vertices, is_pole = vertices[:0], is_pole[:0]
+    return mesh_io.world_points(obj, vertices), is_pole
+
+
+def pixel_sizes(points, view, height):
+    """(n,) length of a pixel at each point, in a view (a `RegionView3D`) whose region has this height."""
+    perspective, window = np.array(view.perspective_matrix), np.array(view.window_matrix)
+    w = points @ perspective[3, :3] + perspective[3, 3]
+    return np.abs(w) * 2 / (height * window[1, 1])
+
+
+def discs(points, radii, axes):
+    """(n * 3 CORNERS, 3) float32: triangles of a disc around each point, in the plane of two unit vectors."""
+    turn = 2 * np.pi * np.arange(CORNERS + 1) / CORNERS
+    rim = np.stack([np.cos(turn), np.sin(turn)], axis=1) @ axes
+    fan = np.stack([np.zeros((CORNERS, 3)), rim[:-1], rim[1:]], axis=1).reshape(-1, 3)
+    return (points[:, None] + radii[:, None, None] * fan[None]).reshape(-1, 3).astype(np.float32)
+
+
+def _draw_discs(points, colours, opacity, depth_test):
+    """Triangles in one colour or in one for each corner."""
+    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
+    with_opacity = np.full((len(points), 4), opacity, np.float32)
+    with_opacity[:, :3] = colours
+    gpu.state.depth_test_set(depth_test)
+    batch_for_shader(shader, "TRIS", {"pos": points, "color": with_opacity}).draw(shader)

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Periodic functions on the unit square, which images that tile are made of. Arrays only, no bpy.
+
+Values are taken at the middles of pixels; x = u to the right, y = v upwards, row 0 at the bottom as Blender has it.
+Same pixels at every call: random numbers have fixed seeds.
+"""
+
+import numpy as np
+
+
+def grid(size):
+    """x and y of the pixels' middles, (1, size) and (size, 1)."""
+    middles = (np.arange(size) + 0.5) / size
+    return middles[None, :], middles[:, None]
+
+
+def noise(size, seed, across=4.0, along=4.0, power=3.0):
+    """(size, size) noise of mean 0 and deviation 1; from `across` waves per side in u and `along` in v on its spectrum
+    falls with `power`."""
+    white = np.fft.rfft2(np.random.default_rng(seed).standard_normal((size, size)))
+    u, v = np.fft.rfftfreq(size, 1 / size)[None, :], np.fft.fftfreq(size, 1 / size)[:, None]
+    white *= (1 + (u / across) ** 2 + (v / along) ** 2) ** (-power / 2)
+    white[0, 0] = 0
+    waves = np.fft.irfft2(white, s=(size, size))
+    return waves / waves.std()
+
+
+def chance(seed, *shape):
+    """Random numbers from 0 to 1, one for each cell of a pattern."""
+    return np.random.default_rng(seed).random(shape)
+
+
+def smoothstep(low, high, x):
+    """0 below `low`, 1 above `high`, smooth between."""
+    t = np.clip((x - low) / (high - low), 0, 1)
+    return t * t * (3 - 2 * t)
+
+
+def mix(first, second, share):
+    """Colours between two, (..., 3), by an array of shares."""
+    return np.asarray(first) + (np.asarray(second) - np.asarray(first)) * share[..., None]
+
+
+def shade(colour, factor):
+    """Colours times an array of factors."""
+    return colour * factor[..., None]

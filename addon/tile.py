@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator for seamless tilings of the selected meshes."""
+
+import bpy
+
+from .modal import WorkOperator
+from .operators import HOLOMORPH_OT_maps
+from .tile_properties import TileProperties
+
+
+class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
+    """Make a UV map on which a texture that tiles shows no seam, keeps its angles and has about the same size
+    everywhere. Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
+
+    bl_idname = "uv.holomorphic_tile"
+    bl_label = "Seamless Tiling"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+    @classmethod
+    def why_not(cls, context):
+        return HOLOMORPH_OT_maps.why_not(context)
+
+    def prepare(self, context):
+        from . import targets
+
+        self._targets = targets.collect(targets.mesh_objects(context))
+        try:
+            self._options = [self.tile_options(target) for target in self._targets if not target.refused]
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return False
+        return True
+
+    def make_work(self, progress):
+        from . import targets, tiling
+
+        return tiling.TileWork(targets.tasks(self._targets), self._options, progress)
+
+    def waiting_faces(self):
+        from . import targets
+
+        return sum(len(task.polygons.face_offsets) - 1 for task in targets.tasks(self._targets))
+
+    def finish(self, context, work, time_has_passed):
+        from . import targets, tile_run
+
+        results = targets.align(self._targets, work.results)
+        options = tile_run.TileWriteOptions(
+            self.quarters, self.checker, self.texture, self.repeats, self.seams, self.empties
+        )
+        outcome = tile_run.write(context, self._targets, results, options, time_has_passed)
+        return self.tell(outcome)
+
+
+def register():
+    bpy.utils.register_class(HOLOMORPH_OT_tile)
+
+
+def unregister():
+    bpy.utils.unregister_class(HOLOMORPH_OT_tile)

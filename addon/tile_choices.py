@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the properties of the tile operator mean for one object, with its selection."""
+
+import numpy as np
+
+from . import mesh_io, tiling
+
+AXES = "XYZ"
+
+
+def options(properties, target):
+    """The `tiling.TileOptions` for a `targets.Target`. @throws ValueError nothing is selected that is asked for"""
+    obj = target.find()
+    return tiling.TileOptions(
+        float(properties.tiles),
+        _poles(properties, obj),
+        properties.lattice,
+        _direction(properties, obj),
+        properties.boundary,
+    )
+
+
+def _poles(properties, obj):
+    if properties.poles == "COUNT":
+        return properties.pole_count
+    if properties.poles == "AUTOMATIC":
+        return tiling.AUTOMATIC
+    selected = tuple(sorted(mesh_io.selected_vertices(obj.data).tolist()))
+    if not selected:
+        raise ValueError(f"{obj.name}: select the vertices that are to be poles")
+    return selected
+
+
+def _direction(properties, obj):
+    """In the frame of the polygons: as the object stands in space, without its translation."""
+    if properties.direction == "NONE":
+        return None
+    linear = np.array(obj.matrix_world, np.float64)[:3, :3]
+    if properties.direction in AXES:
+        return tuple(linear[:, AXES.index(properties.direction)].tolist())
+    edges = mesh_io.edge_vectors(obj.data, mesh_io.marked_edges(obj.data, "select")) @ linear.T
+    if not edges.any():
+        raise ValueError(f"{obj.name}: select edges along which the rows are to run")
+    return mean_direction(edges)
+
+
+def mean_direction(vectors):
+    """The line that (n, 3) vectors lie along most, whichever way each points: the first axis of their moments; its
+    largest coordinate is positive."""
+    _, axes = np.linalg.eigh(vectors.T @ vectors)
+    axis = axes[:, -1]
+    return tuple((axis * np.sign(axis[np.argmax(np.abs(axis))])).tolist())

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is reported of a tiling: first in words, then in numbers."""
+
+import numpy as np
+
+from . import native, report
+
+EVEN, FAIRLY_EVEN = 6.0, 20.0  # the largest 95 : 5 % ratios of the density that are called so
+SHEARED, SLIGHTLY_SHEARED = 1.05, 1.01  # likewise the smallest mean s1 / s2 that the rounding adds
+
+
+def verdict(tiling):
+    """A few words, such as "Even, seamless, 8 poles"."""
+    ratio, added, count = tiling.density_ratio, tiling.added_distortion, len(tiling.poles)
+    words = ["even" if ratio <= EVEN else "fairly even" if ratio <= FAIRLY_EVEN else "uneven", "seamless"]
+    if added >= SLIGHTLY_SHEARED:
+        words.append("sheared" if added >= SHEARED else "slightly sheared")
+    words.append("no poles" if count == 0 else "1 pole" if count == 1 else f"{count} poles")
+    return ", ".join(words).capitalize()
+
+
+def part_report(part):
+    """The package's report of a `tiling.TiledPart`, and its tiling; vertices are those of the object."""
+    package, component = native.load().report, part.component
+    if part.tiling is None:
+        return package.skipped_report(component.surface, part.reason)
+    made = part.tiling
+    entry = package.component_report(component.surface, component.structure, package.map_report([], made.quality))
+    zeros, orders = made.zeros
+    return entry | {
+        "tiling": package.plain(
+            {
+                "verdict": verdict(made),
+                "added_distortion": float(made.added_distortion),
+                "density_ratio": float(made.density_ratio),
+                "left_over": float(made.left_over),
+                "poles": part.vertices(made.poles),
+                "residues": package.complex_pairs(made.residues),
+                "zeros": part.vertices(zeros),
+                "orders": np.asarray(orders),
+                "periods": np.asarray(made.periods),
+            }
+        )
+    }
+
+
+def marks(stored):
+    """((n,) vertices, (n,) whether it is a pole) of a stored report; none of one without a tiling."""
+    parts = [part["tiling"] for part in report.parsed(stored).get("components", []) if "tiling" in part]
+    poles = [vertex for part in parts for vertex in part["poles"]]
+    zeros = [vertex for part in parts for vertex in part["zeros"]]
+    is_pole = np.arange(len(poles) + len(zeros)) < len(poles)
+    return np.array(poles + zeros, np.int64), is_pole

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The end of the tile operator, in Blender's main thread: what was tiled is written to the objects and reported."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import empties, heat, material, mesh_io, native, patterns, report, run, tile_report, tiling
+
+CHECKER_CELLS = 4  # squares across an image of the checker
+
+
+@dataclass(frozen=True)
+class TileWriteOptions:
+    """What is written besides the map, and what needs no new tiling."""
+
+    quarters: int = 0  # turns of the texture by 90 degrees
+    checker: bool = True  # whether the map is shown by a material
+    texture: str = material.CHECKER
+    repeats: int = 1  # images of the texture across a tile
+    seams: bool = False
+    empties: bool = False
+
+
+def write(context, targets, results, options, time_has_passed=False):
+    """Writes the tiling of every object and reports every other; an object that is refused is not touched."""
+
+    def write_object(outcome, obj, polygons, tiled):
+        _problems(outcome, obj, tiled)
+        if tiled.done:
+            _write_object(context, outcome, obj, polygons, tiled, options)
+        else:
+            outcome.entries.append(_entry(obj, tiled, [], 0, options))
+
+    return run.write_each(context, targets, results, write_object, time_has_passed)
+
+
+def _problems(outcome, obj, tiled):
+    for index, part in enumerate(tiled.parts, 1):
+        if part.tiling is None:
+            which = "" if len(tiled.parts) == 1 else f"part {index} of {len(tiled.parts)} "
+            outcome.problems.append(f"{obj.name}: {which}skipped: {native.sentence(part.reason)}")
+
+
+def _write_object(context, outcome, obj, polygons, tiled, options):
+    mesh = obj.data
+    mesh_io.remove_maps(mesh)
+    written = mesh_io.write_map(mesh, polygons, mesh_io.MAIN_MAP, tiling.placed(tiled, options.quarters))
+    mesh_io.show_map(mesh, written.name)
+    new_seams = mesh_io.add_seams(mesh, _seam_pairs(tiled)) if options.seams else 0
+    if options.checker:
+        _show(outcome, obj, tiled, written, options)
+    heat.refresh(obj)
+    mesh.update()
+    entry = _entry(obj, tiled, [written], new_seams, options)
+    report.store_on_object(obj, entry)
+    empties.remove(obj)
+    if options.empties:
+        empties.write(context, obj, *tile_report.marks(obj[report.PROPERTY]))
+    outcome.entries.append(entry)
+    outcome.done.append(obj.name)
+    verdicts = {part["tiling"]["verdict"] for part in entry["components"] if "tiling" in part}
+    outcome.notes.append(f"{obj.name}: {'; '.join(sorted(verdicts))}")
+
+
+def _entry(obj, tiled, written, new_seams, options):
+    parts = [tile_report.part_report(part) for part in tiled.parts]
+    return report.object_report(obj, tiled.solved, written, new_seams, options, parts)
+
+
+def _seam_pairs(tiled):
+    return np.concatenate([part.vertices(part.tiling.seams) for part in tiled.done])
+
+
+def _show(outcome, obj, tiled, written, options):
+    if outcome.look is None:
+        density = np.median([part.tiling.quality.median_density for part in tiled.done])
+        is_checker = options.texture == material.CHECKER
+        cells = CHECKER_CELLS if is_checker else patterns.TEXTURES[options.texture].cells
+        unit_length = 1 / math.sqrt(density) if density > 0 else 0.0
+        outcome.look = material.Look(options.texture, options.repeats * cells, unit_length)
+    material.cover(obj, material.showing(written.name, written.kind == "attribute", outcome.look))

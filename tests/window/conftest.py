@@ -1,0 +1,54 @@
+"""A Blender with a window on a display of its own, in which a script takes its steps."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+BLENDER = os.environ.get("HOLOMORPH_BLENDER") or shutil.which("blender")
+SECONDS = 280
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    wanted = os.environ.get("HOLOMORPH_TEST_OUTPUT")
+    path = Path(wanted) if wanted else tmp_path_factory.mktemp("window")
+    path.mkdir(parents=True, exist_ok=True)
+    return path
+
+
+@pytest.fixture(scope="session")
+def take_steps(folder, tmp_path_factory):
+    """take_steps(name): what the steps of the script name.py saw, in one run of Blender."""
+    if not BLENDER or not shutil.which("xvfb-run"):
+        pytest.skip("there is no Blender program" if not BLENDER else "there is no xvfb-run")
+    scripts = tmp_path_factory.mktemp("scripts")
+    (scripts / "addons").mkdir()
+    (scripts / "addons" / "holomorph_addon").symlink_to(ROOT / "addon")
+    screen = "-screen 0 1600x1000x24 +extension GLX"
+    command = ["xvfb-run", "-a", "-s", screen, BLENDER, "--factory-startup", "--enable-event-simulate"]
+    command += ["--window-geometry", "0", "0", "1600", "1000", "--addons", "holomorph_addon", "--python"]
+    environment = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": str(scripts)}
+    environment.pop("PYTHONPATH", None)
+
+    def take(name):
+        script, log_file = ROOT / "tests" / "window" / f"{name}.py", folder / f"{name}.log"
+        with open(log_file, "w") as log:
+            subprocess.run(
+                ["timeout", "--kill-after=10", str(SECONDS), *command, str(script), "--", str(folder)],
+                env=environment,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                timeout=SECONDS + 30,
+                check=False,
+            )
+        written = folder / f"{name}.json"
+        assert written.exists(), log_file.read_text(errors="replace")[-3000:]
+        return json.loads(written.read_text())
+
+    return take
