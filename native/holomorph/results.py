@@ -151,7 +151,7 @@ class Structure:
         if key not in self._tilers:
             self._tilers.clear()
             self._tilers[key] = Tiler(
-                self.surface, poles, boundary=boundary, threads=self._threads, progress=progress
+                self._component, poles, boundary=boundary, threads=self._threads, progress=progress
             )
         return self._tilers[key].tile(
             tiles, lattice=lattice, direction=direction, turn=turn, max_turn=max_turn, progress=progress
