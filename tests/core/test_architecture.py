@@ -25,7 +25,8 @@ ROOM_BELOW = {
     "structure": ["conformal", "uv"],
     "plane": ["structure"],
     "multiresolution": ["structure"],
-    "bindings": ["plane", "multiresolution"],
+    "tiling": ["structure"],
+    "bindings": ["plane", "multiresolution", "tiling"],
 }
 # The add-on's bottom and top; every other module is between them.
 ADDON_LEVEL = {"compatibility": 0, "native": 0, "operators": 2, "tile": 2, "panel": 3, "__init__": 4, "headless": 5}

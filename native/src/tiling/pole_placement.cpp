@@ -10,9 +10,9 @@
 
 #include "base/chunks.h"
 #include "base/errors.h"
-#include "mesh/graph_distances.h"
 #include "structure/puncture_choice.h"
 #include "tiling/leverage.h"
+#include "tiling/pole_candidates.h"
 #include "uv/balance.h"
 
 namespace holomorph::tiling {
@@ -27,10 +27,6 @@ using Eigen::VectorXcd;
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
 constexpr double kEvenWithout = 3, kEvenWith = 6;
 constexpr int kThinning = 3;           // every third sample is enough for the search
-constexpr double kApart = 0.06;        // poles are this far from each other, in square roots of the area
-constexpr int kSpread = 200;           // candidates all over the surface
-constexpr int kNear = 40;              // candidates around a pole, in balls of these radii:
-constexpr double kBalls[] = {0.3, 0.15, 0.08, 0.04};
 constexpr int kTried = 2, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 3;
 constexpr double kLeverage = 0.02, kEnough = 0.4;  // weight of the leverage; singular values that are enough
@@ -50,8 +46,8 @@ class Search {
       : landscape_(landscape),
         rules_(rules),
         execution_(execution),
-        theta_(thinned(landscape.holomorphic().M)),
-        distance_(kApart * std::sqrt(landscape.area())) {
+        candidates_(landscape, rules.allowed),
+        theta_(thinned(landscape.holomorphic().M)) {
     if (landscape.closed() && landscape.form_count() > 0) leverage_.emplace(landscape);
     first_triangle_.assign(landscape.surface().vertex_count, -1);
     for (int t = static_cast<int>(landscape.surface().triangles.size()) - 1; t >= 0; --t) {
@@ -92,14 +88,16 @@ class Search {
     return poles;
   }
 
-  // Up to `count`, then moves them.
-  void add(Poles& poles, int count) {
-    while (static_cast<int>(poles.vertices.size()) < count) poles = with_one_more(poles);
+  // Up to `count`, then moves them. @return whether there was room for so many
+  bool add(Poles& poles, int count) {
+    while (static_cast<int>(poles.vertices.size()) < count && add_one(poles)) {
+    }
     for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
+    return static_cast<int>(poles.vertices.size()) >= count;
   }
 
  private:
-  Poles with_one_more(const Poles& poles) {
+  bool add_one(Poles& poles) {
     std::vector<Trial> trials = trials_everywhere(poles);
     std::vector<Poles> tried;
     for (const Trial& trial : trials) {
@@ -108,11 +106,12 @@ class Search {
                                      [&](const Poles& p) { return p.vertices.back() == trial.vertex; });
       if (!known) tried.push_back(joined(poles, trial));
     }
-    if (tried.empty()) throw TopologyError("no vertex is left for another pole: its star must be apart from those of the others");
+    if (tried.empty()) return false;
     landscape_.poles(vertices_of(tried), execution_);
     prepare_leverage(vertices_of(tried));
     run_throwing(execution_.workers(), static_cast<int>(tried.size()), [&](int i) { optimise(tried[i], kWithTrial); });
-    return best(std::move(tried));
+    poles = best(std::move(tried));
+    return true;
   }
 
   // One sweep over all poles; whether one moved.
@@ -121,10 +120,7 @@ class Search {
     for (Index i = 0; i < poles.residues.size(); ++i) {
       execution_.report(static_cast<double>(i) / static_cast<double>(poles.residues.size()));
       if (std::find(rules_.fixed.begin(), rules_.fixed.end(), poles.vertices[i]) != rules_.fixed.end()) continue;
-      std::vector<int> candidates = spread();
-      std::vector<int> around = near(poles.vertices[i]);
-      candidates.insert(candidates.end(), around.begin(), around.end());
-      moved |= exchange(poles, i, candidates);
+      moved |= exchange(poles, i);
     }
     return moved;
   }
@@ -212,79 +208,9 @@ class Search {
     return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
   }
 
-  bool is_allowed(int vertex) const { return rules_.allowed.empty() || rules_.allowed[vertex]; }
-
-  // #V: 1 where no further pole may be, so that stars are apart and poles not too near to each other.
-  std::vector<char> taken(const std::vector<int>& vertices) {
-    std::vector<char> marks(landscape_.surface().vertex_count, 0);
-    for (const int v : vertices) {
-      for (const int u : mesh::corners_around(landscape_.surface(), landscape_.half_edges(), v)) marks[u] = 1;
-      const auto& distance = distances(v);
-      for (std::size_t u = 0; u < marks.size(); ++u) {
-        if (distance[u] < distance_) marks[u] = 1;
-      }
-    }
-    return marks;
-  }
-
-  const std::vector<double>& distances(int vertex) {
-    auto& found = distances_[vertex];
-    if (found.empty()) found = mesh::graph_distances(landscape_.half_edges(), landscape_.lengths(), {vertex});
-    return found;
-  }
-
-  bool is_free(int vertex, const std::vector<char>& taken) const {
-    return is_allowed(vertex) && !taken[vertex] &&
-           mesh::has_free_star(landscape_.surface(), landscape_.half_edges(), vertex, taken);
-  }
-
-  static std::vector<int> evenly(const std::vector<int>& list, int count) {
-    if (static_cast<int>(list.size()) <= count) return list;
-    std::vector<int> some;
-    for (int i = 0; i < count; ++i) some.push_back(list[static_cast<std::size_t>(i) * list.size() / count]);
-    return some;
-  }
-
-  // Corners of evenly spaced samples.
-  std::vector<int> spread() const {
-    std::vector<int> corners;
-    for (const int t : evenly(landscape_.samples(), kSpread)) {
-      for (const int v : landscape_.surface().triangles[t]) {
-        if (is_allowed(v)) {
-          corners.push_back(v);
-          break;
-        }
-      }
-    }
-    return corners;
-  }
-
-  std::vector<int> near(int vertex) {
-    std::vector<int> all;
-    const auto& distance = distances(vertex);
-    for (const double ball : kBalls) {
-      std::vector<int> inside;
-      const double radius = ball * std::sqrt(landscape_.area());
-      for (int v = 0; v < static_cast<int>(distance.size()); ++v) {
-        if (distance[v] < radius && v != vertex && is_allowed(v)) inside.push_back(v);
-      }
-      const auto some = evenly(inside, kNear);
-      all.insert(all.end(), some.begin(), some.end());
-    }
-    return all;
-  }
-
-  static void make_distinct(std::vector<int>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-
   // All candidates with all trial residues beside the form as it is, the best first.
   std::vector<Trial> trials_everywhere(const Poles& poles) {
-    const std::vector<char> marks = taken(poles.vertices);
-    std::vector<int> candidates = spread();
-    std::erase_if(candidates, [&](int v) { return !is_free(v, marks); });
-    make_distinct(candidates);
+    const std::vector<int> candidates = candidates_.everywhere(poles.vertices);
     const MatrixXcd green = pole_columns(candidates);
     const VectorXcd A = columns(poles.vertices) * unknowns(poles);
     const double scale = std::sqrt(A.cwiseAbs2().mean() * landscape_.area());
@@ -317,12 +243,10 @@ class Search {
   }
 
   // Scores all candidates for pole i with everything else as it is, and optimises the best ones.
-  bool exchange(Poles& poles, Index i, std::vector<int> candidates) {
+  bool exchange(Poles& poles, Index i) {
     std::vector<int> others = poles.vertices;
     others.erase(others.begin() + i);
-    const std::vector<char> marks = taken(others);
-    std::erase_if(candidates, [&](int v) { return v == poles.vertices[i] || !is_free(v, marks); });
-    make_distinct(candidates);
+    const std::vector<int> candidates = candidates_.for_move(poles.vertices[i], others);
     if (candidates.empty()) return false;
     const MatrixXcd green = pole_columns(candidates);
     const VectorXcd without = columns(poles.vertices) * unknowns(poles) -
@@ -353,12 +277,11 @@ class Search {
   Landscape& landscape_;
   const PlacementRules& rules_;
   Execution& execution_;
+  PoleCandidates candidates_;
   MatrixXcd theta_;
-  double distance_;
   std::optional<Leverage> leverage_;
   std::vector<int> first_triangle_;
   std::map<int, VectorXcd> tau_;
-  std::map<int, std::vector<double>> distances_;
 };
 
 }  // namespace
@@ -372,7 +295,10 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count,
   }
   Search search(landscape, rules, execution);
   Poles poles = search.begin();
-  if (static_cast<int>(poles.vertices.size()) < count) search.add(poles, count);
+  if (!search.add(poles, count)) {
+    throw TopologyError("there is room for " + std::to_string(poles.vertices.size()) + " poles, not for " +
+                        std::to_string(count) + ": their stars must be apart; take fewer, or subdivide the mesh");
+  }
   return poles;
 }
 
@@ -382,7 +308,7 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution&
   for (const int count : kCounts) {
     const double ratio = density_ratio(density(landscape, poles, execution));
     if (ratio <= (poles.vertices.empty() ? kEvenWithout : kEvenWith)) break;
-    if (count > static_cast<int>(poles.vertices.size())) search.add(poles, count);
+    if (!search.add(poles, count)) break;
   }
   return poles;
 }

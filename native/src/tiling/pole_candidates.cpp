@@ -1,0 +1,87 @@
+#include "tiling/pole_candidates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/graph_distances.h"
+
+namespace holomorph::tiling {
+namespace {
+
+constexpr double kApart = 0.06;  // poles are this far from each other, in square roots of the area
+constexpr int kSpread = 200;     // candidates all over the surface
+constexpr int kNear = 40;        // candidates around a pole, in each of the balls with these radii:
+constexpr double kBalls[] = {0.3, 0.15, 0.08, 0.04};
+
+std::vector<int> evenly(const std::vector<int>& list, int count) {
+  if (static_cast<int>(list.size()) <= count) return list;
+  std::vector<int> some;
+  for (int i = 0; i < count; ++i) some.push_back(list[static_cast<std::size_t>(i) * list.size() / count]);
+  return some;
+}
+
+}  // namespace
+
+std::vector<int> PoleCandidates::everywhere(const std::vector<int>& others) { return free_ones(spread(), others); }
+
+std::vector<int> PoleCandidates::for_move(int vertex, const std::vector<int>& others) {
+  std::vector<int> all = spread();
+  const std::vector<int> around = near(vertex);
+  all.insert(all.end(), around.begin(), around.end());
+  std::erase(all, vertex);
+  return free_ones(std::move(all), others);
+}
+
+// Corners of evenly spaced samples.
+std::vector<int> PoleCandidates::spread() const {
+  std::vector<int> corners;
+  for (const int t : evenly(landscape_.samples(), kSpread)) {
+    for (const int v : landscape_.surface().triangles[t]) {
+      if (!is_allowed(v)) continue;
+      corners.push_back(v);
+      break;
+    }
+  }
+  return corners;
+}
+
+std::vector<int> PoleCandidates::near(int vertex) {
+  std::vector<int> all;
+  const auto& distance = distances(vertex);
+  for (const double ball : kBalls) {
+    std::vector<int> inside;
+    const double radius = ball * std::sqrt(landscape_.area());
+    for (int v = 0; v < static_cast<int>(distance.size()); ++v) {
+      if (distance[v] < radius && is_allowed(v)) inside.push_back(v);
+    }
+    const auto some = evenly(inside, kNear);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
+}
+
+std::vector<int> PoleCandidates::free_ones(std::vector<int> candidates, const std::vector<int>& others) {
+  const auto& surface = landscape_.surface();
+  const auto& mesh = landscape_.half_edges();
+  const double apart = kApart * std::sqrt(landscape_.area());
+  std::vector<char> taken(surface.vertex_count, 0);
+  for (const int pole : others) {
+    for (const int v : mesh::corners_around(surface, mesh, pole)) taken[v] = 1;
+    const auto& distance = distances(pole);
+    for (std::size_t v = 0; v < taken.size(); ++v) {
+      if (distance[v] < apart) taken[v] = 1;
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  std::erase_if(candidates, [&](int v) { return taken[v] || !mesh::has_free_star(surface, mesh, v, taken); });
+  return candidates;
+}
+
+const std::vector<double>& PoleCandidates::distances(int vertex) {
+  auto& found = distances_[vertex];
+  if (found.empty()) found = mesh::graph_distances(landscape_.half_edges(), landscape_.lengths(), {vertex});
+  return found;
+}
+
+}  // namespace holomorph::tiling

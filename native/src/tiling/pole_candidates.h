@@ -1,0 +1,36 @@
+// The vertices that a pole may go to.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "tiling/landscape.h"
+
+namespace holomorph::tiling {
+
+/// Vertices are candidates where a pole is allowed, its star is apart from those of the other poles, and it is not too
+/// near to them.
+class PoleCandidates {
+ public:
+  /// @param allowed #V; empty: anywhere. Both outlive this
+  PoleCandidates(const Landscape& landscape, const std::vector<char>& allowed)
+      : landscape_(landscape), allowed_(allowed) {}
+
+  /// Some 200 all over the surface, ascending.
+  std::vector<int> everywhere(const std::vector<int>& others);
+  /// Those, and some in balls of several sizes around `vertex`, which is none of them; ascending.
+  std::vector<int> for_move(int vertex, const std::vector<int>& others);
+
+ private:
+  std::vector<int> spread() const;
+  std::vector<int> near(int vertex);
+  std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);
+  const std::vector<double>& distances(int vertex);
+  bool is_allowed(int vertex) const { return allowed_.empty() || allowed_[vertex]; }
+
+  const Landscape& landscape_;
+  const std::vector<char>& allowed_;
+  std::map<int, std::vector<double>> distances_;  // along edges, from poles there have been
+};
+
+}  // namespace holomorph::tiling
