@@ -23,10 +23,10 @@ ROOM_BELOW = {
     "conformal": ["forms"],
     "uv": ["forms"],
     "structure": ["conformal", "uv"],
+    "tiling": ["structure"],
     "plane": ["structure"],
     "multiresolution": ["structure"],
-    "tiling": ["structure"],
-    "bindings": ["plane", "multiresolution", "tiling"],
+    "bindings": ["tiling", "plane", "multiresolution"],
 }
 # The add-on's bottom and top; every other module is between them.
 ADDON_LEVEL = {"compatibility": 0, "native": 0, "operators": 2, "tile": 2, "panel": 3, "__init__": 4, "headless": 5}

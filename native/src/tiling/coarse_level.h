@@ -14,10 +14,11 @@ inline constexpr int kLevelTriangles = 10'000;
 
 struct CoarseLevel {
   std::shared_ptr<const mesh::Surface> surface;
-  std::vector<int> vertex;  ///< #V of the level: the same vertex of the surface
+  std::vector<int> vertex;     ///< #V of the level: the same vertex of the surface
+  std::vector<int> collapsed;  ///< #V of the surface: the vertex of the level that it was collapsed into
 };
 
-/// @throws InvalidMesh for an intrinsic surface of more triangles; Cancelled
+/// The surface itself where it is small, intrinsic, or has no progressive mesh. @throws Cancelled
 CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution);
 
 }  // namespace holomorph::tiling

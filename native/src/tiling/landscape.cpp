@@ -4,6 +4,7 @@
 
 #include "mesh/intrinsic_triangulation.h"
 #include "structure/invariants.h"
+#include "tiling/flow.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -13,48 +14,70 @@ constexpr int kBlock = 32;  // poles solved for at a time
 }  // namespace
 
 Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
-                     Execution& execution, std::vector<int> samples)
-    : samples_(std::move(samples)) {
+                     Execution& execution)
+    : samples_(uv::sample_triangles(*surface)) {
   structure_.surface = std::move(surface);
-  half_edges_ = mesh::half_edges(*structure_.surface, execution);
-  auto triangulation = mesh::intrinsic_triangulation(*structure_.surface, half_edges_.copy(execution.workers()),
-                                                     execution.workers());
+  solve(options, execution);
+}
+
+Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
+                     std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Execution& execution)
+    : on_level_(std::move(on_level)), level_vertex_(level.collapsed) {
+  structure_.surface = std::move(surface);
+  std::vector<int> triangle_at(structure_.surface->vertex_count, -1);
+  for (int t = 0; t < static_cast<int>(structure_.surface->triangles.size()); ++t) {
+    for (const int v : structure_.surface->triangles[t]) triangle_at[v] = t;
+  }
+  const mesh::Surface& coarse = on_level_->surface();
+  for (const int t : on_level_->samples()) samples_.push_back(triangle_at[level.vertex[coarse.triangles[t][0]]]);
+  // A (e_x + i e_y) there is the nearest to that here where A is multiplied by the product of the frames.
+  const Eigen::MatrixXcd there = tangent_frames(coarse, on_level_->samples()), here = tangent_frames(this->surface(), samples_);
+  from_level_ = (here.conjugate().cwiseProduct(there)).colwise().sum().transpose() / 2;
+  solve(options, execution);
+}
+
+void Landscape::solve(const structure::Options& options, Execution& execution) {
+  half_edges_ = mesh::half_edges(surface(), execution);
+  auto triangulation =
+      mesh::intrinsic_triangulation(surface(), half_edges_.copy(execution.workers()), execution.workers());
   weights_ = mesh::cotangent_weights(triangulation, execution);
   lengths_ = std::move(triangulation.lengths);
-  vertex_share_ = mesh::vertex_areas(*structure_.surface, lengths_);
-  area_ = 0;
+  vertex_share_ = mesh::vertex_areas(surface(), lengths_);
   for (const double a : vertex_share_) area_ += a;
   for (double& a : vertex_share_) a /= area_;
+  sides_.emplace(surface());
 
-  sides_.emplace(*structure_.surface);
-
-  structure_.topology = structure::find_topology(*structure_.surface, half_edges_, execution);
+  structure_.topology = structure::find_topology(surface(), half_edges_, execution);
   const auto& topology = structure_.topology;
   const int natural = topology.families.natural;
-  const auto classes = structure::harmonic_classes(topology, half_edges_,
-                                                   topology::first_forms(topology.classes, natural, natural));
+  harmonic_.classes = topology.classes;
+  holomorphic_.M.resize(static_cast<Eigen::Index>(samples_.size()), 0);
+  holomorphic_.N = holomorphic_.M;
+  if (natural == 0 && on_level_) return;
+  const int pole_columns = on_level_ ? 0 : kBlock;
   structure_.memory = structure::plan_memory(
-      {structure_.surface->vertex_count, static_cast<std::int64_t>(structure_.surface->edges.size()),
-       topology.families.count() + kBlock},
+      {surface().vertex_count, static_cast<std::int64_t>(surface().edges.size()), topology.families.count() + pole_columns},
       options.solver, options.memory_limit, structure::Keeping::all);
   systems_ = std::make_unique<structure::HarmonicSystems>(
       half_edges_, weights_, mesh::boundary_vertices(topology.boundary), structure_.memory.choice, execution);
-  if (samples_.empty()) samples_ = uv::sample_triangles(*structure_.surface);
-  harmonic_.classes = topology.classes;
   if (natural > 0) {
+    const auto classes = structure::harmonic_classes(topology, half_edges_,
+                                                     topology::first_forms(topology.classes, natural, natural));
     structure_.functions = systems_->solve(classes, natural, structure_.memory.block, execution).functions;
     structure::complete(half_edges_, weights_, classes, structure_, execution);
     harmonic_.functions.swap(structure_.functions);
-    holomorphic_ = uv::sampled_parts(*structure_.surface,
-                                     {samples_, uv::values_on_sides(*structure_.surface, *sides_, harmonic_, samples_)},
-                                     structure_.differentials);
-  } else {
-    holomorphic_.M.resize(static_cast<Eigen::Index>(samples_.size()), 0);
-    holomorphic_.N = holomorphic_.M;
+    const auto values = uv::values_on_sides(surface(), *sides_, harmonic_, samples_);
+    holomorphic_ = uv::sampled_parts(surface(), {samples_, values}, structure_.differentials);
   }
+  if (on_level_) systems_.reset();
 }
 
 Eigen::MatrixXcd Landscape::poles(const std::vector<int>& vertices, Execution& execution) {
+  if (on_level_) {
+    std::vector<int> there;
+    for (const int v : vertices) there.push_back(level_vertex_[v]);
+    return from_level_.asDiagonal() * on_level_->poles(there, execution);
+  }
   std::vector<int> missing;
   for (const int v : vertices) {
     if (!pole_parts_.contains(v)) missing.push_back(v);

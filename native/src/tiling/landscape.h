@@ -10,6 +10,7 @@
 #include "structure/harmonic_systems.h"
 #include "structure/options.h"
 #include "structure/structure.h"
+#include "tiling/coarse_level.h"
 #include "uv/log_variance.h"
 
 namespace holomorph::tiling {
@@ -17,10 +18,11 @@ namespace holomorph::tiling {
 /// Everything on the surface's own triangles.
 class Landscape {
  public:
-  /// @param samples triangles; empty: evenly spaced by area
   /// @pre connected, no isolated vertices. @throws SolverError, Cancelled
-  Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, Execution& execution,
-            std::vector<int> samples = {});
+  Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, Execution& execution);
+  /// Of a large surface: sampled where its coarse level is, whose forms with poles are taken for its own.
+  Landscape(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
+            std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Execution& execution);
   Landscape(const Landscape&) = delete;
   Landscape& operator=(const Landscape&) = delete;
 
@@ -50,6 +52,7 @@ class Landscape {
   Eigen::MatrixXcd derivatives(const std::vector<int>& triangles) const;
 
  private:
+  void solve(const structure::Options& options, Execution& execution);
   void solve_for(const std::vector<int>& vertices, Execution& execution);
 
   structure::Structure structure_;
@@ -63,6 +66,10 @@ class Landscape {
   std::vector<int> samples_;
   uv::SampledParts holomorphic_;
   std::unordered_map<int, Eigen::VectorXcd> pole_parts_;
+
+  std::unique_ptr<Landscape> on_level_;  // where it serves for the poles
+  std::vector<int> level_vertex_;        // #V there
+  Eigen::VectorXcd from_level_;          // of A in the frame of each sample of the level
 };
 
 }  // namespace holomorph::tiling

@@ -20,14 +20,18 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kRounding = std::numeric_limits<double>::epsilon();
-// Error of Q R that is tolerated, relative to the length of a column: far above rounding, far below kSizeReduction.
+// Error of Q R that is tolerated until the end, relative to the length of a column: far above rounding, far below
+// kSizeReduction.
 constexpr double kDrift = 1e-12;
+// |R_jk| <= (1/2 + this) R_jj is asked for, not 1/2: coefficients of exactly 1/2, frequent in lattices of integers,
+// are left alone however they round.
+constexpr double kSizeReduction = 1e-9;
 constexpr double kLargestInteger = 9007199254740992;  // 2^53: up to here doubles count without gaps
 
 [[noreturn]] void refuse_integers() { throw Error("the lattice needs integers beyond 2^53"); }
 
-// Babai's rounding, from the last coordinate to the first: integral x that bring y - R x into the box |y_j| <= R_jj / 2.
-// y becomes that difference; `noise` is its rounding error, below which nothing is done.
+// Babai's rounding, from the last coordinate to the first: integral x that bring y - R x into the box |y_j| <= R_jj
+// / 2. y becomes that difference; `noise` is its rounding error, below which nothing is done.
 VectorXd round_off(const Eigen::Ref<const MatrixXd>& R, VectorXd& y, double noise) {
   VectorXd x = VectorXd::Zero(y.size());
   for (Index j = y.size() - 1; j >= 0; --j) {
@@ -43,6 +47,7 @@ VectorXd round_off(const Eigen::Ref<const MatrixXd>& R, VectorXd& y, double nois
 double dependence(Index columns) { return 4 * columns * kRounding; }
 
 void check_independence(const MatrixXd& B) {
+  if (B.cols() == 0) return;
   if (!B.allFinite()) throw SolverError("the basis of the lattice has entries that are not finite");
   MatrixXd unit = B;
   for (auto column : unit.colwise()) column.stableNormalize();
@@ -72,7 +77,8 @@ class Reduction {
   ReducedBasis run() {
     constexpr int kMostSweeps = 100;
     for (int sweeps = 0; sweep(); ++sweeps) {
-      if (sweeps == kMostSweeps) throw SolverError("the reduction of a lattice of rank " + std::to_string(n_) + " stalls");
+      if (sweeps == kMostSweeps)
+        throw SolverError("the reduction of a lattice of rank " + std::to_string(n_) + " stalls");
     }
     return {columns_.high, transform_.cast<std::int64_t>(), Q_, R_};
   }
@@ -81,7 +87,7 @@ class Reduction {
   // One reduction from the first column on. Returns whether it changed the basis.
   bool sweep() {
     bool changed = false;
-    known_ = 0;
+    factorise(0);
     for (Index k = 0; k < n_;) {
       if (k == known_) project(k);
       changed |= size_reduce(k);
@@ -102,7 +108,7 @@ class Reduction {
   bool size_reduce(Index k) {
     for (bool changed = false;; changed = true) {
       VectorXd y = R_.col(k).head(k);
-      const VectorXd x = round_off(R_.topLeftCorner(k, k), y, kDrift * columns_.high.col(k).norm());
+      const VectorXd x = round_off(R_.topLeftCorner(k, k), y, noise(k));
       if ((x.array() == 0).all()) return changed;
       for (Index j = 0; j < k; ++j) {
         if (x[j] != 0) subtract(k, x[j], j);
@@ -112,12 +118,17 @@ class Reduction {
     }
   }
 
-  double drift(Index k) const {
-    return (columns_.high.col(k) - Q_.leftCols(k + 1) * R_.col(k).head(k + 1)).norm();
+  // Of the coefficients of column k: its own rounding, and the drift of the columns that are subtracted.
+  double noise(Index k) const {
+    const double longest = k == 0 ? 0 : R_.diagonal().head(k).maxCoeff();
+    return Q_.rows() * kRounding * columns_.high.col(k).norm() + expected_drift_ * longest;
   }
+
+  double drift(Index k) const { return (columns_.high.col(k) - Q_.leftCols(k + 1) * R_.col(k).head(k + 1)).norm(); }
 
   // Q and R anew, of this many columns.
   void factorise(Index columns) {
+    expected_drift_ = 0;
     for (known_ = 0; known_ < columns;) {
       project(known_);
       append(known_);
@@ -158,16 +169,38 @@ class Reduction {
     };
     R_(k - 1, k - 1) = length;
     R_(k, k - 1) = 0;
+    expected_drift_ = kDrift;
     for (Index j = k; j < known_; ++j) rotate(R_(k - 1, j), R_(k, j));
     for (Index i = 0; i < Q_.rows(); ++i) rotate(Q_(i, k - 1), Q_(i, k));
   }
 
-  double delta_;
+  double delta_,
+      expected_drift_ = 0;  // the error of Q R that must be expected: none from a factorisation to the next exchange
   Index n_, known_ = 0;
   DoubleDoubleColumns columns_;
   MatrixXd transform_;  // integral
   MatrixXd Q_, R_;
 };
+
+// c such that basis * c is near the target.
+VectorXd nearest_coefficients(const ReducedBasis& reduced, const VectorXd& target) {
+  VectorXd c = VectorXd::Zero(reduced.R.cols()), residual = target;
+  for (;;) {
+    if (!residual.allFinite()) throw SolverError("the point to be rounded to the lattice is not finite");
+    VectorXd y = reduced.Q.transpose() * residual;
+    const VectorXd x = round_off(reduced.R, y, residual.size() * kRounding * residual.norm());
+    if ((x.array() == 0).all()) return c;
+    c += x;
+    residual -= reduced.basis * x;
+  }
+}
+
+// For the basis that was reduced.
+IntegerVector original_integers(const ReducedBasis& reduced, const VectorXd& c) {
+  const MatrixXd transform = reduced.transform.cast<double>();
+  if (!((transform.cwiseAbs() * c.cwiseAbs()).array() <= kLargestInteger).all()) refuse_integers();
+  return (transform * c).cast<std::int64_t>();
+}
 
 }  // namespace
 
@@ -175,23 +208,6 @@ ReducedBasis reduce(const MatrixXd& B, double delta) {
   assert(delta > 0.25 && delta < 1);
   check_independence(B);
   return Reduction(B, delta).run();
-}
-
-VectorXd nearest_coefficients(const ReducedBasis& reduced, const VectorXd& target) {
-  VectorXd c = VectorXd::Zero(reduced.R.cols()), residual = target;
-  for (;;) {
-    VectorXd y = reduced.Q.transpose() * residual;
-    const VectorXd x = round_off(reduced.R, y, kDrift * residual.norm());
-    if ((x.array() == 0).all()) return c;
-    c += x;
-    residual -= reduced.basis * x;
-  }
-}
-
-IntegerVector original_integers(const ReducedBasis& reduced, const VectorXd& c) {
-  const MatrixXd transform = reduced.transform.cast<double>();
-  if (!((transform.cwiseAbs() * c.cwiseAbs()).array() <= kLargestInteger).all()) refuse_integers();
-  return (transform * c).cast<std::int64_t>();
 }
 
 IntegerVector nearest_plane(const ReducedBasis& reduced, const VectorXd& target) {

@@ -18,30 +18,21 @@ struct ReducedBasis {
   Eigen::MatrixXd R;        ///< n x n: upper triangular, its diagonal positive
 };
 
-/// |R_jk| <= (1/2 + this) R_jj is asked for, not 1/2: coefficients of exactly 1/2, frequent in lattices of integers, are
-/// left alone however they round.
-inline constexpr double kSizeReduction = 1e-9;
-
 /// LLL reduction in floating-point arithmetic (Schnorr & Euchner 1994, doi:10.1007/BF01581144): |R_jk| <= R_jj / 2 for
-/// j < k, and delta R_k-1,k-1^2 <= R_k-1,k^2 + R_kk^2 (Lovasz's condition), both to rounding.
+/// j < k, and delta R_k-1,k-1^2 <= R_k-1,k^2 + R_kk^2 (Lovasz's condition), both to rounding: of the
+/// first, some m epsilon |column k|, and 1e-9 R_jj.
 /// @param B m x n, its columns linearly independent; they may differ in length by many orders of magnitude
 /// @param delta in (1/4, 1)
-/// @throw SolverError a column is not finite, or depends linearly on the others to rounding
+/// @throw SolverError a column is not finite, or depends linearly on the others to rounding: it is as near to their
+/// span as 4 n epsilon of its length
 /// @throw Error the transform has integers beyond 2^53, where doubles are no longer exact
-/// Cost: O(m n) for each exchange of two columns, and O(m n^2) in all.
+/// Cost: O(m n^2), and besides O(m n) for each exchange of two columns.
 ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99);
 
 /// Integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2, so that
-/// |target - B z|^2 is at most the sum of R_jj^2 / 4 above the least possible.
+/// |target - B z|^2 is at most the sum of R_jj^2 / 4, besides the target's squared distance from the span of B.
 /// @param target m @return n integers, for the B that was reduced
-/// @throw Error they are beyond 2^53
+/// @throw SolverError the target is not finite @throw Error the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);
-
-/// The same for the reduced basis: integral c such that basis * c is near the target.
-Eigen::VectorXd nearest_coefficients(const ReducedBasis& reduced, const Eigen::VectorXd& target);
-
-/// transform * c
-/// @param c n integral values @throw Error the product is beyond 2^53
-IntegerVector original_integers(const ReducedBasis& reduced, const Eigen::VectorXd& c);
 
 }  // namespace holomorph::tiling

@@ -8,7 +8,6 @@
 #include "base/chunks.h"
 #include "base/errors.h"
 #include "structure/punctured_structure.h"
-#include "tiling/coarse_level.h"
 #include "tiling/flow.h"
 #include "tiling/seamless_map.h"
 #include "tiling/tiling_problem.h"
@@ -57,7 +56,7 @@ Tiler::Tiler(std::shared_ptr<const mesh::Surface> surface, const structure::Opti
 void Tiler::place(const PoleWishes& wishes, Execution& execution) {
   chosen_ = !wishes.vertices.empty();
   execution.stage("level for the poles", 0.0, 0.1);
-  const CoarseLevel level = chosen_ ? CoarseLevel{surface_, {}} : coarse_level(surface_, execution);
+  const CoarseLevel level = chosen_ ? CoarseLevel{surface_, {}, {}} : coarse_level(surface_, execution);
   execution.stage("forms for the poles", 0.1, 0.2);
   auto landscape = std::make_unique<Landscape>(level.surface, options_, execution);
   PlacementRules rules{kind_, {}, wishes.vertices};
@@ -71,7 +70,7 @@ void Tiler::place(const PoleWishes& wishes, Execution& execution) {
   if (level.surface == surface_)
     adopt(std::move(landscape), std::move(poles), execution);
   else
-    transfer(*landscape, level.vertex, std::move(poles), execution);
+    transfer(std::move(landscape), level, std::move(poles), execution);
   execution.finish();
 }
 
@@ -89,21 +88,17 @@ void Tiler::adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& 
 }
 
 // The same form on the surface: the same residues, and c_j that fit it as a vector field in space.
-void Tiler::transfer(Landscape& level, const std::vector<int>& vertex, Poles poles, Execution& execution) {
-  std::vector<int> first_triangle(surface_->vertex_count, -1), samples;
-  for (int t = 0; t < static_cast<int>(surface_->triangles.size()); ++t) {
-    for (const int v : surface_->triangles[t]) first_triangle[v] = t;
-  }
-  for (const int t : level.samples()) samples.push_back(first_triangle[vertex[level.surface().triangles[t][0]]]);
+void Tiler::transfer(std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Poles poles, Execution& execution) {
   const VectorXcd wanted =
-      level.holomorphic().M * poles.coefficients + level.poles(poles.vertices, execution) * poles.residues;
-  for (int& v : poles.vertices) v = vertex[v];
-  auto landscape = std::make_unique<Landscape>(surface_, options_, execution, std::move(samples));
+      on_level->holomorphic().M * poles.coefficients + on_level->poles(poles.vertices, execution) * poles.residues;
+  const MatrixXcd frames = tangent_frames(on_level->surface(), on_level->samples());
+  for (int& v : poles.vertices) v = level.vertex[v];
+  auto landscape = std::make_unique<Landscape>(surface_, options_, std::move(on_level), level, execution);
   if (landscape->form_count() > 0) {
-    poles.coefficients = fitted_coefficients(
-        wanted, tangent_frames(level.surface(), level.samples()), landscape->holomorphic().M,
-        landscape->poles(poles.vertices, execution) * poles.residues,
-        tangent_frames(*surface_, landscape->samples()), kind_ == uv::Coefficients::real);
+    poles.coefficients = fitted_coefficients(wanted, frames, landscape->holomorphic().M,
+                                             landscape->poles(poles.vertices, execution) * poles.residues,
+                                             tangent_frames(*surface_, landscape->samples()),
+                                             kind_ == uv::Coefficients::real);
   }
   poles = optimised(*landscape, {kind_, {}, {}}, std::move(poles), execution);
   adopt(std::move(landscape), std::move(poles), execution);

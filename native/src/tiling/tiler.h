@@ -9,6 +9,7 @@
 #include "structure/options.h"
 #include "structure/structure.h"
 #include "tiling/abel_jacobi.h"
+#include "tiling/coarse_level.h"
 #include "tiling/pole_moves.h"
 #include "tiling/pole_placement.h"
 #include "tiling/rounding.h"
@@ -71,7 +72,7 @@ class Tiler {
 
   bool has_leverage() const { return pole_moves_ != nullptr; }
   void adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& execution);
-  void transfer(Landscape& level, const std::vector<int>& vertex, Poles poles, Execution& execution);
+  void transfer(std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Poles poles, Execution& execution);
   std::shared_ptr<structure::Structure> structure_at(const std::vector<int>& vertices, Execution& execution);
   Eigen::MatrixXd parts(PlacedPoles& placed, Execution& execution);
   RoundingWishes rounding_wishes(const TilingWishes& wishes, Execution& execution);
