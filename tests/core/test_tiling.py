@@ -1,0 +1,215 @@
+"""Seamless tilings: jumps on the texture's lattice (exact), nothing left over (solver), even density (discretisation)."""
+
+import families
+import holomorph
+import numpy as np
+import pytest
+from holomorph import Cancelled, Tiler, TopologyError, conformal_structure, place_poles
+from solved import CLOSED, surface_of
+
+EXACT = 1e-12
+SPHERE = families.geodesic_sphere(9, jitter=0.25)
+TORUS = CLOSED["torus of triangles"]
+DOUBLE = families.block_with_holes(2, refine=4, jitter=0.2)
+HANDLE_AND_HOLE = families.punctured_torus(24, 18)
+HOLES = families.punched(families.geodesic_sphere(12, jitter=0.2), 3)
+DISK = families.hemisphere(12, jitter=0.2)
+CASES = {
+    "sphere": (SPHERE, {"poles": 4, "tiles": 40}),
+    "torus": (TORUS, {"poles": 4, "tiles": 60}),
+    "torus of quads": (CLOSED["torus of quads"], {"poles": 3, "tiles": 60}),
+    "torus without poles": (TORUS, {"poles": 0, "tiles": 200}),
+    "genus 2": (DOUBLE, {"poles": 4, "tiles": 128}),
+    "genus 2, hexagonal": (DOUBLE, {"poles": 4, "tiles": 128, "lattice": "hex"}),
+    "sphere, brick": (SPHERE, {"poles": 4, "tiles": 40, "lattice": "brick"}),
+    "handle and hole": (HANDLE_AND_HOLE, {"poles": 2, "tiles": 100}),
+    "holes, straight": (HOLES, {"poles": 2, "tiles": 60}),
+    "holes, free": (HOLES, {"poles": 2, "tiles": 60, "boundary": "free"}),
+    "disk": (DISK, {"poles": 3, "tiles": 40}),
+}
+everywhere = pytest.mark.parametrize("name", CASES)
+tiled = {}
+
+
+def tiling(name):
+    if name not in tiled:
+        mesh, options = CASES[name]
+        tiled[name] = conformal_structure(surface_of(mesh)).tile(**options)
+    return tiled[name]
+
+
+def basis(options):
+    a, b = holomorph.tiling.LATTICES[options.get("lattice", "square")]
+    return np.array([[a.real, complex(b).real], [complex(a).imag, complex(b).imag]])
+
+
+def jumps(mesh, uv, poles):
+    """(#E, 2, 2) differences of the UVs of the two polygons at each inner edge, at both of its ends; without edges that
+    end at a pole."""
+    sizes = np.diff(mesh.offsets)
+    first = np.repeat(mesh.offsets[:-1], sizes)
+    here = np.arange(len(mesh.corners))
+    after = first + (here - first + 1) % np.repeat(sizes, sizes)
+    start, end = mesh.corners[here], mesh.corners[after]
+    key, back = start * len(mesh.vertices) + end, end * len(mesh.vertices) + start
+    order = np.argsort(key)
+    place = np.searchsorted(key[order], back)
+    found = (place < len(key)) & (key[order][np.minimum(place, len(key) - 1)] == back)
+    found &= (start < end) & ~np.isin(start, poles) & ~np.isin(end, poles)
+    other = order[place[found]]
+    mine = here[found]
+    return np.stack([uv[mine] - uv[after[other]], uv[after[mine]] - uv[other]], axis=1)
+
+
+@everywhere
+def test_jumps_are_on_the_lattice(name):
+    mesh, options = CASES[name]
+    made = tiling(name)
+    difference = jumps(mesh, made.uv, made.poles)
+    assert len(difference) > 100
+    assert np.abs(difference[:, 0] - difference[:, 1]).max() < EXACT * np.abs(made.uv).max()
+    steps = np.linalg.solve(basis(options), difference[:, 0].T)
+    assert np.abs(steps - np.rint(steps)).max() < 10 * EXACT * np.abs(made.uv).max()
+    assert np.abs(np.rint(steps)).max() >= 1
+
+
+@pytest.mark.parametrize("name", [n for n in CASES if "lattice" not in CASES[n][1]])
+def test_single_precision_keeps_whole_jumps(name):
+    mesh, _ = CASES[name]
+    made = tiling(name)
+    difference = jumps(mesh, made.uv.astype(np.float32), made.poles)
+    assert np.array_equal(difference, np.rint(difference))
+
+
+@everywhere
+def test_residues_are_on_the_lattice_and_sum_to_zero(name):
+    mesh, options = CASES[name]
+    made = tiling(name)
+    parts = np.stack([made.residues.real, made.residues.imag])
+    steps = np.linalg.solve(basis(options), parts)
+    assert np.abs(steps - np.rint(steps)).max(initial=0) < EXACT
+    if mesh.boundary_count == 0:
+        assert abs(made.residues.sum()) < EXACT
+    assert made.periods.shape == (2 * mesh.genus + max(0, mesh.boundary_count - 1), 2)
+
+
+@pytest.mark.parametrize("mesh", [SPHERE, families.torus(48, 36, shape="triangles", jitter=0.2), DOUBLE])
+def test_zeros_and_poles_count_the_genus(mesh):
+    """Where no zero lies in the star of a pole."""
+    made = conformal_structure(surface_of(mesh)).tile(128, poles=4)
+    assert made.zeros[1].sum() - len(made.poles) == 2 * mesh.genus - 2
+
+
+@pytest.mark.parametrize("name", ["sphere", "sphere, brick", "holes, straight", "holes, free", "disk"])
+def test_planar_surfaces_are_conformal_exactly(name):
+    assert tiling(name).added_distortion == 1
+    assert tiling(name).left_over == 0
+
+
+def test_moving_poles_leave_nothing_over():
+    structure = conformal_structure(surface_of(families.torus(48, 36, shape="triangles", jitter=0.3)))
+    without = structure.tile(60, poles=0)
+    assert without.added_distortion > 1.001
+    with_poles = structure.tile(60, poles=6)
+    assert with_poles.added_distortion < 1.0005
+    assert with_poles.left_over < 1e-2 * without.left_over + 1e-3
+
+
+def test_poles_make_the_density_even():
+    capsule = families.moved(families.geodesic_sphere(14, jitter=0.1), scale=1.0)
+    stretched = families.replace(capsule, vertices=capsule.vertices * [1, 1, 5])
+    structure = conformal_structure(surface_of(stretched))
+    two, eight = structure.tile(100, poles=2), structure.tile(100, poles=8)
+    assert eight.optimal_density_ratio < two.optimal_density_ratio
+    assert eight.density_ratio < 1.5 * eight.optimal_density_ratio
+
+
+def test_tiles_are_counted_at_the_median_density():
+    surface = surface_of(SPHERE)
+    made = conformal_structure(surface).tile(density=60 / surface.area, poles=4)
+    assert made.tiles == pytest.approx(60)
+    assert made.quality.median_density * surface.area == pytest.approx(60, rel=0.3)
+
+
+def test_direction_turns_the_texture():
+    """On a long tube u runs along the axis that was asked for, or across it."""
+    tube = surface_of(families.torus(60, 12, R=3.0, r=0.3, shape="triangles"))
+    for axis in ([0, 0, 1], [1, 0, 0]):
+        made = conformal_structure(tube).tile(400, poles=0, direction=axis)
+        assert np.isfinite(made.uv).all()
+    with pytest.raises(ValueError, match="direction is"):
+        conformal_structure(tube).tile(direction=[0, 0, 0])
+
+
+def test_chosen_poles_stay():
+    made = conformal_structure(surface_of(SPHERE)).tile(40, poles=[3, 100, 400])
+    assert set(made.poles) <= {3, 100, 400}
+    assert len(made.poles) >= 2
+
+
+def test_poles_keep_to_where_they_are_allowed():
+    surface = surface_of(SPHERE)
+    allowed = surface.vertices[:, 2] > 0
+    found = place_poles(surface, 4, allowed=allowed)
+    assert allowed[found.vertices].all()
+    with pytest.raises(ValueError, match="allowed has the shape"):
+        place_poles(surface, 4, allowed=allowed[:-1])
+    with pytest.raises(ValueError, match="no vertex"):
+        place_poles(surface, 4, allowed=np.zeros_like(allowed))
+
+
+@pytest.mark.parametrize("name", ["sphere", "genus 2", "holes, straight"])
+def test_same_bits_at_any_number_of_threads(name):
+    mesh, options = CASES[name]
+    options = dict(options)
+    tiles, poles = options.pop("tiles"), options.pop("poles")
+    made = [Tiler(surface_of(mesh), poles, threads=threads).tile(tiles) for threads in (1, 2, 4)]
+    for other in made[1:]:
+        assert np.array_equal(made[0].uv, other.uv)
+        assert np.array_equal(made[0].poles, other.poles)
+
+
+def test_large_surfaces_find_their_poles_on_a_level():
+    surface = surface_of(families.torus(150, 50, shape="triangles", jitter=0.2))
+    assert len(surface.triangles) > 10_000
+    made = conformal_structure(surface).tile(64, poles=4)
+    assert made.added_distortion < 1.001
+    assert made.density_ratio < 2 * made.optimal_density_ratio
+
+
+REFUSED = [
+    (SPHERE, {"poles": 1}, TopologyError, "two or more"),
+    (SPHERE, {"poles": 0}, TopologyError, "not enough"),
+    (SPHERE, {"poles": [5]}, TopologyError, "two or more"),
+    (SPHERE, {"poles": [5, 5]}, TopologyError, "5"),
+    (SPHERE, {"poles": [5, 10**6]}, TopologyError, "1000000 is no vertex"),
+    (SPHERE, {"poles": 500}, TopologyError, "room for"),
+    (SPHERE, {"poles": "many"}, ValueError, "poles is 'many'"),
+    (SPHERE, {"poles": 2.5}, ValueError, "whole number"),
+    (SPHERE, {"lattice": [[1, 2], [2, 4]]}, ValueError, "singular"),
+    (SPHERE, {"lattice": "round"}, ValueError, "lattice is 'round'"),
+    (SPHERE, {"lattice": np.eye(3)}, ValueError, "2 x 2"),
+    (SPHERE, {"tiles": -1}, ValueError, "positive"),
+    (SPHERE, {"tiles": 3, "density": 1}, ValueError, "without tiles"),
+    (SPHERE, {"boundary": "round"}, ValueError, "boundary is 'round'"),
+    (DOUBLE, {"tiles": 0.01, "poles": 0}, TopologyError, "are enough"),
+    (DISK, {"poles": [len(DISK.vertices) - 1]}, TopologyError, "boundary"),
+]
+
+
+@pytest.mark.parametrize("mesh, options, error, message", REFUSED)
+def test_refused(mesh, options, error, message):
+    with pytest.raises(error, match=message):
+        conformal_structure(surface_of(mesh)).tile(**options)
+
+
+def test_cancelling():
+    calls = []
+
+    def stop(fraction, stage):
+        calls.append(stage)
+        return len(calls) < 4
+
+    with pytest.raises(Cancelled):
+        Tiler(surface_of(DOUBLE), 4, progress=stop)
+    assert Tiler(surface_of(DOUBLE), 4).tile(128).uv.shape[1] == 2

@@ -1,0 +1,120 @@
+// The Abel-Jacobi map against the forms it foretells, and walks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "mesh/make_surface.h"
+#include "structure/punctured_structure.h"
+#include "tiling/abel_jacobi.h"
+#include "tiling/leverage.h"
+#include "tiling/rounding.h"
+#include "tiling/seamless_map.h"
+#include "tiling/surface_walk.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Complex = std::complex<double>;
+
+// A wavy torus of n x m quads, cut into triangles; without its first `missing` triangles.
+std::shared_ptr<const mesh::Surface> wavy_torus(int n, int m, int missing = 0) {
+  mesh::Polygons polygons;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < m; ++j) {
+      const double a = 2 * std::numbers::pi * (i + 0.2 * std::sin(3.0 * i + j)) / n;
+      const double b = 2 * std::numbers::pi * (j + 0.2 * std::cos(2.0 * j + i)) / m, ring = 2 + std::cos(b);
+      polygons.vertices.push_back({ring * std::cos(a), ring * std::sin(a), (1 + 0.3 * std::sin(2 * a)) * std::sin(b)});
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < m; ++j) {
+      const int a = i * m + j, b = (i + 1) % n * m + j, c = (i + 1) % n * m + (j + 1) % m, d = i * m + (j + 1) % m;
+      for (const int v : {a, b, c, a, c, d}) polygons.corner_vertices.push_back(v);
+    }
+  }
+  polygons.corner_vertices.erase(polygons.corner_vertices.begin(), polygons.corner_vertices.begin() + 3 * missing);
+  for (std::size_t c = 0; c <= polygons.corner_vertices.size(); c += 3)
+    polygons.face_offsets.push_back(static_cast<int>(c));
+  Execution execution(1);
+  return std::make_shared<mesh::Surface>(mesh::make_surface(std::move(polygons), execution));
+}
+
+TEST(AbelJacobi, ForetellsTheHarmonicPartOfEveryPole) {
+  Execution execution(1);
+  const auto surface = wavy_torus(30, 20);
+  const Landscape landscape(surface, {}, execution);
+  const AbelJacobi map(landscape, execution);
+  for (const auto& [p, q] : {std::pair{5, 300}, {47, 411}, {220, 590}}) {
+    const auto s = structure::punctured_structure(surface, {{p, q}, {1.0, -1.0}, {}}, {}, execution);
+    const Eigen::MatrixXd N = change_of_basis(landscape.structure().topology.classes, s);
+    EXPECT_NEAR(std::abs(N.determinant()), 1, 1e-12);
+    const Eigen::VectorXd foretold = N * (map.at(p) - map.at(q)), found = s.pole_parts.col(0);
+    EXPECT_LT((found - nearest_representative(foretold, found)).cwiseAbs().maxCoeff(), 1e-10);
+  }
+}
+
+TEST(AbelJacobi, FollowsItsDerivative) {
+  Execution execution(1);
+  const auto surface = wavy_torus(60, 40);
+  const Landscape landscape(surface, {}, execution);
+  const AbelJacobi map(landscape, execution);
+  const Leverage leverage(landscape);
+  const int from = 1000;
+  const auto& mesh = landscape.half_edges();
+  const mesh::HalfedgeHandle h = mesh.halfedge_handle(mesh::VertexHandle(from));
+  const int triangle = mesh::face_of(mesh, h), to = mesh::to_vertex(mesh, h);
+  const SurfacePoint a = at_vertex(*surface, triangle, from), b = at_vertex(*surface, triangle, to);
+  const Eigen::VectorXd step = -(leverage.abel_jacobi_derivatives({triangle}).col(0) * (b.z - a.z)).real();
+  const Eigen::VectorXd start = map.at(from), exact = nearest_representative(map.at(to), start) - start;
+  EXPECT_LT((exact - step).norm(), 0.1 * step.norm());
+}
+
+TEST(SurfaceWalk, ComesBack) {
+  const auto surface = wavy_torus(30, 20);
+  Execution execution(1);
+  const mesh::HalfEdges half_edges = mesh::half_edges(*surface, execution);
+  const mesh::Sides sides(*surface);
+  const SurfacePoint start = at_vertex(*surface, 100, surface->triangles[100][1]);
+  for (int i = 0; i < 12; ++i) {
+    SurfacePoint point = start;
+    const Complex dz = std::polar(0.8, 0.5 * i);
+    const WalkSteps steps = walk(*surface, half_edges, sides, point, dz);
+    ASSERT_GT(steps.size(), 1u);
+    double length = 0;
+    for (const auto& [triangle, part] : steps) length += std::abs(part);
+    EXPECT_NEAR(length, 0.8, 1e-12);
+    const Complex last = steps.back().second;
+    walk(*surface, half_edges, sides, point, -0.8 * last / std::abs(last));
+    EXPECT_EQ(point.triangle, start.triangle);
+    EXPECT_LT(std::abs(point.z - start.z), 1e-9);
+  }
+}
+
+TEST(SurfaceWalk, EndsAtTheBoundary) {
+  const auto surface = wavy_torus(12, 8, 60);
+  Execution execution(1);
+  const mesh::HalfEdges half_edges = mesh::half_edges(*surface, execution);
+  const mesh::Sides sides(*surface);
+  for (int i = 0; i < 12; ++i) {
+    SurfacePoint point = at_vertex(*surface, 100, surface->triangles[100][0]);
+    walk(*surface, half_edges, sides, point, std::polar(100.0, 0.5 * i));
+    EXPECT_TRUE(std::isfinite(std::abs(point.z)));
+  }
+}
+
+TEST(TextureLattice, NearestPointsAndSymmetry) {
+  const TextureLattice square, hexagonal{1.0, std::polar(1.0, std::numbers::pi / 3)}, brick{1.0, {0.5, 1.0}};
+  EXPECT_NEAR(square.symmetry(), std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(hexagonal.symmetry(), std::numbers::pi / 3, 1e-12);
+  EXPECT_NEAR(brick.symmetry(), std::numbers::pi, 1e-12);
+  for (const auto& lattice : {square, hexagonal, brick}) {
+    const Complex point = lattice.point(3, -2);
+    EXPECT_LT(std::abs(lattice.nearest(point + Complex(0.2, -0.1)) - point), 1e-12);
+    EXPECT_LT((lattice.coordinates(point) - Eigen::Vector2d(3, -2)).norm(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace holomorph::tiling
