@@ -81,15 +81,20 @@ def parse(arguments):
     parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
     _add_choices(parser)
     options = parser.parse_args(arguments)
-    check(options)
+    check_folders(options.output, options.render, options.report)
+    check_values(options)
     return options
 
 
-def check(options):
-    """Raises `UsageError` for values that cannot be."""
-    for path in (options.output, options.render, options.report):
+def check_folders(*files):
+    """Raises `UsageError` for a file whose folder does not exist; None is no file."""
+    for path in files:
         if path is not None and not path.resolve().parent.is_dir():
             raise UsageError(f"{path}: the folder {path.resolve().parent} does not exist")
+
+
+def check_values(options):
+    """Raises `UsageError` for values that cannot be."""
     if options.forms < 0 or options.density <= 0 or options.checker_scale < 0 or options.shown < 0:
         raise UsageError("--forms, --shown and --checker-scale cannot be negative, and --density must be positive")
     if not 0 <= options.margin < 1:

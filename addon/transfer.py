@@ -50,26 +50,27 @@ class MeshData:
 
 def read(mesh, polygons):
     """All that levels get from `mesh`. Its maps include those of ours that are attributes for want of a UV map slot."""
-    layers = [layer.name for layer in mesh.uv_layers]
-    ours = [a.name for a in mesh.attributes if mesh_io.is_our_attribute(a) and a.name not in layers]
-    maps = layers + ours
+    maps = _map_names(mesh)
     uv = np.empty((len(polygons.corner_vertices), len(maps), 2))
     for index, name in enumerate(maps):
         uv[:, index] = _of_corners(mesh_io.read_map(mesh, name), polygons)
-    rendered = [layer.name for layer in mesh.uv_layers if layer.active_render]
-    colour = mesh.color_attributes.active_color
     return MeshData(
         positions=mesh_io.read_values(compatibility.position_values(mesh)),
         maps=maps,
         uv=uv,
-        active=mesh.uv_layers.active.name if mesh.uv_layers.active else "",
-        rendered=rendered[0] if rendered else "",
+        active=getattr(mesh.uv_layers.active, "name", ""),
+        rendered=next((layer.name for layer in mesh.uv_layers if layer.active_render), ""),
         attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_transferred(a, maps)],
         material=mesh_io.read_values(_material_indices(mesh)),
         smooth=mesh_io.read_values(_smooth_flags(mesh)),
         marks={name: mesh_io.marked_edges(mesh, name) for name in EDGE_MARKS},
-        colour=colour.name if colour else "",
+        colour=getattr(mesh.color_attributes.active_color, "name", ""),
     )
+
+
+def _map_names(mesh):
+    layers = [layer.name for layer in mesh.uv_layers]
+    return layers + [a.name for a in mesh.attributes if mesh_io.is_our_attribute(a) and a.name not in layers]
 
 
 def write(mesh, data, level, names):

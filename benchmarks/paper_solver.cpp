@@ -36,27 +36,25 @@ struct System {
   Eigen::MatrixXd B;
 };
 
-// Conjugate gradients from X; prints [iterations, seconds] to each residual, [] where it was not reached.
-void print_run(const System& system, Eigen::MatrixXd X, solver::Scaling scaling) {
-  solver::GradientOptions options;
-  options.scaling = scaling;
-  options.residual = kResiduals[3];
-  options.most_iterations = kMostIterations;
-  Workers workers;
-  const double start = processor_seconds();
-  std::size_t next = 0;
-  int iterations = 0;
-  const auto note = [&](double residual) {
-    for (; next < std::size(kResiduals) && residual <= kResiduals[next]; ++next) {
-      std::cout << (next > 0 ? ", " : "") << '[' << iterations << ", " << processor_seconds() - start << ']';
+// Conjugate gradients from `start` to each residual; prints [iterations, seconds], [] from the first one not reached.
+void print_run(const System& system, const Eigen::MatrixXd& start, solver::Scaling scaling) {
+  Execution silent;
+  bool reached = true;
+  const char* separator = "[";
+  for (const double residual : kResiduals) {
+    solver::GradientReport report;
+    double seconds = 0;
+    if (reached) {
+      const solver::GradientOptions options{scaling, residual, kMostIterations};
+      Eigen::MatrixXd X = start;
+      report = timed(seconds, [&] { return solver::conjugate_gradients(system.L, system.B, X, options, silent); });
     }
-    ++iterations;
-  };
-  std::cout << '[';
-  const auto report = solver::conjugate_gradients(system.L, system.B, X, options, workers, note);
-  iterations = report.iterations;
-  note(report.residual);
-  for (; next < std::size(kResiduals); ++next) std::cout << (next > 0 ? ", []" : "[]");
+    reached = report.converged;
+    std::cout << separator << '[';
+    if (reached) std::cout << report.iterations << ", " << seconds;
+    std::cout << ']';
+    separator = ", ";
+  }
   std::cout << ']';
 }
 

@@ -399,6 +399,24 @@ def cut_graph():
     save(figure, "cut_graph")
 
 
+def edges_crossed(triangles, seams, beside, u, v):
+    """The edges that a loop of faces crosses, one of them of the cut graph: (u, v)."""
+    seen = {beside[v, u]: None}
+    queue = list(seen)
+    for t in queue:
+        a, b, c = triangles[t].tolist()
+        for p, q in ((a, b), (b, c), (c, a)):
+            other = beside[q, p]
+            if (min(p, q), max(p, q)) not in seams and other not in seen:
+                seen[other] = (t, p, q)
+                queue.append(other)
+    crossed, t = [(u, v)], beside[u, v]
+    while seen[t] is not None:
+        t, p, q = seen[t]
+        crossed.append((p, q))
+    return crossed
+
+
 def dual_loop(surface, structure):
     """The class of the longest loop of faces that crosses one edge of the cut graph: eta of pairs of vertices."""
     triangles, seams = surface.triangles, {tuple(e) for e in structure.edges[structure.seams].tolist()}
@@ -406,23 +424,7 @@ def dual_loop(surface, structure):
     for t, (a, b, c) in enumerate(triangles.tolist()):
         for u, v in ((a, b), (b, c), (c, a)):
             beside[u, v] = t
-    best = None
-    for u, v in sorted(seams):
-        start, goal, seen = beside[v, u], beside[u, v], {beside[v, u]: None}
-        queue = [start]
-        for t in queue:
-            a, b, c = triangles[t].tolist()
-            for p, q in ((a, b), (b, c), (c, a)):
-                other = beside[q, p]
-                if (min(p, q), max(p, q)) not in seams and other not in seen:
-                    seen[other] = (t, p, q)
-                    queue.append(other)
-        crossed, t = [(u, v)], goal
-        while seen[t] is not None:
-            t, p, q = seen[t]
-            crossed.append((p, q))
-        if best is None or len(crossed) > len(best):
-            best = crossed
+    best = max((edges_crossed(triangles, seams, beside, u, v) for u, v in sorted(seams)), key=len)
     eta = {}
     for p, q in best:
         eta[p, q], eta[q, p] = eta.get((p, q), 0) + 1, eta.get((q, p), 0) - 1
@@ -608,7 +610,7 @@ def log_map():
 
 def zeros(surface, uv):
     """(#, 4) places and orders of the zeros: index (sum of the signed angles)/2 pi - 1 of each vertex, and 1 for each
-    triangle turned over; what touches is one zero."""
+    flipped triangle; what touches is one zero."""
     t = surface.triangles
     z = uv[..., 0] + 1j * uv[..., 1]
     angles = np.stack([np.angle((z[:, (i + 2) % 3] - z[:, i]) / (z[:, (i + 1) % 3] - z[:, i])) for i in range(3)], -1)

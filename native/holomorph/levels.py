@@ -57,7 +57,7 @@ def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", thread
     Raises
     ------
     InvalidMesh
-        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a rotation or a stretch,
+        if `uv` does not fit the corners or is not finite, or if `harmonic` finds a seam with a rotation or a scaling,
         or a boundary that is not straight
     TopologyError
         if `harmonic` does not apply to the topology
@@ -67,7 +67,7 @@ def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", thread
     threads = check_options(solver, threads)
     uv, maps = _maps(uv, mesh._corner_count)
     splits = [mesh._split_count(n) for n in n_faces]
-    collapsed = mesh._native.carry_corner_values(maps, splits)
+    collapsed = mesh._native.collapsed_corner_values(maps, splits)
     levels = []
     for index, (count, (values, corners)) in enumerate(zip(splits, collapsed)):
         surface, report = mesh._level(count), None
@@ -94,7 +94,7 @@ def level_corner_data(mesh, n_faces):
     if rows.size:
         rows = rows.view(np.dtype((np.void, rows.dtype.itemsize * rows.shape[1])))[:, 0]
         kinds = np.unique(rows, return_inverse=True)[1].astype(float)
-    ((_, corners),) = mesh._native.carry_corner_values(kinds[:, None], [mesh._split_count(n_faces)])
+    ((_, corners),) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)])
     return arrays.frozen(data[corners])
 
 

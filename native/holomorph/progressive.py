@@ -193,7 +193,7 @@ class ProgressiveMesh:
         result[self._native.vertex_index[: len(mapped)]] = mapped
         return result
 
-    def carry_loops(self, loops, n_faces=None):
+    def lift_loops(self, loops, n_faces=None):
         """Closed loops of vertices of the base, lifted to ``level(n_faces)``, or to the original by default: where a
         split separates the two neighbours of a vertex on a loop, the new edge is inserted (paper section 9).
 
@@ -211,12 +211,12 @@ class ProgressiveMesh:
         for loop in given:
             if len(loop) == 0 or loop.min() < 0 or loop.max() >= self._native.base_vertex_count:
                 raise InvalidMesh("a loop is empty or names a vertex that the base mesh has not")
-        lifted = self._native.carry_loops(splits, [loop.tolist() for loop in given])
+        lifted = self._native.lift_loops(splits, [loop.tolist() for loop in given])
         if n_faces is None:
             lifted = [arrays.frozen(self._native.vertex_index[loop]) for loop in lifted]
         return lifted
 
-    def carry_forms(self, forms, n_faces=None):
+    def pull_back_forms(self, forms, n_faces=None):
         """Closed forms on the edges of the base, pulled back to those of ``level(n_faces)``, or of the original's
         triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s
         that it comes from (paper section 9, step 5b). The period over a lifted loop is that over the loop.

@@ -180,7 +180,7 @@ def test_columns_do_not_depend_on_each_other(solver, columns):
 
 @pytest.mark.parametrize("part", [0, 1e-4, 0.02, 0.5, 1])
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_any_vertices_may_be_held(solver, part):
+def test_any_vertices_may_be_fixed(solver, part):
     """Multigrid gives way to the direct solver where so many are fixed apart from each other that it cannot coarsen."""
     mesh = surface("torus with 40 holes")
     chosen = np.flatnonzero(np.random.default_rng(3).uniform(size=len(mesh.vertices)) < part)

@@ -110,7 +110,7 @@ def test_levels_have_equal_integer_periods(name):
     for n, level in zip(counts(mesh), mesh.levels_of_detail(integer_map(name), counts(mesh))):
         assert largest_disagreement(level) < EXACT
         edges, values = edge_values(level)
-        periods = edges.integrals(values, mesh.carry_loops(loops, n))
+        periods = edges.integrals(values, mesh.lift_loops(loops, n))
         assert np.abs(periods - np.rint(periods)).max() < EXACT
         expected = np.rint(periods) if expected is None else expected
         assert (np.rint(periods) == expected).all()
@@ -185,7 +185,7 @@ def test_straight_boundaries_stay_straight(mesh):
 
 
 def test_islands_of_other_maps_stay_where_they_are():
-    """A cylinder unrolled with one turned seam: collapses along the rim and inside keep each vertex's own UVs."""
+    """A cylinder unrolled with one rotated seam: collapses along the rim and inside keep each vertex's own UVs."""
     surface = surface_of(families.cylinder(24, 12))
     x, y, z = surface.vertices.T
     turn = np.arctan2(y, x)[surface.corner_vertices].reshape(len(surface.face_offsets) - 1, -1)
@@ -320,7 +320,7 @@ def test_wrong_uvs_are_refused():
 def test_harmonic_maps_need_translations_across_seams():
     mesh, uv = progressive("torus of quads"), integer_map("torus of quads").copy()
     uv[:4] *= 1.5
-    with pytest.raises(InvalidMesh, match="across the edge between vertices .* turned or stretched"):
+    with pytest.raises(InvalidMesh, match="across the edge between vertices .* rotated or scaled"):
         mesh.levels_of_detail(uv, [2**31], harmonic=True)
 
 

@@ -408,8 +408,8 @@ def test_integer_classes_and_loops_keep_their_periods(name, order):
     for n_faces in (*levels(mesh, 5), None):
         level = mesh.restore() if n_faces is None else mesh.level(n_faces)
         edges = EdgeForms(level._native.edges, len(level.vertices))
-        forms = mesh.carry_forms(classes, n_faces)
-        lifted = mesh.carry_loops(loops, n_faces)
+        forms = mesh.pull_back_forms(classes, n_faces)
+        lifted = mesh.lift_loops(loops, n_faces)
         assert forms.dtype == np.int64
         assert not closedness(level, edges, forms).any()
         assert (edges.integrals(forms, lifted) == np.eye(len(loops), dtype=int)).all()
@@ -420,20 +420,20 @@ def test_pulled_back_classes_are_those_of_the_native_rows():
     mesh = progressive("cage", "quadric")
     classes = integer_classes(conformal_structure(mesh.base))
     level = mesh.level(200)
-    native = mesh._native.carry_classes(
+    native = mesh._native.pull_back_classes(
         classes.astype(np.int32), level._native, mesh._native.vertex_map(0)[: len(level.vertices)].tolist()
     )
-    assert (native == mesh.carry_forms(classes, 200)).all()
+    assert (native == mesh.pull_back_forms(classes, 200)).all()
 
 
 def test_rule_5b_split_by_split():
-    """Carrying through one split: 0 on v_s v_t, and on v_t v_l and v_t v_r the values of v_s v_l and v_s v_r."""
+    """Pulled back through one split: 0 on v_s v_t, and on v_t v_l and v_t v_r the values of v_s v_l and v_s v_r."""
     mesh = progressive("torus of triangles", "quadric")
     classes = integer_classes(conformal_structure(mesh.base))
     counts = np.cumsum((mesh.splits["v_l"] >= 0).astype(int) + (mesh.splits["v_r"] >= 0)) + len(mesh.base.triangles)
     for k in range(0, len(mesh.splits), 37):
         split, level = mesh.splits[k], mesh.level(counts[k])
-        forms = mesh.carry_forms(classes, counts[k])
+        forms = mesh.pull_back_forms(classes, counts[k])
         edges = EdgeForms(level._native.edges, len(level.vertices))
         s, t, left, right = (np.array([split[name]]) for name in ("v_s", "v_t", "v_l", "v_r"))
         assert not edges.along(forms, s, t).any()
@@ -444,11 +444,11 @@ def test_rule_5b_split_by_split():
 def test_loops_must_run_along_edges():
     mesh = progressive("torus of triangles", "quadric")
     with pytest.raises(InvalidMesh, match="has no such edge"):
-        mesh.carry_loops([[0, 0, 1]])
+        mesh.lift_loops([[0, 0, 1]])
     with pytest.raises(InvalidMesh, match="empty or names a vertex"):
-        mesh.carry_loops([[0, 10**6]])
+        mesh.lift_loops([[0, 10**6]])
     with pytest.raises(InvalidMesh, match="is needed"):
-        mesh.carry_forms(np.zeros((2, 3)))
+        mesh.pull_back_forms(np.zeros((2, 3)))
 
 
 # ---- conformal structures of levels ----------------------------------------------------------------------------------
@@ -518,7 +518,7 @@ def test_intrinsic_surfaces_are_refused():
         ProgressiveMesh(surface_of(families.flat_torus(1j, 4)))
 
 
-def test_diagonals_beside_an_edge_are_turned():
+def test_diagonals_beside_an_edge_are_flipped():
     """A quad whose shorter diagonal is an edge of triangles on the other side of the surface."""
     points = [[0, 0, 0], [1.5, -0.5, 0.1], [1, 1, 0], [-0.5, 1.5, 0.1], [0.5, 0.5, -1]]
     mesh = families.polygons(points, [[0, 1, 2, 3], [1, 0, 4], [2, 1, 4], [0, 2, 4], [3, 2, 0]], ((0, 0),))

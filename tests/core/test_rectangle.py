@@ -73,10 +73,10 @@ def test_turning_the_corners_turns_the_rectangle():
     surface = surface_of(grid(12, 8, wavy))
     corners = corners_of(12, 8)
     upright = conformal_structure(surface, rectangle_corners=corners)
-    turned = conformal_structure(surface, rectangle_corners=corners[1:] + corners[:1])
-    assert abs(upright.modulus * turned.modulus - 1) < SOLVER
-    assert np.abs(np.array(upright.modulus_bounds)[::-1] * turned.modulus_bounds - 1).max() < SOLVER
-    w, z = (structure.uv([]) @ [1, 1j] for structure in (upright, turned))
+    rotated = conformal_structure(surface, rectangle_corners=corners[1:] + corners[:1])
+    assert abs(upright.modulus * rotated.modulus - 1) < SOLVER
+    assert np.abs(np.array(upright.modulus_bounds)[::-1] * rotated.modulus_bounds - 1).max() < SOLVER
+    w, z = (structure.uv([]) @ [1, 1j] for structure in (upright, rotated))
     assert np.abs(1 + 1j * upright.modulus * z - w).max() < 1e-6
 
 

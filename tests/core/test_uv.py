@@ -269,11 +269,11 @@ def test_distortion_of_a_smooth_torus_falls_like_the_step():
 def test_frame(name, rotation):
     structure = solved(name)
     uv = structure.uv(some_coefficients(structure))
-    turned = np.exp(1j * rotation) * (uv @ [1, 1j])
+    rotated = np.exp(1j * rotation) * (uv @ [1, 1j])
     frame = holomorph.frame(structure.surface, uv, rotation)
-    size = np.abs(turned).max()
-    assert abs(frame.low - complex(turned.real.min(), turned.imag.min())) < 1e-12 * size
-    assert abs(frame.high - complex(turned.real.max(), turned.imag.max())) < 1e-12 * size
+    size = np.abs(rotated).max()
+    assert abs(frame.low - complex(rotated.real.min(), rotated.imag.min())) < 1e-12 * size
+    assert abs(frame.high - complex(rotated.real.max(), rotated.imag.max())) < 1e-12 * size
     areas = np.abs(triangle_areas(structure.surface, uv))
     assert abs(frame.area - areas.sum()) < 1e-12 * areas.sum()
 

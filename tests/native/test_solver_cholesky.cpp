@@ -38,20 +38,20 @@ TEST(SparseCholesky, SolvesLikeTheDenseMethod) {
   EXPECT_LE((factor.solve(B) - expected).norm(), kRounding * expected.norm());
 }
 
-class HeldUnknowns : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Every, HeldUnknowns, testing::Values(1, 2, 7, 50, 179));
+class FixedUnknowns : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Every, FixedUnknowns, testing::Values(1, 2, 7, 50, 179));
 
-TEST_P(HeldUnknowns, BothSystemsAreSolved) {
+TEST_P(FixedUnknowns, BothSystemsAreSolved) {
   const Matrix A = positive_matrix(15, 12);
   const Eigen::MatrixXd B = random_values(A.rows(), 3, 2);
-  std::vector<char> held(A.rows(), 0);
+  std::vector<char> fixed(A.rows(), 0);
   std::vector<int> places;
-  for (int i = 0; i < static_cast<int>(held.size()); i += GetParam()) {
-    held[i] = 1;
+  for (int i = 0; i < static_cast<int>(fixed.size()); i += GetParam()) {
+    fixed[i] = 1;
     places.push_back(i);
   }
   SparseCholesky factor;
-  factor.compute(lower(A), held);
+  factor.compute(lower(A), fixed);
   const Eigen::MatrixXd whole = positive_solution(A, B), part = positive_solution(A, B, places);
   EXPECT_LE((factor.solve(B) - whole).norm(), kRounding * whole.norm());
   const Eigen::MatrixXd X = factor.solve_fixed(B);

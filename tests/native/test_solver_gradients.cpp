@@ -1,14 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
 #include "laplacians.h"
 #include "solver/conjugate_gradients.h"
 
 namespace holomorph::solver {
 namespace {
-
-const auto kNoReport = [](double) {};
 
 class Gradients : public testing::TestWithParam<Scaling> {
  protected:
@@ -17,13 +13,13 @@ class Gradients : public testing::TestWithParam<Scaling> {
 INSTANTIATE_TEST_SUITE_P(Scalings, Gradients, testing::Values(Scaling::none, Scaling::diagonal));
 
 TEST_P(Gradients, SolveLikeTheDenseMethod) {
-  Workers workers(2);
+  Execution execution(2);
   for (const Shape shape : {Shape::sheet, Shape::torus}) {
     const Laplacian L = grid_laplacian(19, 13, shape);
     for (const int columns : {1, 2, 3, 4, 5, 8, 9, 13}) {  // blocks of every width
       const Eigen::MatrixXd B = centred(random_values(L.size(), columns, columns));
       Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), columns);
-      const GradientReport report = conjugate_gradients(L, B, X, options(), workers, kNoReport);
+      const GradientReport report = conjugate_gradients(L, B, X, options(), execution);
       const DenseSolution dense = dense_solution(L, B);
       EXPECT_TRUE(report.converged);
       EXPECT_LE(report.residual, kResidual);
@@ -36,15 +32,13 @@ TEST_P(Gradients, SolveLikeTheDenseMethod) {
 TEST_P(Gradients, NeverPassMostIterations) {
   const Laplacian L = grid_laplacian(40, 40);
   const Eigen::MatrixXd B = centred(random_values(L.size(), 3, 1));
-  Workers workers(2);
+  Execution execution(2);
   for (const int most : {0, 1, 2, 7}) {
     GradientOptions few = options();
     few.most_iterations = most;
-    int reports = 0;
     Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 3);
-    const GradientReport report = conjugate_gradients(L, B, X, few, workers, [&](double) { ++reports; });
+    const GradientReport report = conjugate_gradients(L, B, X, few, execution);
     EXPECT_EQ(report.iterations, most);
-    EXPECT_EQ(reports, most);
     EXPECT_FALSE(report.converged);
     EXPECT_NEAR(report.residual, relative_residual(L, X, B), 1e-12);
   }
@@ -57,8 +51,8 @@ TEST_P(Gradients, AGoalOutOfReachEnds) {
   unreachable.residual = 1e-30;
   unreachable.most_iterations = 5000;
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 2);
-  Workers workers(1);
-  const GradientReport report = conjugate_gradients(L, B, X, unreachable, workers, kNoReport);
+  Execution execution(1);
+  const GradientReport report = conjugate_gradients(L, B, X, unreachable, execution);
   EXPECT_FALSE(report.converged);
   EXPECT_LE(report.iterations, unreachable.most_iterations);
   EXPECT_TRUE(X.allFinite());
@@ -68,10 +62,10 @@ TEST_P(Gradients, BeginWithTheGivenValues) {
   const Laplacian L = grid_laplacian(20, 20);
   const Eigen::MatrixXd B = centred(random_values(L.size(), 2, 3));
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 2);
-  Workers workers(2);
-  conjugate_gradients(L, B, X, options(), workers, kNoReport);
+  Execution execution(2);
+  conjugate_gradients(L, B, X, options(), execution);
   const Eigen::MatrixXd before = X;
-  EXPECT_EQ(conjugate_gradients(L, B, X, options(), workers, kNoReport).iterations, 0);
+  EXPECT_EQ(conjugate_gradients(L, B, X, options(), execution).iterations, 0);
   EXPECT_TRUE(same_bits(X, before));
 }
 
@@ -79,18 +73,17 @@ TEST_P(Gradients, ARightHandSideOfZerosStaysZero) {
   const Laplacian L = grid_laplacian(20, 20);
   Eigen::MatrixXd B = centred(random_values(L.size(), 3, 4)), X = Eigen::MatrixXd::Zero(L.size(), 3);
   B.col(1).setZero();
-  Workers workers(2);
-  EXPECT_TRUE(conjugate_gradients(L, B, X, options(), workers, kNoReport).converged);
+  Execution execution(2);
+  EXPECT_TRUE(conjugate_gradients(L, B, X, options(), execution).converged);
   EXPECT_EQ(X.col(1).cwiseAbs().maxCoeff(), 0.0);
 }
 
-TEST_P(Gradients, WhatTheReportThrowsIsHeard) {
+TEST_P(Gradients, AreCancelled) {
   const Laplacian L = grid_laplacian(20, 20);
   const Eigen::MatrixXd B = centred(random_values(L.size(), 1, 5));
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 1);
-  Workers workers(2);
-  const auto broken = [](double) { throw std::domain_error("mine"); };
-  EXPECT_THROW(conjugate_gradients(L, B, X, options(), workers, broken), std::domain_error);
+  Execution cancelled(2, [](double, const std::string&) { return false; });
+  EXPECT_THROW(conjugate_gradients(L, B, X, options(), cancelled), Cancelled);
 }
 
 TEST_P(Gradients, BitsDoNotDependOnTheThreads) {
@@ -99,9 +92,9 @@ TEST_P(Gradients, BitsDoNotDependOnTheThreads) {
   GradientOptions few = options();
   few.most_iterations = 40;
   const auto solved = [&](int threads) {
-    Workers workers(threads);
+    Execution execution(threads);
     Eigen::MatrixXd X = Eigen::MatrixXd::Zero(L.size(), 3);
-    conjugate_gradients(L, B, X, few, workers, kNoReport);
+    conjugate_gradients(L, B, X, few, execution);
     return X;
   };
   const Eigen::MatrixXd one = solved(1);

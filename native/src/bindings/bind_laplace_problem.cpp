@@ -10,21 +10,21 @@ namespace {
 
 using Problem = structure::LaplaceProblem;
 
-std::shared_ptr<Problem> make(const mesh::Surface& surface, const std::vector<int>& held, const std::string& solver,
+std::shared_ptr<Problem> make(const mesh::Surface& surface, const std::vector<int>& fixed, const std::string& solver,
                               int threads) {
   const py::gil_scoped_release unlocked;
   Execution execution(threads);
-  return std::make_shared<Problem>(structure::laplace_problem(surface, held, {solver}, execution));
+  return std::make_shared<Problem>(structure::laplace_problem(surface, fixed, {solver}, execution));
 }
 
-// @param holds one flag per column of B
-py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bool>& holds) {
+// @param dirichlet one flag per column of B
+py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bool>& dirichlet) {
   solver::Solution X;
   {
     const py::gil_scoped_release unlocked;
     std::vector<solver::Condition> conditions;
-    for (const bool held : holds) {
-      conditions.push_back(held ? solver::Condition::dirichlet : solver::Condition::natural);
+    for (const bool zero : dirichlet) {
+      conditions.push_back(zero ? solver::Condition::dirichlet : solver::Condition::natural);
     }
     Execution execution(problem.threads);
     X = problem.solver->solve(B, conditions, execution);

@@ -72,20 +72,20 @@ py::tuple splits(const ProgressiveMesh& mesh) {
                         column(&Split::slot_r));
 }
 
-py::list carry_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
-  std::vector<std::vector<int>> carried;
+py::list lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
+  std::vector<std::vector<int>> lifted;
   {
     const py::gil_scoped_release unlocked;
-    carried = topology::lift_loops(mesh, splits, loops);
+    lifted = topology::lift_loops(mesh, splits, loops);
   }
   py::list result;
-  for (const auto& loop : carried) result.append(copy(loop));
+  for (const auto& loop : lifted) result.append(copy(loop));
   return result;
 }
 
 // Rows of integers, one for each form, from the edges of the base to those of `surface`.
-py::array carry_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32_t>& forms,
-                        const mesh::Surface& surface, const std::vector<int>& map) {
+py::array pull_back_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32_t>& forms,
+                            const mesh::Surface& surface, const std::vector<int>& map) {
   const auto given = forms.unchecked<2>();
   topology::IntegerForms base;
   base.form_count = static_cast<int>(given.shape(0));
@@ -95,28 +95,28 @@ py::array carry_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32
       if (given(i, e) != 0) base.rows.edit(static_cast<std::size_t>(e)).emplace_back(i, given(i, e));
     }
   }
-  const topology::IntegerForms carried = topology::pull_back_classes(mesh.base, base, surface, map);
-  Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic> values(base.form_count,
-                                                                     static_cast<Eigen::Index>(carried.rows.size()));
+  const topology::IntegerForms pulled_back = topology::pull_back_classes(mesh.base, base, surface, map);
+  Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic> values(
+      base.form_count, static_cast<Eigen::Index>(pulled_back.rows.size()));
   values.setZero();
-  for (std::size_t e = 0; e < carried.rows.size(); ++e) {
-    for (const auto& [form, value] : carried.rows[e]) values(form, static_cast<Eigen::Index>(e)) = value;
+  for (std::size_t e = 0; e < pulled_back.rows.size(); ++e) {
+    for (const auto& [form, value] : pulled_back.rows[e]) values(form, static_cast<Eigen::Index>(e)) = value;
   }
   return copy(values);
 }
 
 // For each level the values at its corners, and the corners of the original whose data they have.
-py::list carry_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
-                             const std::vector<int>& splits) {
+py::list collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
+                                 const std::vector<int>& splits) {
   const std::vector<double> given = values(array);
   const int width = static_cast<int>(array.shape(1));
-  std::vector<progressive::CornerValues> carried;
+  std::vector<progressive::CornerValues> levels;
   {
     const py::gil_scoped_release unlocked;
-    carried = progressive::carry_corner_values(mesh, given, width, splits);
+    levels = progressive::collapsed_corner_values(mesh, given, width, splits);
   }
   py::list result;
-  for (const auto& level : carried) {
+  for (const auto& level : levels) {
     const py::array rows = copy(level.values).attr("reshape")(-1, width);
     result.append(py::make_tuple(read_only(rows), copy(level.corners)));
   }
@@ -137,9 +137,9 @@ void bind_progressive_mesh(py::module_& m) {
            [](const ProgressiveMesh& mesh, std::int64_t faces) { return progressive::split_count(mesh, faces); })
       .def("vertex_map",
            [](const ProgressiveMesh& mesh, int splits) { return copy(progressive::vertex_map(mesh, splits)); })
-      .def("carry_loops", &carry_loops)
-      .def("carry_classes", &carry_classes)
-      .def("carry_corner_values", &carry_corner_values)
+      .def("lift_loops", &lift_loops)
+      .def("pull_back_classes", &pull_back_classes)
+      .def("collapsed_corner_values", &collapsed_corner_values)
       .def("base_half_edges",
            [](const ProgressiveMesh& mesh, const mesh::Surface& surface, const std::vector<int>& map) {
              return copy(topology::base_half_edges(mesh.base, surface, map));

@@ -38,8 +38,8 @@ void record_zero_areas(Surface& surface, Workers& workers) {
 void record_orientation(Surface& surface, const Orientation& orientation) {
   if (const int e = orientation.conflict; e >= 0) {
     const auto [a, b] = surface.edges[e];
-    throw TopologyError("the surface is non-orientable: its faces cannot be turned to agree at edge " + to_string(e) +
-                        " (vertices " + to_string(a) + ", " + to_string(b) + ")");
+    throw TopologyError("the surface is non-orientable: its faces cannot be oriented consistently at edge " +
+                        to_string(e) + " (vertices " + to_string(a) + ", " + to_string(b) + ")");
   }
   surface.face_component = orientation.face_component;
   surface.component_count = orientation.component_count;

@@ -67,7 +67,7 @@ forms::RowMajorMatrix differences(const mesh::Surface& surface, const forms::Row
       } else if ((edge_values.row(e) - along).cwiseAbs().maxCoeff() > tolerance) {
         throw InvalidMesh("across the edge between vertices " + std::to_string(surface.edges[e][0]) + " and " +
                           std::to_string(surface.edges[e][1]) +
-                          " of the level the UV map is turned or stretched; only a map that is translated across its "
+                          " of the level the UV map is rotated or scaled; only a map that is translated across its "
                           "seams has a harmonic one of the same periods");
       }
     }

@@ -1,8 +1,6 @@
 #include "multiresolution/paper_forms.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <numeric>
 #include <sstream>
 
@@ -68,10 +66,8 @@ class PaperSolve {
     options.scaling = options_.scaling;
     options.residual = residual;
     const double part = faces(splits) / work_;
-    execution_.report(done_);
-    const auto report = solver::conjugate_gradients(L, B, X, options, execution_.workers(), [&](double reached) {
-      execution_.report(done_ + part * std::clamp(std::log10(reached) / std::log10(residual), 0.0, 1.0));
-    });
+    execution_.part(done_, done_ + part);
+    const auto report = solver::conjugate_gradients(L, B, X, options, execution_);
     done_ += part;
     reports_.push_back({static_cast<std::int64_t>(faces(splits)), report.iterations, seconds_since(start)});
     return report;

@@ -30,43 +30,6 @@ std::array<double, 3> side_weights(const std::array<std::array<double, 3>, 3>& c
   return {mesh::cotangent(a, b, c, area) / 2, mesh::cotangent(b, c, a, area) / 2, mesh::cotangent(c, a, b, area) / 2};
 }
 
-struct Entry {
-  int column;
-  double weight;
-};
-
-// The matrix of sums of weights between rows: the entries of a row are consecutive, duplicates among them.
-solver::Laplacian assembled(const std::vector<int>& start, std::vector<Entry>& entries) {
-  const int n = static_cast<int>(start.size()) - 1;
-  solver::Laplacian L{{0}, {}, {}};
-  L.columns.reserve(entries.size() / 2 + n);
-  L.weights.reserve(entries.size() / 2 + n);
-  const auto add = [&L](int column, double weight) {
-    L.columns.push_back(column);
-    L.weights.push_back(weight);
-  };
-  for (int i = 0; i < n; ++i) {
-    const auto begin = entries.begin() + start[i], end = entries.begin() + start[i + 1];
-    std::sort(begin, end, [](const Entry& a, const Entry& b) { return a.column < b.column; });
-    double diagonal = 0;
-    for (auto e = begin; e != end; ++e) diagonal += e->weight;
-    bool placed = false;
-    for (auto e = begin; e != end;) {
-      const int column = e->column;
-      double weight = 0;
-      for (; e != end && e->column == column; ++e) weight += e->weight;
-      if (!placed && column > i) {
-        add(i, diagonal);
-        placed = true;
-      }
-      add(column, -weight);
-    }
-    if (!placed) add(i, diagonal);
-    L.starts.push_back(static_cast<int>(L.columns.size()));
-  }
-  return L;
-}
-
 }  // namespace
 
 PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
@@ -105,7 +68,7 @@ PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
     for (int& v : loop) v = mesh.vertex_index[v];
   }
   if (flipped) values_of_diagonals(surface, *flipped, levels.bases.classes);
-  levels.bases.loops = loops_of_half_edges(surface, triangulation, loops);
+  levels.bases.loops = loops_of_half_edges(surface, triangulation, loops, execution);
   return levels;
 }
 
@@ -136,34 +99,33 @@ LevelSystem level_system(const PaperLevels& levels, int splits) {
   }
   for (const int p : levels.place) system.row_of_vertex.push_back(row[to_level[p]]);
 
-  // Each corner of a triangle has two entries in its row.
-  std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);
-  for (std::size_t t = 0; t < triangle_count; ++t) {
-    for (const int v : levels.triangles[t]) start[row[to_level[v]] + 1] += 2;
-  }
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<int> end(start.begin(), start.end() - 1);
-  std::vector<Entry> entries(static_cast<std::size_t>(start.back()));
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(12 * triangle_count);
   system.B = Eigen::MatrixXd::Zero(n, levels.base_classes.form_count);
   for (std::size_t t = 0; t < triangle_count; ++t) {
     mesh::Triple v = levels.triangles[t];
     for (int& corner : v) corner = to_level[corner];
     const auto weights = side_weights({mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]});
     for (int i = 0; i < 3; ++i) {
-      const int tail = v[i], head = v[(i + 1) % 3];
-      entries[end[row[tail]]++] = {row[head], weights[i]};
-      entries[end[row[head]]++] = {row[tail], weights[i]};
-      const int a = to_base[tail], b = to_base[head];
+      const double weight = weights[i];
+      const int tail = row[v[i]], head = row[v[(i + 1) % 3]];
+      entries.insert(entries.end(),
+                     {{tail, tail, weight}, {tail, head, -weight}, {head, head, weight}, {head, tail, -weight}});
+      const int a = to_base[v[i]], b = to_base[v[(i + 1) % 3]];
       if (a == b) continue;
       const int edge = mesh::edge_between(mesh.base.edges, a, b);
       for (const auto& [form, value] : levels.base_classes.rows[edge]) {
-        const double flux = weights[i] * (a < b ? value : -value);
-        system.B(row[head], form) -= flux;
-        system.B(row[tail], form) += flux;
+        const double flux = weight * (a < b ? value : -value);
+        system.B(head, form) -= flux;
+        system.B(tail, form) += flux;
       }
     }
   }
-  system.L = assembled(start, entries);
+  solver::Laplacian::Matrix L(n, n);
+  L.setFromTriplets(entries.begin(), entries.end());
+  system.L = {{L.outerIndexPtr(), L.outerIndexPtr() + n + 1},
+              {L.innerIndexPtr(), L.innerIndexPtr() + L.nonZeros()},
+              {L.valuePtr(), L.valuePtr() + L.nonZeros()}};
   return system;
 }
 

@@ -16,6 +16,7 @@ void values_of_diagonals(const mesh::Surface& surface, const mesh::Surface& flip
 /// along an edge that `surface` does not have becomes a path along the polygon, which is homotopic.
 std::vector<std::vector<mesh::HalfedgeHandle>> loops_of_half_edges(const mesh::Surface& surface,
                                                                    const mesh::Surface& flipped,
-                                                                   const std::vector<std::vector<int>>& loops);
+                                                                   const std::vector<std::vector<int>>& loops,
+                                                                   Execution& execution);
 
 }  // namespace holomorph::multiresolution

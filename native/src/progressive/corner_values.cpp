@@ -126,8 +126,8 @@ class Wedges {
 
 }  // namespace
 
-std::vector<CornerValues> carry_corner_values(const ProgressiveMesh& mesh, const std::vector<double>& values, int width,
-                                              const std::vector<int>& splits) {
+std::vector<CornerValues> collapsed_corner_values(const ProgressiveMesh& mesh, const std::vector<double>& values,
+                                                  int width, const std::vector<int>& splits) {
   std::vector<std::size_t> fine_to_coarse(splits.size());
   std::iota(fine_to_coarse.begin(), fine_to_coarse.end(), std::size_t{0});
   std::stable_sort(fine_to_coarse.begin(), fine_to_coarse.end(),

@@ -25,7 +25,7 @@ struct CornerValues {
 /// @param values #C x width, one row for each polygon corner of the original; finite
 /// @param splits the levels, from 0 to all splits each
 /// @return one entry for each level. Cost: O(#T width), apart from the logarithm of a large star.
-std::vector<CornerValues> carry_corner_values(const ProgressiveMesh& mesh, const std::vector<double>& values, int width,
-                                              const std::vector<int>& splits);
+std::vector<CornerValues> collapsed_corner_values(const ProgressiveMesh& mesh, const std::vector<double>& values,
+                                                  int width, const std::vector<int>& splits);
 
 }  // namespace holomorph::progressive

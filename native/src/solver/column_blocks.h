@@ -1,7 +1,9 @@
-// Several right-hand sides side by side: how columns are cut into blocks, and quotients of their norms.
+// Several right-hand sides side by side: how columns are cut into blocks, quotients of their norms, and progress.
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace holomorph::solver {
@@ -35,6 +37,11 @@ double largest_relative(const Norms& residuals, const Norms& norms) {
     if (!(ratio <= worst)) worst = ratio;  // std::max would drop a NaN
   }
   return worst;
+}
+
+/// Part of the digits down to the relative residual `goal` that are reached, in [0, 1]: how far a solve has come.
+inline double part_of_digits(double reached, double goal) {
+  return std::clamp(std::log10(reached) / std::log10(goal), 0.0, 1.0);
 }
 
 }  // namespace holomorph::solver

@@ -22,8 +22,17 @@ using Values = Eigen::Array<double, K, 1>;
 template <int K>
 class Gradients {
  public:
-  Gradients(const Laplacian& L, const GradientOptions& options, Workers& workers)
-      : L_(L), options_(options), workers_(workers), n_(L.size()), inverse_(n_, 1.0), x_(n_), r_(n_), p_(n_), q_(n_) {
+  Gradients(const Laplacian& L, const GradientOptions& options, Execution& execution)
+      : L_(L),
+        options_(options),
+        execution_(execution),
+        workers_(execution.workers()),
+        n_(L.size()),
+        inverse_(n_, 1.0),
+        x_(n_),
+        r_(n_),
+        p_(n_),
+        q_(n_) {
     if (options.scaling == Scaling::none) return;
     for (int i = 0; i < n_; ++i) {
       for (int e = L.starts[i]; e < L.starts[i + 1]; ++e) {
@@ -33,8 +42,7 @@ class Gradients {
   }
 
   // Columns first .. first + width - 1.
-  GradientReport solve(const Eigen::MatrixXd& B, Eigen::MatrixXd& X, Eigen::Index first, int width,
-                       const std::function<void(double)>& report) {
+  GradientReport solve(const Eigen::MatrixXd& B, Eigen::MatrixXd& X, Eigen::Index first, int width) {
     const auto column = [&](const Eigen::MatrixXd& M, int i) {
       Values<K> row = Values<K>::Zero();
       for (int d = 0; d < width; ++d) row[d] = M(i, first + d);
@@ -51,8 +59,7 @@ class Gradients {
     Values<K> norm = residual(b), before;
     do {
       before = norm;
-      iterate(norm, kSafety * goal, result.iterations,
-              [&](const Values<K>& now) { report(largest_relative(now, norm_b)); });
+      iterate(norm, norm_b, result.iterations);
       norm = residual(b);
     } while (!(norm <= goal).all() && ((norm <= goal) || (norm < kLeastGain * before)).all());
     result.residual = largest_relative(norm, norm_b);
@@ -91,15 +98,15 @@ class Gradients {
         .sqrt();
   }
 
-  template <class Report>
-  void iterate(Values<K> norm, const Values<K>& goal, int& iterations, const Report& report) {
+  void iterate(Values<K> norm, const Values<K>& norm_b, int& iterations) {
     using Both = Eigen::Array<double, 2 * K, 1>;
+    const Values<K> goal = kSafety * (options_.residual * norm_b);
     Values<K> rz = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
       p_[i] = inverse_[i] * r_[i];
       sum += r_[i] * p_[i];
     });
     for (; !(norm <= goal).all() && iterations < options_.most_iterations; ++iterations) {
-      report(norm);
+      execution_.report(part_of_digits(largest_relative(norm, norm_b), options_.residual));
       const Values<K> pq = sum_over_rows(workers_, n_, zero(), [&](int i, Values<K>& sum) {
         q_[i] = product(p_, i);
         sum += p_[i] * q_[i];
@@ -122,6 +129,7 @@ class Gradients {
 
   const Laplacian& L_;
   const GradientOptions& options_;
+  Execution& execution_;
   Workers& workers_;
   const int n_;
   std::vector<double> inverse_;  // inverse of the diagonal, or ones
@@ -131,15 +139,14 @@ class Gradients {
 }  // namespace
 
 GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
-                                   const GradientOptions& options, Workers& workers,
-                                   const std::function<void(double)>& report) {
+                                   const GradientOptions& options, Execution& execution) {
   GradientReport total{0, 0, true};
   for_column_blocks(B.cols(), [&](auto width_of_block, Eigen::Index begin, Eigen::Index end) {
     constexpr int K = width_of_block;
-    Gradients<K> gradients(L, options, workers);
+    Gradients<K> gradients(L, options, execution);
     for (Eigen::Index first = begin; first < end; first += K) {
       const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
-      const GradientReport block = gradients.solve(B, X, first, width, report);
+      const GradientReport block = gradients.solve(B, X, first, width);
       total.iterations = std::max(total.iterations, block.iterations);
       total.residual = std::max(total.residual, block.residual);
       total.converged = total.converged && block.converged;

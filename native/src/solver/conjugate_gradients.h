@@ -1,9 +1,6 @@
 // Plain conjugate gradients for several right-hand sides side by side (Hestenes & Stiefel 1952).
 #pragma once
 
-#include <functional>
-
-#include "base/workers.h"
 #include "solver/laplace_solver.h"
 
 namespace holomorph::solver {
@@ -28,10 +25,10 @@ struct GradientReport {
 /// Improves X until the residual is reached, beginning with the values that it has. The constants, the kernel of L, are
 /// taken out of the residual, and X is determined up to them. Up to 8 right-hand sides go through one pass over the
 /// matrix, each with coefficients of its own.
-/// @param B,X #V x #rhs @param report called at every iteration with the largest relative residual; may throw
+/// @param B,X #V x #rhs
+/// @throws Cancelled, asked at every iteration
 /// Cost: three passes over the vertices per iteration; the bits do not depend on the number of threads.
 GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
-                                   const GradientOptions& options, Workers& workers,
-                                   const std::function<void(double)>& report);
+                                   const GradientOptions& options, Execution& execution);
 
 }  // namespace holomorph::solver

@@ -7,7 +7,7 @@
 
 namespace holomorph::structure {
 
-LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& held, const Options& options,
+LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& fixed, const Options& options,
                                Execution& execution) {
   auto triangulation =
       mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
@@ -23,7 +23,7 @@ LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<i
   }
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, 1);
   result.solver =
-      solver::make_solver(choice.method, forms::laplacian(half_edges, result.weights, execution), held, execution);
+      solver::make_solver(choice.method, forms::laplacian(half_edges, result.weights, execution), fixed, execution);
   return result;
 }
 

@@ -1,4 +1,4 @@
-// The Laplacian of a surface with vertices held at 0, and a solver made for it: what the forms are found with, by
+// The Laplacian of a surface with vertices fixed at 0, and a solver made for it: what the forms are found with, by
 // itself.
 #pragma once
 
@@ -20,9 +20,9 @@ struct LaplaceProblem {
   int threads = 0;  ///< of the execution that made it
 };
 
-/// @param held vertices, at 0 for right-hand sides with the condition dirichlet
+/// @param fixed vertices, at 0 for right-hand sides with the condition dirichlet
 /// @throws SolverError, Cancelled
-LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& held, const Options& options,
+LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& fixed, const Options& options,
                                Execution& execution);
 
 }  // namespace holomorph::structure

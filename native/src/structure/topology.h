@@ -38,7 +38,7 @@ struct Topology {
 };
 
 /// Fundamental domain, homology basis, dual classes, pairing and cut.
-/// @param given loops and dual classes that are carried from another level of a progressive mesh, for a closed surface
+/// @param given lifted loops and pulled-back dual classes of a progressive mesh's base, for a closed surface
 /// @param stars of punctures
 /// @pre connected, no isolated vertices
 /// @throws Cancelled. Cost: near-linear; see topology::fundamental_domain

@@ -85,8 +85,7 @@ class MultigridSolver final : public LaplaceSolver {
       for (Eigen::Index first = begin; first < end; first += K) {
         const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
         block.solve(B, conditions, first, width, X, [&](double reached) {
-          const double digits = std::clamp(std::log10(reached) / std::log10(kResidual), 0.0, 1.0);
-          const double columns = static_cast<double>(first) + digits * width;
+          const double columns = static_cast<double>(first) + part_of_digits(reached, kResidual) * width;
           execution.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));
         });
         iterations = std::max(iterations, block.iterations());
