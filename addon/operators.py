@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators: one computes the maps, one measures a map, one brings the object's own materials back."""
 
+from functools import partial
+
 import bpy
 
 from . import native
@@ -37,9 +39,10 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         return True
 
     def make_work(self, progress):
-        from . import jobs, targets
+        from . import jobs, seamless, targets
 
-        return jobs.Job(targets.tasks(self._targets), progress)
+        tasks = targets.tasks(self._targets)
+        return jobs.Job(tasks, progress, [partial(seamless.make, options=self.map_options())] * len(tasks))
 
     def waiting_faces(self):
         from . import cache, targets

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator for seamless tilings of the selected meshes."""
 
+from functools import partial
+
 import bpy
 
 from .modal import WorkOperator
@@ -32,9 +34,10 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
         return True
 
     def make_work(self, progress):
-        from . import targets, tiling
+        from . import jobs, targets, tiling
 
-        return tiling.TileWork(targets.tasks(self._targets), self._options, progress)
+        then = [partial(tiling.tile, options=options) for options in self._options]
+        return jobs.Job(targets.tasks(self._targets), progress, then)
 
     def waiting_faces(self):
         from . import targets
