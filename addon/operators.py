@@ -6,7 +6,7 @@ from functools import partial
 import bpy
 
 from . import native
-from .modal import WorkOperator
+from .modal import MODAL_FACES, MODAL_TILED_FACES, WorkOperator
 from .properties import MapProperties
 
 
@@ -47,8 +47,12 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
     def waiting_faces(self):
         from . import cache, targets
 
-        waiting = [task.polygons for task in targets.tasks(self._targets) if cache.find(task) is None]
+        tasks = targets.tasks(self._targets)
+        waiting = [task.polygons for task in tasks if self.main != "BALANCED" or cache.find(task) is None]
         return sum(len(p.face_offsets) - 1 for p in waiting)
+
+    def modal_faces(self):
+        return MODAL_FACES if self.main == "BALANCED" else MODAL_TILED_FACES
 
     def finish(self, context, work, time_has_passed):
         from . import run, targets

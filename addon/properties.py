@@ -48,7 +48,7 @@ MAIN_MAPS = (
     (
         "AUTOMATIC",
         "Automatic",
-        "Seamless on each part where that is more even; balanced on parts for which something else is chosen, and where "
+        "Seamless on each part where that is more even; balanced where something else is chosen for a part, or "
         "density, rotation or the forms' shares are set",
     ),
     ("SEAMLESS", "Seamless", "A texture that tiles shows no seam; density, rotation and forms' shares do not matter"),
@@ -184,7 +184,7 @@ class MapProperties:
     )
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
-    def draw_options(self, layout):
+    def draw_options(self, layout, _obj):
         for group in DRAWN:
             column = layout.column()
             for name in group:

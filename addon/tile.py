@@ -5,7 +5,7 @@ from functools import partial
 
 import bpy
 
-from .modal import WorkOperator
+from .modal import MODAL_TILED_FACES, WorkOperator
 from .operators import HOLOMORPH_OT_maps
 from .tile_properties import TileProperties
 
@@ -43,6 +43,9 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
         from . import targets
 
         return sum(len(task.polygons.face_offsets) - 1 for task in targets.tasks(self._targets))
+
+    def modal_faces(self):
+        return MODAL_TILED_FACES
 
     def finish(self, context, work, time_has_passed):
         from . import targets, tile_run

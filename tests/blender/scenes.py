@@ -105,8 +105,9 @@ def frame(name="Frame"):
     return obj
 
 
-def run(**options):
-    return bpy.ops.uv.holomorphic_maps(**options)
+def run(main="BALANCED", **options):
+    """The button, with the main map that most tests are about."""
+    return bpy.ops.uv.holomorphic_maps(main=main, **options)
 
 
 def uv(obj, name="Holomorphic"):
@@ -129,6 +130,34 @@ def next_corner(offsets):
     following = np.arange(1, offsets[-1] + 1)
     following[offsets[1:] - 1] = offsets[:-1]
     return following
+
+
+def shown_scale(obj):
+    """The checker's squares per UV unit."""
+    return obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value
+
+
+def edge_jumps(obj):
+    """((n, 2) vertices of the edges between two faces, (n, 2, 2) differences of the two faces' UVs at each of these)."""
+    corners, offsets = polygon_arrays(obj.data)
+    following, values = next_corner(offsets), uv(obj)
+    start, end = np.arange(len(corners)), following
+    is_down = corners[start] > corners[end]
+    ends = np.where(is_down[:, None], np.stack([end, start], 1), np.stack([start, end], 1))  # lower vertex first
+    pairs = corners[ends].astype(np.int64)
+    order = np.lexsort(pairs.T)
+    same = np.flatnonzero((pairs[order][1:] == pairs[order][:-1]).all(axis=1))
+    return pairs[order[same]], values[ends[order[same + 1]]] - values[ends[order[same]]]
+
+
+def face_densities(obj):
+    """(#F,) UV area per surface area, signed."""
+    _, offsets = polygon_arrays(obj.data)
+    values, following = uv(obj), next_corner(offsets)
+    cross = values[:, 0] * values[following, 1] - values[following, 0] * values[:, 1]
+    areas = np.empty(len(obj.data.polygons), np.float32)
+    obj.data.polygons.foreach_get("area", areas)
+    return np.add.reduceat(cross, offsets[:-1]) / 2 / areas
 
 
 def signed_area(mesh, values):
