@@ -79,13 +79,22 @@ def two_parts(name, first, second):
     return mesh_object(name, vertices, faces)
 
 
-def sphere_arrays():
+def sphere_arrays(subdivisions=2):
     bm = bmesh.new()
-    bmesh.ops.create_icosphere(bm, subdivisions=2, radius=0.5)
+    bmesh.ops.create_icosphere(bm, subdivisions=subdivisions, radius=0.5)
     bm.verts.index_update()
     vertices = [tuple(v.co) for v in bm.verts]
     faces = [tuple(v.index for v in f.verts) for f in bm.faces]
     bm.free()
+    return vertices, faces
+
+
+def limb_arrays():
+    """A ball with a long limb: a log map of it is far from even."""
+    vertices, faces = sphere_arrays(4)
+    vertices = np.array(vertices)
+    is_limb = vertices[:, 2] > 0.3
+    vertices[is_limb, 2] += 6 * (vertices[is_limb, 2] - 0.3)
     return vertices, faces
 
 
@@ -138,7 +147,7 @@ def shown_scale(obj):
 
 
 def edge_jumps(obj):
-    """((n, 2) vertices of the edges between two faces, (n, 2, 2) differences of the two faces' UVs at each of these)."""
+    """((n, 2) vertices of inner edges, (n, 2, 2) differences of the UVs of their two faces at each of these)."""
     corners, offsets = polygon_arrays(obj.data)
     following, values = next_corner(offsets), uv(obj)
     start, end = np.arange(len(corners)), following

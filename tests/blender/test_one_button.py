@@ -9,12 +9,12 @@ from scenes import (
     everything,
     face_densities,
     fills_the_square,
+    limb_arrays,
     mesh_io,
     mesh_object,
     pick,
     select,
     shown_scale,
-    sphere_arrays,
     stored_report,
     torus,
     torus_arrays,
@@ -26,17 +26,6 @@ from scenes import (
 def press(**options):
     """The button as it comes."""
     return bpy.ops.uv.holomorphic_maps(**options)
-
-
-def limb_arrays():
-    """A ball with a long thin limb: a log map of it is far from even."""
-    vertices, faces = sphere_arrays()
-    vertices = np.array(vertices)
-    z = vertices[:, 2].copy()
-    is_limb = z > 0.25
-    vertices[is_limb, :2] *= 0.6
-    vertices[is_limb, 2] += 6 * (z[is_limb] - 0.25)
-    return vertices, faces
 
 
 def limb():
