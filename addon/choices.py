@@ -71,6 +71,11 @@ def name_vertices(keywords):
     return not keywords.keys().isdisjoint({"punctures", "rectangle_corners", "cut_edges"})
 
 
+def ask_for_a_kind(keywords):
+    """Whether the keywords say how the map is to be made, and not just how fast."""
+    return name_vertices(keywords) or keywords["boundary"] != "natural" or keywords["solver"] == "paper"
+
+
 def are_explicit(keywords, choices):
     """Whether the keywords hold what the library is to refuse where it does not fit."""
     return choices.is_explicit and not keywords.keys().isdisjoint({"punctures", "rectangle_corners"})

@@ -11,6 +11,7 @@ import importlib.util
 import math
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -48,7 +49,12 @@ def _add_choices(parser):
     group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
     group.add_argument("--selection", choices=("automatic", "punctures", "rectangle", "none"), default="none")
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
-    group.add_argument("--boundary", choices=("natural", "double_cover"), default="natural")
+    group.add_argument(
+        "--boundary",
+        choices=("natural", "double_cover", "straight", "free"),
+        default="natural",
+        help="how holes are solved; with --seamless straight (default) or free",
+    )
     group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
 
 
@@ -79,7 +85,9 @@ def parse(arguments):
     parser.add_argument("--levels", type=int, default=0, help="make so many levels of detail of each object")
     parser.add_argument("--ratio", type=float, default=0.25, help="triangles of a level over those of the one before")
     parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
+    parser.add_argument("--main", choices=("automatic", "seamless", "balanced"), default="automatic", help="main map")
     _add_choices(parser)
+    module("headless_tile").add_options(parser)
     options = parser.parse_args(arguments)
     check_folders(options.output, options.render, options.report)
     check_values(options)
@@ -103,6 +111,8 @@ def check_values(options):
         raise UsageError("--levels cannot be negative, and --ratio must be between 0 and 1")
     if options.puncture and options.rectangle:
         raise UsageError("--puncture and --rectangle exclude each other")
+    if options.seamless != (options.boundary in ("straight", "free")) and options.boundary != "natural":
+        raise UsageError("--boundary is straight or free with --seamless, natural or double_cover without")
     if options.resolution < 1 or options.samples < 1:
         raise UsageError("--resolution and --samples must be at least 1")
 
@@ -182,16 +192,17 @@ def write_options(options):
 
 def make_maps(options, found):
     """Solves the targets and writes their maps; returns the `run.Outcome`."""
-    maps, run, targets = module("maps"), module("run"), module("targets")
-    job = module("jobs").Job(targets.tasks(found))
+    if options.seamless:
+        try:
+            return module("headless_tile").make(bpy.context, options, found)
+        except ValueError as error:
+            raise UsageError(str(error)) from error
+    rotation, main = math.radians(options.rotation), options.main.upper()
+    asked = module("maps").MapOptions(options.forms, options.density, rotation, margin=options.margin, main=main)
+    targets, tasks = module("targets"), module("targets").tasks(found)
+    job = module("jobs").Job(tasks, then=[partial(module("seamless").make, options=asked)] * len(tasks))
     job.run()
-    return run.write(
-        bpy.context,
-        found,
-        targets.align(found, job.results),
-        maps.MapOptions(options.forms, options.density, math.radians(options.rotation), margin=options.margin),
-        write_options(options),
-    )
+    return module("run").write(bpy.context, found, targets.align(found, job.results), asked, write_options(options))
 
 
 def add_levels(options, outcome):

@@ -59,25 +59,37 @@ def solved(task, ask):
 
 
 class Job(Work):
-    """Solves a list of `solve.Task` one after the other.
+    """Solves a list of `solve.Task` one after the other, and goes on with the solve of `tasks[i]` as the function
+    `then[i](solved, progress=...)` does, if there is one.
 
-    `results[i]` is a `SolvedObject`, or the error that refused the mesh, one of `native.refusals`.
+    `results[i]` is what that gives, or the `SolvedObject`; or the error that refused the mesh, one of
+    `native.refusals`.
     """
 
-    def __init__(self, tasks, progress=None):
+    SOLVE_SHARE = 0.3  # of the work on an object where something follows
+
+    def __init__(self, tasks, progress=None, then=()):
         super().__init__(progress)
         self.results = [None] * len(tasks)
-        self._tasks = tasks
+        self._tasks, self._then = tasks, then
 
     def run(self):
         """Solves here and now, in the calling thread."""
         refusals = native.refusals()
-        count = len(self._tasks)
-        for index, task in enumerate(self._tasks):
+        for index in range(len(self._tasks)):
             if self._cancelled.is_set():
                 return
             try:
-                result = solved(task, lambda f, s, i=index: self.ask((i + f) / count, s))
+                self.results[index] = self._result(index)
             except refusals as error:
-                result = error
-            self.results[index] = result
+                self.results[index] = error
+
+    def _result(self, index):
+        share = self.SOLVE_SHARE if self._then else 1.0
+        found = solved(self._tasks[index], self._ask_within(index, 0.0, share))
+        return self._then[index](found, progress=self._ask_within(index, share, 1.0)) if self._then else found
+
+    def _ask_within(self, index, begin, end):
+        """`ask` for one stage of one object."""
+        count = len(self._tasks)
+        return lambda fraction, stage: self.ask((index + begin + (end - begin) * fraction) / count, stage)

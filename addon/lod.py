@@ -45,7 +45,7 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         obj = context.view_layer.objects.active
         return "" if obj is not None and obj.type == "MESH" else "Make a mesh object active"
 
-    def draw_options(self, layout):
+    def draw_options(self, layout, _obj):
         layout.prop(self, "levels")
         row = layout.row()
         row.active = self.coarsest == 0
@@ -133,7 +133,11 @@ class Source:
         if work.solved is None:
             return []
         outcome = run.write(
-            context, [self.target], [work.solved], maps.MapOptions(forms=0), run.WriteOptions(checker=False)
+            context,
+            [self.target],
+            [work.solved],
+            maps.MapOptions(forms=0, main=maps.BALANCED),
+            run.WriteOptions(checker=False),
         )
         return outcome.problems + outcome.notes
 

@@ -16,6 +16,7 @@ from .mesh_io import MAIN_MAP
 
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
+AUTOMATIC, SEAMLESS, BALANCED = "AUTOMATIC", "SEAMLESS", "BALANCED"
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
 
 
@@ -29,6 +30,13 @@ class MapOptions:
     amounts: tuple = ()  # factor of each form's share in the main map; none means 1
     turns: tuple = ()  # radians, phase of each form's share in the main map
     margin: float = 0.02  # least distance between parts, in sides of the UV square
+    main: str = AUTOMATIC  # AUTOMATIC, SEAMLESS or BALANCED: what the main map is
+
+    @property
+    def are_plain(self):
+        """Whether nothing is chosen of the main map but what it is."""
+        dials = (*self.amounts, *(1 + turn for turn in self.turns))
+        return self.density == 1 and self.rotation == 0 and all(dial == 1 for dial in dials)
 
 
 @dataclass(frozen=True)
@@ -48,19 +56,23 @@ def map_names(solved, options):
 
 def map_values(solved, options):
     """Yields (name, (#C,2) float32) for every map; components that lack the form are zero there."""
-    write = native.load().place
     for index, name in enumerate(map_names(solved, options)):
-        parts = _parts(solved, index)
-        whole = len(parts) == 1 and parts[0].surface is solved.surface  # then every row is written
-        placed = (np.empty if whole else np.zeros)((len(solved.surface.corner_vertices), 2), np.float32)
-        raw = [_raw(part, index, options) for part in parts]
-        for part, uv, place in zip(parts, raw, _places(parts, index, options, raw)):
-            if index == 0:
-                main_map(part, options, uv)
-            # The two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary.
-            rows = None if part.surface is solved.surface else part.surface.corner_index
-            write(uv, place.factor, place.origin, place.target, placed, rows)
-        yield name, placed
+        yield name, values(solved, index, options)
+
+
+def values(solved, index, options):
+    """(#C,2) float32: the main map for index 0, else that of a form."""
+    write, parts = native.load().place, _parts(solved, index)
+    whole = len(parts) == 1 and parts[0].surface is solved.surface  # then every row is written
+    placed = (np.empty if whole else np.zeros)((len(solved.surface.corner_vertices), 2), np.float32)
+    raw = [_raw(part, index, options) for part in parts]
+    for part, uv, place in zip(parts, raw, _places(parts, index, options, raw)):
+        if index == 0:
+            main_map(part, options, uv)
+        # The two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary.
+        rows = None if part.surface is solved.surface else part.surface.corner_index
+        write(uv, place.factor, place.origin, place.target, placed, rows)
+    return placed
 
 
 def shape_points(solved):

@@ -13,6 +13,7 @@ from . import nodes, textures
 from .patterns import TEXTURES
 
 CHECKER = "CHECKER"
+CHECKER_CELLS = 2  # squares of the checker after which it repeats
 REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
 OURS = "holomorph_checker"  # custom property that tells our materials
 
@@ -24,6 +25,7 @@ class Look:
     texture: str  # CHECKER or one of `patterns.TEXTURES`
     cells: float  # squares, bricks, scales ... across a UV unit
     unit_length: float  # on the surface, of a UV unit
+    is_tiling: bool = False  # whether the map is cut by whole units: such a map has a material of its own
 
     @property
     def repeats(self):
@@ -34,6 +36,7 @@ class Look:
 def showing(map_name, is_attribute, look):
     """The material that shows `map_name`; made once, then adjusted."""
     name = f"{map_name} {textures.label(look.texture)}" + (" (attribute)" if is_attribute else "")
+    name += " (tiling)" if look.is_tiling else ""
     material = bpy.data.materials.get((name, None))
     is_new = material is None or OURS not in material or material.node_tree is None
     if is_new:

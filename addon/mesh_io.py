@@ -195,6 +195,12 @@ def marked_edges(mesh, mark):
     return _edge_vertices(mesh)[read_values(_marks(mesh, mark))].astype(np.int64)
 
 
+def weights(mesh, group):
+    """(#V,) weights in the vertex group of this index; one by one, for Blender has no array of them."""
+    of_each = (next((g.weight for g in vertex.groups if g.group == group), 0.0) for vertex in mesh.vertices)
+    return np.fromiter(of_each, np.float64, len(mesh.vertices))
+
+
 def edge_vectors(mesh, vertex_pairs):
     """(n, 3) from the first to the second of (n, 2) vertices."""
     positions = read_values(compatibility.position_values(mesh)).astype(np.float64)

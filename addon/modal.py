@@ -5,7 +5,8 @@ import bpy
 
 from . import native
 
-MODAL_FACES = 20_000  # below, the work is too short to be worth a progress display
+MODAL_FACES = 20_000  # below, a solve is too short to be worth a progress display
+MODAL_TILED_FACES = 1_000  # likewise a tiling
 TIMER_SECONDS = 0.05
 
 
@@ -13,12 +14,15 @@ class WorkOperator:
     """A mixin for operators. One of them defines
 
     why_not(context) : class method; why it cannot run here, one sentence, or ""
-    draw_options(layout) : its options in the redo panel
+    draw_options(layout, obj) : its options in the redo panel, with the active object
     prepare(context) : reads what the work needs, returns whether there is work
     make_work(progress) : a `jobs.Work` of what was read
-    waiting_faces() : how many polygons there are to solve
+    waiting_faces() : how many polygons there are to solve; from `modal_faces` on this is done in the background
     finish(context, work, time_has_passed) : writes the results; the set that an operator returns
     """
+
+    def modal_faces(self):
+        return MODAL_FACES
 
     @classmethod
     def poll(cls, context):
@@ -27,10 +31,10 @@ class WorkOperator:
             cls.poll_message_set(sentence)
         return not sentence
 
-    def draw(self, _context):
+    def draw(self, context):
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
-        self.draw_options(self.layout)
+        self.draw_options(self.layout, context.object)
 
     def execute(self, context):
         """Works here and now: for scripts, small meshes, and the redo panel (where solves are cached)."""
@@ -41,7 +45,7 @@ class WorkOperator:
     def invoke(self, context, _event):
         if not self.prepare(context):
             return {"CANCELLED"}
-        if bpy.app.background or context.window is None or self.waiting_faces() < MODAL_FACES:
+        if bpy.app.background or context.window is None or self.waiting_faces() < self.modal_faces():
             return self._work_here(context)
         self._work = self.make_work(None)
         manager = context.window_manager

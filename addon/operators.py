@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators: one computes the maps, one measures a map, one brings the object's own materials back."""
 
+from functools import partial
+
 import bpy
 
 from . import native
-from .modal import WorkOperator
+from .modal import MODAL_FACES, MODAL_TILED_FACES, WorkOperator
 from .properties import MapProperties
 
 
@@ -37,15 +39,20 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         return True
 
     def make_work(self, progress):
-        from . import jobs, targets
+        from . import jobs, seamless, targets
 
-        return jobs.Job(targets.tasks(self._targets), progress)
+        tasks = targets.tasks(self._targets)
+        return jobs.Job(tasks, progress, [partial(seamless.make, options=self.map_options())] * len(tasks))
 
     def waiting_faces(self):
         from . import cache, targets
 
-        waiting = [task.polygons for task in targets.tasks(self._targets) if cache.find(task) is None]
+        tasks = targets.tasks(self._targets)
+        waiting = [task.polygons for task in tasks if self.main != "BALANCED" or cache.find(task) is None]
         return sum(len(p.face_offsets) - 1 for p in waiting)
+
+    def modal_faces(self):
+        return MODAL_FACES if self.main == "BALANCED" else MODAL_TILED_FACES
 
     def finish(self, context, work, time_has_passed):
         from . import run, targets

@@ -44,6 +44,16 @@ SOLVER_TEXTS = {
     "multigrid": ("Multigrid", "Linear time and memory"),
     "paper": ("Paper", "The published multiresolution method, on closed parts with handles: for comparison"),
 }
+MAIN_MAPS = (
+    (
+        "AUTOMATIC",
+        "Automatic",
+        "Seamless on each part where that is more even; balanced where something else is chosen for a part, or "
+        "density, rotation or the forms' shares are set",
+    ),
+    ("SEAMLESS", "Seamless", "A texture that tiles shows no seam; density, rotation and forms' shares do not matter"),
+    ("BALANCED", "Balanced", "The combination of the forms whose density is most even: exactly conformal, with seams"),
+)
 TEXTURES = (
     ("CHECKER", "Checker", "Squares"),
     ("NUMBERED", "Numbered", "Coloured tiles from A1 to H8 with arrows: seams, flips and rotations are seen at once"),
@@ -54,7 +64,7 @@ TEXTURES = (
     ("HEXAGONS", "Hexagons", "Glazed hexagonal tiles"),
 )
 DRAWN = (  # in groups
-    ("density", "margin", "rotation", "forms", "shown"),
+    ("main", "density", "margin", "rotation", "forms", "shown"),
     ("checker", "texture", "checker_scale", "seams", "shape"),
     ("use_selection", "residues", "cut_at_seams", "boundary", "solver"),
 )
@@ -73,6 +83,7 @@ def solver_items(_properties, _context):
 class MapProperties:
     """A mixin for the maps operator."""
 
+    main: EnumProperty(name="Main Map", description="What the main map is", items=MAIN_MAPS, default="AUTOMATIC")
     forms: IntProperty(
         name="Form Maps",
         description="At most so many maps of single forms, besides the main map; a closed surface of genus g has g, "
@@ -173,7 +184,7 @@ class MapProperties:
     )
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
-    def draw_options(self, layout):
+    def draw_options(self, layout, _obj):
         for group in DRAWN:
             column = layout.column()
             for name in group:
@@ -199,7 +210,7 @@ class MapProperties:
         from . import maps
 
         return maps.MapOptions(
-            self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns), self.margin
+            self.forms, self.density, self.rotation, tuple(self.amounts), tuple(self.turns), self.margin, self.main
         )
 
     def write_options(self):

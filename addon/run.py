@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import compatibility, heat, maps, material, mesh_io, native, report
+from . import compatibility, heat, maps, material, mesh_io, native, patterns, report, seamless, tile_report, tiling
 
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
@@ -21,7 +21,9 @@ class Outcome:
     notes: list = field(default_factory=list)
     entries: list = field(default_factory=list)
     forms: int = 0
-    look: object = None  # `material.Look` that all objects of the run share
+    looks: dict = field(
+        default_factory=dict
+    )  # `material.Look` of tilings (True) and of other maps, shared by all objects
 
     def refuse(self, name, sentence):
         self.problems.append(f"{name}: {sentence}")
@@ -97,8 +99,9 @@ def write_each(context, targets, results, write_object, time_has_passed=False):
     return outcome
 
 
-def _problems(obj, solved):
+def _problems(obj, solved, tiled):
     """What was not done, or not as it was chosen."""
+    refused = {id(part.component): part.reason for part in tiled.parts if part.tiling is None}
     count = len(solved.components)
     for index, component in enumerate(solved.components, 1):
         part = "" if count == 1 else f"part {index} of {count} "
@@ -106,6 +109,8 @@ def _problems(obj, solved):
             yield f"{obj.name}: {part}skipped: {native.sentence(component.reason)}"
         if component.note:
             yield f"{obj.name}: {part}made without your choice: {native.sentence(component.note)}"
+        if id(component) in refused:
+            yield f"{obj.name}: {part}not seamless: {native.sentence(refused[id(component)])}"
 
 
 def _modifier_notes(obj, solved):
@@ -115,35 +120,45 @@ def _modifier_notes(obj, solved):
 
 
 def _report_all_skipped(outcome, obj, solved, options):
-    outcome.problems += _problems(obj, solved)
-    outcome.entries.append(_entry(obj, solved, [], 0, options))
+    nothing = tiling.TiledObject(solved, ())
+    outcome.problems += _problems(obj, solved, nothing)
+    outcome.entries.append(_entry(obj, solved, nothing, [], 0, options))
 
 
-def _entry(obj, solved, written, new_seams, options):
-    parts = [report.component_report(component, options) for component in solved.components]
+def _entry(obj, solved, tiled, written, new_seams, options):
+    tilings = {id(part.component): tile_report.part_report(part) for part in tiled.done}
+    parts = [tilings.get(id(c)) or report.component_report(c, options) for c in solved.components]
     return report.object_report(obj, solved, written, new_seams, options, parts)
 
 
 def _write_object(outcome, obj, polygons, solved, map_options, options):
     mesh = obj.data
+    tiled = seamless.tiled(solved, map_options)
     mesh_io.remove_maps(mesh)
-    written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in maps.map_values(solved, map_options)]
+    values = seamless.map_values(solved, map_options, tiled)
+    written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in values]
     shown = written[min(options.shown, len(written) - 1)]
     mesh_io.show_map(mesh, shown.name)
-    new_seams = mesh_io.add_seams(mesh, _seam_pairs(solved)) if options.seams else 0
+    new_seams = mesh_io.add_seams(mesh, _seam_pairs(solved, tiled)) if options.seams else 0
     shape = maps.shape_points(solved) if options.shape else None
     if shape is not None:
         mesh_io.write_shape(mesh, shape)
     if options.checker:
-        _show(outcome, obj, solved, shown, map_options, options)
+        is_tiling = bool(tiled.done) and shown.name == mesh_io.MAIN_MAP
+        if is_tiling not in outcome.looks:
+            outcome.looks[is_tiling] = (
+                _tiling_look(tiled, options) if is_tiling else _look(solved, map_options, options)
+            )
+        material.cover(obj, material.showing(shown.name, shown.kind == "attribute", outcome.looks[is_tiling]))
     heat.refresh(obj)
     mesh.update()
-    entry = _entry(obj, solved, written, new_seams, map_options)
+    entry = _entry(obj, solved, tiled, written, new_seams, map_options)
     report.store_on_object(obj, entry)
     outcome.entries.append(entry)
     outcome.done.append(obj.name)
     outcome.forms = max(outcome.forms, solved.form_count)
-    outcome.problems += _problems(obj, solved)
+    outcome.problems += _problems(obj, solved, tiled)
+    outcome.notes += tile_report.notes(obj, entry)
     outcome.notes += _modifier_notes(obj, solved)
     extra = sum(w.kind == "attribute" for w in written)
     if extra:
@@ -151,13 +166,22 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
         outcome.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
 
 
-def _show(outcome, obj, solved, shown, map_options, options):
-    if outcome.look is None:
-        cells = options.checker_scale or maps.squares_that_fit(solved, map_options)
-        outcome.look = material.Look(options.texture, cells, maps.unit_length(solved, map_options))
-    material.cover(obj, material.showing(shown.name, shown.kind == "attribute", outcome.look))
+def _look(solved, map_options, options):
+    cells = options.checker_scale or maps.squares_that_fit(solved, map_options)
+    return material.Look(options.texture, cells, maps.unit_length(solved, map_options))
 
 
-def _seam_pairs(solved):
-    """(#S,2) vertices of the object: where the maps are cut."""
-    return np.concatenate([c.structure.edges[c.structure.seams] for c in solved.done])
+def _tiling_look(tiled, options):
+    """One image of a texture in each tile, or as many as the wanted number of squares comes nearest to."""
+    cells = material.CHECKER_CELLS if options.texture == material.CHECKER else patterns.TEXTURES[options.texture].cells
+    repeats = max(1, round(options.checker_scale / cells))
+    return material.Look(options.texture, repeats * cells, tiled.unit_length, is_tiling=True)
+
+
+def _seam_pairs(solved, tiled):
+    """(#S,2) vertices of the object: where the main map is cut."""
+    others = [c for c in seamless.others(solved, tiled) if c.structure is not None]
+    return np.concatenate(
+        [c.structure.edges[c.structure.seams] for c in others]
+        + [part.vertices(part.tiling.seams) for part in tiled.done]
+    )

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From polygons to conformal structures, component by component. No bpy here: it runs in a worker thread."""
 
-import functools
 import time
 from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from . import choices, native
 
@@ -37,23 +38,36 @@ class SolvedComponent:
     balanced: object | None  # coefficients of the main map: complex, real on bounded surfaces, none for a fixed map
     reason: str = ""
     note: str = ""  # which choice was not followed, and why
+    is_chosen: bool = False  # whether a choice of the user was followed
     frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
     main_maps: dict = field(default_factory=dict, compare=False)  # `maps.MainMap` by dials
-    tilings: dict = field(default_factory=dict, compare=False)  # what was made for `tiling.TileOptions`, newest last
+    tilers: dict = field(default_factory=dict, compare=False)  # see `tiler`
+    tilings: dict = field(
+        default_factory=dict, compare=False
+    )  # `tiling.TiledPart` by `tiling.TileOptions`, newest last
 
     @property
     def form_count(self):
         """How many forms there are to mix."""
         return 0 if self.balanced is None else len(self.balanced)
 
-    @functools.cached_property
-    def tiler(self):
-        """The structure with vertices as the part counts them; it keeps the poles that it has placed."""
-        return replace(self.structure, surface=self.surface)
+    def tiler(self, poles, boundary, allowed, progress=None):
+        """A `holomorph.Tiler` with vertices as the part counts them; the last one is kept, with the poles it placed."""
+        key = poles, boundary, allowed
+        if key not in self.tilers:
+            self.tilers.clear()
+            self.tilers[key] = native.load().Tiler(
+                self.surface,
+                poles if isinstance(poles, (str, int)) else list(poles),
+                boundary=boundary,
+                allowed=None if allowed is None else np.frombuffer(allowed, bool),
+                progress=progress,
+            )
+        return self.tilers[key]
 
-    def keep_tiling(self, options, tiling):
+    def keep_tiling(self, options, tiled):
         """Adds one, and drops the oldest beyond `KEPT_TILINGS`."""
-        self.tilings[options] = tiling
+        self.tilings[options] = tiled
         while len(self.tilings) > KEPT_TILINGS:
             del self.tilings[next(iter(self.tilings))]
 
@@ -143,4 +157,5 @@ def _make(holomorph, surface, part, keywords, note, progress):
     structure = holomorph.conformal_structure(target, progress=_scaled(progress, 0.0, UV_START), **keywords)
     structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
     structure = replace(structure, surface=surface)  # so do its results
-    return SolvedComponent(part, structure, structure.balanced_coefficients(), note=note)
+    balanced, is_chosen = structure.balanced_coefficients(), choices.ask_for_a_kind(keywords)
+    return SolvedComponent(part, structure, balanced, note=note, is_chosen=is_chosen)

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator for seamless tilings of the selected meshes."""
 
+from functools import partial
+
 import bpy
 
-from .modal import WorkOperator
+from .modal import MODAL_TILED_FACES, WorkOperator
 from .operators import HOLOMORPH_OT_maps
 from .tile_properties import TileProperties
 
@@ -32,14 +34,18 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
         return True
 
     def make_work(self, progress):
-        from . import targets, tiling
+        from . import jobs, targets, tiling
 
-        return tiling.TileWork(targets.tasks(self._targets), self._options, progress)
+        then = [partial(tiling.tile, options=options) for options in self._options]
+        return jobs.Job(targets.tasks(self._targets), progress, then)
 
     def waiting_faces(self):
         from . import targets
 
         return sum(len(task.polygons.face_offsets) - 1 for task in targets.tasks(self._targets))
+
+    def modal_faces(self):
+        return MODAL_TILED_FACES
 
     def finish(self, context, work, time_has_passed):
         from . import targets, tile_run

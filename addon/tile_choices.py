@@ -6,10 +6,11 @@ import numpy as np
 from . import mesh_io, tiling
 
 AXES = "XYZ"
+ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 
 
 def options(properties, target):
-    """The `tiling.TileOptions` for a `targets.Target`. @throws ValueError nothing is selected that is asked for"""
+    """The `tiling.TileOptions` for a `targets.Target`. @throws ValueError there is nothing of what is asked for"""
     obj = target.find()
     return tiling.TileOptions(
         float(properties.tiles),
@@ -17,6 +18,8 @@ def options(properties, target):
         properties.lattice,
         _direction(properties, obj),
         properties.boundary,
+        properties.turn,
+        _allowed(properties.pole_group, obj),
     )
 
 
@@ -29,6 +32,19 @@ def _poles(properties, obj):
     if not selected:
         raise ValueError(f"{obj.name}: select the vertices that are to be poles")
     return selected
+
+
+def _allowed(name, obj):
+    """See `tiling.TileOptions`: where the group's weight is above `ALLOWING`."""
+    if not name:
+        return None
+    group = obj.vertex_groups.get(name)
+    if group is None:
+        raise ValueError(f"{obj.name}: there is no vertex group {name!r}")
+    allowed = mesh_io.weights(obj.data, group.index) > ALLOWING
+    if not allowed.any():
+        raise ValueError(f"{obj.name}: no vertex has a weight above {ALLOWING} in {name!r}")
+    return allowed.tobytes()
 
 
 def _direction(properties, obj):

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options of the tile operator: as Blender's properties, their drawing, and what they ask for."""
 
-from bpy.props import BoolProperty, EnumProperty, IntProperty
+import math
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .properties import TEXTURES
 
@@ -28,8 +30,8 @@ BOUNDARIES = (
     ("free", "Free", "Boundary loops cut through the texture: more even"),
 )
 DRAWN = (  # in groups
-    ("tiles", "poles", "pole_count"),
-    ("lattice", "direction", "quarters", "boundary"),
+    ("tiles", "poles", "pole_count", "pole_group"),
+    ("lattice", "direction", "turn", "quarters", "boundary"),
     ("checker", "texture", "repeats", "seams", "empties"),
 )
 
@@ -52,9 +54,24 @@ class TileProperties:
         default="AUTOMATIC",
     )
     pole_count: IntProperty(name="Number of Poles", description="On each part", default=8, min=0, max=MOST_POLES)
+    # Not remembered for the next object, which has groups of its own.
+    pole_group: StringProperty(
+        name="Pole Group",
+        description="A vertex group: poles are placed only where its weight is above 0.5; empty for anywhere",
+        default="",
+        options={"SKIP_SAVE"},
+    )
     lattice: EnumProperty(name="Lattice", description="How the texture repeats", items=LATTICES, default="square")
     direction: EnumProperty(
         name="Direction", description="Where the rows of the texture run", items=DIRECTIONS, default="NONE"
+    )
+    turn: FloatProperty(
+        name="Rotation",
+        description="Rotates the texture on the surface, beside the direction, to about this angle: where it closes up",
+        subtype="ANGLE",
+        unit="ROTATION",
+        soft_min=-math.pi,
+        soft_max=math.pi,
     )
     quarters: IntProperty(
         name="Quarter Turns", description="Turns the texture by 90 degrees each", default=0, min=0, max=3
@@ -78,11 +95,13 @@ class TileProperties:
         name="Poles as Empties", description="Put an empty at each pole and at each branch point", default=False
     )
 
-    def draw_options(self, layout):
+    def draw_options(self, layout, obj):
         for group in DRAWN:
             column = layout.column()
             for name in group:
-                if name != "pole_count" or self.poles == "COUNT":
+                if name == "pole_group" and obj is not None:
+                    column.prop_search(self, name, obj, "vertex_groups")
+                elif name != "pole_count" or self.poles == "COUNT":
                     column.prop(self, name)
 
     def tile_options(self, target):

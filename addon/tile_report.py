@@ -28,6 +28,7 @@ def part_report(part):
     entry = package.component_report(component.surface, component.structure, package.map_report([], made.quality))
     zeros, orders = made.zeros
     return entry | {
+        "forms": component.form_count,
         "tiling": package.plain(
             {
                 "verdict": verdict(made),
@@ -40,8 +41,14 @@ def part_report(part):
                 "orders": np.asarray(orders),
                 "periods": np.asarray(made.periods),
             }
-        )
+        ),
     }
+
+
+def notes(obj, entry):
+    """For the user: the verdicts of an object's parts in its report."""
+    verdicts = {part["tiling"]["verdict"] for part in entry["components"] if "tiling" in part}
+    return [f"{obj.name}: {'; '.join(sorted(verdicts))}"] if verdicts else []
 
 
 def marks(stored):

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The end of the tile operator, in Blender's main thread: what was tiled is written to the objects and reported."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,8 +59,7 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
         empties.write(context, obj, *tile_report.marks(obj[report.PROPERTY]))
     outcome.entries.append(entry)
     outcome.done.append(obj.name)
-    verdicts = {part["tiling"]["verdict"] for part in entry["components"] if "tiling" in part}
-    outcome.notes.append(f"{obj.name}: {'; '.join(sorted(verdicts))}")
+    outcome.notes += tile_report.notes(obj, entry)
 
 
 def _entry(obj, tiled, written, new_seams, options):
@@ -74,10 +72,8 @@ def _seam_pairs(tiled):
 
 
 def _show(outcome, obj, tiled, written, options):
-    if outcome.look is None:
-        density = np.median([part.tiling.quality.median_density for part in tiled.done])
+    if not outcome.looks:
         is_checker = options.texture == material.CHECKER
         cells = CHECKER_CELLS if is_checker else patterns.TEXTURES[options.texture].cells
-        unit_length = 1 / math.sqrt(density) if density > 0 else 0.0
-        outcome.look = material.Look(options.texture, options.repeats * cells, unit_length)
-    material.cover(obj, material.showing(written.name, written.kind == "attribute", outcome.look))
+        outcome.looks[True] = material.Look(options.texture, options.repeats * cells, tiled.unit_length, is_tiling=True)
+    material.cover(obj, material.showing(written.name, written.kind == "attribute", outcome.looks[True]))

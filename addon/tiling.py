@@ -10,9 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import jobs, layout, native
+from . import layout, native
 
 AUTOMATIC = "auto"
+PLACING_SHARE = 0.6  # of the work on a tiling, for finding the poles
 MANTISSA = 24  # bits of a float32
 QUARTER = np.array([[0, 1], [-1, 0]])  # rows times it: a quarter turn counter-clockwise
 
@@ -26,6 +27,8 @@ class TileOptions:
     lattice: str = "square"
     direction: tuple | None = None  # in the frame of the solved polygons
     boundary: str = "straight"
+    turn: float = 0.0  # radians by which the texture is rotated
+    allowed: bytes | None = None  # of the bools that tell where poles may be that are not chosen; None for anywhere
 
 
 @dataclass(frozen=True)
@@ -53,32 +56,11 @@ class TiledObject:
         """The parts that have a tiling."""
         return [part for part in self.parts if part.tiling is not None]
 
-
-class TileWork(jobs.Work):
-    """Solves and tiles one object after the other; `results` as in `jobs.Job`."""
-
-    SOLVE_SHARE = 0.3  # of the work on an object
-
-    def __init__(self, tasks, options, progress=None):
-        super().__init__(progress)
-        self.results = [None] * len(tasks)
-        self._tasks, self._options = tasks, options
-
-    def run(self):
-        refusals = native.refusals()
-        for index, (task, options) in enumerate(zip(self._tasks, self._options)):
-            if self._cancelled.is_set():
-                return
-            try:
-                found = jobs.solved(task, self._part_of(index, 0, self.SOLVE_SHARE))
-                self.results[index] = tile(found, options, self._part_of(index, self.SOLVE_SHARE, 1))
-            except refusals as error:
-                self.results[index] = error
-
-    def _part_of(self, index, begin, end):
-        """The progress function of one stage of one object."""
-        count = len(self._tasks)
-        return lambda fraction, stage: self.ask((index + begin + (end - begin) * fraction) / count, stage)
+    @property
+    def unit_length(self):
+        """The length on the surface of a UV unit, where the density is the median one; 0 for maps without area."""
+        density = np.median([part.tiling.quality.median_density for part in self.done])
+        return 1 / math.sqrt(density) if density > 0 else 0.0
 
 
 def tile(solved, options, progress=None):
@@ -90,39 +72,52 @@ def tile(solved, options, progress=None):
             parts.append(TiledPart(component, None, str(component.reason)))
             continue
         share = component.area / total if total > 0 else 1.0
-        parts.append(_tile_part(component, options, share, _scaled(progress, done, share)))
+        own = _own_options(component, options, share)
+        parts.append(tile_part(component, own, scaled(progress, done, share)))
         done += share
     return TiledObject(solved, tuple(parts))
 
 
-def _tile_part(component, options, share, progress):
-    holomorph = native.load()
-    own = replace(options, tiles=options.tiles * share, poles=_own_poles(component, options.poles))
-    if own not in component.tilings:
+def tile_part(component, options, progress=None):
+    """The `TiledPart` of a part; what it gave before is kept, a refusal too."""
+    if options not in component.tilings:
+        holomorph = native.load()
         try:
-            made = component.tiler.tile(
-                tiles=own.tiles or None,
-                poles=own.poles if isinstance(own.poles, (str, int)) else list(own.poles),
-                lattice=own.lattice,
-                direction=own.direction,
-                boundary=own.boundary,
-                progress=progress,
-            )
+            made, reason = _made(component, options, progress), ""
         except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
-            return TiledPart(component, None, str(error))
-        component.keep_tiling(own, made)
-    return TiledPart(component, component.tilings[own])
+            made, reason = None, str(error)
+        component.keep_tiling(options, TiledPart(component, made, reason))
+    return component.tilings[options]
 
 
-def _own_poles(component, poles):
-    """The chosen vertices as the part counts them; automatic poles on a part without any."""
-    if not isinstance(poles, tuple):
-        return poles
-    own = np.flatnonzero(np.isin(component.surface.vertex_index, poles))
-    return tuple(own.tolist()) or AUTOMATIC
+def _made(component, options, progress):
+    """The library's `Tiling`."""
+    tiler = component.tiler(options.poles, options.boundary, options.allowed, scaled(progress, 0.0, PLACING_SHARE))
+    return tiler.tile(
+        options.tiles or None,
+        lattice=options.lattice,
+        direction=options.direction,
+        turn=options.turn or None,
+        progress=scaled(progress, PLACING_SHARE, 1 - PLACING_SHARE),
+    )
 
 
-def _scaled(progress, done, share):
+def _own_options(component, options, share):
+    """What is asked of one part, vertices as it counts them: its share of the tiles; automatic poles where none of the
+    chosen ones lies, and none where none may be."""
+    poles, allowed, own = options.poles, options.allowed, component.surface.vertex_index
+    if isinstance(poles, tuple):
+        poles = tuple(np.flatnonzero(np.isin(own, poles)).tolist()) or AUTOMATIC
+    if allowed is not None:
+        mask = np.frombuffer(allowed, bool)[own]
+        allowed = mask.tobytes()
+        if not mask.any():
+            allowed, poles = None, poles if isinstance(poles, tuple) else 0
+    return replace(options, tiles=options.tiles * share, poles=poles, allowed=allowed)
+
+
+def scaled(progress, done, share):
+    """The progress function of a share of the work."""
     if progress is None:
         return None
     return lambda fraction, stage: progress(done + share * fraction, stage)

@@ -79,13 +79,22 @@ def two_parts(name, first, second):
     return mesh_object(name, vertices, faces)
 
 
-def sphere_arrays():
+def sphere_arrays(subdivisions=2):
     bm = bmesh.new()
-    bmesh.ops.create_icosphere(bm, subdivisions=2, radius=0.5)
+    bmesh.ops.create_icosphere(bm, subdivisions=subdivisions, radius=0.5)
     bm.verts.index_update()
     vertices = [tuple(v.co) for v in bm.verts]
     faces = [tuple(v.index for v in f.verts) for f in bm.faces]
     bm.free()
+    return vertices, faces
+
+
+def limb_arrays():
+    """A ball with a long limb: a log map of it is far from even."""
+    vertices, faces = sphere_arrays(4)
+    vertices = np.array(vertices)
+    is_limb = vertices[:, 2] > 0.3
+    vertices[is_limb, 2] += 6 * (vertices[is_limb, 2] - 0.3)
     return vertices, faces
 
 
@@ -105,8 +114,9 @@ def frame(name="Frame"):
     return obj
 
 
-def run(**options):
-    return bpy.ops.uv.holomorphic_maps(**options)
+def run(main="BALANCED", **options):
+    """The button, with the main map that most tests are about."""
+    return bpy.ops.uv.holomorphic_maps(main=main, **options)
 
 
 def uv(obj, name="Holomorphic"):
@@ -129,6 +139,34 @@ def next_corner(offsets):
     following = np.arange(1, offsets[-1] + 1)
     following[offsets[1:] - 1] = offsets[:-1]
     return following
+
+
+def shown_scale(obj):
+    """The checker's squares per UV unit."""
+    return obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value
+
+
+def edge_jumps(obj):
+    """((n, 2) vertices of inner edges, (n, 2, 2) differences of the UVs of their two faces at each of these)."""
+    corners, offsets = polygon_arrays(obj.data)
+    following, values = next_corner(offsets), uv(obj)
+    start, end = np.arange(len(corners)), following
+    is_down = corners[start] > corners[end]
+    ends = np.where(is_down[:, None], np.stack([end, start], 1), np.stack([start, end], 1))  # lower vertex first
+    pairs = corners[ends].astype(np.int64)
+    order = np.lexsort(pairs.T)
+    same = np.flatnonzero((pairs[order][1:] == pairs[order][:-1]).all(axis=1))
+    return pairs[order[same]], values[ends[order[same + 1]]] - values[ends[order[same]]]
+
+
+def face_densities(obj):
+    """(#F,) UV area per surface area, signed."""
+    _, offsets = polygon_arrays(obj.data)
+    values, following = uv(obj), next_corner(offsets)
+    cross = values[:, 0] * values[following, 1] - values[following, 0] * values[:, 1]
+    areas = np.empty(len(obj.data.polygons), np.float32)
+    obj.data.polygons.foreach_get("area", areas)
+    return np.add.reduceat(cross, offsets[:-1]) / 2 / areas
 
 
 def signed_area(mesh, values):

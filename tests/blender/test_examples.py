@@ -55,7 +55,7 @@ def test_example(name):
     bpy.ops.wm.open_mainfile(filepath=str(ROOT / "blend_examples" / f"{name}.blend"))
     objects = [bpy.data.objects[n] for n in EXAMPLES[name]]
     select(*objects)
-    assert run(seams=True) == {"FINISHED"}
+    assert run(main="BALANCED", seams=True) == {"FINISHED"}
     if bpy.context.mode == "EDIT_MESH":
         bpy.ops.object.mode_set(mode="OBJECT")
     for obj in objects:

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import mesh_io, sphere_arrays, torus, torus_arrays
+from scenes import limb_arrays, mesh_io, sphere_arrays, torus, torus_arrays
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
 SCRIPT = str(ROOT / "addon" / "headless.py")
@@ -268,3 +268,31 @@ def test_selection_and_seams_of_a_blend_file(tmp_path):
     objects = {o["object"]: o["components"][0] for o in json.loads(report.read_text())["objects"]}
     assert objects["Mask as Disk"]["description"].startswith("disk")
     assert objects["Mask as Rectangle"]["description"].startswith("rectangle")
+
+
+def test_the_main_map_and_the_tiling_of_the_command_line(tmp_path):
+    path, report = write_obj(tmp_path / "limb.obj", *limb_arrays()), tmp_path / "report.json"
+    assert headless(path, "--report", report).returncode == 0
+    assert "seamless" in reported(report)["tiling"]["verdict"]
+    assert headless(path, "--report", report, "--main", "balanced").returncode == 0
+    assert "tiling" not in reported(report)
+    options = ("--seamless", "--tiles", 200, "--poles", 6, "--lattice", "hex", "--direction", "z", "--rotation", 30)
+    done = headless(path, "--report", report, *options, "--boundary", "free")
+    assert done.returncode == 0, done.stderr
+    assert len(reported(report)["tiling"]["poles"]) == 6
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        (("--seamless", "--poles", "many"), "'many' is none of automatic"),
+        (("--seamless", "--tiles", -3), "negative"),
+        (("--seamless", "--pole-group", "Hidden"), "no vertex group 'Hidden'"),
+        (("--seamless", "--boundary", "double_cover"), "--boundary"),
+        (("--boundary", "free"), "--boundary"),
+    ],
+)
+def test_options_of_a_tiling_that_cannot_be(options, word, torus_file):
+    done = headless(torus_file, *options)
+    assert done.returncode == 1 and len(our_lines(done)) == 1 and word in our_lines(done)[0], our_lines(done)
+    assert "Traceback" not in done.stderr + done.stdout

@@ -15,6 +15,7 @@ from scenes import (
     mesh_object,
     run,
     select,
+    shown_scale,
     sphere_arrays,
     stored_report,
     torus,
@@ -281,10 +282,6 @@ def test_checker_nodes():
     run(checker_scale=30)
     assert obj.material_slots[0].material == material
     assert scale.outputs[0].default_value == 30 and tuple(active.image.size) == (240, 240)
-
-
-def shown_scale(obj):
-    return obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value
 
 
 def test_the_checker_suits_the_size_and_the_density():

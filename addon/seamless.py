@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The main map of a solve where it is a seamless tiling, and which parts get one. Arrays only, no bpy.
+
+All parts of an object have the same texel density: that of its largest tiling.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from . import maps, tiling
+from .mesh_io import MAIN_MAP
+
+EVEN = 2.0  # 95 : 5 % ratio of the density below which a balanced map stays: the squares' sizes hardly differ
+MORE_EVEN = 0.8  # the largest ratio, over that of the balanced map, with which a tiling takes its place
+MORE_SHEARED = 1.1  # likewise of the mean s1 / s2
+MOST_FLIPPED = 0.01  # of its triangles
+
+
+def tiled(solved, options, progress=None):
+    """The `tiling.TiledObject` of the parts whose main map is a tiling, all of them made, or refused, for the parts
+    that ask for one. What was made is kept with the parts: a second call is quick."""
+    asked = sorted((c for c in solved.done if _asks_for_one(c, options)), key=lambda c: -c.area)
+    total, done, density, made = sum(c.area for c in asked), 0.0, 0.0, {}
+    for component in asked:
+        share = component.area / total
+        wanted = tiling.TileOptions(tiles=density * component.area)
+        part = tiling.tile_part(component, wanted, tiling.scaled(progress, done, share))
+        done += share
+        if part.tiling is None:
+            made[id(component)] = part if options.main == maps.SEAMLESS else None
+        elif options.main == maps.SEAMLESS or _is_better(part.tiling, maps.main_map(component, options).report):
+            made[id(component)] = part
+            density = density or part.tiling.tiles / component.area
+    parts = (made.get(id(component)) for component in solved.components)
+    return tiling.TiledObject(solved, tuple(part for part in parts if part is not None))
+
+
+def make(solved, options, progress=None):
+    """The solve, with all tilings made that its main map needs."""
+    tiled(solved, options, progress)
+    return solved
+
+
+def _asks_for_one(component, options):
+    if options.main != maps.AUTOMATIC:
+        return options.main == maps.SEAMLESS
+    if not options.are_plain or component.is_chosen or component.area == 0:
+        return False
+    ratio = maps.main_map(component, options).report["density_ratio"]
+    return ratio is None or ratio > EVEN
+
+
+def _is_better(found, balanced):
+    """Whether a tiling is to take the place of the balanced map with this report, where None is infinite."""
+    ratio, angle = (math.inf if balanced[name] is None else balanced[name] for name in ("density_ratio", "mean_angle"))
+    is_fit = np.mean(found.quality.flipped) < MOST_FLIPPED and found.quality.mean_angle < MORE_SHEARED * angle
+    return is_fit and found.density_ratio < MORE_EVEN * ratio
+
+
+def map_values(solved, options, tiled):
+    """As `maps.map_values`, with the tilings of `tiled` in the main map, and the other parts beside them."""
+    for index, name in enumerate(maps.map_names(solved, options)):
+        is_seamless = name == MAIN_MAP and tiled.done
+        yield name, _main_values(solved, options, tiled) if is_seamless else maps.values(solved, index, options)
+
+
+def _main_values(solved, options, tiled):
+    """The tilings from (0, 0) on, and to the right of them the other parts at the same texel density."""
+    result = tiling.placed(tiled)
+    rest = replace(solved, components=tuple(others(solved, tiled)))
+    if not rest.done:
+        return result
+    plain = replace(options, density=1.0)
+    density = maps.unit_length(rest, plain) / tiled.unit_length
+    values = maps.values(rest, 0, replace(options, density=density))
+    corners = np.concatenate([part.surface.corner_index for part in rest.done])
+    low, right = maps.CENTRE.real - density / 2, math.ceil(result[:, 0].max())
+    result[corners] = values[corners] + np.float32([right + options.margin * density - low, -low])
+    return result
+
+
+def others(solved, tiled):
+    """The components whose main map is no tiling."""
+    own = {id(part.component) for part in tiled.done}
+    return [component for component in solved.components if id(component) not in own]

@@ -1,0 +1,224 @@
+"""The main map of the one button: a seamless tiling where that is more even, with the real library."""
+
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import (
+    edge_jumps,
+    everything,
+    face_densities,
+    fills_the_square,
+    limb_arrays,
+    mesh_io,
+    mesh_object,
+    pick,
+    select,
+    shown_scale,
+    stored_report,
+    torus,
+    torus_arrays,
+    two_parts,
+    uv,
+)
+
+
+def press(**options):
+    """The button as it comes."""
+    return bpy.ops.uv.holomorphic_maps(**options)
+
+
+def limb():
+    return mesh_object("Limb", *limb_arrays())
+
+
+def tilings(obj):
+    return [part.get("tiling") for part in stored_report(obj)["components"]]
+
+
+def test_an_uneven_part_becomes_seamless():
+    obj = limb()
+    assert press(main="BALANCED") == {"FINISHED"}
+    before = stored_report(obj)["components"][0]["main_map"]["density_ratio"]
+    assert press() == {"FINISHED"}
+    (found,) = tilings(obj)
+    assert found["density_ratio"] < 0.8 * before
+    assert [layer.name for layer in obj.data.uv_layers] == ["Holomorphic", "Holomorphic 1"]
+    vertices, jumps = edge_jumps(obj)
+    whole = jumps[~np.isin(vertices, found["poles"])]
+    assert np.array_equal(whole, np.round(whole)) and np.abs(whole).max() >= 1
+
+
+def test_an_even_part_stays_what_it_is():
+    obj = torus(thickness=0.1)
+    press(main="BALANCED")
+    expected = uv(obj)
+    press()
+    assert np.array_equal(uv(obj), expected) and tilings(obj) == [None]
+
+
+def test_the_maps_of_the_forms_stay_what_they_are():
+    obj = limb()
+    press(main="BALANCED")
+    expected = uv(obj, "Holomorphic 1")
+    press()
+    assert np.array_equal(uv(obj, "Holomorphic 1"), expected)
+
+
+@pytest.mark.parametrize(
+    "options", [{"density": 2.0}, {"rotation": 0.5}, {"amounts": (0.5,) + (1,) * 7}, {"turns": (0.1,) + (0,) * 7}]
+)
+def test_what_is_set_of_the_balanced_map_is_followed(options):
+    obj = limb()
+    press(**options)
+    assert tilings(obj) == [None]
+    press(main="SEAMLESS", **options)
+    assert tilings(obj) != [None]
+
+
+def test_punctures_are_followed_and_seamless_is_for_all():
+    obj = limb()
+    heights = np.array(limb_arrays()[0])[:, 2]
+    pick(obj, [int(heights.argmin()), int(heights.argmax())])
+    assert press() == {"FINISHED"}
+    assert tilings(obj) == [None]
+    assert press(main="SEAMLESS") == {"FINISHED"}
+    assert tilings(obj) != [None]
+
+
+def test_parts_of_both_kinds_lie_side_by_side_at_one_density():
+    obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1))
+    assert press() == {"FINISHED"}
+    first, second = tilings(obj)
+    assert first is not None and second is None
+    values, count = uv(obj), 3 * len(limb_arrays()[1])
+    assert values[:count, 0].max() < values[count:, 0].min() and values.min() > -1e-6
+    vertices, jumps = edge_jumps(obj)
+    whole = jumps[(vertices < len(limb_arrays()[0])) & ~np.isin(vertices, first["poles"])]
+    assert np.array_equal(whole, np.round(whole))
+    densities = np.split(face_densities(obj), [len(limb_arrays()[1])])
+    assert 0.5 < np.median(densities[0]) / np.median(densities[1]) < 2
+
+
+def test_parts_share_the_density_of_the_largest():
+    vertices, faces = limb_arrays()
+    obj = two_parts("Two", (vertices, faces), (2 * np.asarray(vertices), faces))
+    press()
+    small, large = tilings(obj)
+    assert small is not None and large is not None
+    values = np.split(face_densities(obj), 2)
+    assert 0.7 < np.median(values[0]) / np.median(values[1]) < 1.4
+
+
+def test_a_checker_of_two_squares_in_each_tile_and_other_objects_keep_theirs():
+    seamless, other = limb(), torus(thickness=0.1)
+    select(seamless, other)
+    press()
+    assert shown_scale(seamless) == 2 and shown_scale(other) > 2
+    press(checker_scale=7)
+    assert shown_scale(seamless) == 8 and shown_scale(other) == 7
+
+
+def test_the_report_begins_with_words():
+    obj = limb()
+    press()
+    lines = [line.strip() for line in module("report").summary(obj["holomorph_report"])]
+    assert "seamless" in lines[2] and "poles" in lines[2]
+    assert any(line.startswith("density, 95 : 5 %") for line in lines)
+    assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"
+    assert stored_report(obj)["components"][0]["forms"] == 1
+
+
+def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
+    obj = torus()
+    library = module("native").load()
+
+    def refuse(*_arguments, **_options):
+        raise library.TopologyError("too few tiles")
+
+    monkeypatch.setattr(library, "Tiler", refuse)
+    assert press(main="SEAMLESS") == {"FINISHED"}
+    assert tilings(obj) == [None] and fills_the_square(uv(obj))
+    outcome = written(obj, "SEAMLESS")
+    assert outcome.problems == ["Torus: not seamless: too few tiles"]
+    assert written(obj, "AUTOMATIC").problems == []
+
+
+def written(obj, main):
+    """The `run.Outcome`."""
+    targets, run_module = module("targets"), module("run")
+    found = targets.collect([obj])
+    job = module("jobs").Job(targets.tasks(found))
+    job.run()
+    options = module("maps").MapOptions(main=main)
+    return run_module.write(bpy.context, found, job.results, options, run_module.WriteOptions())
+
+
+def test_the_redo_panel_makes_nothing_again(monkeypatch):
+    limb()
+    press()
+
+    def forbidden(*_arguments, **_options):
+        raise AssertionError("made again")
+
+    monkeypatch.setattr(module("native").load(), "Tiler", forbidden)
+    monkeypatch.setattr(module("solve"), "solve", forbidden)
+    assert press(seams=True, texture="SCALES") == {"FINISHED"}
+
+
+def test_cancelling_in_a_tiling_leaves_no_result():
+    obj = limb()
+    targets, jobs, seamless = module("targets"), module("jobs"), module("seamless")
+    tasks = targets.tasks(targets.collect([obj])) * 2
+
+    def make(solved, progress):
+        return seamless.make(solved, module("maps").MapOptions(), progress)
+
+    job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, [make] * 2)
+    job.start()
+    job.wait()
+    assert isinstance(job.results[0], module("native").load().Cancelled) and job.results[1] is None
+    assert not module("cache").find(tasks[0]).components[0].tilings
+
+
+def test_progress_grows_over_solve_and_tiling():
+    obj, seen = limb(), []
+    targets, seamless = module("targets"), module("seamless")
+    tasks = targets.tasks(targets.collect([obj]))
+
+    def make(solved, progress):
+        return seamless.make(solved, module("maps").MapOptions(), progress)
+
+    module("jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), [make]).run()
+    assert seen == sorted(seen) and seen[0] >= 0 and 0.5 < seen[-1] <= 1
+
+
+def test_the_same_bits_twice():
+    obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1))
+    press()
+    before = uv(obj)
+    module("cache").clear()
+    press()
+    assert np.array_equal(uv(obj), before)
+
+
+def test_undo_takes_everything_back():
+    obj = limb()
+    bpy.ops.ed.undo_push(message="before")
+    before = everything(obj)["maps"]
+    press(seams=True)
+    bpy.ops.ed.undo_push(message="after")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects["Limb"]
+    assert everything(obj)["maps"] == before == {}
+    assert "holomorph_report" not in obj and not obj.material_slots
+    assert not mesh_io.read_seams(obj.data).any()
+
+
+def test_seams_are_where_the_tiling_jumps():
+    obj = limb()
+    press(seams=True)
+    ends = {frozenset(edge) for edge in mesh_io.marked_edges(obj.data, "use_seam").tolist()}
+    vertices, jumps = edge_jumps(obj)
+    is_torn = np.abs(jumps).max(axis=(1, 2)) > 1e-4
+    assert is_torn.any() and {frozenset(edge) for edge in vertices[is_torn].tolist()} <= ends
