@@ -303,7 +303,7 @@ def lizard():
     smooth = obj.modifiers.new("Smooth", "SMOOTH")
     smooth.factor, smooth.iterations = 0.5, 8
     apply_modifiers(obj)
-    obj.rotation_euler = Euler((0, 0, math.radians(-25)))
+    obj.rotation_euler = Euler((0, 0, math.radians(10)))
     return [obj]
 
 

@@ -2,10 +2,10 @@
 """The pictures and figures of docs/tiling.md for one example: Smart UV, Blender's Unwrap, Seamless Tiling.
 
 blender -b EXAMPLE.blend --factory-startup --python-exit-code 1 --python docs/make_before_after.py -- \
-    FOLDER TEXTURE TILES REPEATS [RESOLUTION]
+    FOLDER TEXTURE TILES DIRECTION QUARTERS
 
 The object, camera and texture are the same in all three, and so is the median size of the texture. Leaves
-EXAMPLE-smart.png, EXAMPLE-unwrap.png, EXAMPLE-tiling.png and EXAMPLE.json in FOLDER.
+EXAMPLE-smart.png, EXAMPLE-unwrap.png and EXAMPLE-tiling.png in FOLDER, and prints a row of the table.
 """
 
 import importlib.util
@@ -98,20 +98,15 @@ def part_count(count, first, second):
 
 
 def figures(points, polygons, uv):
+    """(density ratio, islands, length of visible seams)"""
     found = module("distortion").measure(points, polygons.corner_vertices, polygons.face_offsets, uv)
-    islands, seam = breaks(points, polygons, uv)
-    return {
-        "density_ratio": found.density_ratio,
-        "mean_angle": found.mean_angle,
-        "islands": islands,
-        "seam_length": float(seam),
-    }
+    return found.density_ratio, *breaks(points, polygons, uv)
 
 
-def made_maps(obj, texture, tiles, repeats):
+def made_maps(obj, **options):
     """The UVs of each way. Blender's Unwrap gets the cut of ours, for the examples have no seams."""
     smart = unwrapped(obj, "Smart", bpy.ops.uv.smart_project, angle_limit=SMART_ANGLE, island_margin=ISLAND_MARGIN)
-    bpy.ops.uv.holomorphic_tile(tiles=tiles, texture=texture, repeats=repeats, seams=True)
+    bpy.ops.uv.holomorphic_tile(seams=True, **options)
     tiling = module("mesh_io").read_map(obj.data, module("mesh_io").MAIN_MAP)
     return {"smart": smart, "unwrap": unwrapped(obj, "Unwrap", bpy.ops.uv.unwrap, margin=ISLAND_MARGIN), "tiling": tiling}
 
@@ -124,12 +119,18 @@ def show(obj, polygons, uv):
     obj.data.update()
 
 
+def row(name, parts, found):
+    """Of the table in docs/tiling.md: poles, then each figure of the three maps."""
+    poles = sum(len(part["tiling"]["poles"]) for part in parts)
+    cells = [f"{figure:.{digits}f}" for digits, of_maps in zip((1, 0, 1), zip(*found.values())) for figure in of_maps]
+    return f"| {name} | {poles} | {' | '.join(cells)} |"
+
+
 def main():
-    folder, texture, tiles, repeats, *rest = sys.argv[sys.argv.index("--") + 1 :]
-    resolution = int(rest[0]) if rest else RESOLUTION
+    folder, texture, tiles, direction, quarters = sys.argv[sys.argv.index("--") + 1 :]
     load_addon()
     obj, name = bpy.context.view_layer.objects.active, Path(bpy.data.filepath).stem
-    maps = made_maps(obj, texture, int(tiles), int(repeats))
+    maps = made_maps(obj, texture=texture, tiles=int(tiles), direction=direction, quarters=int(quarters))
     points, polygons = module("mesh_io").world_points(obj), module("mesh_io").read_polygons(obj.data, np.eye(3))
     median = median_density(points, polygons, maps["tiling"])
     found = {}
@@ -137,11 +138,8 @@ def main():
         uv = uv.astype(np.float64) * math.sqrt(median / median_density(points, polygons, uv.astype(np.float64)))
         found[kind] = figures(points, polygons, uv)
         show(obj, polygons, uv)
-        module("studio").render([obj], f"{folder}/{name}-{kind}.png", resolution, SAMPLES)
-    (part,) = json.loads(obj[module("report").PROPERTY])["components"]
-    found["poles"] = len(part["tiling"]["poles"])
-    found["added_distortion"] = part["tiling"]["added_distortion"]
-    Path(folder, f"{name}.json").write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        module("studio").render([obj], f"{folder}/{name}-{kind}.png", RESOLUTION, SAMPLES)
+    print(row(name, json.loads(obj[module("report").PROPERTY])["components"], found))
 
 
 main()
