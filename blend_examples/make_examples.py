@@ -303,12 +303,12 @@ def lizard():
     smooth = obj.modifiers.new("Smooth", "SMOOTH")
     smooth.factor, smooth.iterations = 0.5, 8
     apply_modifiers(obj)
-    obj.rotation_euler = Euler((0, 0, math.radians(10)))
+    obj.rotation_euler = Euler((0, 0, math.radians(-30)))
     return [obj]
 
 
 def strand(bm, radius, points, start=None):
-    """Vertices with radii (x, y, z, radius) for the skin modifier, each joined to the one before, the first to `start`."""
+    """Vertices (x, y, z, radius) for the skin modifier, each joined to the one before, the first to `start`."""
     made = []
     for *place, size in points:
         vertex = bm.verts.new(place)

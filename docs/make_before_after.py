@@ -108,7 +108,11 @@ def made_maps(obj, **options):
     smart = unwrapped(obj, "Smart", bpy.ops.uv.smart_project, angle_limit=SMART_ANGLE, island_margin=ISLAND_MARGIN)
     bpy.ops.uv.holomorphic_tile(seams=True, **options)
     tiling = module("mesh_io").read_map(obj.data, module("mesh_io").MAIN_MAP)
-    return {"smart": smart, "unwrap": unwrapped(obj, "Unwrap", bpy.ops.uv.unwrap, margin=ISLAND_MARGIN), "tiling": tiling}
+    return {
+        "smart": smart,
+        "unwrap": unwrapped(obj, "Unwrap", bpy.ops.uv.unwrap, margin=ISLAND_MARGIN),
+        "tiling": tiling,
+    }
 
 
 def show(obj, polygons, uv):
