@@ -276,6 +276,50 @@ def critter():
     return [obj]
 
 
+def lizard():
+    """A lizard of Blender's skin modifier: a spine, four legs and toes, without a handle."""
+    spine = [(2.0, 0.0, 0.34, 0.09), (1.7, 0.0, 0.4, 0.16), (1.3, 0.0, 0.44, 0.15), (0.7, 0.06, 0.42, 0.17)]
+    spine += [(0.1, 0.06, 0.44, 0.26), (-0.5, -0.04, 0.42, 0.17), (-1.0, -0.1, 0.36, 0.14), (-1.5, 0.02, 0.28, 0.1)]
+    spine += [(-2.0, 0.25, 0.2, 0.07), (-2.45, 0.35, 0.18, 0.045)]
+    bm = bmesh.new()
+    radius = bm.verts.layers.skin.verify()
+    body = strand(bm, radius, spine)
+    for joint, step in ((3, 0.1), (5, -0.1)):
+        for side in (-1, 1):
+            x, y, z = body[joint].co
+            leg = [(x + step, y + side * 0.36, 0.36, 0.1), (x + 2.2 * step, y + side * 0.64, 0.32, 0.09)]
+            leg += [(x + 2.6 * step + 0.05, y + side * 0.78, 0.06, 0.06)]
+            foot = strand(bm, radius, leg, body[joint])[-1]
+            for turn in (-0.7, 0.7):
+                toe = foot.co + Vector((0.26 * math.cos(turn), side * 0.26 * math.sin(turn), -0.01))
+                strand(bm, radius, [(*toe, 0.045)], foot)
+    body[1][radius].use_root = True
+    obj = object_of("Lizard", bm)
+    obj.modifiers.new("Skin", "SKIN").branch_smoothing = 0.6
+    subdivision = obj.modifiers.new("Subdivision", "SUBSURF")
+    subdivision.levels = 2
+    remesh = obj.modifiers.new("Remesh", "REMESH")  # the skin crosses itself where legs and toes branch off
+    remesh.mode, remesh.voxel_size = "VOXEL", 0.03
+    smooth = obj.modifiers.new("Smooth", "SMOOTH")
+    smooth.factor, smooth.iterations = 0.5, 8
+    apply_modifiers(obj)
+    obj.rotation_euler = Euler((0, 0, math.radians(-30)))
+    return [obj]
+
+
+def strand(bm, radius, points, start=None):
+    """Vertices (x, y, z, radius) for the skin modifier, each joined to the one before, the first to `start`."""
+    made = []
+    for *place, size in points:
+        vertex = bm.verts.new(place)
+        vertex[radius].radius = (size, size)
+        if start is not None:
+            bm.edges.new((start, vertex))
+        made.append(vertex)
+        start = vertex
+    return made
+
+
 def face_height(x, y):
     """The relief of a mask over the unit disk: brow, eyes, nose, lips and chin on a dome."""
 
@@ -333,6 +377,7 @@ EXAMPLES = {
     hand: [[(0, 6)]],
     pipe: [[(0, 2)]],
     critter: [[(0, 0)]],
+    lizard: [[(0, 0)]],
     mask: [[(0, 1)], [(0, 1)]],
 }
 EDITED = {mask}  # saved in edit mode, for the sake of the selected vertices

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pictures and figures of docs/tiling.md for one example: Smart UV, Blender's Unwrap, Seamless Tiling.
+
+blender -b EXAMPLE.blend --factory-startup --python-exit-code 1 --python docs/make_before_after.py -- \
+    FOLDER TEXTURE TILES DIRECTION QUARTERS
+
+The object, camera and texture are the same in all three, and so is the median size of the texture. Leaves
+EXAMPLE-smart.png, EXAMPLE-unwrap.png and EXAMPLE-tiling.png in FOLDER, and prints a row of the table.
+"""
+
+import importlib.util
+import json
+import math
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+PACKAGE = "holomorph_pictures"
+SAMPLES = 16
+ISLAND_MARGIN = 0.01  # of Blender's packing, in UV units: no two islands touch
+SMART_ANGLE = math.radians(66)  # Blender's default
+MATCH = 1e-4  # in tiles: sides of an edge that differ from whole tiles by less show no seam
+RESOLUTION = 420  # pixels
+
+
+def load_addon():
+    folder = Path(__file__).resolve().parents[1] / "addon"
+    spec = importlib.util.spec_from_file_location(
+        PACKAGE, folder / "__init__.py", submodule_search_locations=[str(folder)]
+    )
+    sys.modules[PACKAGE] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sys.modules[PACKAGE])
+    sys.modules[PACKAGE].register()
+
+
+def module(name):
+    return importlib.import_module(f"{PACKAGE}.{name}")
+
+
+def unwrapped(obj, name, operator, **options):
+    """The UVs that one of Blender's own operators makes, in a map of that name."""
+    obj.data.uv_layers.active = obj.data.uv_layers.new(name=name)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    operator(**options)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return module("mesh_io").read_map(obj.data, name)
+
+
+def median_density(points, polygons, uv):
+    """Of UV area per surface area, by surface area."""
+    corners, _ = module("distortion").fans(polygons.face_offsets)
+    area, uv_area = areas(points[polygons.corner_vertices[corners]]), areas(uv[corners])
+    order = np.argsort(uv_area / area)
+    total = np.cumsum(area[order])
+    return (uv_area / area)[order[np.searchsorted(total, total[-1] / 2)]]
+
+
+def areas(triangles):
+    """Of (#T, 3, d) triangles in the plane or in space."""
+    a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    aa, ab, bb = (np.einsum("ij,ij->i", x, y) for x, y in ((a, a), (a, b), (b, b)))
+    return np.sqrt(np.clip(aa * bb - ab * ab, 0, None)) / 2
+
+
+def breaks(points, polygons, uv):
+    """(islands, length of the edges where the texture does not continue over the size of the object)."""
+    start, count = polygons.face_offsets, len(polygons.corner_vertices)
+    face = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    following = np.where(np.arange(count) + 1 == start[face + 1], start[face], np.arange(count) + 1)
+    ends = np.stack([polygons.corner_vertices, polygons.corner_vertices[following]])
+    edge = ends.min(axis=0).astype(np.int64) * len(points) + ends.max(axis=0)
+    order = np.argsort(edge, kind="stable")
+    inner = np.flatnonzero(edge[order][:-1] == edge[order][1:])
+    one, other = order[inner], order[inner + 1]
+    jumps = np.stack([uv[one] - uv[following[other]], uv[following[one]] - uv[other]])
+    joined = np.abs(jumps).max(axis=(0, 2)) < MATCH
+    torn = np.abs(jumps - np.rint(jumps)).max(axis=(0, 2)) >= MATCH
+    torn |= np.abs(np.rint(jumps[0]) - np.rint(jumps[1])).max(axis=1) > 0
+    lengths = np.linalg.norm(points[ends[0][one]] - points[ends[1][one]], axis=1)
+    size = np.linalg.norm(points.max(axis=0) - points.min(axis=0))
+    return part_count(len(start) - 1, face[one[joined]], face[other[joined]]), lengths[torn].sum() / size
+
+
+def part_count(count, first, second):
+    """Connected parts of a graph: every node takes the least label around it until none changes."""
+    label = np.arange(count)
+    while True:
+        old = label.copy()
+        least = np.minimum(label[first], label[second])
+        np.minimum.at(label, first, least)
+        np.minimum.at(label, second, least)
+        label = label[label]
+        if np.array_equal(label, old):
+            return len(np.unique(label))
+
+
+def figures(points, polygons, uv):
+    """(density ratio, islands, length of visible seams)"""
+    found = module("distortion").measure(points, polygons.corner_vertices, polygons.face_offsets, uv)
+    return found.density_ratio, *breaks(points, polygons, uv)
+
+
+def made_maps(obj, **options):
+    """The UVs of each way. Blender's Unwrap gets the cut of ours, for the examples have no seams."""
+    smart = unwrapped(obj, "Smart", bpy.ops.uv.smart_project, angle_limit=SMART_ANGLE, island_margin=ISLAND_MARGIN)
+    bpy.ops.uv.holomorphic_tile(seams=True, **options)
+    tiling = module("mesh_io").read_map(obj.data, module("mesh_io").MAIN_MAP)
+    return {
+        "smart": smart,
+        "unwrap": unwrapped(obj, "Unwrap", bpy.ops.uv.unwrap, margin=ISLAND_MARGIN),
+        "tiling": tiling,
+    }
+
+
+def show(obj, polygons, uv):
+    """In place of the map that the material shows."""
+    mesh_io = module("mesh_io")
+    mesh_io.remove_maps(obj.data)
+    mesh_io.write_map(obj.data, polygons, mesh_io.MAIN_MAP, uv.astype(np.float32))
+    obj.data.update()
+
+
+def row(name, parts, found):
+    """Of the table in docs/tiling.md: poles, then each figure of the three maps."""
+    poles = sum(len(part["tiling"]["poles"]) for part in parts)
+    cells = [f"{figure:.{digits}f}" for digits, of_maps in zip((1, 0, 1), zip(*found.values())) for figure in of_maps]
+    return f"| {name} | {poles} | {' | '.join(cells)} |"
+
+
+def main():
+    folder, texture, tiles, direction, quarters = sys.argv[sys.argv.index("--") + 1 :]
+    load_addon()
+    obj, name = bpy.context.view_layer.objects.active, Path(bpy.data.filepath).stem
+    maps = made_maps(obj, texture=texture, tiles=int(tiles), direction=direction, quarters=int(quarters))
+    points, polygons = module("mesh_io").world_points(obj), module("mesh_io").read_polygons(obj.data, np.eye(3))
+    median = median_density(points, polygons, maps["tiling"])
+    found = {}
+    for kind, uv in maps.items():
+        uv = uv.astype(np.float64) * math.sqrt(median / median_density(points, polygons, uv.astype(np.float64)))
+        found[kind] = figures(points, polygons, uv)
+        show(obj, polygons, uv)
+        module("studio").render([obj], f"{folder}/{name}-{kind}.png", RESOLUTION, SAMPLES)
+    print(row(name, json.loads(obj[module("report").PROPERTY])["components"], found))
+
+
+main()
