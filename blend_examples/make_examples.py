@@ -320,6 +320,23 @@ def strand(bm, radius, points, start=None):
     return made
 
 
+def text():
+    """The project's name in letters of Blender's own font: nine parts, four of them with a handle."""
+    data = bpy.data.curves.new("Text", "FONT")
+    data.body, data.extrude, data.resolution_u = "Holomorph", 0.12, 6
+    data.space_character = 1.06
+    obj = bpy.data.objects.new("Text", data)
+    bpy.context.scene.collection.objects.link(obj)
+    obj = convert_to_mesh(obj)
+    remesh = obj.modifiers.new("Remesh", "REMESH")
+    remesh.mode, remesh.voxel_size = "VOXEL", 0.026
+    smooth = obj.modifiers.new("Smooth", "SMOOTH")
+    smooth.factor, smooth.iterations = 0.5, 5
+    apply_modifiers(obj)
+    obj.rotation_euler = Euler((math.radians(80), 0, math.radians(18)))
+    return [obj]
+
+
 def face_height(x, y):
     """The relief of a mask over the unit disk: brow, eyes, nose, lips and chin on a dome."""
 
@@ -378,6 +395,7 @@ EXAMPLES = {
     pipe: [[(0, 2)]],
     critter: [[(0, 0)]],
     lizard: [[(0, 0)]],
+    text: [[(0, 0)] * 5 + [(1, 0)] * 4],
     mask: [[(0, 1)], [(0, 1)]],
 }
 EDITED = {mask}  # saved in edit mode, for the sake of the selected vertices
