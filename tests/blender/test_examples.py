@@ -22,6 +22,8 @@ EXAMPLES = {
     "hand": {"Hand": [(0, 6)]},
     "pipe": {"Pipe": [(0, 2)]},
     "critter": {"Critter": [(0, 0)]},
+    "lizard": {"Lizard": [(0, 0)]},
+    "text": {"Text": [(0, 0), (1, 0)] * 4 + [(0, 0)]},  # H o l o m o r p h
     "mask": {"Mask as Disk": [(0, 1)], "Mask as Rectangle": [(0, 1)]},
 }
 # Mean s1/s2 on coarse faces with sharp edges is the error of linear interpolation inside triangles.

@@ -26,9 +26,9 @@ constexpr int kPhases = 30, kScales = 7;
 constexpr int kNearPhases = 7;  // around a phase that is given
 constexpr double kScaleRange = 0.12;
 constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1;  // of the rank
-// Around a zero of the form every rounding flips a small disk: a sample there counts so much, and a rounding with a
-// larger mean than the other is no map.
-constexpr double kFlipped = 10, kNoMap = 2;
+// Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
+// mean than the next, or so much less even than the target, is none.
+constexpr double kFlipped = 10, kNoMap = 2, kUneven = 8;
 
 // Complex rows as real ones.
 MatrixXd as_real(const MatrixXcd& rows) {
@@ -137,7 +137,8 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
     rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
     measure(p, rounding);
   });
-  std::erase_if(list, [](const Rounding& r) { return !(r.distortion < kNoMap) || !std::isfinite(r.density_ratio); });
+  const double most = kUneven * density_ratio(density);
+  std::erase_if(list, [&](const Rounding& r) { return !(r.distortion < kNoMap && r.density_ratio < most); });
   std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });
   if (static_cast<int>(list.size()) > wishes.count) list.resize(wishes.count);
   return list;

@@ -40,7 +40,7 @@ std::string text(double number) {
   do {
     wishes.tiles *= kMoreTiles;
   } while (wishes.tiles < kMostTiles && roundings(problem, wishes, execution).empty());
-  throw TopologyError("with " + wished + " tiles no map is seamless on this surface; " + text(wishes.tiles) +
+  throw TopologyError("with " + wished + " tiles no seamless map of this surface is even; " + text(wishes.tiles) +
                       " are enough");
 }
 
