@@ -15,6 +15,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 from . import report
 from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
+from .checks import SOLVERS
 from .closed import ConformalStructure
 from .disk import DiskMap, RectangleMap, TriangleMap
 from .double import double_cover
@@ -22,7 +23,6 @@ from .levels import LevelOfDetail
 from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
-from .checks import SOLVERS
 from .quality import Quality
 from .results import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure

@@ -5,8 +5,8 @@ import json
 import sys
 
 from . import Error, Surface, __version__, conformal_structure
-from .report import component_report, repairs_report, skipped_report
 from .checks import SOLVERS, check_options
+from .report import component_report, repairs_report, skipped_report
 
 
 def main(arguments=None):

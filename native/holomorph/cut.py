@@ -3,9 +3,9 @@
 import numpy as np
 
 from ._native import TopologyError
+from .checks import own_vertices
 from .disk import PlaneMap
 from .edges import edge_keys, edges_of_keys
-from .checks import own_vertices
 from .truncated import TruncatedStructure
 
 

@@ -7,9 +7,9 @@ import numpy as np
 
 from . import _native, arrays
 from ._native import TopologyError
+from .checks import checked_coefficients, own_vertices
 from .punctured import PuncturedStructure
 from .report import finite_or_none
-from .checks import checked_coefficients, own_vertices
 from .results import Structure, result
 
 UNEVEN = 100.0  # density ratio of a disk map, ten in length, above which others are tried

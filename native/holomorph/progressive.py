@@ -7,8 +7,8 @@ import numpy as np
 
 from . import _native, arrays, checked_file, levels
 from ._native import InvalidMesh, TopologyError
-from .closed import ConformalStructure
 from .checks import check_memory_limit, check_options
+from .closed import ConformalStructure
 from .results import result
 from .splits import structured_splits
 from .surface import Surface

@@ -10,6 +10,7 @@ from .quality import Quality
 from .surface import Surface
 from .tiling import Tiler
 
+
 @dataclass(frozen=True)
 class SolverReport:
     """Which solver was used and why; iterations (of multigrid or, by the paper's solver, on the surface itself; steps

@@ -3,11 +3,11 @@
 from . import _native
 from ._native import TopologyError
 from .bounded import BoundedStructure
+from .checks import check_memory_limit, check_options, only_component, own_vertices
 from .closed import ConformalStructure
 from .cut import cut_along
 from .disk import automatic_map, disk, rectangle
 from .punctured import PuncturedStructure
-from .checks import check_memory_limit, check_options, only_component, own_vertices
 from .results import result
 from .truncated import coarse_log_map
 

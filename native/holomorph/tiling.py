@@ -130,9 +130,7 @@ def place_poles(surface, count="auto", *, boundary="straight", allowed=None, thr
 
     A greedy start, then exchanges of one pole at a time, on a level of the progressive mesh of about 10,000 triangles.
     Deterministic."""
-    return Tiler(
-        surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress
-    ).poles
+    return Tiler(surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress).poles
 
 
 def _wished(poles):

@@ -47,20 +47,24 @@ void bind_tiling(py::module_& m) {
         return PyTiler{threads, std::make_unique<Tiler>(surface, structure::Options{solver}, straight, names)};
       }))
       .def("place",
-           [](PyTiler& t, std::optional<int> count, std::vector<int> vertices,
-              const std::vector<bool>& allowed, const py::object& progress) {
+           [](PyTiler& t, std::optional<int> count, std::vector<int> vertices, const std::vector<bool>& allowed,
+              const py::object& progress) {
              Execution execution(t.threads, callback(progress));
              const py::gil_scoped_release unlocked;
              t.value->place({count, std::move(vertices), {allowed.begin(), allowed.end()}}, execution);
            })
-      .def("poles", [](const PyTiler& t) { return py::make_tuple(copy(t.value->poles().vertices), copy(t.value->poles().residues), t.value->optimal_density_ratio()); })
-      .def("tile", [](PyTiler& t, double tiles, std::complex<double> a, std::complex<double> b,
-                      std::optional<double> turn, std::optional<std::array<double, 3>> direction,
-                      double most_turn, const py::object& progress) {
-        Execution execution(t.threads, callback(progress));
-        const py::gil_scoped_release unlocked;
-        return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, direction, turn, most_turn}, execution));
-      });
+      .def("poles",
+           [](const PyTiler& t) {
+             return py::make_tuple(copy(t.value->poles().vertices), copy(t.value->poles().residues),
+                                   t.value->optimal_density_ratio());
+           })
+      .def("tile",
+           [](PyTiler& t, double tiles, std::complex<double> a, std::complex<double> b, std::optional<double> turn,
+              std::optional<std::array<double, 3>> direction, double most_turn, const py::object& progress) {
+             Execution execution(t.threads, callback(progress));
+             const py::gil_scoped_release unlocked;
+             return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, direction, turn, most_turn}, execution));
+           });
 }
 
 }  // namespace holomorph::bindings

@@ -106,8 +106,7 @@ void flip(Surface& surface, Side s) {
 
 }  // namespace
 
-Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex,
-          const std::vector<int>& labels) {
+Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, const std::vector<int>& labels) {
   const VertexLabels label(labels);
   Star result;
   result.vertex = vertex;

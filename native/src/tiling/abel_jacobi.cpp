@@ -10,7 +10,8 @@ using mesh::HalfedgeHandle;
 using mesh::next;
 using mesh::opposite;
 
-AbelJacobi::AbelJacobi(const Landscape& landscape, Execution& execution) : landscape_(landscape), gram_(landscape.structure().gram[0]) {
+AbelJacobi::AbelJacobi(const Landscape& landscape, Execution& execution)
+    : landscape_(landscape), gram_(landscape.structure().gram[0]) {
   const auto& mesh = landscape.half_edges();
   const auto count = static_cast<int>(mesh.n_faces());
   dual_potentials_.setZero(count, landscape.harmonic().functions.cols());
@@ -26,8 +27,7 @@ AbelJacobi::AbelJacobi(const Landscape& landscape, Execution& execution) : lands
       if (reached[child]) continue;
       reached[child] = 1;
       queue.push_back(child);
-      dual_potentials_.row(child) =
-          dual_potentials_.row(parent) + landscape.weights()[edge_of(h)] * along(opposite(h));
+      dual_potentials_.row(child) = dual_potentials_.row(parent) + landscape.weights()[edge_of(h)] * along(opposite(h));
     }
   }
 }

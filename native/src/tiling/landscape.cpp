@@ -31,7 +31,8 @@ Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structu
   const mesh::Surface& coarse = on_level_->surface();
   for (const int t : on_level_->samples()) samples_.push_back(triangle_at[level.vertex[coarse.triangles[t][0]]]);
   // A (e_x + i e_y) there is the nearest to that here where A is multiplied by the product of the frames.
-  const Eigen::MatrixXcd there = tangent_frames(coarse, on_level_->samples()), here = tangent_frames(this->surface(), samples_);
+  const Eigen::MatrixXcd there = tangent_frames(coarse, on_level_->samples()),
+                         here = tangent_frames(this->surface(), samples_);
   from_level_ = (here.conjugate().cwiseProduct(there)).colwise().sum().transpose() / 2;
   solve(options, execution);
 }
@@ -55,14 +56,14 @@ void Landscape::solve(const structure::Options& options, Execution& execution) {
   holomorphic_.N = holomorphic_.M;
   if (natural == 0 && on_level_) return;
   const int pole_columns = on_level_ ? 0 : kBlock;
-  structure_.memory = structure::plan_memory(
-      {surface().vertex_count, static_cast<std::int64_t>(surface().edges.size()), topology.families.count() + pole_columns},
-      options.solver, options.memory_limit, structure::Keeping::all);
+  structure_.memory = structure::plan_memory({surface().vertex_count, static_cast<std::int64_t>(surface().edges.size()),
+                                              topology.families.count() + pole_columns},
+                                             options.solver, options.memory_limit, structure::Keeping::all);
   systems_ = std::make_unique<structure::HarmonicSystems>(
       half_edges_, weights_, mesh::boundary_vertices(topology.boundary), structure_.memory.choice, execution);
   if (natural > 0) {
-    const auto classes = structure::harmonic_classes(topology, half_edges_,
-                                                     topology::first_forms(topology.classes, natural, natural));
+    const auto classes =
+        structure::harmonic_classes(topology, half_edges_, topology::first_forms(topology.classes, natural, natural));
     structure_.functions = systems_->solve(classes, natural, structure_.memory.block, execution).functions;
     structure::complete(half_edges_, weights_, classes, structure_, execution);
     harmonic_.functions.swap(structure_.functions);
@@ -86,8 +87,9 @@ Eigen::MatrixXcd Landscape::poles(const std::vector<int>& vertices, Execution& e
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
   for (std::size_t first = 0; first < missing.size(); first += kBlock) {
     const auto end = std::min(first + kBlock, missing.size());
-    solve_for({missing.begin() + static_cast<std::ptrdiff_t>(first), missing.begin() + static_cast<std::ptrdiff_t>(end)},
-              execution);
+    solve_for(
+        {missing.begin() + static_cast<std::ptrdiff_t>(first), missing.begin() + static_cast<std::ptrdiff_t>(end)},
+        execution);
   }
   Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples_.size()), static_cast<Eigen::Index>(vertices.size()));
   for (Eigen::Index i = 0; i < parts.cols(); ++i) parts.col(i) = pole_parts_.at(vertices[i]);
@@ -101,8 +103,8 @@ void Landscape::solve_for(const std::vector<int>& vertices, Execution& execution
   else
     B.setZero();
   for (Eigen::Index i = 0; i < B.cols(); ++i) B(vertices[i], i) += 1;
-  const auto v = systems_->solver().solve(
-      B, closed() ? solver::Condition::natural : solver::Condition::dirichlet, execution);
+  const auto v =
+      systems_->solver().solve(B, closed() ? solver::Condition::natural : solver::Condition::dirichlet, execution);
   const Eigen::MatrixXcd parts = uv::parts_of_imaginary(*structure_.surface, samples_, v);
   for (Eigen::Index i = 0; i < parts.cols(); ++i) pole_parts_.emplace(vertices[i], parts.col(i));
 }

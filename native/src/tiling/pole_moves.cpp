@@ -19,12 +19,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kSteps = 40;              // of Newton's method
-constexpr double kDone = 1e-8;          // rms |mu| that is nothing
-constexpr double kStride = 0.03;        // longest step, in square roots of the area
-constexpr double kDamping = 1e-6;       // relative
-constexpr int kRounds = 12;             // of exchanges of pairs
-constexpr std::size_t kAround = 36;     // vertices around a pole that are exchanged
+constexpr int kSteps = 40;           // of Newton's method
+constexpr double kDone = 1e-8;       // rms |mu| that is nothing
+constexpr double kStride = 0.03;     // longest step, in square roots of the area
+constexpr double kDamping = 1e-6;    // relative
+constexpr int kRounds = 12;          // of exchanges of pairs
+constexpr std::size_t kAround = 36;  // vertices around a pole that are exchanged
 
 // The poles while they move. One that has gone to a vertex is held there.
 class Moving {
@@ -80,9 +80,7 @@ class Moving {
     return found;
   }
 
-  VectorXcd lever(std::size_t i) {
-    return on_triangle(points_[i].triangle).tau * residues_[static_cast<Index>(i)];
-  }
+  VectorXcd lever(std::size_t i) { return on_triangle(points_[i].triangle).tau * residues_[static_cast<Index>(i)]; }
 
   std::vector<std::size_t> by_leverage() {
     std::vector<std::size_t> order(poles_.vertices.size());

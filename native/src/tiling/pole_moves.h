@@ -31,8 +31,8 @@ class PoleMoves {
   Eigen::MatrixXcd reach(const std::vector<int>& vertices, const Eigen::VectorXcd& residues) const;
 
   /// Newton's method with the poles anywhere on the surface until t vanishes, or as small as it becomes; then one pole
-  /// after the other goes to its nearest vertex, the one of highest leverage first, and the others follow; at last pairs
-  /// of poles are exchanged for better pairs of vertices near them.
+  /// after the other goes to its nearest vertex, the one of highest leverage first, and the others follow; at last
+  /// pairs of poles are exchanged for better pairs of vertices near them.
   /// @param metric g x g, R with |R t| the left-over that counts
   PlacedPoles moved(PlacedPoles poles, const Eigen::VectorXcd& periods, const Eigen::VectorXcd& residues,
                     const Eigen::MatrixXcd& metric, const MoveRules& rules) const;

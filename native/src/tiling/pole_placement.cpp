@@ -26,7 +26,7 @@ using Eigen::VectorXcd;
 // Poles by themselves.
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
 constexpr double kEvenWithout = 3, kEvenWith = 6;
-constexpr int kThinning = 3;           // every third sample is enough for the search
+constexpr int kThinning = 3;             // every third sample is enough for the search
 constexpr int kTried = 2, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 3;
 constexpr double kLeverage = 0.02, kEnough = 0.4;  // weight of the leverage; singular values that are enough
@@ -79,9 +79,8 @@ class Search {
     poles.coefficients = VectorXcd::Zero(landscape_.form_count());
     if (landscape_.form_count() > 0 && k == 0) {
       const uv::SampledParts parts{theta_, thinned(landscape_.holomorphic().N)};
-      poles.coefficients = landscape_.form_count() == 1
-                               ? VectorXcd::Ones(1)
-                               : uv::lowest_variance(parts, rules_.kind, execution_.workers());
+      poles.coefficients = landscape_.form_count() == 1 ? VectorXcd::Ones(1)
+                                                        : uv::lowest_variance(parts, rules_.kind, execution_.workers());
     }
     prepare_leverage(poles.vertices);
     optimise(poles, kFromAfar);
@@ -102,8 +101,8 @@ class Search {
     std::vector<Poles> tried;
     for (const Trial& trial : trials) {
       if (static_cast<int>(tried.size()) == kTried) break;
-      const bool known = std::any_of(tried.begin(), tried.end(),
-                                     [&](const Poles& p) { return p.vertices.back() == trial.vertex; });
+      const bool known =
+          std::any_of(tried.begin(), tried.end(), [&](const Poles& p) { return p.vertices.back() == trial.vertex; });
       if (!known) tried.push_back(joined(poles, trial));
     }
     if (tried.empty()) return false;
@@ -142,9 +141,7 @@ class Search {
                              [](const Poles& a, const Poles& b) { return a.variance < b.variance; });
   }
 
-  MatrixXcd pole_columns(const std::vector<int>& vertices) {
-    return thinned(landscape_.poles(vertices, execution_));
-  }
+  MatrixXcd pole_columns(const std::vector<int>& vertices) { return thinned(landscape_.poles(vertices, execution_)); }
 
   // Closed: the last pole takes the rest.
   MatrixXcd columns(const std::vector<int>& vertices) {
@@ -249,8 +246,8 @@ class Search {
     const std::vector<int> candidates = candidates_.for_move(poles.vertices[i], others);
     if (candidates.empty()) return false;
     const MatrixXcd green = pole_columns(candidates);
-    const VectorXcd without = columns(poles.vertices) * unknowns(poles) -
-                              poles.residues[i] * pole_columns({poles.vertices[i]}).col(0);
+    const VectorXcd without =
+        columns(poles.vertices) * unknowns(poles) - poles.residues[i] * pole_columns({poles.vertices[i]}).col(0);
     prepare_leverage(candidates);
     prepare_leverage(poles.vertices);
     const MatrixXcd metric = leverage_metric((columns(poles.vertices) * unknowns(poles)).cwiseAbs2().array());
@@ -327,7 +324,9 @@ Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& exec
 double density_ratio(const Eigen::ArrayXd& density) {
   std::vector<double> sorted(density.begin(), density.end());
   std::sort(sorted.begin(), sorted.end());
-  const auto at = [&](double q) { return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))]; };
+  const auto at = [&](double q) {
+    return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+  };
   return at(0.95) / at(0.05);
 }
 

@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double kChange = 0.2;  // relative change of the form that costs 1
+constexpr double kChange = 0.2;                               // relative change of the form that costs 1
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
 constexpr int kPhases = 30, kScales = 7;
 constexpr int kNearPhases = 7;  // around a phase that is given

@@ -36,10 +36,11 @@ SeamlessForm seamless_form(const structure::Structure& s, const VectorXcd& X, co
   const VectorXcd from_poles = s.pole_parts * r;
   for (Index j = 0; j < form.periods.size(); ++j) {
     const Complex period = X[j] - from_poles[j];
-    form.periods[j] = straight ? Complex(std::round(period.real() / lattice.a.real()) * lattice.a.real())
-                               : lattice.nearest(period);
+    form.periods[j] =
+        straight ? Complex(std::round(period.real() / lattice.a.real()) * lattice.a.real()) : lattice.nearest(period);
   }
-  if (!s.topology.type.closed()) p.head(families.harmonic()) = s.holomorphic.differentials * (form.periods + from_poles);
+  if (!s.topology.type.closed())
+    p.head(families.harmonic()) = s.holomorphic.differentials * (form.periods + from_poles);
   p.head(families.natural) = form.periods;
   // The v-periods of the handles.
   const int handles = straight ? 2 * s.topology.type.genus : 0;

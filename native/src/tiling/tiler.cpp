@@ -95,10 +95,9 @@ void Tiler::transfer(std::unique_ptr<Landscape> on_level, const CoarseLevel& lev
   for (int& v : poles.vertices) v = level.vertex[v];
   auto landscape = std::make_unique<Landscape>(surface_, options_, std::move(on_level), level, execution);
   if (landscape->form_count() > 0) {
-    poles.coefficients = fitted_coefficients(wanted, frames, landscape->holomorphic().M,
-                                             landscape->poles(poles.vertices, execution) * poles.residues,
-                                             tangent_frames(*surface_, landscape->samples()),
-                                             kind_ == uv::Coefficients::real);
+    poles.coefficients = fitted_coefficients(
+        wanted, frames, landscape->holomorphic().M, landscape->poles(poles.vertices, execution) * poles.residues,
+        tangent_frames(*surface_, landscape->samples()), kind_ == uv::Coefficients::real);
   }
   poles = optimised(*landscape, {kind_, {}, {}}, std::move(poles), execution);
   adopt(std::move(landscape), std::move(poles), execution);
@@ -146,8 +145,8 @@ RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& exe
   if (wishes.direction) {
     const VectorXcd A = landscape_->holomorphic().M * poles_.coefficients +
                         landscape_->poles(poles_.vertices, execution) * poles_.residues;
-    result.phase = wishes.turn.value_or(0) +
-                   phase_along(*wishes.direction, tangent_frames(*surface_, landscape_->samples()), A);
+    result.phase =
+        wishes.turn.value_or(0) + phase_along(*wishes.direction, tangent_frames(*surface_, landscape_->samples()), A);
   }
   return result;
 }
@@ -180,7 +179,8 @@ Tiler::Candidate Tiler::best(const RoundingProblem& problem, const std::vector<R
     const VectorXcd z = rounded.z.cast<double>().cast<Complex>(), periods = problem.periods * z;
     c = {rounded, placed, all_residues(*landscape_, placed.vertices.size(), problem.residues * z), rounded.y.head(n)};
     if (!has_leverage()) return;
-    if (moves && kMoves[i % ways] > 0) c.poles = pole_moves_->moved(placed, periods, c.residues, metric, {{}, {}, kMoves[i % ways]});
+    if (moves && kMoves[i % ways] > 0)
+      c.poles = pole_moves_->moved(placed, periods, c.residues, metric, {{}, {}, kMoves[i % ways]});
     c.X = periods;
     for (std::size_t j = 0; j < c.poles.parts.size(); ++j) c.X += c.residues[static_cast<Index>(j)] * c.poles.parts[j];
     const VectorXcd split = pole_moves_->leverage().split(c.X);

@@ -12,8 +12,8 @@ namespace holomorph::tiling {
 /// * Closed: X = sum_j c_j theta_j + t_j conj(theta_j) in cohomology, g defects t.
 /// * With boundary, free loops (planar): c = X. No defects: every rounding is conformal.
 /// * With boundary, straight loops: c = Re X over all loops, r real; the defects are what the v-periods of the 2g
-///   handles lack, t = Im(n + i m) - C#^T c, as multiples of the Dirichlet forms of the handles whose loop periods, which
-///   are free, have least energy.
+///   handles lack, t = Im(n + i m) - C#^T c, as multiples of the Dirichlet forms of the handles whose loop periods,
+///   which are free, have least energy.
 /// @param parts #loops x k: C_i; closed: against the last pole, whose residue is the rest
 /// @param leverage of a closed surface with handles, else null
 RoundingProblem tiling_problem(Landscape& landscape, const Poles& poles, uv::Coefficients kind,
