@@ -6,7 +6,7 @@ import bpy
 from . import native
 
 MODAL_FACES = 20_000  # below, a solve is too short to be worth a progress display
-MODAL_TILED_FACES = 1_000  # likewise a tiling
+MODAL_TILED_FACES = 2_000  # likewise a tiling
 TIMER_SECONDS = 0.05
 
 

@@ -41,7 +41,12 @@ def component_report(component, options):
     else:
         main_map = maps.main_map(component, options).report
         entry = package.component_report(component.surface, component.structure, main_map)
-    return entry | ({"not_followed": component.note} if component.note else {})
+    return entry | not_followed(component)
+
+
+def not_followed(component):
+    """The choice that was not followed, if there is one."""
+    return {"not_followed": component.note} if component.note else {}
 
 
 def refusal_report(name, sentence):

@@ -145,11 +145,9 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
         mesh_io.write_shape(mesh, shape)
     if options.checker:
         is_tiling = bool(tiled.done) and shown.name == mesh_io.MAIN_MAP
-        if is_tiling not in outcome.looks:
-            outcome.looks[is_tiling] = (
-                _tiling_look(tiled, options) if is_tiling else _look(solved, map_options, options)
-            )
-        material.cover(obj, material.showing(shown.name, shown.kind == "attribute", outcome.looks[is_tiling]))
+        look = _tiling_look(tiled, options) if is_tiling else _look(solved, map_options, options)
+        look = outcome.looks.setdefault(is_tiling, look)
+        material.cover(obj, material.showing(shown.name, shown.kind == "attribute", look))
     heat.refresh(obj)
     mesh.update()
     entry = _entry(obj, solved, tiled, written, new_seams, map_options)

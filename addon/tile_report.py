@@ -27,22 +27,26 @@ def part_report(part):
     made = part.tiling
     entry = package.component_report(component.surface, component.structure, package.map_report([], made.quality))
     zeros, orders = made.zeros
-    return entry | {
-        "forms": component.form_count,
-        "tiling": package.plain(
-            {
-                "verdict": verdict(made),
-                "added_distortion": float(made.added_distortion),
-                "density_ratio": float(made.density_ratio),
-                "left_over": float(made.left_over),
-                "poles": part.vertices(made.poles),
-                "residues": package.complex_pairs(made.residues),
-                "zeros": part.vertices(zeros),
-                "orders": np.asarray(orders),
-                "periods": np.asarray(made.periods),
-            }
-        ),
-    }
+    return (
+        entry
+        | report.not_followed(component)
+        | {
+            "forms": component.form_count,
+            "tiling": package.plain(
+                {
+                    "verdict": verdict(made),
+                    "added_distortion": float(made.added_distortion),
+                    "density_ratio": float(made.density_ratio),
+                    "left_over": float(made.left_over),
+                    "poles": part.vertices(made.poles),
+                    "residues": package.complex_pairs(made.residues),
+                    "zeros": part.vertices(zeros),
+                    "orders": np.asarray(orders),
+                    "periods": np.asarray(made.periods),
+                }
+            ),
+        }
+    )
 
 
 def notes(obj, entry):

@@ -99,7 +99,7 @@ def test_every_shared_mesh_is_listed():
 def test_every_part_gets_a_map(name, tmp_path):
     path = unpacked(name, tmp_path)
     report, blend = tmp_path / "report.json", tmp_path / "out.blend"
-    done = headless(path, "--report", report, "--output", blend, seconds=SECONDS)
+    done = headless(path, "--main", "balanced", "--report", report, "--output", blend, seconds=SECONDS)
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stdout + done.stderr
     entry = json.loads(report.read_text())["objects"][0]

@@ -150,15 +150,20 @@ def painted(obj, vertices):
     group.add(list(vertices), 0.6, "REPLACE")
 
 
-def test_poles_are_within_the_vertex_group():
-    count = len(torus_arrays()[0])
+def test_the_vertex_group_says_where_poles_may_be(monkeypatch):
+    """And a part of which nothing is in the group gets none."""
+    count, asked = len(torus_arrays()[0]), []
     obj = two_parts("Two", torus_arrays(), torus_arrays())
     painted(obj, range(count // 2))
-    assert tile(pole_group="Hidden", tiles=400) == {"FINISHED"}
-    found = selected_poles(obj)
-    assert found and max(found) < count // 2
-    found = whole_jumps(obj)
-    assert np.array_equal(found, np.round(found))
+
+    def note(_surface, poles, *, allowed, **_options):
+        asked.append((poles, None if allowed is None else np.flatnonzero(allowed).tolist()))
+        raise native.load().TopologyError("noted")
+
+    monkeypatch.setattr(native.load(), "Tiler", note)
+    with pytest.raises(RuntimeError, match="noted"):
+        tile(pole_group="Hidden")
+    assert asked == [("auto", list(range(count // 2))), (0, None)]
 
 
 @pytest.mark.parametrize(("group", "word"), [("Nothing", "no vertex group 'Nothing'"), ("Hidden", "above 0.5")])
