@@ -20,7 +20,8 @@ class Tiling:
 
     uv : (#C, 2) UVs: one tile of the texture is the unit square. Multiply them by integers only, and move them by
         integers only: else seams show. Rounded to single precision, the two sides of a cut still differ by whole tiles
-    periods : (2g + b - 1, 2) integers: the jumps of (u, v) along the loops of a homology basis, in the lattice's vectors
+    periods : (2g + b - 1, 2) integers: the jumps of (u, v) along the loops of a homology basis, in vectors of the
+        lattice
     poles : (k,) vertices around which the texture closes up only by whole tiles; the density grows towards them
     residues : (k,) complex points of the lattice: by how much the UVs change around each pole, counter-clockwise
     zeros : ((k,) vertices, (k,) orders): where the texture branches, around 2 pi (order + 1)

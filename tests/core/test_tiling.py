@@ -1,4 +1,4 @@
-"""Seamless tilings: jumps on the texture's lattice (exact), nothing left over (solver), even density (discretisation)."""
+"""Seamless tilings: jumps on the lattice (exact), nothing left over (solver), even density (discretisation)."""
 
 import families
 import holomorph
@@ -152,6 +152,9 @@ def test_poles_keep_to_where_they_are_allowed():
     allowed = surface.vertices[:, 2] > 0
     found = place_poles(surface, 4, allowed=allowed)
     assert allowed[found.vertices].all()
+    torus = surface_of(TORUS)
+    outside = np.linalg.norm(torus.vertices[:, :2], axis=1) > 2
+    assert outside[Tiler(torus, 4, allowed=outside).tile(60).poles].all()
     with pytest.raises(ValueError, match="allowed has the shape"):
         place_poles(surface, 4, allowed=allowed[:-1])
     with pytest.raises(ValueError, match="no vertex"):

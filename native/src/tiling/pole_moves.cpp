@@ -43,10 +43,7 @@ class Moving {
         poles_(std::move(poles)),
         held_(poles_.vertices.size(), 0),
         gone_(poles_.vertices.size(), 0.0) {
-    for (std::size_t i = 0; i < held_.size(); ++i) {
-      points_.push_back(at_vertex(landscape.surface(), first_triangle[poles_.vertices[i]], poles_.vertices[i]));
-      if (!rules.fixed.empty() && rules.fixed[i]) held_[i] = 1;
-    }
+    for (const int v : poles_.vertices) points_.push_back(at_vertex(landscape.surface(), first_triangle[v], v));
   }
 
   PlacedPoles run() {
@@ -215,8 +212,7 @@ class Moving {
   void exchange_pairs() {
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::vector<Neighbour>> near;
-      for (std::size_t i = 0; i < held_.size(); ++i)
-        near.push_back(is_held_by_rule(i) ? std::vector<Neighbour>{} : around(i));
+      for (std::size_t i = 0; i < held_.size(); ++i) near.push_back(around(i));
       bool better = false;
       for (std::size_t i = 0; i < near.size(); ++i) {
         for (std::size_t j = i + 1; j < near.size(); ++j) better |= exchange(i, j, near);
@@ -224,8 +220,6 @@ class Moving {
       if (!better) return;
     }
   }
-
-  bool is_held_by_rule(std::size_t i) const { return !rules_.fixed.empty() && rules_.fixed[i]; }
 
   bool exchange(std::size_t i, std::size_t j, const std::vector<std::vector<Neighbour>>& near) {
     const VectorXcd now = defect();

@@ -16,7 +16,6 @@ struct PlacedPoles {
 
 struct MoveRules {
   std::vector<char> allowed;  ///< #V, empty: anywhere
-  std::vector<char> fixed;    ///< of each pole; empty: none
   double most = 0.12;         ///< how far a pole may go, in square roots of the area
 };
 

@@ -55,6 +55,7 @@ Tiler::Tiler(std::shared_ptr<const mesh::Surface> surface, const structure::Opti
 
 void Tiler::place(const PoleWishes& wishes, Execution& execution) {
   chosen_ = !wishes.vertices.empty();
+  allowed_ = wishes.allowed;
   execution.stage("level for the poles", 0.0, 0.1);
   const CoarseLevel level = chosen_ ? CoarseLevel{surface_, {}, {}} : coarse_level(surface_, execution);
   execution.stage("forms for the poles", 0.1, 0.2);
@@ -180,7 +181,7 @@ Tiler::Candidate Tiler::best(const RoundingProblem& problem, const std::vector<R
     c = {rounded, placed, all_residues(*landscape_, placed.vertices.size(), problem.residues * z), rounded.y.head(n)};
     if (!has_leverage()) return;
     if (moves && kMoves[i % ways] > 0)
-      c.poles = pole_moves_->moved(placed, periods, c.residues, metric, {{}, {}, kMoves[i % ways]});
+      c.poles = pole_moves_->moved(placed, periods, c.residues, metric, {allowed_, kMoves[i % ways]});
     c.X = periods;
     for (std::size_t j = 0; j < c.poles.parts.size(); ++j) c.X += c.residues[static_cast<Index>(j)] * c.poles.parts[j];
     const VectorXcd split = pole_moves_->leverage().split(c.X);

@@ -88,7 +88,8 @@ class Tiler {
   std::unique_ptr<AbelJacobi> abel_jacobi_;  // of a closed surface with handles
   std::unique_ptr<PoleMoves> pole_moves_;    // the same
   Poles poles_;
-  bool chosen_ = false;  // the poles were chosen, and stay
+  std::vector<char> allowed_;  // #V, where poles may go; empty: anywhere
+  bool chosen_ = false;        // the poles were chosen, and stay
   double optimum_ = 1;
   std::shared_ptr<structure::Structure> structure_;  // at structure_poles_, kept for the next tiling
   std::vector<int> structure_poles_;
