@@ -1,6 +1,7 @@
 // The Abel-Jacobi map against the forms it foretells, and walks.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <memory>
 #include <numbers>
