@@ -10,6 +10,7 @@
 
 #include "base/chunks.h"
 #include "base/errors.h"
+#include "mesh/graph_distances.h"
 #include "structure/puncture_choice.h"
 #include "tiling/leverage.h"
 #include "tiling/pole_candidates.h"
@@ -201,8 +202,24 @@ class Search {
   }
 
   std::vector<int> first_poles() {
+    if (!rules_.allowed.empty()) return first_allowed_poles();
     if (landscape_.closed()) return structure::far_apart(landscape_.surface(), landscape_.half_edges());
     return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
+  }
+
+  // The same where poles are not allowed everywhere: candidates far from each other.
+  std::vector<int> first_allowed_poles() {
+    std::vector<int> poles;
+    for (const std::size_t count = landscape_.closed() ? 2 : 1; poles.size() < count;) {
+      const std::vector<int> candidates = candidates_.everywhere(poles);
+      if (candidates.empty())
+        throw TopologyError("the vertices where poles may be have no room for " + std::to_string(count));
+      const auto distance = mesh::graph_distances(landscape_.half_edges(), landscape_.lengths(),
+                                                  {poles.empty() ? candidates.front() : poles.front()});
+      poles.push_back(*std::max_element(candidates.begin(), candidates.end(),
+                                        [&](int a, int b) { return distance[a] < distance[b]; }));
+    }
+    return poles;
   }
 
   // All candidates with all trial residues beside the form as it is, the best first.

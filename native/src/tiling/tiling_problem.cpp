@@ -33,6 +33,7 @@ void set_integers(const TextureLattice& lattice, const Sizes& size, bool real, R
 
 // The Dirichlet forms of the handles, those of the loops subtracted that lower their energy: A on the samples, up to i.
 MatrixXcd handle_forms(const Landscape& landscape, const Sizes& size) {
+  if (size.handles == 0) return MatrixXcd(static_cast<Index>(landscape.samples().size()), 0);
   const MatrixXd& G = landscape.structure().holomorphic.star.dirichlet_gram;
   const Index holes = size.n - size.handles;
   MatrixXd q = MatrixXd::Zero(size.n, size.handles);
