@@ -415,17 +415,6 @@ def test_integer_classes_and_loops_keep_their_periods(name, order):
         assert (edges.integrals(forms, lifted) == np.eye(len(loops), dtype=int)).all()
 
 
-def test_pulled_back_classes_are_those_of_the_native_rows():
-    """Sparse rows of integers, which the solver uses, and dense ones."""
-    mesh = progressive("cage", "quadric")
-    classes = integer_classes(conformal_structure(mesh.base))
-    level = mesh.level(200)
-    native = mesh._native.pull_back_classes(
-        classes.astype(np.int32), level._native, mesh._native.vertex_map(0)[: len(level.vertices)].tolist()
-    )
-    assert (native == mesh.pull_back_forms(classes, 200)).all()
-
-
 def test_rule_5b_split_by_split():
     """Pulled back through one split: 0 on v_s v_t, and on v_t v_l and v_t v_r the values of v_s v_l and v_s v_r."""
     mesh = progressive("torus of triangles", "quadric")

@@ -1,6 +1,7 @@
 #include "lattices.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -46,10 +47,11 @@ IntegerMatrix modular_lattice(Eigen::Index n, std::int64_t q, unsigned seed) {
   return basis;
 }
 
-IntegerMatrix badly_scaled(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  IntegerMatrix basis = random_integers(rows, columns, 1000, seed);
-  const IntegerMatrix exponents = random_integers(1, columns, 20, seed + 1);
-  for (Eigen::Index j = 0; j < columns; ++j) basis.col(j) *= std::int64_t{1} << (20 + exponents(0, j));
+IntegerMatrix badly_scaled(Eigen::Index rows, Eigen::Index columns, int bits, unsigned seed) {
+  IntegerMatrix basis = random_integers(rows, columns, (std::int64_t{1} << bits) - 1, seed);
+  const int half_range = std::min(40, 61 - bits) / 2;
+  const IntegerMatrix exponents = random_integers(1, columns, half_range, seed + 1);
+  for (Eigen::Index j = 0; j < columns; ++j) basis.col(j) *= std::int64_t{1} << (half_range + exponents(0, j));
   return basis;
 }
 

@@ -21,8 +21,9 @@ IntegerMatrix knapsack(Eigen::Index n, std::int64_t largest, unsigned seed);
 /// n columns: q e_i for the first half, random ones modulo q with a unit matrix below for the second.
 IntegerMatrix modular_lattice(Eigen::Index n, std::int64_t q, unsigned seed);
 
-/// Random columns of very different lengths: each is multiplied by a power of 2, at most 2^40.
-IntegerMatrix badly_scaled(Eigen::Index rows, Eigen::Index columns, unsigned seed);
+/// Random columns of very different lengths: numbers below 2^bits, those of a column multiplied by a power of 2 up to
+/// 2^40 and below 2^61 / 2^bits. With many bits their combinations do not fit doubles.
+IntegerMatrix badly_scaled(Eigen::Index rows, Eigen::Index columns, int bits, unsigned seed);
 
 /// Geometric mean of |b_k| / R_kk: the n-th root of the orthogonality defect.
 double mean_defect(const Eigen::MatrixXd& basis);

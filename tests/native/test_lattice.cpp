@@ -48,7 +48,8 @@ INSTANTIATE_TEST_SUITE_P(, EveryLattice,
                                          Lattice{"tall", random_integers(50, 30, 1000, 7)},
                                          Lattice{"knapsack", knapsack(40, 1000000000, 8), std::ldexp(1, -15)},
                                          Lattice{"modular", modular_lattice(60, 4001, 9)},
-                                         Lattice{"badly_scaled", badly_scaled(45, 40, 10), std::ldexp(1, -20)}),
+                                         Lattice{"badly_scaled", badly_scaled(33, 31, 10, 341), std::ldexp(1, -20)},
+                                         Lattice{"beyond_doubles", badly_scaled(12, 12, 50, 12), std::ldexp(1, -50)}),
                          [](const auto& info) { return info.param.name; });
 
 // By Gaussian elimination modulo a prime below 2^31.
@@ -185,7 +186,7 @@ TEST(Lattice, OfRankZero) {
 }
 
 TEST(Lattice, DependentColumnsAreRefused) {
-  MatrixXd B = badly_scaled(20, 10, 21).cast<double>();
+  MatrixXd B = badly_scaled(20, 10, 10, 21).cast<double>();
   B.col(6) = 3 * B.col(2) - 0.7 * B.col(8) + 1e-3 * B.col(0);
   EXPECT_THROW(reduce(B), SolverError);
   B.col(6).setZero();

@@ -67,7 +67,7 @@ class Fplll : public testing::Test {
 TEST_F(Fplll, BasesAreAsGood) {
   for (const IntegerMatrix& integers :
        {random_integers(80, 80, 1'000'000, 1), knapsack(60, 1'000'000'000'000, 2), modular_lattice(80, 4001, 3),
-        modular_lattice(100, 257, 4), badly_scaled(60, 50, 5), scrambled(random_integers(15, 15, 10, 6), 7)}) {
+        modular_lattice(100, 257, 4), badly_scaled(60, 50, 10, 5), scrambled(random_integers(15, 15, 10, 6), 7)}) {
     const MatrixXd ours = reduce(integers.cast<double>()).basis;
     const MatrixXd theirs = run("-d 0.99 -e 0.501", integers.rows(), text_of(integers));
     ASSERT_EQ(theirs.cols(), ours.cols());

@@ -83,28 +83,6 @@ py::list lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<s
   return result;
 }
 
-// Rows of integers, one for each form, from the edges of the base to those of `surface`.
-py::array pull_back_classes(const ProgressiveMesh& mesh, const Contiguous<std::int32_t>& forms,
-                            const mesh::Surface& surface, const std::vector<int>& map) {
-  const auto given = forms.unchecked<2>();
-  topology::IntegerForms base;
-  base.form_count = static_cast<int>(given.shape(0));
-  base.rows.resize(static_cast<std::size_t>(given.shape(1)));
-  for (int i = 0; i < base.form_count; ++i) {
-    for (py::ssize_t e = 0; e < given.shape(1); ++e) {
-      if (given(i, e) != 0) base.rows.edit(static_cast<std::size_t>(e)).emplace_back(i, given(i, e));
-    }
-  }
-  const topology::IntegerForms pulled_back = topology::pull_back_classes(mesh.base, base, surface, map);
-  Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic> values(
-      base.form_count, static_cast<Eigen::Index>(pulled_back.rows.size()));
-  values.setZero();
-  for (std::size_t e = 0; e < pulled_back.rows.size(); ++e) {
-    for (const auto& [form, value] : pulled_back.rows[e]) values(form, static_cast<Eigen::Index>(e)) = value;
-  }
-  return copy(values);
-}
-
 // For each level the values at its corners, and the corners of the original whose data they have.
 py::list collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
                                  const std::vector<int>& splits) {
@@ -138,7 +116,6 @@ void bind_progressive_mesh(py::module_& m) {
       .def("vertex_map",
            [](const ProgressiveMesh& mesh, int splits) { return copy(progressive::vertex_map(mesh, splits)); })
       .def("lift_loops", &lift_loops)
-      .def("pull_back_classes", &pull_back_classes)
       .def("collapsed_corner_values", &collapsed_corner_values)
       .def("base_half_edges",
            [](const ProgressiveMesh& mesh, const mesh::Surface& surface, const std::vector<int>& map) {
