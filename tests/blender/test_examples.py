@@ -27,7 +27,7 @@ EXAMPLES = {
     "mask": {"Mask as Disk": [(0, 1)], "Mask as Rectangle": [(0, 1)]},
 }
 # Mean s1/s2 on coarse faces with sharp edges is the error of linear interpolation inside triangles.
-COARSE = {"gear": 1.8, "lantern": 1.35, "mixed": 1.25}
+COARSE = {"gear": 1.8, "lantern": 1.35, "mixed": 1.25, "text": 1.15}
 FINE = 1.12
 
 
