@@ -27,10 +27,10 @@ using Eigen::VectorXcd;
 // Poles by themselves.
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
 constexpr double kEvenWithout = 3, kEvenWith = 6;
-constexpr int kThinning = 3;             // every third sample is enough for the search
+constexpr int kThinning = 3;             // every third sample is enough to tell which candidates are worth a trial
 constexpr int kTried = 2, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 3;
-constexpr double kLeverage = 0.02, kEnough = 0.4;  // weight of the leverage; singular values that are enough
+constexpr double kLeverage = 0.06, kEnough = 0.4;  // weight of the leverage; singular values that are enough
 constexpr double kGain = 1e-3;                     // less is no gain
 constexpr int kSteps = 25;                         // of the minimiser
 // Residues that a new pole is tried with, relative to the root of mean density times area.
@@ -48,7 +48,7 @@ class Search {
         rules_(rules),
         execution_(execution),
         candidates_(landscape, rules.allowed),
-        theta_(thinned(landscape.holomorphic().M)) {
+        theta_(landscape.holomorphic().M) {
     if (landscape.closed() && landscape.form_count() > 0) leverage_.emplace(landscape);
     first_triangle_.assign(landscape.surface().vertex_count, -1);
     for (int t = static_cast<int>(landscape.surface().triangles.size()) - 1; t >= 0; --t) {
@@ -79,7 +79,7 @@ class Search {
     if (landscape_.closed() && k > 0) poles.residues[k - 1] = -static_cast<double>(k - 1);
     poles.coefficients = VectorXcd::Zero(landscape_.form_count());
     if (landscape_.form_count() > 0 && k == 0) {
-      const uv::SampledParts parts{theta_, thinned(landscape_.holomorphic().N)};
+      const uv::SampledParts& parts = landscape_.holomorphic();
       poles.coefficients = landscape_.form_count() == 1 ? VectorXcd::Ones(1)
                                                         : uv::lowest_variance(parts, rules_.kind, execution_.workers());
     }
@@ -88,12 +88,17 @@ class Search {
     return poles;
   }
 
-  // Up to `count`, then moves them. @return whether there was room for so many
+  // Up to `count`. @return whether there was room for so many
   bool add(Poles& poles, int count) {
     while (static_cast<int>(poles.vertices.size()) < count && add_one(poles)) {
     }
-    for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
     return static_cast<int>(poles.vertices.size()) >= count;
+  }
+
+  // The same poles at better places.
+  Poles settled(Poles poles) {
+    for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
+    return poles;
   }
 
  private:
@@ -142,11 +147,9 @@ class Search {
                              [](const Poles& a, const Poles& b) { return a.variance < b.variance; });
   }
 
-  MatrixXcd pole_columns(const std::vector<int>& vertices) { return thinned(landscape_.poles(vertices, execution_)); }
-
   // Closed: the last pole takes the rest.
   MatrixXcd columns(const std::vector<int>& vertices) {
-    MatrixXcd poles = pole_columns(vertices);
+    MatrixXcd poles = landscape_.poles(vertices, execution_);
     if (landscape_.closed() && poles.cols() > 0)
       poles = (poles.leftCols(poles.cols() - 1).colwise() - poles.col(poles.cols() - 1)).eval();
     MatrixXcd all(theta_.rows(), theta_.cols() + poles.cols());
@@ -172,7 +175,7 @@ class Search {
     return uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, leverage_metric(density));
   }
 
-  // kLeverage sum log(1 + (kEnough / sigma)^2) over the singular values of [r_i tau_i] in the weighted Gram matrix.
+  // kLeverage mean log(1 + (kEnough / sigma)^2) over the singular values of [r_i tau_i] in the weighted Gram matrix.
   double leverage_term(const std::vector<int>& vertices, const VectorXcd& residues, const MatrixXcd& metric) const {
     const auto g = theta_.cols();
     if (!leverage_ || residues.size() < g) return 0;
@@ -182,7 +185,8 @@ class Search {
     MatrixXcd S = V * V.adjoint();
     S += 1e-9 * MatrixXcd::Identity(g, g);
     const MatrixXcd sum = S + kEnough * kEnough * MatrixXcd::Identity(g, g);
-    return kLeverage * (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
+    return kLeverage / static_cast<double>(g) *
+           (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
   }
 
   MatrixXcd leverage_metric(const Eigen::ArrayXd& density) const {
@@ -225,8 +229,8 @@ class Search {
   // All candidates with all trial residues beside the form as it is, the best first.
   std::vector<Trial> trials_everywhere(const Poles& poles) {
     const std::vector<int> candidates = candidates_.everywhere(poles.vertices);
-    const MatrixXcd green = pole_columns(candidates);
-    const VectorXcd A = columns(poles.vertices) * unknowns(poles);
+    const MatrixXcd green = thinned(landscape_.poles(candidates, execution_));
+    const VectorXcd A = thinned(columns(poles.vertices) * unknowns(poles));
     const double scale = std::sqrt(A.cwiseAbs2().mean() * landscape_.area());
     const int phases = rules_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
     std::vector<Trial> trials;
@@ -262,12 +266,13 @@ class Search {
     others.erase(others.begin() + i);
     const std::vector<int> candidates = candidates_.for_move(poles.vertices[i], others);
     if (candidates.empty()) return false;
-    const MatrixXcd green = pole_columns(candidates);
+    const MatrixXcd green = thinned(landscape_.poles(candidates, execution_));
+    const VectorXcd A = columns(poles.vertices) * unknowns(poles);
     const VectorXcd without =
-        columns(poles.vertices) * unknowns(poles) - poles.residues[i] * pole_columns({poles.vertices[i]}).col(0);
+        thinned(A - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_).col(0));
     prepare_leverage(candidates);
     prepare_leverage(poles.vertices);
-    const MatrixXcd metric = leverage_metric((columns(poles.vertices) * unknowns(poles)).cwiseAbs2().array());
+    const MatrixXcd metric = leverage_metric(A.cwiseAbs2().array());
     std::vector<std::pair<double, int>> scores(candidates.size());
     run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
       std::vector<int> vertices = poles.vertices;
@@ -313,18 +318,22 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count,
     throw TopologyError("there is room for " + std::to_string(poles.vertices.size()) + " poles, not for " +
                         std::to_string(count) + ": their stars must be apart; take fewer, or subdivide the mesh");
   }
-  return poles;
+  return search.settled(std::move(poles));
 }
 
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
   Search search(landscape, rules, execution);
-  Poles poles = search.begin();
+  Poles added = search.begin(), best = added;
+  double least = density_ratio(density(landscape, best, execution));
   for (const int count : kCounts) {
-    const double ratio = density_ratio(density(landscape, poles, execution));
-    if (ratio <= (poles.vertices.empty() ? kEvenWithout : kEvenWith)) break;
-    if (!search.add(poles, count)) break;
+    if (least <= (best.vertices.empty() ? kEvenWithout : kEvenWith) || !search.add(added, count)) break;
+    Poles settled = search.settled(added);
+    const double ratio = density_ratio(density(landscape, settled, execution));
+    if (ratio > least) continue;
+    least = ratio;
+    best = std::move(settled);
   }
-  return poles;
+  return best;
 }
 
 Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {
