@@ -6,7 +6,6 @@ blender -b [file.blend] --python-exit-code 1 --python addon/headless.py -- [mesh
 Ends with 0 if some component got its maps, otherwise with 1 and one sentence on the error stream.
 """
 
-import argparse
 import importlib.util
 import math
 import sys
@@ -21,15 +20,6 @@ SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay
 Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own importers rotate OBJ files
 
 
-class UsageError(Exception):
-    """What the user asked for cannot be done; the text is one sentence."""
-
-
-class Parser(argparse.ArgumentParser):
-    def error(self, message):
-        raise UsageError(message)
-
-
 def module(name):
     """One of the add-on's modules, whether or not the add-on is installed and enabled in this Blender."""
     if PACKAGE not in sys.modules:
@@ -42,79 +32,8 @@ def module(name):
     return importlib.import_module(f"{PACKAGE}.{name}")
 
 
-def _add_choices(parser):
-    group = parser.add_argument_group("choices on one object (vertices counted from 0)")
-    group.add_argument("--puncture", type=int, action="append", default=[], metavar="V", help="may be repeated")
-    group.add_argument("--residues", default="", metavar='"R R ..."', help="one for each puncture, may be complex")
-    group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
-    group.add_argument("--selection", choices=("automatic", "punctures", "rectangle", "none"), default="none")
-    group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
-    group.add_argument(
-        "--boundary",
-        choices=("natural", "double_cover", "straight", "free"),
-        default="natural",
-        help="how holes are solved; with --seamless straight (default) or free",
-    )
-    group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
-
-
-def parse(arguments):
-    textures = [name.lower() for name, *_ in module("properties").TEXTURES]
-    parser = Parser(
-        prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
-        description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
-    )
-    parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY or STL; else the meshes of the .blend")
-    parser.add_argument("--output", type=Path, help="where to save the .blend with the maps")
-    parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
-    parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
-    parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
-    parser.add_argument("--forms", type=int, default=8, help="at most so many maps of single forms")
-    parser.add_argument("--shown", type=int, default=0, help="the active map: 0 is the main one")
-    parser.add_argument("--density", type=float, default=1.0, help="factor of all UV lengths")
-    parser.add_argument("--margin", type=float, default=0.02, help="between parts, as a share of the UV square")
-    parser.add_argument("--rotation", type=float, default=0.0, help="rotation of all maps in degrees")
-    parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
-    parser.add_argument("--shape", action="store_true", help="store maps to the sphere and the disk as an attribute")
-    parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
-    parser.add_argument("--checker-scale", type=float, default=0.0, help="squares per UV unit; 0 chooses")
-    parser.add_argument("--texture", choices=textures, default="checker", help="what the material shows")
-    parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
-    parser.add_argument("--resolution", type=int, default=800, help="pixels of the picture's sides")
-    parser.add_argument("--samples", type=int, default=24, help="samples per pixel")
-    parser.add_argument("--levels", type=int, default=0, help="make so many levels of detail of each object")
-    parser.add_argument("--ratio", type=float, default=0.25, help="triangles of a level over those of the one before")
-    parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
-    parser.add_argument("--main", choices=("automatic", "seamless", "balanced"), default="automatic", help="main map")
-    _add_choices(parser)
-    module("headless_tile").add_options(parser)
-    options = parser.parse_args(arguments)
-    check_folders(options.output, options.render, options.report)
-    check_values(options)
-    return options
-
-
-def check_folders(*files):
-    """Raises `UsageError` for a file whose folder does not exist; None is no file."""
-    for path in files:
-        if path is not None and not path.resolve().parent.is_dir():
-            raise UsageError(f"{path}: the folder {path.resolve().parent} does not exist")
-
-
-def check_values(options):
-    """Raises `UsageError` for values that cannot be."""
-    if options.forms < 0 or options.density <= 0 or options.checker_scale < 0 or options.shown < 0:
-        raise UsageError("--forms, --shown and --checker-scale cannot be negative, and --density must be positive")
-    if not 0 <= options.margin < 1:
-        raise UsageError("--margin must be at least 0 and less than 1")
-    if options.levels < 0 or not 0 < options.ratio < 1:
-        raise UsageError("--levels cannot be negative, and --ratio must be between 0 and 1")
-    if options.puncture and options.rectangle:
-        raise UsageError("--puncture and --rectangle exclude each other")
-    if options.seamless != (options.boundary in ("straight", "free")) and options.boundary != "natural":
-        raise UsageError("--boundary is straight or free with --seamless, natural or double_cover without")
-    if options.resolution < 1 or options.samples < 1:
-        raise UsageError("--resolution and --samples must be at least 1")
+command_line = module("command_line")
+UsageError = command_line.UsageError
 
 
 def import_mesh(options, holomorph):
@@ -253,7 +172,7 @@ def process(options):
 def main():
     arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
     try:
-        for sentence in process(parse(arguments)):
+        for sentence in process(command_line.parse(arguments)):
             print(f"Holomorph: {sentence}", file=sys.stderr)
     except (UsageError, OSError, RuntimeError) as error:
         # RuntimeError is how Blender's own operators report a file that cannot be written.

@@ -61,7 +61,7 @@ def write_pixels(image, pixels):
     image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())
 
 
-def _read_indices(values):
+def read_indices(values):
     """Vertices, loops or lengths as int32, which they fit: Blender has at most 2^31 of each."""
     return read_values(values).view(np.int32)
 
@@ -77,9 +77,9 @@ def read_polygons(mesh, linear):
     if not np.array_equal(linear, np.eye(3)):
         with np.errstate(all="ignore"):  # the library names the vertex of a NaN
             vertices = vertices @ linear.T
-    corner_vertices = _read_indices(compatibility.corner_vertex_values(mesh))
-    starts = _read_indices(Values(mesh.polygons, "loop_start", np.uint32))
-    sizes = _read_indices(Values(mesh.polygons, "loop_total", np.uint32))
+    corner_vertices = read_indices(compatibility.corner_vertex_values(mesh))
+    starts = read_indices(Values(mesh.polygons, "loop_start", np.uint32))
+    sizes = read_indices(Values(mesh.polygons, "loop_total", np.uint32))
     offsets = np.zeros(len(starts) + 1, np.int32)
     np.cumsum(sizes, out=offsets[1:])
     loops = None
@@ -162,19 +162,6 @@ def show_map(mesh, name):
         layer.active_render = True
 
 
-def read_seams(mesh):
-    """(#mesh edges,) bool."""
-    return read_values(_marks(mesh, "use_seam"))
-
-
-def _edge_vertices(mesh):
-    return _read_indices(compatibility.edge_vertex_values(mesh))
-
-
-def _marks(mesh, mark):
-    return Values(mesh.edges, mark, bool)
-
-
 def selected_vertices(mesh):
     """(n,) selected vertices: in edit mode in the order in which they were picked, as far as Blender remembers it."""
     selected = np.flatnonzero(read_values(Values(mesh.vertices, "select", bool)))
@@ -185,47 +172,10 @@ def selected_vertices(mesh):
     return np.concatenate([picked[np.isin(picked, selected)], selected[~np.isin(selected, picked)]])
 
 
-def are_neighbours(mesh, vertices):
-    """Whether some edge joins two of the vertices."""
-    return bool(np.isin(_edge_vertices(mesh), vertices).all(axis=1).any())
-
-
-def marked_edges(mesh, mark):
-    """(n, 2) vertices of the edges with this mark: "use_seam", "use_edge_sharp" or "select"."""
-    return _edge_vertices(mesh)[read_values(_marks(mesh, mark))].astype(np.int64)
-
-
 def weights(mesh, group):
     """(#V,) weights in the vertex group of this index; one by one, for Blender has no array of them."""
     of_each = (next((g.weight for g in vertex.groups if g.group == group), 0.0) for vertex in mesh.vertices)
     return np.fromiter(of_each, np.float64, len(mesh.vertices))
-
-
-def edge_vectors(mesh, vertex_pairs):
-    """(n, 3) from the first to the second of (n, 2) vertices."""
-    positions = read_values(compatibility.position_values(mesh)).astype(np.float64)
-    return positions[vertex_pairs[:, 1]] - positions[vertex_pairs[:, 0]]
-
-
-def mark_edges(mesh, mark, vertex_pairs):
-    """Gives the edges between these (n, 2) vertices the mark, and no other edge."""
-    write_values(_marks(mesh, mark), _edges_between(mesh, vertex_pairs))
-
-
-def _edges_between(mesh, vertex_pairs):
-    """(#mesh edges,) bool: the edges whose vertices are one of the pairs."""
-    ends = np.sort(_edge_vertices(mesh), axis=1)
-    pairs = np.sort(np.asarray(vertex_pairs, np.int64).reshape(-1, 2), axis=1)
-    count = len(mesh.vertices)
-    return np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])
-
-
-def add_seams(mesh, vertex_pairs):
-    """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
-    wanted = _edges_between(mesh, vertex_pairs)
-    before = read_seams(mesh)
-    write_values(_marks(mesh, "use_seam"), before | wanted)
-    return int(np.count_nonzero(wanted & ~before))
 
 
 def new_mesh(name, vertices, corner_vertices, face_offsets):

@@ -7,7 +7,20 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import compatibility, heat, maps, material, mesh_io, native, patterns, report, seamless, tile_report, tiling
+from . import (
+    compatibility,
+    heat,
+    maps,
+    material,
+    mesh_edges,
+    mesh_io,
+    native,
+    patterns,
+    report,
+    seamless,
+    tile_report,
+    tiling,
+)
 
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
@@ -139,7 +152,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in values]
     shown = written[min(options.shown, len(written) - 1)]
     mesh_io.show_map(mesh, shown.name)
-    new_seams = mesh_io.add_seams(mesh, _seam_pairs(solved, tiled)) if options.seams else 0
+    new_seams = mesh_edges.add_seams(mesh, _seam_pairs(solved, tiled)) if options.seams else 0
     shape = maps.shape_points(solved) if options.shape else None
     if shape is not None:
         mesh_io.write_shape(mesh, shape)

@@ -28,13 +28,10 @@ def tiled(solved, options, progress=None):
         wanted = tiling.TileOptions(tiles=density * component.area)
         part = tiling.tile_part(component, wanted, tiling.scaled(progress, done, share))
         done += share
-        if part.tiling is None:
-            made[id(component)] = part if options.main == maps.SEAMLESS else None
-        elif options.main == maps.SEAMLESS or _is_better(part.tiling, maps.main_map(component, options).report):
+        if _is_taken(part, options):
             made[id(component)] = part
-            density = density or part.tiling.tiles / component.area
-    parts = (made.get(id(component)) for component in solved.components)
-    return tiling.TiledObject(solved, tuple(part for part in parts if part is not None))
+            density = density or (part.tiling.tiles / component.area if part.tiling else 0.0)
+    return tiling.TiledObject(solved, tuple(made[id(c)] for c in solved.components if id(c) in made))
 
 
 def make(solved, options, progress=None):
@@ -50,6 +47,13 @@ def _asks_for_one(component, options):
         return False
     ratio = maps.main_map(component, options).report["density_ratio"]
     return ratio is None or ratio > EVEN
+
+
+def _is_taken(part, options):
+    """Whether the tiling of a part, or its refusal, takes the place of the balanced map."""
+    if options.main == maps.SEAMLESS:
+        return True
+    return part.tiling is not None and _is_better(part.tiling, maps.main_map(part.component, options).report)
 
 
 def _is_better(found, balanced):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from . import choices, compatibility, mesh_io, solve
+from . import choices, compatibility, mesh_edges, mesh_io, solve
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
@@ -77,7 +77,7 @@ def collect(objects, request=Request()):
 
 def _choices(obj, request):
     """What was chosen on this object; @pre `read(obj)` has written pending edits to the mesh."""
-    seams = mesh_io.marked_edges(obj.data, "use_seam") if request.cut_at_seams else np.empty((0, 2), np.int64)
+    seams = mesh_edges.marked_edges(obj.data, "use_seam") if request.cut_at_seams else np.empty((0, 2), np.int64)
     selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
     return choices.Choices(request.use, tuple(selected), request.residues, seams, request.boundary, request.solver)
 
@@ -87,7 +87,7 @@ def _selected(obj, use):
     if use == choices.NONE or (use == choices.AUTOMATIC and obj.mode != "EDIT"):
         return ()
     selected = mesh_io.selected_vertices(obj.data)
-    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_io.are_neighbours(obj.data, selected)):
+    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_edges.are_neighbours(obj.data, selected)):
         return ()
     return selected.tolist()
 

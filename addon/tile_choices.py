@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from . import mesh_io, tiling
+from . import mesh_edges, mesh_io, tiling
 
 AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
@@ -54,7 +54,7 @@ def _direction(properties, obj):
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     if properties.direction in AXES:
         return tuple(linear[:, AXES.index(properties.direction)].tolist())
-    edges = mesh_io.edge_vectors(obj.data, mesh_io.marked_edges(obj.data, "select")) @ linear.T
+    edges = mesh_edges.edge_vectors(obj.data, mesh_edges.marked_edges(obj.data, "select")) @ linear.T
     if not edges.any():
         raise ValueError(f"{obj.name}: select edges along which the rows are to run")
     return mean_direction(edges)

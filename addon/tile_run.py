@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import empties, heat, material, mesh_io, native, patterns, report, run, tile_report, tiling
+from . import empties, heat, material, mesh_edges, mesh_io, native, patterns, report, run, tile_report, tiling
 
 CHECKER_CELLS = 4  # squares across an image of the checker
 
@@ -47,7 +47,7 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
     mesh_io.remove_maps(mesh)
     written = mesh_io.write_map(mesh, polygons, mesh_io.MAIN_MAP, tiling.placed(tiled, options.quarters))
     mesh_io.show_map(mesh, written.name)
-    new_seams = mesh_io.add_seams(mesh, _seam_pairs(tiled)) if options.seams else 0
+    new_seams = mesh_edges.add_seams(mesh, _seam_pairs(tiled)) if options.seams else 0
     if options.checker:
         _show(outcome, obj, tiled, written, options)
     heat.refresh(obj)

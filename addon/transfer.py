@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import compatibility, mesh_io
+from . import compatibility, mesh_edges, mesh_io
 from .compatibility import Values
 
 # Types of attributes that are transferred: name, type and number of their values.
@@ -63,7 +63,7 @@ def read(mesh, polygons):
         attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_transferred(a, maps)],
         material=mesh_io.read_values(_material_indices(mesh)),
         smooth=mesh_io.read_values(_smooth_flags(mesh)),
-        marks={name: mesh_io.marked_edges(mesh, name) for name in EDGE_MARKS},
+        marks={name: mesh_edges.marked_edges(mesh, name) for name in EDGE_MARKS},
         colour=getattr(mesh.color_attributes.active_color, "name", ""),
     )
 
@@ -90,7 +90,7 @@ def write(mesh, data, level, names):
         if not len(ends):
             continue
         mapped = level.vertex_map[ends]
-        mesh_io.mark_edges(mesh, name, mapped[(mapped[:, 0] != mapped[:, 1]) & (mapped >= 0).all(axis=1)])
+        mesh_edges.mark_edges(mesh, name, mapped[(mapped[:, 0] != mapped[:, 1]) & (mapped >= 0).all(axis=1)])
     if data.colour in mesh.color_attributes:
         mesh.color_attributes.active_color = mesh.color_attributes[data.colour]
     mesh.update()

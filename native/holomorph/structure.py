@@ -36,27 +36,20 @@ def conformal_structure(
     boundary : how forms of a surface with boundary are found: "natural" on the surface itself, "double_cover" on its
         double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy
     punctures : list of vertices whose stars are apart from each other and from the boundary; without any, two far apart
-        are taken on a closed surface of genus 0. One puncture of a disk, without residues, makes its map to the unit
-        disk
+        are taken on a closed surface of genus 0. One of a disk, without residues, makes its map to the unit disk
     residues : list of complex numbers other than 0, one for each puncture: the UVs change by it around the puncture. On
         a closed surface they sum to 0. Default: 1 and -1 for two punctures; for more, 1 but at the one that is farthest
         from the others; with a boundary 1 everywhere
     rectangle_corners : list of four boundary vertices of a disk in the order of the boundary, the surface on its left:
-        makes its map to a rectangle. A disk without any choice becomes a rectangle where its boundary has exactly
-        four exterior angles beyond 45 degrees, inwards; else the unit disk, its centre at the vertex deepest inside;
-        where that is very uneven, a log map or a rectangle: `description` tells
+        makes its map to a rectangle. Without a choice: by clear corners, else round or more even; `description` tells
     cut_edges : (#S, 2) vertices of the edges along which UVs are cut, such as marked seams; default: the cut graph. The
         map must be single-valued on the rest, as it is on disks
-    solver : "direct" is a sparse Cholesky factorisation, "multigrid" iterates in linear time and memory, "auto" chooses
-        by size and number of right-hand sides; the result's `solver` says what was taken and why. "paper" is the
-        multiresolution algorithm of the paper (§ 9) for closed surfaces with positions, slower than the others and
-        never chosen by "auto": conjugate gradients on the levels of a progressive mesh, whose base mesh gives loops and
-        classes. It flips no edges, so its invariants are those of the surface's own triangles
+    solver : "direct", a sparse Cholesky factorisation; "multigrid", in linear time and memory; "auto" chooses, the
+        result's `solver` says what and why; "paper", its multiresolution algorithm (§ 9) for closed surfaces, slower,
+        on the surface's own triangles, its edges not flipped
     threads : number of threads, None for one per core; the result has the same bits for any number
-    memory_limit : bytes that may be in use at once, without the surface itself. Where the harmonic forms do not all
-        fit, they are solved for in blocks that do; the results are the same up to the solver's accuracy, but each call
-        of `uv` then solves for its own map. On surfaces with boundary or punctures all forms must fit. None: nothing is
-        refused, and forms are kept up to 2 GB
+    memory_limit : bytes that may be in use at once, without the surface itself; None refuses nothing. Where the forms
+        of a closed surface do not fit (None: in 2 GB), they are solved for in blocks, and `uv` solves for each map
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Returns
@@ -64,19 +57,12 @@ def conformal_structure(
     ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of
     one with punctures, DiskMap or RectangleMap (for three boundary edges TriangleMap) of a disk
 
-    Raises
-    ------
-    TopologyError
-        several components; punctures, residues or corners that do not fit
-    SolverError
-        if neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out; if
-        `memory_limit` does not hold two right-hand sides (names the bytes that would), before they are taken
-    Cancelled
-        if `progress` returned False
+    Raises TopologyError for several components, and for punctures, residues or corners that do not fit; SolverError if
+    neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out, or
+    `memory_limit` does not hold two right-hand sides (names the bytes that would); Cancelled.
 
     Cost: 2n solves of the Laplacian for n complex forms (n = g closed, 2g + b - 1 with boundary), after one
-    factorisation or the set-up of multigrid; 2 n #V numbers of memory,
-    fewer on closed surfaces with `memory_limit`.
+    factorisation or the set-up of multigrid; 2 n #V numbers of memory.
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
     options = solver, check_options(solver, threads), progress

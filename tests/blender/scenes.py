@@ -7,6 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 
+mesh_edges = importlib.import_module("holomorph_addon.mesh_edges")
 mesh_io = importlib.import_module("holomorph_addon.mesh_io")
 native = importlib.import_module("holomorph_addon.native")
 
@@ -235,7 +236,7 @@ def everything(obj):
         "corners": corners.tobytes(),
         "offsets": offsets.tobytes(),
         "edges": edges.tobytes(),
-        "seams": mesh_io.read_seams(mesh).tobytes(),
+        "seams": mesh_edges.read_seams(mesh).tobytes(),
         "maps": {layer.name: mesh_io.read_map(mesh, layer.name).tobytes() for layer in mesh.uv_layers},
         "attributes": sorted((a.name, a.domain, a.data_type) for a in mesh.attributes),
         "materials": [(s.link, s.material) for s in obj.material_slots],

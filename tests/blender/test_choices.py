@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_io, mesh_object, pick, sphere_arrays, torus, torus_arrays
+from scenes import mesh_edges, mesh_object, pick, sphere_arrays, torus, torus_arrays
 
 choices, native, targets = module("choices"), module("native"), module("targets")
 
@@ -136,5 +136,5 @@ def test_a_loose_vertex_cannot_be_chosen():
 def test_seams_are_read_as_vertices():
     obj = torus()
     obj.data.edges[4].use_seam = True
-    (pair,) = mesh_io.marked_edges(obj.data, "use_seam")
+    (pair,) = mesh_edges.marked_edges(obj.data, "use_seam")
     assert sorted(pair) == sorted(obj.data.edges[4].vertices)

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import limb_arrays, mesh_io, sphere_arrays, torus, torus_arrays
+from scenes import limb_arrays, mesh_edges, mesh_io, sphere_arrays, torus, torus_arrays
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
 SCRIPT = str(ROOT / "addon" / "headless.py")
@@ -95,7 +95,7 @@ def test_options_reach_the_maps(torus_file, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     obj = bpy.data.objects["ring"]
     assert [layer.name for layer in obj.data.uv_layers] == ["Holomorphic"]
-    assert mesh_io.read_seams(obj.data).any()
+    assert mesh_edges.read_seams(obj.data).any()
     assert obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value == 8
 
 

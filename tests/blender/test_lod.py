@@ -7,6 +7,7 @@ from conftest import module
 from scenes import (
     edge_mismatch,
     everything,
+    mesh_edges,
     mesh_io,
     mesh_object,
     polygon_arrays,
@@ -149,7 +150,7 @@ def test_materials_smoothness_marks_and_attributes_stay():
     mesh_io.write_values(Values(mesh.polygons, "material_index", np.int32), of_face)
     mesh_io.write_values(Values(mesh.polygons, "use_smooth", bool), of_face == 1)
     around = np.stack([np.arange(48) * 24, np.roll(np.arange(48) * 24, -1)], axis=1)  # the outer circle
-    mesh_io.mark_edges(mesh, "use_edge_sharp", around)
+    mesh_edges.mark_edges(mesh, "use_edge_sharp", around)
     mesh.attributes.new("Height", "FLOAT", "POINT")
     mesh_io.write_values(Values(mesh.attributes["Height"].data, "value", np.float32), x)
     mesh.attributes.new("Paint", "FLOAT_COLOR", "CORNER")
@@ -168,7 +169,7 @@ def test_materials_smoothness_marks_and_attributes_stay():
         assert np.array_equal(mesh_io.read_values(Values(data.attributes["Height"].data, "value", np.float32)), x)
         paint = mesh_io.read_values(Values(data.attributes["Paint"].data, "color", np.float32, 4))
         assert np.mean(paint[:, 0] == x[polygon_arrays(data)[0]]) > 0.9
-        sharp = mesh_io.marked_edges(data, "use_edge_sharp")
+        sharp = mesh_edges.marked_edges(data, "use_edge_sharp")
         degree = np.bincount(sharp.ravel())
         assert len(sharp) >= 3 and set(degree[degree > 0]) == {2}  # still a circle
 

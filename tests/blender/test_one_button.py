@@ -10,7 +10,7 @@ from scenes import (
     face_densities,
     fills_the_square,
     limb_arrays,
-    mesh_io,
+    mesh_edges,
     mesh_object,
     pick,
     select,
@@ -212,13 +212,13 @@ def test_undo_takes_everything_back():
     obj = bpy.data.objects["Limb"]
     assert everything(obj)["maps"] == before == {}
     assert "holomorph_report" not in obj and not obj.material_slots
-    assert not mesh_io.read_seams(obj.data).any()
+    assert not mesh_edges.read_seams(obj.data).any()
 
 
 def test_seams_are_where_the_tiling_jumps():
     obj = limb()
     press(seams=True)
-    ends = {frozenset(edge) for edge in mesh_io.marked_edges(obj.data, "use_seam").tolist()}
+    ends = {frozenset(edge) for edge in mesh_edges.marked_edges(obj.data, "use_seam").tolist()}
     vertices, jumps = edge_jumps(obj)
     is_torn = np.abs(jumps).max(axis=(1, 2)) > 1e-4
     assert is_torn.any() and {frozenset(edge) for edge in vertices[is_torn].tolist()} <= ends

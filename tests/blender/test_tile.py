@@ -15,6 +15,7 @@ from scenes import (
     edge_jumps,
     everything,
     frame,
+    mesh_edges,
     mesh_io,
     native,
     pick,
@@ -304,9 +305,9 @@ def test_textures_are_repeated_in_each_tile(calls):
 def test_seams_are_marked_where_the_map_jumps(calls):
     obj = torus()
     tile(seams=True)
-    seams = mesh_io.read_seams(obj.data)
+    seams = mesh_edges.read_seams(obj.data)
     assert stored_report(obj)["seams_added"] == seams.sum() > 0
-    vertices = {int(v) for edge in mesh_io.marked_edges(obj.data, "use_seam") for v in edge}
+    vertices = {int(v) for edge in mesh_edges.marked_edges(obj.data, "use_seam") for v in edge}
     pairs, jumps = edge_jumps(obj)
     jumping = np.unique(pairs[np.any(jumps != 0, axis=(1, 2))])
     assert set(jumping.tolist()) <= vertices

@@ -168,11 +168,8 @@ py::list matrices(const std::vector<Eigen::MatrixXd>& list) {
   return result;
 }
 
-}  // namespace
-
-void bind_structure(py::module_& m) {
-  py::class_<Structure, Pointer>(m, "Structure")
-      .def("prepare_uv", &prepare_uv)
+void bind_actions(py::class_<Structure, Pointer>& type) {
+  type.def("prepare_uv", &prepare_uv)
       .def("uv_solver", &uv_solver)
       .def("uv", &uv)
       .def("basis_forms", &basis_forms)
@@ -180,9 +177,13 @@ void bind_structure(py::module_& m) {
       .def("disk_map", &disk_map)
       .def("sphere_map", &sphere_map)
       .def("cut_along", &cut_along)
-      .def("require_memory", [](const Structure& s, const std::string& what,
-                                std::int64_t bytes) { structure::require_memory(what, bytes, s.options.memory_limit); })
-      .def("surface", [](const Structure& s) { return std::const_pointer_cast<mesh::Surface>(s.value.surface); })
+      .def("require_memory", [](const Structure& s, const std::string& what, std::int64_t bytes) {
+        structure::require_memory(what, bytes, s.options.memory_limit);
+      });
+}
+
+void bind_values(py::class_<Structure, Pointer>& type) {
+  type.def("surface", [](const Structure& s) { return std::const_pointer_cast<mesh::Surface>(s.value.surface); })
       .def("families",
            [](const Structure& s) {
              const auto& [natural, dirichlet, poles] = s.value.topology.families;
@@ -229,6 +230,14 @@ void bind_structure(py::module_& m) {
       .def("intrinsic", [](const Structure& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })
       .def("timings", [](const Structure& s) { return s.value.seconds; })
       .def_readonly("threads", &Structure::threads);
+}
+
+}  // namespace
+
+void bind_structure(py::module_& m) {
+  py::class_<Structure, Pointer> type(m, "Structure");
+  bind_actions(type);
+  bind_values(type);
   m.def("conformal_structure", &conformal);
   m.def("punctured_structure", &punctured);
   m.def("paper_structure", &paper);

@@ -48,6 +48,23 @@ forms::Poles poles_of(const Structure& s, const mesh::HalfEdges& half_edges, std
           forms::outer_weights(half_edges, lengths, weights, s.stars)};
 }
 
+// The harmonic functions, and how much of each form the differentials of the poles have.
+void add_harmonic(const mesh::HalfEdges& half_edges, const Array<double>& weights, const forms::Poles& poles,
+                  HarmonicSystems& systems, Structure& s, Execution& execution) {
+  const int natural = s.topology.families.natural;
+  s.functions.resize(s.surface->vertex_count, 0);
+  s.pole_parts.resize(0, s.topology.families.poles);
+  if (natural == 0) return;
+  const auto classes =
+      harmonic_classes(s.topology, half_edges, topology::first_forms(s.topology.classes, natural, natural));
+  s.functions = systems.solve(classes, natural, s.memory.block, execution).functions;
+  complete(half_edges, weights, classes, s, execution);
+  forms::ClosedForms own{s.topology.classes, {}};
+  own.functions.swap(s.functions);
+  s.pole_parts = forms::harmonic_part(half_edges, poles, own, s.gram[0]);
+  s.functions.swap(own.functions);
+}
+
 // Behind the harmonic functions those of the poles.
 void append(const forms::PoleFunctions& poles, forms::RowMajorMatrix& functions) {
   forms::RowMajorMatrix all(poles.u.rows(), functions.cols() + poles.u.cols() + poles.v.cols());
@@ -141,8 +158,6 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
   execution.stage("homology", 0.1, 0.25);
   result.topology = find_topology(surface, half_edges, execution, {}, result.stars);
   const Families& families = result.topology.families;
-  const auto classes = harmonic_classes(
-      result.topology, half_edges, topology::first_forms(result.topology.classes, families.natural, families.natural));
 
   execution.stage("solver", 0.25, 0.4);
   const auto weights = mesh::cotangent_weights(triangulation, execution);
@@ -156,17 +171,7 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
   const auto third = forms::pole_functions(half_edges, weights, poles, systems.solver(), fixed, execution);
 
   execution.stage("harmonic forms", 0.6, 0.9);
-  result.pole_parts.resize(0, families.poles);
-  if (families.natural > 0) {
-    result.functions = systems.solve(classes, families.natural, result.memory.block, execution).functions;
-    complete(half_edges, weights, classes, result, execution);
-    forms::ClosedForms natural{result.topology.classes, {}};
-    natural.functions.swap(result.functions);
-    result.pole_parts = forms::harmonic_part(half_edges, poles, natural, result.gram[0]);
-    result.functions.swap(natural.functions);
-  } else {
-    result.functions.resize(surface.vertex_count, 0);
-  }
+  add_harmonic(half_edges, weights, poles, systems, result, execution);
   result.solver = systems.report();
 
   execution.stage("certificates", 0.9, 1.0);
