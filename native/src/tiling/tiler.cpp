@@ -44,6 +44,12 @@ std::string text(double number) {
                       " are enough");
 }
 
+void finish_map(Tiling& result, const SeamlessForm& form, uv::UvArray function, Execution& execution) {
+  execution.stage("UV map", 0.9, 1.0);
+  result.periods = form.periods;
+  result.uv = seamless_uv(*result.structure, form, std::move(function), execution);
+}
+
 }  // namespace
 
 Tiler::Tiler(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, bool straight,
@@ -79,6 +85,7 @@ void Tiler::adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& 
   pole_moves_.reset();
   abel_jacobi_.reset();
   structure_.reset();
+  closed_maps_.reset();
   landscape_ = std::move(landscape);
   poles_ = std::move(poles);
   optimum_ = density_ratio(density(*landscape_, poles_, execution));
@@ -220,23 +227,33 @@ Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
     result.poles.push_back(chosen.poles.vertices[i]);
     result.residues.push_back(chosen.residues[static_cast<Index>(i)]);
   }
-  const auto s = structure_at(result.poles, execution);
-  const VectorXcd r = Eigen::Map<const VectorXcd>(result.residues.data(), s->topology.families.poles);
-  const VectorXcd X = change_of_basis(landscape_->structure().topology.classes, *s) * chosen.X;
-  const auto form = seamless_form(*s, X, r, wishes.lattice, kind_ == uv::Coefficients::real);
-
-  execution.stage("UV map", 0.9, 1.0);
-  result.structure = s;
-  result.periods = form.periods;
+  write_map(result, chosen.X, wishes.lattice, execution);
   result.tiles = rounding.tiles;
   result.distortion = chosen.rounding.distortion;
   if (problem.defects.cols() > 0) {
     const VectorXcd t = chosen.rounding.y.tail(problem.defects.cols());
     result.left_over = (defect_metric(problem) * t).norm() / std::sqrt(rounding.tiles);
   }
-  result.uv = seamless_uv(*s, form, execution);
   execution.finish();
   return result;
+}
+
+void Tiler::write_map(Tiling& result, const VectorXcd& X, const TextureLattice& lattice, Execution& execution) {
+  const auto count = static_cast<Index>(result.residues.size());
+  const VectorXcd all = Eigen::Map<const VectorXcd>(result.residues.data(), count);
+  if (landscape_->closed() && count > 0) {
+    if (!closed_maps_ || closed_maps_->vertices() != result.poles)
+      closed_maps_ = std::make_shared<ClosedMaps>(*landscape_, result.poles, names_, options_, execution);
+    const SeamlessForm form = closed_maps_->form(X, all.head(count - 1), lattice);
+    result.structure = {closed_maps_, &closed_maps_->structure()};
+    finish_map(result, form, closed_maps_->function(form, execution), execution);
+    return;
+  }
+  const auto s = structure_at(result.poles, execution);
+  const VectorXcd there = change_of_basis(landscape_->structure().topology.classes, *s) * X;
+  const auto form = seamless_form(*s, there, all, lattice, kind_ == uv::Coefficients::real);
+  result.structure = s;
+  finish_map(result, form, function_of(*s, form, execution), execution);
 }
 
 }  // namespace holomorph::tiling

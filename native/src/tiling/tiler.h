@@ -9,6 +9,7 @@
 #include "structure/options.h"
 #include "structure/structure.h"
 #include "tiling/abel_jacobi.h"
+#include "tiling/closed_maps.h"
 #include "tiling/coarse_level.h"
 #include "tiling/pole_moves.h"
 #include "tiling/pole_placement.h"
@@ -79,6 +80,7 @@ class Tiler {
   static std::vector<Candidate> best_of_each_way(std::vector<Candidate> candidates, int ways);
   Candidate best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
                  double tiles, Execution& execution);
+  void write_map(Tiling& result, const Eigen::VectorXcd& X, const TextureLattice& lattice, Execution& execution);
 
   std::shared_ptr<const mesh::Surface> surface_;
   structure::Options options_;
@@ -93,6 +95,7 @@ class Tiler {
   double optimum_ = 1;
   std::shared_ptr<structure::Structure> structure_;  // at structure_poles_, kept for the next tiling
   std::vector<int> structure_poles_;
+  std::shared_ptr<ClosedMaps> closed_maps_;  // the same on a closed surface with poles
 };
 
 }  // namespace holomorph::tiling
