@@ -64,6 +64,12 @@ void bind_tiling(py::module_& m) {
              Execution execution(t.threads, callback(progress));
              const py::gil_scoped_release unlocked;
              return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, direction, turn, most_turn}, execution));
+           })
+      .def("with_poles_moved",
+           [](PyTiler& t, const std::vector<std::pair<int, int>>& moves, const py::object& progress) {
+             Execution execution(t.threads, callback(progress));
+             const py::gil_scoped_release unlocked;
+             return std::make_shared<Tiling>(t.value->with_poles_moved(moves, execution));
            });
 }
 

@@ -46,8 +46,8 @@ ClosedMaps::ClosedMaps(const Landscape& landscape, const std::vector<int>& verti
   auto& [s, half_edges, weights, poles] = punctured_;
   s.memory = structure::plan_memory({s.surface->vertex_count, static_cast<std::int64_t>(s.surface->edges.size()), 2},
                                     options.solver, options.memory_limit, structure::Keeping::all);
-  systems_ = std::make_unique<structure::HarmonicSystems>(half_edges, weights, std::vector<int>{}, s.memory.choice,
-                                                          execution);
+  systems_ =
+      std::make_unique<structure::HarmonicSystems>(half_edges, weights, std::vector<int>{}, s.memory.choice, execution);
   const structure::Structure& plain = landscape.structure();
   change_ = change_of_basis(plain.topology.classes, s);
   pole_parts_.resize(change_.rows(), s.topology.families.poles);

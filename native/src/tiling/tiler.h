@@ -4,6 +4,7 @@
 #include <complex>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "structure/options.h"
@@ -63,12 +64,25 @@ class Tiler {
   /// @pre placed. @throws TopologyError where nothing with that few tiles is seamless; SolverError; Cancelled
   Tiling tile(const TilingWishes& wishes, Execution& execution);
 
+  /// The last tiling that `tile` made with some of its poles, (index, vertex), elsewhere: the residues stay, and so do
+  /// the periods, but that a pole's way is taken for the shortest. The other poles, where they were not chosen, make up
+  /// for what is left over. Nothing is rounded again: quick.
+  /// @pre tiled. @throws TopologyError for poles that do not fit; SolverError; Cancelled
+  Tiling with_poles_moved(const std::vector<std::pair<int, int>>& moves, Execution& execution);
+
  private:
   struct Candidate {
     Rounding rounding;
     PlacedPoles poles;
     Eigen::VectorXcd residues;  // of all poles
     Eigen::VectorXcd X;         // periods besides the poles; with boundary c
+  };
+  struct Choice {
+    Candidate candidate;
+    RoundingProblem problem;
+    Eigen::MatrixXd parts;  // with boundary, of the poles of the problem
+    TextureLattice lattice;
+    double tiles = 0;
   };
 
   bool has_leverage() const { return pole_moves_ != nullptr; }
@@ -80,6 +94,9 @@ class Tiler {
   static std::vector<Candidate> best_of_each_way(std::vector<Candidate> candidates, int ways);
   Candidate best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
                  double tiles, Execution& execution);
+  Tiling map_of(const Candidate& candidate, Execution& execution);
+  void follow_with_leverage(Candidate& candidate, const std::vector<char>& moved);
+  void follow_with_boundary(Candidate& candidate, Execution& execution);
   void write_map(Tiling& result, const Eigen::VectorXcd& X, const TextureLattice& lattice, Execution& execution);
 
   std::shared_ptr<const mesh::Surface> surface_;
@@ -96,6 +113,7 @@ class Tiler {
   std::shared_ptr<structure::Structure> structure_;  // at structure_poles_, kept for the next tiling
   std::vector<int> structure_poles_;
   std::shared_ptr<ClosedMaps> closed_maps_;  // the same on a closed surface with poles
+  std::optional<Choice> last_;               // of the last tiling
 };
 
 }  // namespace holomorph::tiling
