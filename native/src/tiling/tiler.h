@@ -76,6 +76,8 @@ class Tiler {
     PlacedPoles poles;
     Eigen::VectorXcd residues;  // of all poles
     Eigen::VectorXcd X;         // periods besides the poles; with boundary c
+
+    std::vector<Eigen::Index> used() const;  // the poles of the tiling: a rounding may need fewer than there are
   };
   struct Choice {
     Candidate candidate;
