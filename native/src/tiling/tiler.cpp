@@ -25,7 +25,7 @@ constexpr double kReach = 0.05;  // how far poles are expected to move, in squar
 constexpr double kLeastTiles = 100, kTilesPerHandle = 64;
 constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;
 constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};  // how far poles may go, in square roots of the area: each is tried
-constexpr double kMakeUp = 0.1;                     // likewise, for those that make up for others
+constexpr double kMakeUp = 0.1;                     // likewise, for those that make up for one that is moved
 constexpr std::size_t kWeighed = 3;  // of each, roundings whose density is found with the poles where they are
 
 std::string text(double number) {
@@ -161,16 +161,8 @@ RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& exe
   return result;
 }
 
-std::vector<Index> Tiler::Candidate::used() const {
-  std::vector<Index> indices;
-  for (Index i = 0; i < residues.size(); ++i) {
-    if (residues[i] != Complex(0)) indices.push_back(i);
-  }
-  return indices;
-}
-
 // Candidate i went way i % ways.
-std::vector<Tiler::Candidate> Tiler::best_of_each_way(std::vector<Candidate> candidates, int ways) {
+std::vector<Candidate> Tiler::best_of_each_way(std::vector<Candidate> candidates, int ways) {
   std::vector<Candidate> kept;
   for (int way = 0; way < ways; ++way) {
     std::vector<const Candidate*> order;
@@ -184,8 +176,8 @@ std::vector<Tiler::Candidate> Tiler::best_of_each_way(std::vector<Candidate> can
 }
 
 // The poles move for each rounding, and the best of what comes out is taken.
-Tiler::Candidate Tiler::best(const RoundingProblem& problem, const std::vector<Rounding>& list,
-                             const PlacedPoles& placed, double tiles, Execution& execution) {
+Candidate Tiler::best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
+                      double tiles, Execution& execution) {
   const Index n = landscape_->form_count(), k = problem.residues.rows();
   const bool moves = has_leverage() && !chosen_ && k > 0;
   const MatrixXcd metric = moves ? MatrixXcd(defect_metric(problem) / std::sqrt(tiles)) : MatrixXcd();
@@ -249,6 +241,26 @@ Tiling Tiler::map_of(const Candidate& candidate, Execution& execution) {
   }
   execution.finish();
   return result;
+}
+
+Tiling Tiler::with_poles_moved(const std::vector<PoleMove>& moves, Execution& execution) {
+  execution.stage("poles at their places", 0.0, 0.9);
+  Candidate candidate = last_->candidate;
+  const std::vector<char> moved = put(moves, *landscape_, names_, candidate);
+  const Index n = landscape_->form_count(), k = last_->problem.residues.rows();
+  if (has_leverage()) {
+    const std::vector<char> held = chosen_ ? std::vector<char>(moved.size(), 1) : moved;
+    follow_with_leverage(*last_, *abel_jacobi_, *pole_moves_, {allowed_, kMakeUp, held}, moved, candidate);
+  } else if (n > 0) {
+    std::vector<int> vertices;
+    for (const Index i : candidate.used()) vertices.push_back(candidate.poles.vertices[i]);
+    const auto now = structure_at(vertices, execution);
+    follow_with_boundary(*last_, *landscape_, *now, kind_ == uv::Coefficients::real, candidate);
+  }
+  RoundingProblem there = last_->problem;
+  there.forms.middleCols(n, k) = pole_forms(*landscape_, candidate.poles.vertices, execution);
+  measure(there, candidate.rounding);
+  return map_of(candidate, execution);
 }
 
 void Tiler::write_map(Tiling& result, const VectorXcd& X, const TextureLattice& lattice, Execution& execution) {

@@ -4,7 +4,6 @@
 #include <complex>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "structure/options.h"
@@ -12,6 +11,7 @@
 #include "tiling/abel_jacobi.h"
 #include "tiling/closed_maps.h"
 #include "tiling/coarse_level.h"
+#include "tiling/moved_poles.h"
 #include "tiling/pole_moves.h"
 #include "tiling/pole_placement.h"
 #include "tiling/rounding.h"
@@ -64,29 +64,11 @@ class Tiler {
   /// @pre placed. @throws TopologyError where nothing with that few tiles is seamless; SolverError; Cancelled
   Tiling tile(const TilingWishes& wishes, Execution& execution);
 
-  /// The last tiling that `tile` made with some of its poles, (index, vertex), elsewhere: the residues stay, and so do
-  /// the periods, but that a pole's way is taken for the shortest. The other poles, where they were not chosen, make up
-  /// for what is left over. Nothing is rounded again: quick.
+  /// The last tiling that `tile` made with some of its poles elsewhere (moved_poles.h). Nothing is rounded: quick.
   /// @pre tiled. @throws TopologyError for poles that do not fit; SolverError; Cancelled
-  Tiling with_poles_moved(const std::vector<std::pair<int, int>>& moves, Execution& execution);
+  Tiling with_poles_moved(const std::vector<PoleMove>& moves, Execution& execution);
 
  private:
-  struct Candidate {
-    Rounding rounding;
-    PlacedPoles poles;
-    Eigen::VectorXcd residues;  // of all poles
-    Eigen::VectorXcd X;         // periods besides the poles; with boundary c
-
-    std::vector<Eigen::Index> used() const;  // the poles of the tiling: a rounding may need fewer than there are
-  };
-  struct Choice {
-    Candidate candidate;
-    RoundingProblem problem;
-    Eigen::MatrixXd parts;  // with boundary, of the poles of the problem
-    TextureLattice lattice;
-    double tiles = 0;
-  };
-
   bool has_leverage() const { return pole_moves_ != nullptr; }
   void adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& execution);
   void transfer(std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Poles poles, Execution& execution);
@@ -97,8 +79,6 @@ class Tiler {
   Candidate best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
                  double tiles, Execution& execution);
   Tiling map_of(const Candidate& candidate, Execution& execution);
-  void follow_with_leverage(Candidate& candidate, const std::vector<char>& moved);
-  void follow_with_boundary(Candidate& candidate, Execution& execution);
   void write_map(Tiling& result, const Eigen::VectorXcd& X, const TextureLattice& lattice, Execution& execution);
 
   std::shared_ptr<const mesh::Surface> surface_;
