@@ -82,7 +82,7 @@ class Tiler:
             raise TopologyError(
                 f"the surface has {len(surface.components)} connected components; take one of surface.components"
             )
-        self._surface, self._component = surface, surface.components[0]
+        self._surface, self._component, self._basis = surface, surface.components[0], None
         count, chosen = _wished(poles)
         vertices, labels = own_vertices(surface, self._component, chosen, "pole")
         self._native = _native.Tiler(self._component._native, boundary == "straight", labels, solver, threads or 0)
@@ -99,14 +99,29 @@ class Tiler:
         if tiles is not None and not (math.isfinite(tiles) and tiles > 0):
             raise ValueError(f"tiles is {tiles!r}; a positive number or None is needed")
         a, b = _lattice(lattice)
-        made = self._native.tile(
-            float(tiles or 0), a, b, turn, None if direction is None else _direction(direction), max_turn, progress
-        )
+        along = None if direction is None else _direction(direction)
+        self._basis = np.array([[a.real, b.real], [a.imag, b.imag]])
+        return self._tiling(self._native.tile(float(tiles or 0), a, b, turn, along, max_turn, progress))
+
+    def with_poles_moved(self, moves, *, progress=None):
+        """The `Tiling` that `tile` gave last with some of its poles elsewhere; changes nothing of the tiler.
+
+        The residues stay, and so do the periods but where a pole has a shorter way to its place around a handle.
+        Nothing is rounded again. On a surface with handles the other poles make up for what is left over, as far as
+        they can: where they were chosen, `added_distortion` grows.
+
+        moves : {index in `Tiling.poles`: vertex}
+        """
+        if self._basis is None:
+            raise ValueError("with_poles_moved moves the poles of a tiling; call tile first")
+        own, _ = own_vertices(self._surface, self._component, list(moves.values()), "pole")
+        return self._tiling(self._native.with_poles_moved(list(zip(moves, own)), progress))
+
+    def _tiling(self, made):
         uv, triangulation = made.uv(), made.surface()
         zeros, orders = made.zeros()
-        basis = np.array([[a.real, b.real], [a.imag, b.imag]])
         jumps = made.periods().ravel()
-        periods = np.linalg.solve(basis, np.stack([jumps.real, jumps.imag]))
+        periods = np.linalg.solve(self._basis, np.stack([jumps.real, jumps.imag]))
         return Tiling(
             uv=uv,
             periods=arrays.frozen(np.rint(periods.T).astype(np.int64).reshape(-1, 2)),

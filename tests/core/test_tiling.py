@@ -216,3 +216,71 @@ def test_cancelling():
     with pytest.raises(Cancelled):
         Tiler(surface_of(DOUBLE), 4, progress=stop)
     assert Tiler(surface_of(DOUBLE), 4).tile(128).uv.shape[1] == 2
+
+
+def neighbour(mesh, vertex, steps):
+    """A vertex so many steps along edges away."""
+    faces = np.split(mesh.corners, mesh.offsets[1:-1])
+    for _ in range(steps):
+        vertex = max(v for face in faces if vertex in face for v in face)
+    return int(vertex)
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if CASES[name][1]["poles"]])
+def test_a_pole_is_moved_without_rounding_again(name):
+    mesh, options = CASES[name]
+    options = dict(options)
+    tiler = Tiler(surface_of(mesh), options.pop("poles"), boundary=options.pop("boundary", "straight"))
+    before, stages = tiler.tile(**options), []
+    place = neighbour(mesh, before.poles[0], 1)
+    moved = tiler.with_poles_moved({0: place}, progress=lambda _, stage: stages.append(stage))
+    assert "rounding" not in stages and "poles" not in stages
+    assert moved.poles[0] == place != before.poles[0]
+    assert np.allclose(moved.residues, before.residues, rtol=0, atol=EXACT)
+    found = jumps(mesh, moved.uv, moved.poles)
+    assert np.abs(found[:, 0] - found[:, 1]).max() < EXACT * np.abs(moved.uv).max()
+    steps = np.linalg.solve(basis(options), found[:, 0].T)
+    assert np.abs(steps - np.rint(steps)).max() < 10 * EXACT * np.abs(moved.uv).max()
+    assert moved.quality.mean_angle < 1.25 * before.quality.mean_angle
+    assert tiler.with_poles_moved({}).added_distortion == pytest.approx(before.added_distortion, abs=1e-3)
+
+
+def test_other_poles_make_up_for_one_that_is_moved():
+    mesh = families.torus(48, 36, shape="triangles", jitter=0.3)
+    tiler = Tiler(surface_of(mesh), 6)
+    before = tiler.tile(60)
+    far = neighbour(mesh, before.poles[0], 4)
+    moved = tiler.with_poles_moved({0: far})
+    assert moved.added_distortion < 1.002 and len(set(moved.poles) - set(before.poles)) > 1
+    chosen = Tiler(surface_of(mesh), before.poles)
+    before = chosen.tile(60)
+    moved = chosen.with_poles_moved({0: far})
+    assert np.array_equal(moved.poles[1:], before.poles[1:])
+    assert moved.added_distortion > before.added_distortion + 0.002
+
+
+@pytest.mark.parametrize("name", ["sphere", "holes, free"])
+def test_moved_poles_cost_nothing_on_planar_surfaces(name):
+    mesh, options = CASES[name]
+    tiler = Tiler(surface_of(mesh), options["poles"], boundary=options.get("boundary", "straight"))
+    poles = tiler.tile(options["tiles"]).poles
+    moved = tiler.with_poles_moved({1: neighbour(mesh, poles[1], 2)})
+    assert moved.added_distortion == 1 and moved.poles[0] == poles[0]
+
+
+def test_places_that_are_none_are_refused():
+    tiler = Tiler(surface_of(TORUS), 4)
+    with pytest.raises(ValueError, match="call tile first"):
+        tiler.with_poles_moved({0: 1})
+    poles = tiler.tile(60).poles
+    with pytest.raises(TopologyError, match="no pole 4: the tiling has 4"):
+        tiler.with_poles_moved({4: 0})
+    with pytest.raises(TopologyError, match="no vertex"):
+        tiler.with_poles_moved({0: 10**6})
+    with pytest.raises(TopologyError):
+        tiler.with_poles_moved({0: poles[1], 1: poles[1]})
+    on_disk = Tiler(surface_of(DISK), 3)
+    on_disk.tile(40)
+    rim = int(np.argmin(DISK.vertices[:, 2]))
+    with pytest.raises(TopologyError, match=f"vertex {rim} cannot be a pole"):
+        on_disk.with_poles_moved({0: rim})

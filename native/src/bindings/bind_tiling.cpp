@@ -64,6 +64,14 @@ void bind_tiling(py::module_& m) {
              Execution execution(t.threads, callback(progress));
              const py::gil_scoped_release unlocked;
              return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, direction, turn, most_turn}, execution));
+           })
+      .def("with_poles_moved",
+           [](PyTiler& t, const std::vector<std::pair<int, int>>& pairs, const py::object& progress) {
+             std::vector<tiling::PoleMove> moves;
+             for (const auto& [pole, vertex] : pairs) moves.push_back({pole, vertex});
+             Execution execution(t.threads, callback(progress));
+             const py::gil_scoped_release unlocked;
+             return std::make_shared<Tiling>(t.value->with_poles_moved(moves, execution));
            });
 }
 

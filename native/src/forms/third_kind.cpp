@@ -89,6 +89,21 @@ PoleFunctions pole_functions(const HalfEdges& mesh, std::span<const double> weig
           relative_residual(mesh, weights, B, X, fixed)};
 }
 
+RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
+                                   const topology::IntegerForms& natural, const Eigen::VectorXcd& p,
+                                   const Eigen::VectorXcd& r, solver::LaplaceSolver& solver, Execution& execution) {
+  Eigen::MatrixXd periods(p.size(), 2), of_u(r.size(), 2), of_v(r.size(), 2);
+  periods << p.real(), p.imag();
+  of_u << r.real(), r.imag();
+  of_v << -r.imag(), r.real();
+  Workers& workers = execution.workers();
+  const Eigen::MatrixXd all = right_hand_sides(mesh, poles, workers);
+  Eigen::MatrixXd B = all.leftCols(r.size()) * of_u + all.rightCols(r.size()) * of_v;
+  if (p.size() > 0) B += codifferentials(mesh, weights, natural, periods, workers);
+  const RowMajorMatrix X = solver.solve(B, solver::Condition::natural, execution);
+  return X + poles.part.u * (poles.residues * of_u) + poles.part.v * (poles.residues * of_v);
+}
+
 Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix) {
   const auto n = gram_matrix.rows();

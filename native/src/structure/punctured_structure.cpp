@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "forms/third_kind.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "structure/harmonic_systems.h"
 #include "structure/invariants.h"
@@ -134,9 +133,10 @@ void certify(const forms::ClosedForms& basis, double harmonicity, Structure& s) 
 
 }  // namespace
 
-Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctures punctures, const Options& options,
-                              Execution& execution) {
-  Structure result;
+PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> given, Punctures punctures,
+                                   Execution& execution) {
+  PuncturedSurface made;
+  Structure& result = made.structure;
   execution.stage("punctures", 0.0, 0.05);
   const bool closed = mesh::topological_type(*given).closed();
   mesh::HalfEdges half_edges = mesh::half_edges(*given, execution);
@@ -148,20 +148,28 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
   const mesh::Surface& surface = *flipped;
 
   execution.stage("residues", 0.05, 0.1);
-  auto own = mesh::half_edges(surface, execution);
-  const auto triangulation = mesh::intrinsic_triangulation(surface, own.copy(execution.workers()), execution.workers());
+  made.half_edges = mesh::half_edges(surface, execution);
+  const auto triangulation =
+      mesh::intrinsic_triangulation(surface, made.half_edges.copy(execution.workers()), execution.workers());
   result.mollification = triangulation.mollification;
-  result.stars = mesh::stars(own, triangulation.lengths, vertices, names);
+  result.stars = mesh::stars(made.half_edges, triangulation.lengths, vertices, names);
   if (residues.empty()) residues = default_residues(*given, half_edges, vertices, closed, execution);
-  half_edges = std::move(own);
+  half_edges = {};
 
   execution.stage("homology", 0.1, 0.25);
-  result.topology = find_topology(surface, half_edges, execution, {}, result.stars);
-  const Families& families = result.topology.families;
+  result.topology = find_topology(surface, made.half_edges, execution, {}, result.stars);
 
   execution.stage("solver", 0.25, 0.4);
-  const auto weights = mesh::cotangent_weights(triangulation, execution);
-  const auto poles = poles_of(result, half_edges, triangulation.lengths, weights);
+  made.weights = mesh::cotangent_weights(triangulation, execution);
+  made.poles = poles_of(result, made.half_edges, triangulation.lengths, made.weights);
+  return made;
+}
+
+Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctures punctures, const Options& options,
+                              Execution& execution) {
+  auto [result, half_edges, weights, poles] = punctured_surface(std::move(given), std::move(punctures), execution);
+  const mesh::Surface& surface = *result.surface;
+  const Families& families = result.topology.families;
   const auto fixed = mesh::boundary_vertices(result.topology.boundary);
   result.memory = plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), families.count()},
                               options.solver, options.memory_limit, Keeping::all);

@@ -2,10 +2,23 @@
 #pragma once
 
 #include "base/execution.h"
+#include "forms/third_kind.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 
 namespace holomorph::structure {
+
+/// A surface with punctures before anything is solved for.
+struct PuncturedSurface {
+  Structure structure;         ///< surface, topology, punctures and stars
+  mesh::HalfEdges half_edges;  ///< of the surface with its diagonals flipped
+  Array<double> weights;       ///< #E
+  forms::Poles poles;
+};
+
+/// What `punctured_structure` begins with; the same arguments and errors.
+PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> surface, Punctures punctures,
+                                   Execution& execution);
 
 /// Of any connected surface. theta_0 has the residues r_i / (2 pi i) at the punctures; for real residues its imaginary
 /// part is single-valued, and 0 on the boundary. The holomorphic forms of the surface come after it.

@@ -41,7 +41,7 @@ class Moving {
         metric_(metric),
         rules_(rules),
         poles_(std::move(poles)),
-        held_(poles_.vertices.size(), 0),
+        held_(rules.held.empty() ? std::vector<char>(poles_.vertices.size(), 0) : rules.held),
         gone_(poles_.vertices.size(), 0.0) {
     for (const int v : poles_.vertices) points_.push_back(at_vertex(landscape.surface(), first_triangle[v], v));
   }
@@ -185,12 +185,13 @@ class Moving {
     VectorXcd effect;  // on the defect, with the residue
   };
 
-  // The vertices around a pole, itself among them.
+  // The vertices around a pole, itself among them; it alone where the pole has to stay.
   std::vector<Neighbour> around(std::size_t i) {
     const auto& mesh = landscape_.half_edges();
+    const std::size_t most = !rules_.held.empty() && rules_.held[i] ? 0 : kAround;
     std::vector<int> queue{poles_.vertices[i]};
     std::map<int, char> seen{{poles_.vertices[i], 1}};
-    for (std::size_t next = 0; next < queue.size() && queue.size() < kAround; ++next) {
+    for (std::size_t next = 0; next < queue.size() && queue.size() < most; ++next) {
       const mesh::HalfedgeHandle first = mesh.halfedge_handle(mesh::VertexHandle(queue[next]));
       mesh::HalfedgeHandle h = first;
       do {

@@ -17,6 +17,7 @@ struct PlacedPoles {
 struct MoveRules {
   std::vector<char> allowed;  ///< #V, empty: anywhere
   double most = 0.12;         ///< how far a pole may go, in square roots of the area
+  std::vector<char> held;     ///< #poles: those that stay at their vertices; empty: none
 };
 
 class PoleMoves {

@@ -268,8 +268,7 @@ class Search {
     if (candidates.empty()) return false;
     const MatrixXcd green = thinned(landscape_.poles(candidates, execution_));
     const VectorXcd A = columns(poles.vertices) * unknowns(poles);
-    const VectorXcd without =
-        thinned(A - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_).col(0));
+    const VectorXcd without = thinned(A - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_).col(0));
     prepare_leverage(candidates);
     prepare_leverage(poles.vertices);
     const MatrixXcd metric = leverage_metric(A.cwiseAbs2().array());

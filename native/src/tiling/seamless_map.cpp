@@ -53,13 +53,18 @@ SeamlessForm seamless_form(const structure::Structure& s, const VectorXcd& X, co
   return form;
 }
 
-uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, Execution& execution) {
-  const auto& p = form.coefficients;
-  Eigen::Matrix<double, Eigen::Dynamic, 2> parts(p.size(), 2);
-  parts << p.real(), p.imag();
+uv::UvArray function_of(const structure::Structure& s, const SeamlessForm& form, Execution& execution) {
+  Eigen::Matrix<double, Eigen::Dynamic, 2> parts(form.coefficients.size(), 2);
+  parts << form.coefficients.real(), form.coefficients.imag();
   uv::UvArray function(s.functions.rows(), 2);
   for_rows(execution.workers(), static_cast<int>(function.rows()),
            [&](int v) { function.row(v).noalias() = s.functions.row(v) * parts; });
+  return function;
+}
+
+uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, uv::UvArray function,
+                        Execution& execution) {
+  const auto& p = form.coefficients;
   const Eigen::RowVector2d middle = (function.colwise().maxCoeff() + function.colwise().minCoeff()) / 2;
   function.rowwise() -= middle.array().round().matrix();
   uv::UvArray uv(static_cast<Index>(s.surface->polygons.corner_vertices.size()), 2);

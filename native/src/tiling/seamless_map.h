@@ -27,8 +27,12 @@ struct SeamlessForm {
 SeamlessForm seamless_form(const structure::Structure& s, const Eigen::VectorXcd& X, const Eigen::VectorXcd& r,
                            const TextureLattice& lattice, bool straight);
 
-/// #C x 2: the UVs of the form, moved by whole tiles to the middle of the plane, and on a grid of powers of two that
-/// single precision holds: so the two sides of a cut differ by their jump there, too, exactly.
-uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, Execution& execution);
+/// #V x 2: the function of the form, from those of the forms of `s`.
+uv::UvArray function_of(const structure::Structure& s, const SeamlessForm& form, Execution& execution);
+
+/// #C x 2: the UVs of the form with this function, moved by whole tiles to the middle of the plane, and on a grid of
+/// powers of two that single precision holds: so the two sides of a cut differ by their jump there, too, exactly.
+uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, uv::UvArray function,
+                        Execution& execution);
 
 }  // namespace holomorph::tiling

@@ -25,6 +25,7 @@ constexpr double kReach = 0.05;  // how far poles are expected to move, in squar
 constexpr double kLeastTiles = 100, kTilesPerHandle = 64;
 constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;
 constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};  // how far poles may go, in square roots of the area: each is tried
+constexpr double kMakeUp = 0.1;                     // likewise, for those that make up for one that is moved
 constexpr std::size_t kWeighed = 3;  // of each, roundings whose density is found with the poles where they are
 
 std::string text(double number) {
@@ -42,6 +43,12 @@ std::string text(double number) {
   } while (wishes.tiles < kMostTiles && roundings(problem, wishes, execution).empty());
   throw TopologyError("with " + wished + " tiles no seamless map of this surface is even; " + text(wishes.tiles) +
                       " are enough");
+}
+
+void finish_map(Tiling& result, const SeamlessForm& form, uv::UvArray function, Execution& execution) {
+  execution.stage("UV map", 0.9, 1.0);
+  result.periods = form.periods;
+  result.uv = seamless_uv(*result.structure, form, std::move(function), execution);
 }
 
 }  // namespace
@@ -78,7 +85,9 @@ void Tiler::place(const PoleWishes& wishes, Execution& execution) {
 void Tiler::adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& execution) {
   pole_moves_.reset();
   abel_jacobi_.reset();
+  last_.reset();
   structure_.reset();
+  closed_maps_.reset();
   landscape_ = std::move(landscape);
   poles_ = std::move(poles);
   optimum_ = density_ratio(density(*landscape_, poles_, execution));
@@ -153,7 +162,7 @@ RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& exe
 }
 
 // Candidate i went way i % ways.
-std::vector<Tiler::Candidate> Tiler::best_of_each_way(std::vector<Candidate> candidates, int ways) {
+std::vector<Candidate> Tiler::best_of_each_way(std::vector<Candidate> candidates, int ways) {
   std::vector<Candidate> kept;
   for (int way = 0; way < ways; ++way) {
     std::vector<const Candidate*> order;
@@ -167,8 +176,8 @@ std::vector<Tiler::Candidate> Tiler::best_of_each_way(std::vector<Candidate> can
 }
 
 // The poles move for each rounding, and the best of what comes out is taken.
-Tiler::Candidate Tiler::best(const RoundingProblem& problem, const std::vector<Rounding>& list,
-                             const PlacedPoles& placed, double tiles, Execution& execution) {
+Candidate Tiler::best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
+                      double tiles, Execution& execution) {
   const Index n = landscape_->form_count(), k = problem.residues.rows();
   const bool moves = has_leverage() && !chosen_ && k > 0;
   const MatrixXcd metric = moves ? MatrixXcd(defect_metric(problem) / std::sqrt(tiles)) : MatrixXcd();
@@ -181,7 +190,7 @@ Tiler::Candidate Tiler::best(const RoundingProblem& problem, const std::vector<R
     c = {rounded, placed, all_residues(*landscape_, placed.vertices.size(), problem.residues * z), rounded.y.head(n)};
     if (!has_leverage()) return;
     if (moves && kMoves[i % ways] > 0)
-      c.poles = pole_moves_->moved(placed, periods, c.residues, metric, {allowed_, kMoves[i % ways]});
+      c.poles = pole_moves_->moved(placed, periods, c.residues, metric, {allowed_, kMoves[i % ways], {}});
     c.X = periods;
     for (std::size_t j = 0; j < c.poles.parts.size(); ++j) c.X += c.residues[static_cast<Index>(j)] * c.poles.parts[j];
     const VectorXcd split = pole_moves_->leverage().split(c.X);
@@ -211,32 +220,65 @@ Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
   const RoundingWishes rounding = rounding_wishes(wishes, execution);
   const std::vector<Rounding> list = roundings(problem, rounding, execution);
   if (list.empty()) refuse(problem, rounding, execution);
-  const Candidate chosen = best(problem, list, placed, rounding.tiles, execution);
-
+  Candidate chosen = best(problem, list, placed, rounding.tiles, execution);
+  last_ = {std::move(chosen), std::move(problem), C, wishes.lattice, rounding.tiles};
   execution.stage("poles at their places", 0.4, 0.9);
-  Tiling result;
-  for (std::size_t i = 0; i < placed.vertices.size(); ++i) {
-    if (chosen.residues[static_cast<Index>(i)] == Complex(0)) continue;  // the rounding needs no pole here
-    result.poles.push_back(chosen.poles.vertices[i]);
-    result.residues.push_back(chosen.residues[static_cast<Index>(i)]);
-  }
-  const auto s = structure_at(result.poles, execution);
-  const VectorXcd r = Eigen::Map<const VectorXcd>(result.residues.data(), s->topology.families.poles);
-  const VectorXcd X = change_of_basis(landscape_->structure().topology.classes, *s) * chosen.X;
-  const auto form = seamless_form(*s, X, r, wishes.lattice, kind_ == uv::Coefficients::real);
+  return map_of(last_->candidate, execution);
+}
 
-  execution.stage("UV map", 0.9, 1.0);
-  result.structure = s;
-  result.periods = form.periods;
-  result.tiles = rounding.tiles;
-  result.distortion = chosen.rounding.distortion;
-  if (problem.defects.cols() > 0) {
-    const VectorXcd t = chosen.rounding.y.tail(problem.defects.cols());
-    result.left_over = (defect_metric(problem) * t).norm() / std::sqrt(rounding.tiles);
+Tiling Tiler::map_of(const Candidate& candidate, Execution& execution) {
+  Tiling result;
+  for (const Index i : candidate.used()) {
+    result.poles.push_back(candidate.poles.vertices[i]);
+    result.residues.push_back(candidate.residues[i]);
   }
-  result.uv = seamless_uv(*s, form, execution);
+  write_map(result, candidate.X, last_->lattice, execution);
+  result.tiles = last_->tiles;
+  result.distortion = candidate.rounding.distortion;
+  if (const Index defects = last_->problem.defects.cols(); defects > 0) {
+    const VectorXcd t = candidate.rounding.y.tail(defects);
+    result.left_over = (defect_metric(last_->problem) * t).norm() / std::sqrt(result.tiles);
+  }
   execution.finish();
   return result;
+}
+
+Tiling Tiler::with_poles_moved(const std::vector<PoleMove>& moves, Execution& execution) {
+  execution.stage("poles at their places", 0.0, 0.9);
+  Candidate candidate = last_->candidate;
+  const std::vector<char> moved = put(moves, *landscape_, names_, candidate);
+  const Index n = landscape_->form_count(), k = last_->problem.residues.rows();
+  if (has_leverage()) {
+    const std::vector<char> held = chosen_ ? std::vector<char>(moved.size(), 1) : moved;
+    follow_with_leverage(*last_, *abel_jacobi_, *pole_moves_, {allowed_, kMakeUp, held}, moved, candidate);
+  } else if (n > 0) {
+    std::vector<int> vertices;
+    for (const Index i : candidate.used()) vertices.push_back(candidate.poles.vertices[i]);
+    const auto now = structure_at(vertices, execution);
+    follow_with_boundary(*last_, *landscape_, *now, kind_ == uv::Coefficients::real, candidate);
+  }
+  RoundingProblem there = last_->problem;
+  there.forms.middleCols(n, k) = pole_forms(*landscape_, candidate.poles.vertices, execution);
+  measure(there, candidate.rounding);
+  return map_of(candidate, execution);
+}
+
+void Tiler::write_map(Tiling& result, const VectorXcd& X, const TextureLattice& lattice, Execution& execution) {
+  const auto count = static_cast<Index>(result.residues.size());
+  const VectorXcd all = Eigen::Map<const VectorXcd>(result.residues.data(), count);
+  if (landscape_->closed() && count > 0) {
+    if (!closed_maps_ || closed_maps_->vertices() != result.poles)
+      closed_maps_ = std::make_shared<ClosedMaps>(*landscape_, result.poles, names_, options_, execution);
+    const SeamlessForm form = closed_maps_->form(X, all.head(count - 1), lattice);
+    result.structure = {closed_maps_, &closed_maps_->structure()};
+    finish_map(result, form, closed_maps_->function(form, execution), execution);
+    return;
+  }
+  const auto s = structure_at(result.poles, execution);
+  const VectorXcd there = change_of_basis(landscape_->structure().topology.classes, *s) * X;
+  const auto form = seamless_form(*s, there, all, lattice, kind_ == uv::Coefficients::real);
+  result.structure = s;
+  finish_map(result, form, function_of(*s, form, execution), execution);
 }
 
 }  // namespace holomorph::tiling

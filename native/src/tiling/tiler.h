@@ -9,7 +9,9 @@
 #include "structure/options.h"
 #include "structure/structure.h"
 #include "tiling/abel_jacobi.h"
+#include "tiling/closed_maps.h"
 #include "tiling/coarse_level.h"
+#include "tiling/moved_poles.h"
 #include "tiling/pole_moves.h"
 #include "tiling/pole_placement.h"
 #include "tiling/rounding.h"
@@ -62,14 +64,11 @@ class Tiler {
   /// @pre placed. @throws TopologyError where nothing with that few tiles is seamless; SolverError; Cancelled
   Tiling tile(const TilingWishes& wishes, Execution& execution);
 
- private:
-  struct Candidate {
-    Rounding rounding;
-    PlacedPoles poles;
-    Eigen::VectorXcd residues;  // of all poles
-    Eigen::VectorXcd X;         // periods besides the poles; with boundary c
-  };
+  /// The last tiling that `tile` made with some of its poles elsewhere (moved_poles.h). Nothing is rounded: quick.
+  /// @pre tiled. @throws TopologyError for poles that do not fit; SolverError; Cancelled
+  Tiling with_poles_moved(const std::vector<PoleMove>& moves, Execution& execution);
 
+ private:
   bool has_leverage() const { return pole_moves_ != nullptr; }
   void adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& execution);
   void transfer(std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Poles poles, Execution& execution);
@@ -79,6 +78,8 @@ class Tiler {
   static std::vector<Candidate> best_of_each_way(std::vector<Candidate> candidates, int ways);
   Candidate best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
                  double tiles, Execution& execution);
+  Tiling map_of(const Candidate& candidate, Execution& execution);
+  void write_map(Tiling& result, const Eigen::VectorXcd& X, const TextureLattice& lattice, Execution& execution);
 
   std::shared_ptr<const mesh::Surface> surface_;
   structure::Options options_;
@@ -93,6 +94,8 @@ class Tiler {
   double optimum_ = 1;
   std::shared_ptr<structure::Structure> structure_;  // at structure_poles_, kept for the next tiling
   std::vector<int> structure_poles_;
+  std::shared_ptr<ClosedMaps> closed_maps_;  // the same on a closed surface with poles
+  std::optional<Choice> last_;               // of the last tiling
 };
 
 }  // namespace holomorph::tiling

@@ -1,0 +1,79 @@
+#include "tiling/closed_maps.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::VectorXcd;
+using mesh::edge_of;
+using mesh::HalfedgeHandle;
+using topology::IntegerForms;
+
+// The classes on the surface with some diagonals flipped, by closedness: a diagonal is known where two other sides of a
+// triangle are, and in every polygon some triangle has two sides of the polygon.
+IntegerForms on_flipped(IntegerForms classes, const mesh::Surface& before, const mesh::Surface& after,
+                        const mesh::HalfEdges& half_edges) {
+  std::vector<int> pending;
+  std::vector<char> unknown(after.edges.size(), 0);
+  for (int e = after.polygon_edge_count; e < static_cast<int>(after.edges.size()); ++e) {
+    if (before.edges[e] == after.edges[e]) continue;
+    pending.push_back(e);
+    unknown[e] = 1;
+  }
+  const auto resolve = [&](int e) {
+    for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
+      const HalfedgeHandle a = mesh::next(half_edges, h), b = mesh::next(half_edges, a);
+      if (unknown[edge_of(a)] || unknown[edge_of(b)]) continue;
+      const int back = -mesh::sign(h);
+      const auto along_a = topology::add({}, classes.rows[edge_of(a)], back * mesh::sign(a));
+      classes.rows.set(e, topology::add(along_a, classes.rows[edge_of(b)], back * mesh::sign(b)));
+      unknown[e] = 0;
+      return true;
+    }
+    return false;
+  };
+  while (!pending.empty()) std::erase_if(pending, resolve);
+  return classes;
+}
+
+}  // namespace
+
+ClosedMaps::ClosedMaps(const Landscape& landscape, const std::vector<int>& vertices, const std::vector<int>& names,
+                       const structure::Options& options, Execution& execution) {
+  structure::Punctures punctures{vertices, std::vector<Complex>(vertices.size(), 1.0), names};
+  punctures.residues.back() = -static_cast<double>(vertices.size() - 1);
+  punctured_ = structure::punctured_surface(landscape.structure().surface, std::move(punctures), execution);
+  auto& [s, half_edges, weights, poles] = punctured_;
+  s.memory = structure::plan_memory({s.surface->vertex_count, static_cast<std::int64_t>(s.surface->edges.size()), 2},
+                                    options.solver, options.memory_limit, structure::Keeping::all);
+  systems_ =
+      std::make_unique<structure::HarmonicSystems>(half_edges, weights, std::vector<int>{}, s.memory.choice, execution);
+  const structure::Structure& plain = landscape.structure();
+  change_ = change_of_basis(plain.topology.classes, s);
+  pole_parts_.resize(change_.rows(), s.topology.families.poles);
+  if (change_.rows() == 0) return;
+  // Away from the flipped diagonals the harmonic forms are those of the landscape, and integers are all that is wanted.
+  const forms::ClosedForms harmonic{on_flipped(plain.topology.classes, *plain.surface, *s.surface, half_edges),
+                                    landscape.harmonic().functions};
+  pole_parts_ = forms::harmonic_part(half_edges, poles, harmonic, plain.gram[0]);
+}
+
+SeamlessForm ClosedMaps::form(const VectorXcd& X, const VectorXcd& r, const TextureLattice& lattice) const {
+  const auto& families = punctured_.structure.topology.families;
+  VectorXcd periods = X - pole_parts_ * r;
+  for (Complex& period : periods) period = lattice.nearest(period);
+  SeamlessForm result{change_ * periods, VectorXcd(families.count())};
+  result.coefficients << result.periods, r, Complex(0, 1) * r;
+  return result;
+}
+
+uv::UvArray ClosedMaps::function(const SeamlessForm& form, Execution& execution) {
+  const auto& [s, half_edges, weights, poles] = punctured_;
+  const auto& families = s.topology.families;
+  const auto natural = topology::first_forms(s.topology.classes, families.natural, families.natural);
+  return forms::function_with_poles(half_edges, weights, poles, natural, form.periods,
+                                    form.coefficients.segment(families.natural, families.poles), systems_->solver(),
+                                    execution);
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,38 @@
+// Seamless maps of a closed surface with poles at given vertices: one form is solved for, and no basis of forms.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "structure/harmonic_systems.h"
+#include "structure/punctured_structure.h"
+#include "tiling/landscape.h"
+#include "tiling/seamless_map.h"
+
+namespace holomorph::tiling {
+
+class ClosedMaps {
+ public:
+  /// @param vertices at least two. @throws TopologyError, SolverError, Cancelled, as punctured_structure does
+  ClosedMaps(const Landscape& landscape, const std::vector<int>& vertices, const std::vector<int>& names,
+             const structure::Options& options, Execution& execution);
+  ClosedMaps(const ClosedMaps&) = delete;
+  ClosedMaps& operator=(const ClosedMaps&) = delete;
+
+  const std::vector<int>& vertices() const { return punctured_.structure.punctures.vertices; }
+  const structure::Structure& structure() const { return punctured_.structure; }
+
+  /// @param X as the tiling_problem has it: periods besides the poles in the classes of the landscape
+  /// @param r residues of the poles but the last
+  SeamlessForm form(const Eigen::VectorXcd& X, const Eigen::VectorXcd& r, const TextureLattice& lattice) const;
+  /// #V x 2. Cost: 2 solves. @throws SolverError, Cancelled
+  uv::UvArray function(const SeamlessForm& form, Execution& execution);
+
+ private:
+  structure::PuncturedSurface punctured_;
+  std::unique_ptr<structure::HarmonicSystems> systems_;
+  Eigen::MatrixXd change_;      // from the classes of the landscape to those of the structure
+  Eigen::MatrixXd pole_parts_;  // in the classes of the landscape
+};
+
+}  // namespace holomorph::tiling
