@@ -158,4 +158,5 @@ def _make(holomorph, surface, part, keywords, note, progress):
     structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
     structure = replace(structure, surface=surface)  # so do its results
     balanced, is_chosen = structure.balanced_coefficients(), choices.ask_for_a_kind(keywords)
+    structure.uv(balanced)  # refused here, where it is not finite, before anything is written
     return SolvedComponent(part, structure, balanced, note=note, is_chosen=is_chosen)

@@ -129,7 +129,7 @@ def _forms(surface, component, boundary, options, memory_limit):
         native = _native.paper_structure(component._native, threads, memory_limit, progress)
     else:
         limited = solver, threads, memory_limit, progress
-        native = _native.conformal_structure(component._native, boundary == "double_cover", *limited)
+        native = _native.conformal_structure(component._native, bounded and boundary == "double_cover", *limited)
     return result(BoundedStructure if bounded else ConformalStructure, surface, component, native, threads)
 
 

@@ -80,6 +80,22 @@ def test_a_sphere_gets_two_punctures_by_itself_or_those_that_are_picked():
     assert "log map" in only_part(obj)["description"]
 
 
+def test_a_sphere_that_was_spun_gets_uvs_at_every_corner():
+    """Each pole is a ring of coincident vertices: beside a puncture there are edges without length."""
+    around, along = 16, 8
+    theta, phi = np.arange(along + 1) * np.pi / along, 2 * np.pi * np.arange(around) / around
+    radius = np.where(np.arange(along + 1) % along > 0, np.sin(theta), 0.0)[:, None]
+    vertices = np.stack(np.broadcast_arrays(radius * np.cos(phi), radius * np.sin(phi), np.cos(theta)[:, None]), -1)
+    ring = np.arange(around * (along + 1)).reshape(along + 1, around)
+    after = np.roll(ring, -1, axis=1)
+    quads = np.stack([ring[:-1], ring[1:], after[1:], after[:-1]], -1).reshape(-1, 4)
+    obj = mesh_object("Spun", vertices.reshape(-1, 3), [*quads.tolist(), ring[0].tolist(), ring[-1, ::-1].tolist()])
+    assert run() == {"FINISHED"}
+    corners = uv(obj)[: quads.size].reshape(-1, 4, 2)
+    assert np.isfinite(corners).all() and np.ptp(corners, axis=1).max(axis=1).min() > FLOAT32
+    assert only_part(obj)["done"] and only_part(obj)["main_map"]["collapsed_triangles"] == 0
+
+
 def test_punctures_with_residues_on_a_torus():
     obj = torus(around=80, across=40)
     pick(obj, [0, 840, 2000])

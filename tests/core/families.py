@@ -313,6 +313,25 @@ def geodesic_sphere(n, jitter=0.0, seed=0):
     return uniform(points, index.reshape(-1)[np.concatenate(faces)], ((0, 0),))
 
 
+def spun(n, m, cap="n-gon"):
+    """A sphere spun from a half circle, as by Blender's Spin: n coincident vertices at each pole, closed by an n-gon,
+    or by a fan around one vertex more."""
+    theta, phi = np.arange(m + 1) * np.pi / m, 2 * np.pi * np.arange(n) / n
+    radius = np.where(np.arange(m + 1) % m > 0, np.sin(theta), 0.0)
+    points = np.stack([np.outer(radius, np.cos(phi)), np.outer(radius, np.sin(phi)), np.outer(np.cos(theta), phi**0)])
+    points = points.reshape(3, -1).T
+    faces = [[i * n + j, (i + 1) * n + j, (i + 1) * n + k, i * n + k] for i in range(m) for j, k in _around(n)]
+    if cap == "n-gon":
+        return polygons(points, [*faces, list(range(n)), list(range(m * n, (m + 1) * n))[::-1]], ((0, 0),))
+    top, bottom = len(points), len(points) + 1
+    fans = [[j, k, top] for j, k in _around(n)] + [[m * n + k, m * n + j, bottom] for j, k in _around(n)]
+    return polygons(np.concatenate([points, points[[0, -1]]]), faces + fans, ((0, 0),))
+
+
+def _around(n):
+    return [(j, (j + 1) % n) for j in range(n)]
+
+
 def hexagonal_disk(n, jitter=0.0, seed=0):
     """The unit disk (#V, 2) in n rings around vertex 0: 3 n (n + 1) + 1 points and 6 n^2 triangles. Interior points are
     moved, `jitter` in units of a ring."""

@@ -94,6 +94,27 @@ def test_real_forms_are_those_of_the_double_cover(name, tmp_path):
     assert_same(conformal_structure(part), conformal_structure(part, boundary="double_cover"))
 
 
+@pytest.mark.parametrize("count", [3, 4, 7, 20, 150])
+def test_ribbons_without_inner_vertices(count):
+    """The Dirichlet forms need no solve there: their right-hand sides are rounding on the double."""
+    angle = 2 * np.pi * np.arange(count) / count
+    radii = 1 + 0.1 * np.random.default_rng(count).uniform(-1, 1, (2, count)) + [[0], [6.28 / count]]
+    rings = np.stack([radii * np.cos(angle), radii * np.sin(angle), 0 * radii], axis=-1)
+    inner, outer = np.arange(2 * count).reshape(2, count)
+    after = np.roll(inner, -1), np.roll(outer, -1)
+    faces = np.concatenate([np.stack([inner, outer, after[1]], 1), np.stack([inner, after[1], after[0]], 1)])
+    ribbon = Surface(rings.reshape(-1, 3), faces)
+    double = conformal_structure(ribbon, boundary="double_cover", solver="direct")
+    assert_same(conformal_structure(ribbon), double)
+    assert double.solver.residual < SAME
+
+
+def test_a_closed_surface_needs_no_double():
+    surface = surface_of(families.torus(7, 6))
+    double = conformal_structure(surface, boundary="double_cover")
+    assert np.array_equal(double.period_matrix, conformal_structure(surface).period_matrix)
+
+
 def test_boundary_option():
     with pytest.raises(ValueError, match="boundary is 'free'"):
         conformal_structure(surface_of(BOUNDED["tube"]), boundary="free")

@@ -1,7 +1,10 @@
 """Several Python threads at once: the lock of the interpreter is released, so computations really meet."""
 
+import subprocess
+import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import families
 import numpy as np
@@ -84,3 +87,32 @@ def test_files_are_read_at_once(tmp_path):
     assert len(surfaces) == 2
     for surface in surfaces:
         np.testing.assert_array_equal(surface.vertices, TORUS.vertices)
+
+
+FORKED = """
+import multiprocessing
+import sys
+
+sys.path.insert(0, sys.argv[1])
+import families
+from holomorph import conformal_structure
+from solved import surface_of
+
+surface = surface_of(families.torus(60, 50, shape="triangles"))
+
+
+def matrix(_):
+    return conformal_structure(surface, solver="direct", threads=1).period_matrix.tobytes()
+
+
+before = matrix(0)  # its OpenMP threads are not in the children
+with multiprocessing.get_context("fork").Pool(2) as pool:
+    assert pool.map_async(matrix, range(4)).get(timeout=60) == 4 * [before]
+assert matrix(0) == before
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no fork")
+def test_children_by_fork_solve_as_their_parent_did():
+    folder = str(Path(families.__file__).parent)
+    subprocess.run([sys.executable, "-c", FORKED, folder], check=True, timeout=120)

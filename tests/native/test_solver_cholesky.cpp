@@ -72,6 +72,23 @@ TEST(SparseCholesky, AnIndefiniteMatrixIsRefusedAndTheNextOneTaken) {
   EXPECT_LE((A * factor.solve(B) - B).norm(), kRounding * B.norm());
 }
 
+TEST_P(FixedUnknowns, UnknownsThatNothingConnectsAreSolvedFor) {
+  const int n = GetParam() + 2;
+  Matrix A(n, n);
+  A.setIdentity();
+  std::vector<char> fixed(n, 0);
+  fixed[n - 1] = 1;
+  SparseCholesky factor;
+  factor.compute(A, fixed);
+  Eigen::MatrixXd B = random_values(n, 2, 5);
+  EXPECT_TRUE(same_bits(factor.solve(B), B));
+  B.row(n - 1).setZero();
+  EXPECT_TRUE(same_bits(factor.solve_fixed(B), B));
+  SparseCholesky alone;
+  alone.compute(A.topLeftCorner(1, 1), {1});
+  EXPECT_TRUE(same_bits(alone.solve(B.topRows(1)), B.topRows(1)));
+}
+
 TEST(SparseCholesky, NothingIsSolved) {
   SparseCholesky factor;
   factor.compute(Matrix(0, 0), {});

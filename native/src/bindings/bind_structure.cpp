@@ -134,7 +134,7 @@ Eigen::VectorXcd balanced_coefficients(Structure& s) {
 py::array disk_map(Structure& s) {
   Eigen::VectorXcd z;
   s.with_forms([&](auto& forms, Execution& execution) {
-    z = plane::disk_map(s.value, forms.function(s.value.differentials.col(0), execution));
+    z = plane::disk_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
   });
   return copy(z);
 }
@@ -143,7 +143,7 @@ py::array sphere_map(Structure& s) {
   plane::PointArray points;
   s.with_forms([&](auto& forms, Execution& execution) {
     plane::require_sphere(s.value);
-    points = plane::sphere_map(s.value, forms.function(s.value.differentials.col(0), execution));
+    points = plane::sphere_map(s.value, forms.function(s.value.differentials.col(0), execution), execution.workers());
   });
   return give_matrix(std::move(points));
 }

@@ -65,6 +65,8 @@ py::tuple harmonic_map(const mesh::Surface& surface, const Contiguous<double>& c
 
 // The star of a form on the edges of any surface.
 py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
+  if (form.size() != static_cast<py::ssize_t>(surface.edges.size()))
+    throw py::value_error("a form has one value for each edge");
   Execution execution;
   return copy(forms::averaged_star(mesh::half_edges(surface, execution), surface.edge_lengths, values(form)));
 }

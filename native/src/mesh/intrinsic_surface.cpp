@@ -10,6 +10,7 @@
 #include "mesh/half_edges.h"
 #include "mesh/orientation.h"
 #include "mesh/surface_records.h"
+#include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -32,6 +33,7 @@ void check_face(std::size_t f, int vertex_count, const std::array<std::int64_t, 
     }
     if (!std::isfinite(lengths[i]) || lengths[i] < 0)
       throw InvalidMesh(face + " has an edge length that is negative or not finite");
+    if (lengths[i] > kLargest) throw InvalidMesh(face + " has an edge length beyond 1e60: scale the lengths down");
     if (!has_edge_names && v == vertices[(i + 1) % 3])
       throw InvalidMesh(face + " has vertex " + to_string(v) + " twice; name its edges with face_edges");
   }
@@ -48,7 +50,12 @@ void check_input(int vertex_count, const Indices& faces, const std::vector<std::
     throw InvalidMesh("face_edges has " + to_string(face_edges.size()) + " rows for " + to_string(faces.size()) +
                       " faces");
   }
-  for (std::size_t f = 0; f < faces.size(); ++f) check_face(f, vertex_count, faces[f], lengths[f], !face_edges.empty());
+  double longest = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    check_face(f, vertex_count, faces[f], lengths[f], !face_edges.empty());
+    longest = std::max({longest, lengths[f][0], lengths[f][1], lengths[f][2]});
+  }
+  if (longest > 0 && longest < kSmallest) throw InvalidMesh("all edge lengths are below 1e-60: scale them up");
 }
 
 struct Side {

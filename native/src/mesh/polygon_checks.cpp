@@ -8,6 +8,7 @@
 
 #include "base/chunks.h"
 #include "base/errors.h"
+#include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -38,8 +39,12 @@ void check_sizes(const BasicPolygons<Index>& mesh) {
   }
 }
 
-bool is_finite(const std::array<double, 3>& point) {
-  return std::isfinite(point[0]) && std::isfinite(point[1]) && std::isfinite(point[2]);
+double largest_coordinate(const std::array<double, 3>& point) {
+  return std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+}
+
+bool is_usable(const std::array<double, 3>& point) {  // NaN: no comparison holds
+  return std::abs(point[0]) <= kLargest && std::abs(point[1]) <= kLargest && std::abs(point[2]) <= kLargest;
 }
 
 [[noreturn]] void refuse_vertex(const std::array<double, 3>& point, int vertex) {
@@ -48,7 +53,7 @@ bool is_finite(const std::array<double, 3>& point) {
       throw InvalidMesh("vertex " + to_string(vertex) + " has a coordinate that is " +
                         (std::isnan(x) ? "not a number" : "infinite"));
   }
-  throw Error("vertex " + to_string(vertex) + " is finite");
+  throw InvalidMesh("vertex " + to_string(vertex) + " has a coordinate beyond 1e60: scale the mesh down");
 }
 
 template <class Index>
@@ -95,8 +100,12 @@ template <class Index>
 void check(const BasicPolygons<Index>& mesh, Workers& workers) {
   check_sizes(mesh);
   const int vertices = static_cast<int>(mesh.vertices.size()), faces = static_cast<int>(mesh.face_offsets.size()) - 1;
-  const int bad_vertex = first_row(workers, vertices, [&](int v) { return !is_finite(mesh.vertices[v]); });
+  const int bad_vertex = first_row(workers, vertices, [&](int v) { return !is_usable(mesh.vertices[v]); });
   if (bad_vertex < vertices) refuse_vertex(mesh.vertices[bad_vertex], bad_vertex);
+  const auto is_above = [&](double least) {
+    return first_row(workers, vertices, [&](int v) { return largest_coordinate(mesh.vertices[v]) > least; }) < vertices;
+  };
+  if (!is_above(kSmallest) && is_above(0)) throw InvalidMesh("all coordinates are below 1e-60: scale the mesh up");
   const int bad_face = first_row(workers, faces, [&](int f) { return !is_sound(mesh, f); });
   if (bad_face < faces) refuse_face(mesh, bad_face);
 }

@@ -7,7 +7,8 @@
 namespace holomorph::mesh {
 
 /// Refuses, with the first bad element: no faces, offsets that do not fit, fewer than 3 corners, an index that is
-/// negative or too large, a vertex twice in a face, a position that is NaN or infinite, too many elements for 32 bits.
+/// negative or too large, a vertex twice in a face, a position that is NaN, infinite or beyond
+/// kLargest, positions that are all below kSmallest, too many elements for 32 bits.
 /// @throws InvalidMesh
 void check_polygons(const Polygons& polygons, Workers& workers);
 void check_polygons(const GivenPolygons& polygons, Workers& workers);

@@ -18,6 +18,13 @@ double apex_angle(const HalfEdges& mesh, std::span<const double> lengths, Halfed
   return std::atan2(4 * triangle_area(a, b, c), (b - a) * (b + a) + c * c);
 }
 
+// The place of the apex of the triangle on side h, where this side runs from 0 to 1.
+std::complex<double> apex_place(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle h) {
+  const HalfedgeHandle h1 = next(mesh, h), h2 = next(mesh, h1);
+  const double l = lengths[edge_of(h)], to_b = lengths[edge_of(h1)], to_a = lengths[edge_of(h2)];
+  return {(l * l + (to_a - to_b) * (to_a + to_b)) / (2 * l * l), 2 * triangle_area(l, to_a, to_b) / (l * l)};
+}
+
 bool on_boundary(const HalfEdges& mesh, int vertex) {
   return !mesh.face_handle(mesh.halfedge_handle(VertexHandle(vertex))).is_valid();
 }
@@ -120,6 +127,7 @@ Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, co
     result.link.push_back(outer);
     result.faces.push_back(face_of(mesh, outer));
     result.angles.push_back(apex_angle(mesh, lengths, outer));
+    result.apexes.push_back(apex_place(mesh, lengths, outer));
     result.total_angle += result.angles.back();
     h = opposite(next(mesh, outer));
   } while (h != start);

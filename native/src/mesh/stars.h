@@ -1,6 +1,7 @@
 // The stars of vertices that become punctures: disks of faces, apart from each other and from the boundary.
 #pragma once
 
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -12,9 +13,10 @@ namespace holomorph::mesh {
 /// the corner angles, counter-clockwise from the end of link[0].
 struct Star {
   int vertex = 0;
-  std::vector<HalfedgeHandle> link;  ///< opposite the vertex in each of its faces, counter-clockwise
-  std::vector<int> faces;            ///< the face of each link half-edge
-  std::vector<double> angles;        ///< at the vertex in each face, in radians
+  std::vector<HalfedgeHandle> link;          ///< opposite the vertex in each of its faces, counter-clockwise
+  std::vector<int> faces;                    ///< the face of each link half-edge
+  std::vector<double> angles;                ///< at the vertex in each face, in radians
+  std::vector<std::complex<double>> apexes;  ///< place of the vertex in each face, its link side from 0 to 1
   double total_angle = 0;
 
   std::size_t size() const { return link.size(); }

@@ -11,6 +11,13 @@ namespace holomorph::mesh {
 /// the rounding of lengths from rounded positions. (Then an angle is below 1.4e-6 rad.)
 inline constexpr double kDegenerateMargin = 1e-12;
 
+/// Lengths and coordinates up to this are computed with: products of four do not overflow. Where all are below the
+/// second, they lose digits.
+inline constexpr double kLargest = 1e60, kSmallest = 1e-60;
+
+/// A triangle is degenerate, too, where that difference is less than this length: products of four underflow.
+inline constexpr double kLeastSlack = 1e-75;
+
 inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   return std::sqrt(x * x + y * y + z * z);
@@ -18,7 +25,7 @@ inline double distance(const std::array<double, 3>& a, const std::array<double, 
 
 inline bool is_degenerate(double a, double b, double c) {
   const double longest = std::max({a, b, c});
-  return !((a + b + c) - 2 * longest > kDegenerateMargin * longest);
+  return !((a + b + c) - 2 * longest > std::max(kDegenerateMargin * longest, kLeastSlack));
 }
 
 /// Heron's formula in Kahan's stable order; 0 where the triangle inequality fails.

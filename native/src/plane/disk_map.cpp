@@ -2,12 +2,15 @@
 
 #include <numbers>
 
+#include "base/finite.h"
+
 namespace holomorph::plane {
 
-Eigen::VectorXcd disk_map(const structure::Structure& s, const uv::UvArray& function) {
+Eigen::VectorXcd disk_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {
   const Eigen::VectorXcd at_vertex = function.col(0) + std::complex<double>(0, 1) * function.col(1);
   Eigen::VectorXcd z = (std::complex<double>(0, 2 * std::numbers::pi) * at_vertex.array()).exp();
   z[s.stars[0].vertex] = 0;
+  require_finite(z, "vertex", workers);
   return z;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/finite.h"
 #include "mesh/delaunay.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "plane/dirichlet_problem.h"
@@ -60,6 +61,7 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   result.points.resize(surface.vertex_count);
   result.points.real() = drawn.u.functions.col(0);
   result.points.imag() = result.modulus * drawn.v.functions.col(0);
+  require_finite(result.points, "vertex", execution.workers());
   result.harmonicity = std::max(sharp.harmonicity(), drawn.harmonicity());
   result.solver = sharp.v.solver.residual > sharp.u.solver.residual ? sharp.v.solver : sharp.u.solver;
   execution.finish();

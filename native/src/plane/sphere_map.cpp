@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/errors.h"
+#include "base/finite.h"
 #include "mesh/edge_ends.h"
 
 namespace holomorph::plane {
@@ -24,7 +25,7 @@ void require_sphere(const structure::Structure& s) {
   throw TopologyError("only a closed surface of genus 0 with two punctures has a map to the sphere here");
 }
 
-PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function) {
+PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {
   // -log |z| = 2 pi v, and the height (1 - |z|^2) / (1 + |z|^2) is its hyperbolic tangent.
   const Eigen::VectorXcd angle =
       2 * std::numbers::pi / s.punctures.residues[0] * (function.col(0) + std::complex<double>(0, 1) * function.col(1));
@@ -41,6 +42,7 @@ PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function
   points << radius * turn.array().cos(), radius * turn.array().sin(), rise.array().tanh();
   points.row(s.stars[0].vertex) << 0, 0, 1;
   points.row(s.stars[1].vertex) << 0, 0, -1;
+  require_finite(points, "vertex", workers);
   return points;
 }
 

@@ -16,6 +16,6 @@ void require_sphere(const structure::Structure& structure);
 /// and infinite at the second; inverse stereographic projection takes them to (0, 0, 1) and (0, 0, -1), after z is
 /// scaled so that the mean height over the surface's area is 0.
 /// @param function #V x 2, that of theta_0 (structure::UvForms). @pre require_sphere
-PointArray sphere_map(const structure::Structure& structure, const uv::UvArray& function);
+PointArray sphere_map(const structure::Structure& structure, const uv::UvArray& function, Workers& workers);
 
 }  // namespace holomorph::plane

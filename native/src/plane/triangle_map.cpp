@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/errors.h"
+#include "base/finite.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/edge_ends.h"
 #include "mesh/intrinsic_triangulation.h"
@@ -47,6 +48,7 @@ PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Exec
   result.points.resize(surface.vertex_count);
   result.points.real() = z.col(0);
   result.points.imag() = z.col(1);
+  require_finite(result.points, "vertex", execution.workers());
   execution.finish();
   result.seconds = execution.seconds();
   return result;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/finite.h"
 #include "uv/apexes.h"
 
 namespace holomorph::structure {
@@ -10,6 +11,7 @@ void write_uv_map(const Structure& s, const uv::UvArray& function, const Eigen::
                   Eigen::Ref<uv::UvArray> corners, Workers& workers) {
   uv::write_uv_map(*s.surface, s.topology.sheets, function, p, corners, workers);
   uv::place_apexes(*s.surface, s.stars, corners);
+  require_finite(corners, "corner", workers);
 }
 
 double uv_area(const Structure& s, const Eigen::VectorXcd& p) {

@@ -56,6 +56,7 @@ struct Structure {
 
 /// #V x 2, #C x 2: the UVs of the real and imaginary part of sum_k p_k h_k, from its function sum_k p_k f_k. Triangles
 /// of the stars of punctures have an apex each (uv/apexes.h).
+/// @throws SolverError where a UV is not finite
 void write_uv_map(const Structure& structure, const uv::UvArray& function, const Eigen::VectorXcd& p,
                   Eigen::Ref<uv::UvArray> corners, Workers& workers);
 

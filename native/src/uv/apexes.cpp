@@ -2,14 +2,11 @@
 
 #include <complex>
 
-#include "mesh/triangle_geometry.h"
-
 namespace holomorph::uv {
 
 using Complex = std::complex<double>;
 
 void place_apexes(const mesh::Surface& surface, const std::vector<mesh::Star>& stars, Eigen::Ref<UvArray> uv) {
-  const auto& length = surface.edge_lengths;
   for (const mesh::Star& star : stars) {
     for (std::size_t j = 0; j < star.size(); ++j) {
       const int t = star.faces[j];
@@ -17,11 +14,8 @@ void place_apexes(const mesh::Surface& surface, const std::vector<mesh::Star>& s
       const auto& edge = surface.triangle_edges[t];
       int side = 0;  // the one on the link
       while (edge[side] != mesh::edge_of(star.link[j])) ++side;
-      const double l = length[edge[side]], to_b = length[edge[(side + 1) % 3]], to_a = length[edge[(side + 2) % 3]];
-      const Complex z((l * l + (to_a - to_b) * (to_a + to_b)) / (2 * l * l),
-                      2 * mesh::triangle_area(l, to_a, to_b) / (l * l));
       const int at_a = corner[side], at_b = corner[(side + 1) % 3], at_p = corner[(side + 2) % 3];
-      const Complex a(uv(at_a, 0), uv(at_a, 1)), b(uv(at_b, 0), uv(at_b, 1)), apex = a + z * (b - a);
+      const Complex a(uv(at_a, 0), uv(at_a, 1)), b(uv(at_b, 0), uv(at_b, 1)), apex = a + star.apexes[j] * (b - a);
       uv.row(at_p) << apex.real(), apex.imag();
     }
   }

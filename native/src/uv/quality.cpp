@@ -137,19 +137,20 @@ Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& u
     const auto [A, B] = derivatives(at, a, b, c, areas[t]);
     const double size_A = std::sqrt(std::norm(A)), size_B = std::sqrt(std::norm(B));
     const double larger = size_A + size_B, smaller = std::abs(size_A - size_B);
-    result.area[t] = larger * smaller;
-    if (larger > 0 && !(smaller > kCollapsed * larger)) {
+    if (!(smaller > kCollapsed * larger) || !std::isfinite(larger)) {
       result.angle[t] = std::numeric_limits<double>::infinity();
       return;
     }
+    result.area[t] = larger * smaller;
     result.flipped[t] = size_B > size_A;
-    result.angle[t] = larger > 0 ? larger / smaller : 1.0;
+    result.angle[t] = larger / smaller;
     sum += {areas[t], areas[t] * result.angle[t]};
   };
   const AngleSum sum = sum_over_rows(workers, static_cast<int>(count), AngleSum(), measure);
   result.mean_angle = sum.area > 0 ? sum.angle / sum.area : std::numeric_limits<double>::infinity();
   const Distribution densities(result.area, areas, workers);
-  result.density_ratio = densities.quantile(0.95) / densities.quantile(0.05);
+  const double low = densities.quantile(0.05);
+  result.density_ratio = low > 0 ? densities.quantile(0.95) / low : std::numeric_limits<double>::infinity();
   result.median_density = densities.quantile(0.5);
   return result;
 }

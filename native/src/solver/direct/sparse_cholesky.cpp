@@ -1,7 +1,12 @@
 #include "solver/direct/sparse_cholesky.h"
 
 #include <cmath>
+#include <future>
 #include <mutex>
+
+#ifndef _WIN32
+#include <unistd.h>
+#endif
 
 #include "base/errors.h"
 
@@ -48,6 +53,20 @@ class OneBlasThread {
   OneBlasThread() {}
 #endif
 };
+
+#ifndef _WIN32
+const pid_t kLoadedIn = getpid();
+bool is_forked() { return getpid() != kLoadedIn; }
+#else
+bool is_forked() { return false; }
+#endif
+
+// work(), on a thread of its own in a process made by fork: there the calling thread may remember OpenMP threads, from
+// an earlier factorisation, which only its parent has, and would wait for them for ever.
+template <class Work>
+auto on_sound_thread(const Work& work) {
+  return is_forked() ? std::async(std::launch::async, work).get() : work();
+}
 
 void check(bool done, Eigen::Index unknowns) {
   if (done) return;
@@ -105,8 +124,10 @@ struct SparseCholesky::Factor {
 
   // AMD with the constraint that the fixed unknowns come last. The postordering that follows moves some of them forward
   // again, but never before an unknown that depends on them: the ancestors of a fixed one are fixed.
-  // @return false where that would be slow
+  // @return false where that would be slow, and where no two unknowns are connected: CAMD 2.4 then reads beyond its
+  // arrays
   bool compute_fixed_last(const Lower& lower, const std::vector<char>& fixed) {
+    if (lower.nonZeros() == lower.rows()) return false;
     cholmod_sparse A = Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
     std::vector<int> last(fixed.begin(), fixed.end()), order(fixed.size());
     common.method[0].ordering = CHOLMOD_GIVEN;
@@ -175,7 +196,10 @@ void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
   others_.clear();
   factor_of_others_.reset();
   factor_ = std::make_unique<Factor>();
-  if (lower.rows() == 0) return;
+  if (lower.rows() > 0) on_sound_thread([&] { factorise(lower); });
+}
+
+void SparseCholesky::factorise(const Lower& lower) {
   if (fixed_.empty()) {
     factor_->compute(lower);
   } else if (!factor_->compute_fixed_last(lower, fixed_)) {
@@ -191,15 +215,16 @@ void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& B) {
   const OneBlasThread one_thread;
-  return B.rows() == 0 ? B : factor_->solve(B);
+  return B.rows() == 0 ? B : on_sound_thread([&] { return factor_->solve(B); });
 }
 
 Eigen::MatrixXd SparseCholesky::solve_fixed(const Eigen::MatrixXd& B) {
   const OneBlasThread one_thread;
   if (B.rows() == 0) return B;
-  if (!factor_of_others_) return factor_->solve_fixed(B, fixed_);
+  if (!factor_of_others_) return on_sound_thread([&] { return factor_->solve_fixed(B, fixed_); });
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
-  if (!others_.empty()) X(others_, Eigen::all) = factor_of_others_->solve(B(others_, Eigen::all));
+  if (!others_.empty())
+    X(others_, Eigen::all) = on_sound_thread([&] { return factor_of_others_->solve(B(others_, Eigen::all)); });
   return X;
 }
 
