@@ -1,0 +1,38 @@
+"""Where the cut of a seamless tiling runs is not seen in a picture."""
+
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import torus, uv
+
+studio = module("studio")
+SIZE = 160
+STEP = 1 / 255  # of a channel
+
+
+def picture(obj, path):
+    studio.render([obj], str(path), SIZE, 4)
+    image = bpy.data.images.load(str(path))
+    values = np.empty(4 * SIZE * SIZE, np.float32)
+    image.pixels.foreach_get(values)
+    return values
+
+
+def shift_random_faces(obj, by):
+    """The cut now runs around each of them."""
+    sizes = np.empty(len(obj.data.polygons), np.int32)
+    obj.data.polygons.foreach_get("loop_total", sizes)
+    chosen = np.repeat(np.random.default_rng(1).random(len(sizes)) < 0.5, sizes)
+    moved = (uv(obj) + chosen[:, None] * np.asarray(by)).astype(np.float32)
+    obj.data.uv_layers["Holomorphic"].data.foreach_set("uv", moved.ravel())
+
+
+@pytest.mark.parametrize(("by", "seen"), [((3, -2), False), ((0.5, 0.25), True)], ids=["whole", "part"])
+def test_a_cut_elsewhere(by, seen, tmp_path):
+    obj = torus()
+    assert bpy.ops.uv.holomorphic_tile(tiles=60, texture="BRICKS") == {"FINISHED"}
+    before = picture(obj, tmp_path / "before.png")
+    shift_random_faces(obj, by)
+    difference = np.abs(picture(obj, tmp_path / "after.png") - before).max()
+    assert (difference > 20 * STEP) if seen else (difference < STEP)
