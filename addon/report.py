@@ -131,7 +131,8 @@ def _result_lines(part):
     yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"
     if part.get("modulus") is not None:
         yield f"modulus {part['modulus']:.6g}"
-        yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
+        if part["modulus_bounds"] is not None:
+            yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
     if part["genus"] == 1 and part["boundary_count"] == 0 and "period_matrix" in part:
         real, imaginary = part["period_matrix"][0][0]
         yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"

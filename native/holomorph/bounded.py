@@ -8,7 +8,7 @@ import numpy as np
 from . import arrays
 from ._native import TopologyError
 from .form_structure import FormStructure
-from .report import complex_pairs
+from .report import bound_lists, complex_pairs
 from .results import BoundedResiduals
 
 
@@ -94,12 +94,14 @@ class BoundedStructure(FormStructure):
     @property
     def capacity_bounds(self):
         """(lower, upper), (b-1, b-1) each: guaranteed bounds of the polyhedral surface's `capacity_matrix`, as
-        quadratic forms."""
+        quadratic forms; None where those of `period_bounds` are."""
         self._check_planar("capacity matrix")
         return self._capacity_bounds
 
     @cached_property
     def _capacity_bounds(self):
+        if not self._is_exact:
+            return None
         natural, dirichlet = self.gram_matrices
         return arrays.frozen(np.linalg.inv(natural)), dirichlet
 
@@ -118,8 +120,11 @@ class BoundedStructure(FormStructure):
 
     @property
     def modulus_bounds(self):
-        """(lower, upper): guaranteed bounds of the polyhedral annulus's `modulus`."""
+        """(lower, upper): guaranteed bounds of the polyhedral annulus's `modulus`; None where those of
+        `period_bounds` are."""
         self._check_annulus()
+        if not self._is_exact:
+            return None
         natural, dirichlet = self.gram_matrices
         return float(1 / dirichlet[0, 0]), float(natural[0, 0])
 
@@ -131,9 +136,7 @@ class BoundedStructure(FormStructure):
     def _check_annulus(self):
         genus, loops = self._component.genus, self._component.boundary_count
         if (genus, loops) != (0, 2):
-            raise TopologyError(
-                f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops"
-            )
+            raise TopologyError(f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops")
 
     def invariants(self):
         """Period matrix of the double, capacities and modulus with their bounds, as plain data."""
@@ -141,12 +144,12 @@ class BoundedStructure(FormStructure):
         values = {
             "conventions": "Omega is the period matrix of the double, a_i.b_j = delta_ij; loop 0 is the longest",
             "period_matrix": complex_pairs(self.period_matrix),
-            "period_bounds": [bound.tolist() for bound in self.period_bounds],
+            "period_bounds": bound_lists(self.period_bounds),
             "collapsed_triangles": len(self.collapsed_triangles),
         }
         if surface.genus == 0:
             values["capacity_matrix"] = self.capacity_matrix.tolist()
-            values["capacity_bounds"] = [bound.tolist() for bound in self.capacity_bounds]
+            values["capacity_bounds"] = bound_lists(self.capacity_bounds)
         if (surface.genus, surface.boundary_count) == (0, 2):
-            values["modulus"], values["modulus_bounds"] = self.modulus, list(self.modulus_bounds)
+            values["modulus"], values["modulus_bounds"] = self.modulus, bound_lists(self.modulus_bounds)
         return values

@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from .form_structure import FormStructure
-from .report import complex_pairs
+from .report import bound_lists, complex_pairs
 from .results import ClosedResiduals
 
 
@@ -57,5 +57,5 @@ class ConformalStructure(FormStructure):
         return {
             "conventions": "a_i.b_j = delta_ij; theta_j has period 1 over a_j; Omega_ij is its integral over b_i",
             "period_matrix": complex_pairs(self.period_matrix),
-            "period_bounds": [bound.tolist() for bound in self.period_bounds],
+            "period_bounds": bound_lists(self.period_bounds),
         }

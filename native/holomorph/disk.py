@@ -9,7 +9,7 @@ from . import _native, arrays
 from ._native import TopologyError
 from .checks import checked_coefficients, own_vertices
 from .punctured import PuncturedStructure
-from .report import finite_or_none
+from .report import bound_lists, finite_or_none
 from .results import Structure, result
 
 UNEVEN = 100.0  # density ratio of a disk map, ten in length, above which others are tried
@@ -111,8 +111,9 @@ class RectangleMap(PlaneMap):
 
     @property
     def modulus_bounds(self):
-        """(lower, upper): guaranteed bounds of the modulus of the polyhedral surface."""
-        return self._native.modulus()[1:]
+        """(lower, upper): guaranteed bounds of the modulus of the polyhedral surface. None where degenerate triangles
+        had to be mollified: another surface was solved on."""
+        return self._native.modulus()[1:] if self._is_exact else None
 
     @cached_property
     def collapsed_triangles(self):
@@ -128,7 +129,7 @@ class RectangleMap(PlaneMap):
         return {
             "rectangle_corners": self.corners.tolist(),
             "modulus": finite_or_none(self.modulus),
-            "modulus_bounds": list(self.modulus_bounds),
+            "modulus_bounds": bound_lists(self.modulus_bounds),
         }
 
 

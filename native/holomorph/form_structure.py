@@ -42,8 +42,9 @@ class FormStructure(Structure):
     @cached_property
     def period_bounds(self):
         """(lower, upper), (n, n) each: guaranteed bounds of Im Omega of the polyhedral surface, with boundary of its
-        double, as quadratic forms."""
-        return self._native.period_bounds()
+        double, as quadratic forms. None where degenerate triangles had to be mollified: another surface was solved
+        on."""
+        return self._native.period_bounds() if self._is_exact else None
 
     @cached_property
     def memory(self):

@@ -13,6 +13,11 @@ def complex_pairs(matrix):
     return np.stack([matrix.real, matrix.imag], axis=-1).tolist()
 
 
+def bound_lists(bounds):
+    """[lower, upper] as lists or numbers; None for none."""
+    return None if bounds is None else [np.asarray(bound).tolist() for bound in bounds]
+
+
 def finite_or_none(number):
     """None for an infinite number."""
     return number if math.isfinite(number) else None

@@ -104,6 +104,11 @@ class Structure:
         """Edges flipped to make the intrinsic triangulation Delaunay."""
         return self._native.intrinsic()[0]
 
+    @cached_property
+    def _is_exact(self):
+        """Whether the metric that invariants come from is that of the surface, without mollification."""
+        return self._native.intrinsic()[1] == 0
+
     def quality(self, uv):
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
         return Quality(*_native.quality(self._triangulation, self._checked_uv(uv), self._threads))

@@ -18,8 +18,9 @@ class Repairs:
     reversed_faces : indices of polygons read in reverse, so that each component is oriented consistently
     zero_area_faces : indices of polygons with a triangle whose corners lie on a line
     isolated_vertices : indices of vertices of no polygon
-    mollification : added to every edge length where some triangle is degenerate, in the unit of the positions; else 0
-        (Sharp & Crane 2020, doi:10.1111/cgf.14069)
+    mollification : added to the lengths of edges at degenerate triangles, in the unit of the positions; 0 if there are
+        none (Sharp & Crane 2020, doi:10.1111/cgf.14069). The intrinsic Delaunay triangulation that invariants come from
+        needs less, mostly none
     """
 
     reversed_faces: np.ndarray

@@ -78,3 +78,56 @@ def test_a_corner_shrunk_to_next_to_nothing_does_no_harm(size):
     shrunk = conformal_structure(Surface(np.where(np.abs(vertices) < 1e-58, 0, vertices), faces))
     difference = np.abs(structure.period_matrix - shrunk.period_matrix).max()
     assert difference < 1e-5 * np.abs(shrunk.period_matrix).max()
+
+
+# ---- bounds ------------------------------------------------------------------------------------------------
+
+ROUNDING = 1e-12
+SQUARE = families.cut_quads(families.grid_quads(5, 5).reshape(5, 5, 4)[:4, :4].reshape(-1, 4))
+
+
+def square_with(point):
+    """The modulus of the unit square in 32 triangles, one more vertex at `point` beside one of their sides, and its
+    bounds."""
+    x, y = (index.ravel() / 4 for index in np.indices((5, 5)))
+    vertices = np.column_stack([x, y, 0 * x])
+    faces = SQUARE.tolist()
+    a, b = 6, 12  # both in the interior
+    across = next(f for f in faces if a in f and b in f)
+    apex = next(v for v in across if v not in (a, b))
+    faces.remove(across)
+    new = len(vertices)
+    start, end = (a, b) if (across.index(b) - across.index(a)) % 3 == 1 else (b, a)
+    faces += [[start, new, apex], [new, end, apex], [start, end, new]]
+    surface = Surface(np.vstack([vertices, point(vertices[a], vertices[b])]), np.array(faces))
+    return surface, conformal_structure(surface, rectangle_corners=[0, 20, 24, 4])
+
+
+@pytest.mark.parametrize("height", [0, 1e-15, 1e-12, 1e-9, 1e-7, 3e-7])
+@pytest.mark.parametrize("place", [0.5, 0.3, 0.01])
+def test_flat_triangles_leave_the_metric_as_it_is(place, height):
+    surface, square = square_with(lambda a, b: (1 - place) * a + place * b + [height, -height, 0])
+    assert height >= 1e-7 or len(surface.repairs.zero_area_faces)
+    lower, upper = square.modulus_bounds
+    assert lower - ROUNDING <= 1 <= upper + ROUNDING and upper - lower < ROUNDING
+
+
+def test_another_surface_has_no_bounds():
+    """Coincident vertices cannot be flipped away."""
+    _, square = square_with(lambda a, _: a)
+    assert square.modulus_bounds is None and square.invariants()["modulus_bounds"] is None
+    assert abs(square.modulus - 1) < 1e-6
+    mesh = families.torus(12, 9, shape="triangles")
+    vertices, faces = mesh.vertices.copy(), mesh.corners.reshape(-1, 3)
+    vertices[faces[50, 0]] = vertices[faces[50, 1]]
+    structure = conformal_structure(Surface(vertices, faces))
+    assert structure.period_bounds is None and structure.invariants()["period_bounds"] is None
+
+
+def test_the_ring_of_an_annulus_without_length_has_no_bounds():
+    mesh = families.cylinder(24, 5)
+    vertices, faces = mesh.vertices.copy(), mesh.corners.reshape(-1, 4)
+    vertices[faces[50, 0]] = vertices[faces[50, 1]]
+    tube = conformal_structure(Surface(vertices, faces))
+    assert tube.capacity_bounds is None and tube.modulus_bounds is None
+    assert np.isfinite(tube.modulus)

@@ -86,8 +86,8 @@ void bind_surface(py::module_& m) {
            })
       .def("mollification",
            [](const Surface& s) {
-             Workers workers;
-             return mesh::smallest_increment(s, workers);
+             Execution execution;
+             return mesh::mollification(s, execution);
            })
       .def_readonly("component_count", &Surface::component_count)
       .def_readonly("vertex_count", &Surface::vertex_count)

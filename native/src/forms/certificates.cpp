@@ -124,8 +124,7 @@ Eigen::Matrix2d gram_matrix_of_two(const HalfEdges& mesh, std::span<const double
 
 // A triangle adds cot / 2 h^2 for each side, cot that of the angle opposite.
 template <int N>
-Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
-                            Execution& execution) {
+Eigen::VectorXd energies_of(const mesh::Surface& surface, const ClosedForms& forms, Execution& execution) {
   const auto n = forms.functions.cols();
   const int first = forms.first, count = static_cast<int>(n);
   const auto add_side = [&](int e, double cotangent, Row<N>& value, Row<N>& sum) {
@@ -143,8 +142,8 @@ Eigen::VectorXd energies_of(const mesh::Surface& surface, double mollification, 
         Row<N> value(n), sum = Row<N>::Zero(n);
         for (int t = begin; t < end; ++t) {
           const auto [i, j, k] = surface.triangle_edges[t];
-          const double a = surface.edge_lengths[i] + mollification, b = surface.edge_lengths[j] + mollification,
-                       c = surface.edge_lengths[k] + mollification, area = mesh::triangle_area(a, b, c);
+          const double a = surface.edge_lengths[i], b = surface.edge_lengths[j], c = surface.edge_lengths[k],
+                       area = mesh::triangle_area(a, b, c);
           add_side(i, mesh::cotangent(a, b, c, area), value, sum);
           add_side(j, mesh::cotangent(b, c, a, area), value, sum);
           add_side(k, mesh::cotangent(c, a, b, area), value, sum);
@@ -195,10 +194,9 @@ std::vector<Eigen::MatrixXd> gram_matrices(const HalfEdges& mesh, std::span<cons
   return G;
 }
 
-Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
-                         Execution& execution) {
-  return forms.functions.cols() == 2 ? energies_of<2>(surface, mollification, forms, execution)
-                                     : energies_of<Eigen::Dynamic>(surface, mollification, forms, execution);
+Eigen::VectorXd energies(const mesh::Surface& surface, const ClosedForms& forms, Execution& execution) {
+  return forms.functions.cols() == 2 ? energies_of<2>(surface, forms, execution)
+                                     : energies_of<Eigen::Dynamic>(surface, forms, execution);
 }
 
 Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& w,

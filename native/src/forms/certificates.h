@@ -19,9 +19,8 @@ std::vector<Eigen::MatrixXd> gram_matrices(const mesh::HalfEdges& half_edges, st
                                            Execution& execution);
 
 /// <h_i, h_i> on the surface's own triangles: the diagonal of the Gram matrix there, summed by triangles.
-/// @param mollification added to every length. Cost: #T x #forms
-Eigen::VectorXd energies(const mesh::Surface& surface, double mollification, const ClosedForms& forms,
-                         Execution& execution);
+/// @pre no triangle is degenerate. Cost: #T x #forms
+Eigen::VectorXd energies(const mesh::Surface& surface, const ClosedForms& forms, Execution& execution);
 
 /// Relative maxima over all forms: |sum of a form around a face| over its largest value; |d* h| at a vertex over the
 /// largest sum of |k h| at a vertex.

@@ -98,7 +98,8 @@ class Flipper {
       const HalfedgeHandle h1 = next(mesh_, h), h2 = next(mesh_, h1);
       const double from_end = length(h1), from_start = length(h2);
       const double x = (base * base + (from_start - from_end) * (from_start + from_end)) / (2 * base);
-      return std::array<double, 2>{x, 2 * triangle_area(base, from_end, from_start) / base};
+      const bool flat = from_start + from_end - base < kFlatMargin * base;
+      return std::array<double, 2>{x, flat ? 0.0 : 2 * triangle_area(base, from_end, from_start) / base};
     };
     const auto [xa, ya] = apex(a);
     const auto [xb, yb] = apex(b);
@@ -176,9 +177,7 @@ void append_flips(const std::vector<Flipper>& flippers, std::vector<Flip>& flips
   for (const Flipper& flipper : flippers) flips.insert(flips.end(), flipper.flips.begin(), flipper.flips.end());
 }
 
-}  // namespace
-
-void make_delaunay(IntrinsicTriangulation& t, Execution& execution) {
+void flip_all(IntrinsicTriangulation& t, Execution& execution) {
   Workers& workers = execution.workers();
   EdgeMarks marks(t.half_edges.n_edges());
   auto [regions, rest] = find_work(t, marks, workers);
@@ -194,6 +193,15 @@ void make_delaunay(IntrinsicTriangulation& t, Execution& execution) {
   rest.run([&](std::size_t left) { execution.report(std::max(0.7, 1.0 - 0.3 * static_cast<double>(left) / total)); });
   regions.push_back(std::move(rest));
   append_flips(regions, t.flips);
+}
+
+}  // namespace
+
+void make_delaunay(IntrinsicTriangulation& t, Execution& execution) {
+  if (!t.degenerate) return flip_all(t, execution);
+  mollify_needles(t, execution.workers());
+  flip_all(t, execution);
+  if (mollify(t, execution.workers())) flip_all(t, execution);
 }
 
 }  // namespace holomorph::mesh

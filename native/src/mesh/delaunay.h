@@ -12,6 +12,8 @@ namespace holomorph::mesh {
 /// each edge are limited.
 /// Cost: linear in the number of flips, which is about a fifth of the edges of irregular meshes; in parallel where
 /// faces with near numbers are near each other, with the same result at any number of threads.
+/// A degenerate triangle goes with the flip of its longest side, and the metric is still that of the surface; only
+/// those with a side without length, or with their longest side on the boundary, are mollified.
 void make_delaunay(IntrinsicTriangulation& triangulation, Execution& execution);
 
 }  // namespace holomorph::mesh

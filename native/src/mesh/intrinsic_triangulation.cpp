@@ -1,7 +1,7 @@
 #include "mesh/intrinsic_triangulation.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "base/chunks.h"
 #include "mesh/triangle_geometry.h"
@@ -9,8 +9,20 @@
 namespace holomorph::mesh {
 namespace {
 
-// Slack that mollification leaves each triangle, relative to the mean length.
+// Slack that mollification leaves each triangle, relative to the mean length of the edges that it lengthens.
 constexpr double kSlack = 1e-6;
+
+double margin(double longest) { return std::max(kDegenerateMargin * longest, kLeastSlack); }
+
+Triple edges_of(const IntrinsicTriangulation& t, int face) {
+  const HalfedgeHandle h = t.half_edges.halfedge_handle(FaceHandle(face)), h1 = next(t.half_edges, h);
+  return {edge_of(h), edge_of(h1), edge_of(next(t.half_edges, h1))};
+}
+
+std::array<double, 3> sides_of(const IntrinsicTriangulation& t, int face) {
+  const auto [i, j, k] = edges_of(t, face);
+  return {t.lengths[i], t.lengths[j], t.lengths[k]};
+}
 
 bool has_degenerate_face(const IntrinsicTriangulation& t, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
@@ -32,25 +44,85 @@ bool set_all_cotangents(IntrinsicTriangulation& t, Workers& workers) {
          }) > 0;
 }
 
-}  // namespace
-
-// The increment with which (a + x) + (b + x) - (c + x) >= slack holds in every triangle.
-double smallest_increment(const Surface& surface, Workers& workers) {
-  const auto& l = surface.edge_lengths;
-  const int triangles = static_cast<int>(surface.triangle_edges.size());
-  const int first_degenerate = first_row(workers, triangles, [&](int t) {
-    const auto& [i, j, k] = surface.triangle_edges[t];
-    return is_degenerate(l[i], l[j], l[k]);
-  });
-  if (first_degenerate == triangles) return 0.0;
-  const double mean = std::accumulate(l.begin(), l.end(), 0.0) / static_cast<double>(l.size());
-  double increment = 0;
-  for (const auto& [i, j, k] : surface.triangle_edges) {
-    const double longest = std::max({l[i], l[j], l[k]});
-    increment = std::max(increment, kSlack * mean + 2 * longest - (l[i] + l[j] + l[k]));
+// The faces for which chosen(shortest side, longest side, slack) holds.
+template <class Chosen>
+std::vector<int> chosen_faces(const IntrinsicTriangulation& t, const Chosen& chosen) {
+  std::vector<int> faces;
+  for (int f = 0; f < static_cast<int>(t.half_edges.n_faces()); ++f) {
+    const auto [a, b, c] = sides_of(t, f);
+    const double longest = std::max({a, b, c});
+    if (chosen(std::min({a, b, c}), longest, (a + b + c) - 2 * longest)) faces.push_back(f);
   }
-  return increment;
+  return faces;
 }
+
+// Edges that are to grow by one increment.
+class Growth {
+ public:
+  explicit Growth(IntrinsicTriangulation& t) : t_(t), grows_(t.lengths.size(), 0) {}
+
+  void add(int face) {
+    for (const int e : edges_of(t_, face)) {
+      if (!std::exchange(grows_[e], 1)) edges_.push_back(e);
+    }
+  }
+
+  // The slack that is to be left, and what the faces lack of it.
+  void choose_increment(const std::vector<int>& faces) {
+    double sum = 0, lack = 0;
+    for (const int e : edges_) sum += t_.lengths[e];
+    for (const int f : faces) {
+      const auto [a, b, c] = sides_of(t_, f);
+      lack = std::max(lack, 2 * std::max({a, b, c}) - (a + b + c));
+    }
+    increment = kSlack * sum / static_cast<double>(edges_.size()) + lack;
+  }
+
+  // Faces at these edges that become degenerate grow altogether, and so on: in the end those of a connected surface do.
+  void spread() {
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      for (const int side : {0, 1}) {
+        const FaceHandle f = t_.half_edges.face_handle(HalfedgeHandle(2 * edges_[i] + side));
+        if (f.is_valid() && becomes_degenerate(f.idx())) add(f.idx());
+      }
+    }
+  }
+
+  void apply() {
+    for (const int e : edges_) t_.lengths[e] += increment;
+  }
+
+  double increment = 0;
+
+ private:
+  bool becomes_degenerate(int face) const {
+    double side[3];
+    int i = 0;
+    for (const int e : edges_of(t_, face)) side[i++] = t_.lengths[e] + (grows_[e] ? increment : 0.0);
+    return is_degenerate(side[0], side[1], side[2]);
+  }
+
+  IntrinsicTriangulation& t_;
+  std::vector<char> grows_;
+  std::vector<int> edges_;
+};
+
+// @return whether there was something to lengthen
+template <class Chosen>
+bool lengthen(IntrinsicTriangulation& t, const Chosen& chosen, Workers& workers) {
+  const std::vector<int> faces = chosen_faces(t, chosen);
+  if (faces.empty()) return false;
+  Growth growth(t);
+  for (const int f : faces) growth.add(f);
+  growth.choose_increment(faces);
+  growth.spread();
+  growth.apply();
+  t.mollification = std::max(t.mollification, growth.increment);
+  set_all_cotangents(t, workers);
+  return true;
+}
+
+}  // namespace
 
 void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
@@ -61,18 +133,36 @@ void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
   t.cotangents[h2.idx()] = cotangent(c, a, b, area);
 }
 
-IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
+IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
   IntrinsicTriangulation result;
   result.half_edges = std::move(half_edges);
   result.lengths.resize(surface.edge_lengths.size());
   for_rows(workers, static_cast<int>(result.lengths.size()),
            [&](int e) { result.lengths[e] = surface.edge_lengths[e]; });
-  if (set_all_cotangents(result, workers)) {
-    result.mollification = smallest_increment(surface, workers);
-    for (double& l : result.lengths) l += result.mollification;
-    set_all_cotangents(result, workers);
-  }
+  result.degenerate = set_all_cotangents(result, workers);
   return result;
+}
+
+bool mollify(IntrinsicTriangulation& t, Workers& workers) {
+  t.degenerate = false;
+  return lengthen(
+      t, [](double, double longest, double slack) { return !(slack > margin(longest)); }, workers);
+}
+
+void mollify_needles(IntrinsicTriangulation& t, Workers& workers) {
+  lengthen(
+      t, [](double shortest, double longest, double) { return !(shortest > margin(longest)); }, workers);
+}
+
+IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
+  IntrinsicTriangulation result = given_triangulation(surface, std::move(half_edges), workers);
+  if (result.degenerate) mollify(result, workers);
+  return result;
+}
+
+double mollification(const Surface& surface, Execution& execution) {
+  if (surface.repairs.zero_area_faces.empty()) return 0;
+  return intrinsic_triangulation(surface, half_edges(surface, execution), execution.workers()).mollification;
 }
 
 Array<double> cotangent_weights(const IntrinsicTriangulation& t, Execution& execution) {

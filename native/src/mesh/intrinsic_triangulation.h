@@ -20,7 +20,8 @@ struct IntrinsicTriangulation {
   Array<double> lengths;     ///< #E
   Array<double> cotangents;  ///< #half-edges: cotangent of the angle opposite; 0 outside the surface
   std::vector<Flip> flips;   ///< in order, from the input triangulation to this one
-  double mollification = 0;  ///< added to every length, in their unit
+  double mollification = 0;  ///< added to some lengths, in their unit; with 0 the metric is that of the surface
+  bool degenerate = false;   ///< whether some triangle of the surface is, and none has been mollified
 
   /// Frees lengths and cotangents, which only the weights need.
   void forget_metric() {
@@ -29,14 +30,24 @@ struct IntrinsicTriangulation {
   }
 };
 
-/// 0 if no triangle is degenerate; else the increment of all lengths that intrinsic_triangulation takes.
-double smallest_increment(const Surface& surface, Workers& workers);
+/// The input triangulation in its own metric, degenerate triangles included: make_delaunay can do without mollifying
+/// most of them. @param half_edges of the surface
+IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers);
 
-/// The input triangulation in its own metric. Where a triangle is degenerate, all lengths grow by the smallest
-/// common amount that leaves every triangle a slack of 1e-6 times the mean length (Sharp & Crane 2020,
-/// doi:10.1111/cgf.14069, section 4.5).
-/// @param half_edges of the surface
+/// Where triangles are degenerate, their lengths and those of triangles that become so grow by one amount, which leaves
+/// each a slack of 1e-6 times the mean length among them. (Sharp & Crane 2020, doi:10.1111/cgf.14069, section 4.5,
+/// lengthen every edge of the mesh.)
+/// @return whether there was one
+bool mollify(IntrinsicTriangulation& triangulation, Workers& workers);
+
+/// The same of triangles with a side without length alone.
+void mollify_needles(IntrinsicTriangulation& triangulation, Workers& workers);
+
+/// given_triangulation, mollified.
 IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers);
+
+/// By what intrinsic_triangulation lengthens edges; 0 if no triangle is degenerate.
+double mollification(const Surface& surface, Execution& execution);
 
 /// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are.
 void set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);

@@ -23,6 +23,9 @@ inline double distance(const std::array<double, 3>& a, const std::array<double, 
   return std::sqrt(x * x + y * y + z * z);
 }
 
+/// Slack below this fraction of the longest side is rounding: such a triangle is laid out without height.
+inline constexpr double kFlatMargin = 1e-15;
+
 inline bool is_degenerate(double a, double b, double c) {
   const double longest = std::max({a, b, c});
   return !((a + b + c) - 2 * longest > std::max(kDegenerateMargin * longest, kLeastSlack));

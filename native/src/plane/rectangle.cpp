@@ -46,11 +46,11 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   result.collapsed_triangles = collapsed_triangles(surface, sides);
 
   execution.stage("intrinsic Delaunay", 0.1, 0.2);
-  auto delaunay = mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
+  auto delaunay = mesh::given_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
   const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
   mesh::make_delaunay(delaunay, execution);
   result.flip_count = static_cast<int>(delaunay.flips.size());
-  result.mollification = plain.mollification;
+  result.mollification = delaunay.mollification;
   const bool flipped = result.flip_count > 0;
   const Coordinates sharp = coordinates(delaunay, sides, options, 0.2, flipped ? 0.6 : 1.0, execution);
   result.upper = sharp.u.energies[0];

@@ -36,8 +36,7 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   const auto type = checked_type(surface);
   result.memory = planned(surface, type, options);
   auto half_edges = mesh::half_edges(surface, execution);
-  auto triangulation =
-      mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
+  auto triangulation = mesh::given_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
 
   // Loops, dual classes and the cut (paper § 4, § 5) need no metric, and what follows no topology until forms are
   // solved for.

@@ -9,8 +9,7 @@ namespace holomorph::structure {
 
 LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& fixed, const Options& options,
                                Execution& execution) {
-  auto triangulation =
-      mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
   mesh::make_delaunay(triangulation, execution);
   const mesh::HalfEdges& half_edges = triangulation.half_edges;
   LaplaceProblem result;

@@ -48,9 +48,9 @@ struct Structure {
   Certificate certificate;
   SolverReport solver;
   MemoryPlan memory;
-  uv::FormSamples samples;                              ///< of streamed forms
-  double mollification = 0;                             ///< added to every edge length
-  int flip_count = 0;                                   ///< of the intrinsic Delaunay triangulation
+  uv::FormSamples samples;   ///< of streamed forms
+  double mollification = 0;  ///< added to some lengths; with 0 `gram` is of the surface's metric
+  int flip_count = 0;        ///< of the intrinsic Delaunay triangulation
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage
 };
 

@@ -67,11 +67,11 @@ class KeptForms final : public UvForms {
   }
 
  private:
-  // Whether the energies on the own triangles leave nothing to be gained over the least ones. The functions are given
-  // up where they do, and a call that was cancelled since then solves at once.
+  // Whether the energies on the own triangles, none of them degenerate, leave nothing to be gained over the least ones.
+  // The functions are given up where they do, and a call that was cancelled since then solves at once.
   bool is_negligible(Execution& execution) {
-    if (forms_.functions.size() == 0) return false;
-    const Eigen::VectorXd here = forms::energies(*structure_.surface, structure_.mollification, forms_, execution);
+    if (forms_.functions.size() == 0 || !structure_.surface->repairs.zero_area_faces.empty()) return false;
+    const Eigen::VectorXd here = forms::energies(*structure_.surface, forms_, execution);
     Eigen::VectorXd least(here.size());
     Eigen::Index first = 0;
     for (const Eigen::MatrixXd& G : structure_.gram) {
