@@ -13,7 +13,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 """
 
 from . import report
-from ._native import Cancelled, Error, InvalidMesh, SolverError, TopologyError, __version__
+from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
 from .checks import SOLVERS
 from .closed import ConformalStructure
@@ -39,6 +39,7 @@ __all__ = [
     "InvalidMesh",
     "LevelOfDetail",
     "MemoryPlan",
+    "OutOfMemory",
     "ProgressiveMesh",
     "PlacedPoles",
     "PuncturedStructure",

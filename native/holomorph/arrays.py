@@ -11,12 +11,24 @@ from ._native import InvalidMesh
 def real(array, columns, name):
     """`array` as C-contiguous float64 with `columns` columns."""
     try:
-        result = np.ascontiguousarray(array, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InvalidMesh(f"{name} is not an array of numbers: {error}") from error
+        result = numbers(array, name)
+    except ValueError as error:
+        raise InvalidMesh(str(error)) from error
     if result.ndim != 2 or result.shape[1] != columns:
         raise InvalidMesh(f"{name} has the shape {result.shape}; (rows, {columns}) is needed")
     return result
+
+
+def numbers(array, name):
+    """`array` as C-contiguous float64. @throws ValueError for what is no array of real numbers, or has masked ones"""
+    if np.ma.is_masked(array):
+        raise ValueError(f"{name} has masked entries")
+    if np.iscomplexobj(array):
+        raise ValueError(f"{name} has complex entries; real numbers are needed")
+    try:
+        return np.ascontiguousarray(array, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{name} is not an array of numbers: {error}") from error
 
 
 def integer(array, name, dimensions=1, columns=None):
@@ -25,6 +37,8 @@ def integer(array, name, dimensions=1, columns=None):
         result = np.asarray(array)
     except ValueError as error:
         raise InvalidMesh(f"{name} is not an array of integers: {error}") from error
+    if np.ma.is_masked(array):
+        raise InvalidMesh(f"{name} has masked entries")
     _check_integers(result, name)
     if result.ndim != dimensions or (columns is not None and result.shape[1] not in columns):
         shape = " or ".join(f"(rows, {c})" for c in columns) if columns else f"of {dimensions} dimension(s)"
@@ -45,8 +59,8 @@ def polygons(faces):
         array = integer(faces, "faces", dimensions=2, columns=(3, 4))
         kind = array.dtype if array.size <= np.iinfo(np.int32).max else np.int64  # too many are refused natively
         return array.ravel(), np.arange(0, array.size + 1, array.shape[1], dtype=kind)
-    faces = list(faces)
     try:
+        faces = list(faces)
         sizes = np.fromiter(map(len, faces), dtype=np.int64, count=len(faces))
     except TypeError as error:
         raise InvalidMesh(

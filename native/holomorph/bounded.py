@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from . import arrays
-from ._native import TopologyError
+from .checks import NoInvariant
 from .form_structure import FormStructure
 from .report import bound_lists, complex_pairs
 from .results import BoundedResiduals
@@ -131,12 +131,12 @@ class BoundedStructure(FormStructure):
     def _check_planar(self, what):
         genus = self._component.genus
         if genus:
-            raise TopologyError(f"a {what} belongs to planar surfaces; the surface has genus {genus}")
+            raise NoInvariant(f"a {what} belongs to planar surfaces; the surface has genus {genus}")
 
     def _check_annulus(self):
         genus, loops = self._component.genus, self._component.boundary_count
         if (genus, loops) != (0, 2):
-            raise TopologyError(f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops")
+            raise NoInvariant(f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops")
 
     def invariants(self):
         """Period matrix of the double, capacities and modulus with their bounds, as plain data."""

@@ -1,10 +1,16 @@
 """Checks of what results are made from."""
 
+import numbers
 import os
 
 import numpy as np
 
 from ._native import TopologyError
+
+
+class NoInvariant(TopologyError, AttributeError):
+    """The surface has no such invariant; an AttributeError, too, so that `hasattr` says no."""
+
 
 SOLVERS = ("auto", "direct", "multigrid", "paper")
 
@@ -13,16 +19,19 @@ def check_options(solver, threads):
     """The number of threads to use. @throws ValueError"""
     if solver not in SOLVERS:
         raise ValueError(f"solver is {solver!r}; one of {', '.join(SOLVERS)} is needed")
-    if threads is not None and (threads != int(threads) or threads < 1):
-        raise ValueError(f"threads is {threads!r}; a positive integer or None is needed")
-    return int(threads or os.cpu_count() or 1)
+    if threads is None:
+        return os.cpu_count() or 1
+    if not isinstance(threads, numbers.Real) or not 1 <= threads < 2**31 or threads != int(threads):
+        raise ValueError(f"threads is {threads!r}; a positive integer below 2**31, or None, is needed")
+    return int(threads)
 
 
 def check_memory_limit(memory_limit):
     """The limit in bytes, 0 for none. @throws ValueError"""
     if memory_limit is None:
         return 0
-    if isinstance(memory_limit, bool) or not 1 <= memory_limit < 2**63:
+    is_number = isinstance(memory_limit, numbers.Real) and not isinstance(memory_limit, bool)
+    if not is_number or not 1 <= memory_limit < 2**63:
         raise ValueError(f"memory_limit is {memory_limit!r}; a positive number of bytes or None is needed")
     return int(memory_limit)
 
@@ -59,6 +68,8 @@ def own_vertices(surface, component, vertices, noun):
 def checked_coefficients(coefficients, count, kind):
     """`coefficients` as (count,) finite numbers of type `kind`. @throws ValueError"""
     c = np.asarray(coefficients)
+    if np.ma.is_masked(coefficients) or c.dtype.kind not in "biufc":
+        raise ValueError(f"coefficients must be numbers, none of them masked, not {coefficients!r}")
     if c.shape != (count,) or not np.isfinite(c).all() or (kind is not np.complex128 and np.iscomplexobj(c)):
         wanted = f"({count},) finite {'numbers are' if kind is np.complex128 else 'real numbers are'} needed"
         raise ValueError(f"coefficients has the shape {c.shape}; {wanted}")

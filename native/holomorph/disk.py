@@ -74,7 +74,8 @@ class DiskMap(PlaneMap):
         return arrays.frozen(self._native.disk_map().ravel())
 
     def disk_map(self):
-        """(#V,) complex: |z| < 1 inside, |z| = 1 on the boundary, NaN at isolated vertices."""
+        """(#V,) complex: |z| = 1 on the boundary, less inside (1 at most, where a mesh is very coarse), NaN at
+        isolated vertices."""
         return self._at_vertices(self._plane)
 
     def invariants(self):

@@ -67,7 +67,7 @@ class ProgressiveMesh:
             mesh.corner_data  # noqa: B018 - its type is checked where it is made
         except OSError as error:
             raise InvalidMesh(f"{os.fspath(path)}: {error.strerror}") from error
-        except InvalidMesh as error:
+        except (InvalidMesh, UnicodeDecodeError) as error:
             raise InvalidMesh(f"{os.fspath(path)}: {error}") from error
         return mesh
 

@@ -173,13 +173,13 @@ class Structure:
         return _native.averaged_star(self._triangulation, self._checked_form(form))
 
     def _checked_form(self, form):
-        form = np.ascontiguousarray(form, dtype=np.float64)
+        form = arrays.numbers(form, "form")
         if form.shape != (len(self.edges),):
             raise ValueError(f"form has the shape {form.shape}; ({len(self.edges)},) is needed")
         return form
 
     def _checked_uv(self, uv):
-        uv = np.ascontiguousarray(uv, dtype=np.float64)
+        uv = arrays.numbers(uv, "uv")
         if uv.shape != (len(self._component.corner_vertices), 2):
             raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
         return uv

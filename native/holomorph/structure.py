@@ -136,5 +136,5 @@ def _forms(surface, component, boundary, options, memory_limit):
 def _residues(residues):
     try:
         return [] if residues is None else [complex(r) for r in residues]
-    except TypeError as error:
+    except (TypeError, ValueError) as error:
         raise TopologyError(f"residues must be a list of numbers, not {residues!r}") from error

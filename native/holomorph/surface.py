@@ -184,9 +184,9 @@ class Surface:
     @cached_property
     def _parts(self):
         parts = []
-        for which in range(self._native.component_count):
+        for native in self._native.components():
             part = Surface.__new__(Surface)
-            part._adopt(*self._native.component(which))
+            part._adopt(*native)
             parts.append(part)
         return tuple(parts)
 

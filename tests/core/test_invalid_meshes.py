@@ -174,3 +174,20 @@ def test_errors_have_one_base():
     assert issubclass(InvalidMesh, Error)
     assert issubclass(TopologyError, Error)
     assert issubclass(Error, Exception)
+
+
+@pytest.mark.parametrize("faces", [None, 3, [[0, 1, 2], None]])
+def test_faces_that_are_no_lists_are_refused(faces):
+    with pytest.raises(InvalidMesh, match="faces must be"):
+        Surface(np.eye(3), faces)
+
+
+@pytest.mark.parametrize("vertices", [np.eye(3) + 1j, np.ma.masked_array(np.eye(3), np.eye(3) > 0)])
+def test_no_part_of_a_number_is_dropped(vertices):
+    with pytest.raises(InvalidMesh, match="vertices has (complex|masked) entries"):
+        Surface(vertices, [[0, 1, 2]])
+
+
+def test_masked_faces_are_refused():
+    with pytest.raises(InvalidMesh, match="faces has masked entries"):
+        Surface(np.eye(3), np.ma.masked_array([[0, 1, 2]], [[False, False, True]]))

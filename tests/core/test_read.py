@@ -403,3 +403,10 @@ def test_real_mesh_is_read_like_its_row_says(name, tmp_path):
     )
     if by_component(topology):
         assert parts == by_component(topology)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "mesh.obj")
+    with pytest.raises(InvalidMesh, match="pipe"):
+        Surface.read(tmp_path / "mesh.obj")

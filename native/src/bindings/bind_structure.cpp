@@ -33,8 +33,8 @@ struct Structure {
 
   /// `use(forms, execution)` without the interpreter's lock, one call at a time.
   template <class Use>
-  void with_forms(Use use, Execution::Callback callback = {}) {
-    Execution execution(threads, std::move(callback));  // it goes with the lock held: it owns Python's function
+  void with_forms(Use use, Execution::Callback progress = interruptible()) {
+    Execution execution(threads, std::move(progress));  // it goes with the lock held: it owns Python's function
     const py::gil_scoped_release unlocked;
     const std::lock_guard<std::mutex> one_at_a_time(mutex);
     use(*forms, execution);

@@ -42,15 +42,20 @@ SurfacePointer read(const std::filesystem::path& path) {
   return std::make_shared<Surface>(mesh::make_surface(mesh::read(path), execution));
 }
 
-py::tuple component(const Surface& surface, int which) {
-  mesh::Component part;
+// (surface, vertex_index, face_index, corner_index) of each
+py::list components(const Surface& surface) {
+  std::vector<mesh::Component> parts;
   {
     const py::gil_scoped_release unlocked;
     Execution execution;
-    part = mesh::component(surface, which, execution);
+    parts = mesh::components(surface, execution);
   }
-  auto vertices = copy(part.vertex_index), faces = copy(part.face_index), corners = copy(part.corner_index);
-  return py::make_tuple(std::make_shared<Surface>(std::move(part.surface)), vertices, faces, corners);
+  py::list result;
+  for (mesh::Component& part : parts) {
+    auto vertices = copy(part.vertex_index), faces = copy(part.face_index), corners = copy(part.corner_index);
+    result.append(py::make_tuple(std::make_shared<Surface>(std::move(part.surface)), vertices, faces, corners));
+  }
+  return result;
 }
 
 // (Euler characteristic, boundary loops, genus) of a connected surface.
@@ -77,7 +82,7 @@ void bind_surface(py::module_& m) {
       .def_static("from_polygons", &from_polygons<std::int64_t>)
       .def_static("from_edge_lengths", &from_edge_lengths)
       .def_static("read", &read)
-      .def("component", &component)
+      .def("components", &components)
       .def("topology", &topology)
       .def("area",
            [](const Surface& s) {

@@ -9,13 +9,26 @@
 
 namespace holomorph::bindings {
 
-/// None is no function. It is called with the interpreter's lock held, and answers False to cancel.
+/// Python's signal handlers run in the main thread alone, and not while that is here: without a function of the
+/// caller's this looks for Ctrl-C. @throws what the handler raises, mostly KeyboardInterrupt
+inline Execution::Callback interruptible() {
+  const auto threading = pybind11::module_::import("threading");
+  if (!threading.attr("current_thread")().is(threading.attr("main_thread")())) return {};
+  return [](double, const std::string&) {
+    const pybind11::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+    return true;
+  };
+}
+
+/// None is no function. It is called with the interpreter's lock held, and answers False, or NumPy's, to cancel.
 inline Execution::Callback callback(const pybind11::object& progress) {
-  if (progress.is_none()) return {};
+  if (progress.is_none()) return interruptible();
   return [progress](double fraction, const std::string& stage) {
     const pybind11::gil_scoped_acquire locked;
     const pybind11::object answer = progress(fraction, stage);
-    return !(answer.ptr() == Py_False);
+    pybind11::detail::make_caster<bool> is_true;
+    return !is_true.load(answer, false) || static_cast<bool>(is_true);
   };
 }
 

@@ -21,16 +21,27 @@ py::exception<Exception>& declare(py::module_& m, const char* name, py::handle b
   return exception;
 }
 
-}  // namespace
+// Both an error of ours and a MemoryError. It lives as long as the process, as all of these do.
+PyObject* out_of_memory = nullptr;
 
-PYBIND11_MODULE(_native, m) {
+void declare_out_of_memory(py::module_& m, const py::object& base) {
+  const auto bases = py::make_tuple(base, py::handle(PyExc_MemoryError));
+  out_of_memory =
+      PyErr_NewExceptionWithDoc("holomorph.OutOfMemory", "There is not enough memory.", bases.ptr(), nullptr);
+  if (out_of_memory == nullptr) throw py::error_already_set();
+  m.add_object("OutOfMemory", out_of_memory);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-      PyErr_SetString(PyExc_MemoryError, "there is not enough memory for a mesh of this size");
+      PyErr_SetString(out_of_memory, "there is not enough memory for a mesh of this size");
     }
   });
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_native, m) {
   m.attr("__version__") = HOLOMORPH_VERSION;
   m.attr("direct_solver") = solver::SparseCholesky::name();
   auto& base = declare<Error>(m, "Error", PyExc_RuntimeError, "Base of all errors of this library.");
@@ -39,6 +50,7 @@ PYBIND11_MODULE(_native, m) {
   declare<SolverError>(m, "SolverError", base,
                        "A linear system was not solved to the accuracy asked for, or does not fit into memory.");
   declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
+  declare_out_of_memory(m, base);
   bindings::bind_surface(m);
   bindings::bind_structure(m);
   bindings::bind_progressive_mesh(m);

@@ -18,6 +18,9 @@ struct Component {
 
 Component component(const Surface& surface, int which, Execution& execution);
 
+/// All of them, in their order. Cost: linear, as that of a single one is.
+std::vector<Component> components(const Surface& surface, Execution& execution);
+
 /// Euler characteristic of a connected surface, its isolated vertices not counted.
 int euler_characteristic(const Surface& surface);
 

@@ -69,8 +69,7 @@ SurfaceOfMesh finish(SurfaceOfMesh part, mesh::Polygons polygons, bool left_out,
 std::vector<SurfaceOfMesh> components(const SurfaceOfMesh& whole, Execution& execution) {
   if (whole.surface->component_count == 1) return {whole};
   std::vector<SurfaceOfMesh> parts;
-  for (int i = 0; i < whole.surface->component_count; ++i) {
-    mesh::Component component = mesh::component(*whole.surface, i, execution);
+  for (mesh::Component& component : mesh::components(*whole.surface, execution)) {
     SurfaceOfMesh& part = parts.emplace_back();
     part.surface = std::make_shared<const mesh::Surface>(std::move(component.surface));
     part.vertices = chosen(whole.vertices, component.vertex_index);

@@ -67,6 +67,7 @@ FileText load(const std::filesystem::path& path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) file.fail("there is no such file");
   if (std::filesystem::is_directory(status)) file.fail("this is a directory, not a mesh file");
+  if (!std::filesystem::is_regular_file(status)) file.fail("this is a pipe or a device, not a mesh file");
   const auto size = std::filesystem::file_size(path, error);
   std::ifstream stream(path, std::ios::binary);
   if (error || !stream) file.fail("the file cannot be opened for reading");
