@@ -131,3 +131,18 @@ def test_the_ring_of_an_annulus_without_length_has_no_bounds():
     tube = conformal_structure(Surface(vertices, faces))
     assert tube.capacity_bounds is None and tube.modulus_bounds is None
     assert np.isfinite(tube.modulus)
+
+
+# ---- few vertices ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("solver", ["direct", "multigrid"])
+def test_a_bounded_surface_of_two_vertices(solver):
+    """Pinned at one of them, nothing connects what is left."""
+    faces = np.array([[0, 0, 0], [0, 0, 0], [1, 0, 1], [1, 0, 0], [0, 0, 0], [0, 0, 1], [0, 1, 0], [1, 0, 1]])
+    names = [7, 8, 3, 4, 2, 11, 9, 12, 10, 3, 5, 1, 11, 7, 8, 10, 9, 4, 6, 2, 0, 6, 12, 5]
+    edges = np.array(names).reshape(-1, 3)
+    surface = Surface.from_edge_lengths(faces, np.ones(faces.shape), edges)
+    assert (surface.genus, surface.boundary_count, len(surface.vertex_index)) == (2, 1, 2)
+    structure = conformal_structure(surface, solver=solver)
+    assert np.linalg.eigvalsh(structure.period_matrix.imag).min() > 0

@@ -269,3 +269,11 @@ def test_coefficients_are_refused():
     structure = conformal_structure(surface_of(DISK))
     with pytest.raises(ValueError, match="coefficients"):
         structure.uv([1])
+
+
+def test_a_coarse_disk_stays_in_the_unit_disk():
+    """On a mesh so coarse and narrow the discrete function is negative at some inner vertices."""
+    points, faces = families.hexagonal_disk(3, jitter=0.4, seed=1)
+    surface = Surface(np.column_stack([points * [1, 0.15], 0 * points[:, 0]]), faces)
+    assert conformal_structure(surface, punctures=[1], residues=[1]).uv([1])[:, 1].min() < -0.01
+    assert np.abs(conformal_structure(surface, punctures=[1]).disk_map()).max() < 1 + 1e-12
