@@ -241,8 +241,8 @@ def test_a_pole_is_moved_without_rounding_again(name):
     assert np.abs(found[:, 0] - found[:, 1]).max() < EXACT * np.abs(moved.uv).max()
     steps = np.linalg.solve(basis(options), found[:, 0].T)
     assert np.abs(steps - np.rint(steps)).max() < 10 * EXACT * np.abs(moved.uv).max()
-    assert moved.quality.mean_angle < 1.25 * before.quality.mean_angle
-    assert tiler.with_poles_moved({}).added_distortion == pytest.approx(before.added_distortion, abs=1e-3)
+    assert np.median(moved.quality.angle) < 1.1 * np.median(before.quality.angle)
+    assert np.array_equal(tiler.with_poles_moved({}).uv, before.uv)
 
 
 def test_other_poles_make_up_for_one_that_is_moved():
