@@ -82,9 +82,9 @@ class SolvedComponent:
     @property
     def size(self):
         """About how many doubles are held: harmonic forms and potentials; of a tiler also a solver; and of tilings."""
-        forms, edges = (4 * self.form_count + 4) * len(self.structure.edges), len(self.surface.edges)
-        tilers = len(self.tilers) * (2 * self.form_count + DOUBLES_OF_TILER) * edges
-        return forms + tilers + len(self.tilings) * DOUBLES_OF_TILING * len(self.surface.corner_vertices)
+        forms, tiler = 4 * self.form_count + 4, 2 * self.form_count + DOUBLES_OF_TILER
+        of_edges = (forms + len(self.tilers) * tiler) * len(self.structure.edges)
+        return of_edges + len(self.tilings) * DOUBLES_OF_TILING * len(self.surface.corner_vertices)
 
 
 @dataclass(frozen=True)
