@@ -34,6 +34,11 @@ def _class_name(idname):
 
 
 def register():
+    if (
+        not bpy.app.background
+    ):  # without a folder for the user's own presets, Blender's menu says that paths are missing
+        path = str(Path("presets", "operator", HOLOMORPH_OT_tile.bl_idname))
+        bpy.utils.user_resource("SCRIPTS", path=path, create=True)
     getattr(bpy.types, MENU).append(_draw)
 
 

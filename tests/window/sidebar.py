@@ -3,8 +3,9 @@
 from screen import area, click, event, move, region
 
 TABS_STEP = 30  # pixels; a tab is longer
-# Pixels below the top of the sidebar; those for selected vertices in edit mode.
-BUTTONS = {"maps": 44, "tile": 65, "punctures": 112, "rectangle": 133}
+# Pixels below the top of the sidebar; those for selected vertices in edit mode, that for poles below the report of one
+# part of genus 1.
+BUTTONS = {"maps": 44, "tile": 65, "drag": 405, "punctures": 112, "rectangle": 133}
 drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
 
 
@@ -31,10 +32,10 @@ def open_tab(kind, seen):
             return
 
 
-def press_button(kind, button="maps"):
+def press_button(kind, button="maps", right=0.4):
     """Clicks one of our buttons, unhurriedly: they are below the panel's header, at the top of the sidebar."""
     sidebar = region(area(kind), "UI")
-    move(sidebar.x + sidebar.width * 0.4, sidebar.y + sidebar.height - BUTTONS[button])
+    move(sidebar.x + sidebar.width * right, sidebar.y + sidebar.height - BUTTONS[button])
     yield 0.3
     event("LEFTMOUSE", "PRESS")
     yield 0.1
