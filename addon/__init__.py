@@ -13,21 +13,25 @@ bl_info = {
 
 
 def register():
-    from . import lod, native, operators, overlay, panel, tile
+    from . import drag, lod, native, operators, overlay, panel, presets, tile
 
     native.forget()
     operators.register()
     tile.register()
+    drag.register()
     lod.register()
     overlay.register()
+    presets.register()
     panel.register()
 
 
 def unregister():
-    from . import lod, operators, overlay, panel, tile
+    from . import drag, lod, operators, overlay, panel, presets, tile
 
     panel.unregister()
+    presets.unregister()
     overlay.unregister()
     lod.unregister()
+    drag.unregister()
     tile.unregister()
     operators.unregister()

@@ -22,6 +22,11 @@ def find(task):
 def keep(task, solved):
     """Adds a solve and drops the least recently used ones that exceed `SIZE_LIMIT`. @pre find(task) is None"""
     _entries.append((task, solved))
+    trim()
+
+
+def trim():
+    """Again after solves have grown: by tilers and their tilings."""
     while len(_entries) > 1 and sum(s.size for _, s in _entries) > SIZE_LIMIT:
         _entries.pop(0)
 

@@ -87,7 +87,11 @@ class Job(Work):
     def _result(self, index):
         share = self.SOLVE_SHARE if self._then else 1.0
         found = solved(self._tasks[index], self._ask_within(index, 0.0, share))
-        return self._then[index](found, progress=self._ask_within(index, share, 1.0)) if self._then else found
+        if not self._then:
+            return found
+        result = self._then[index](found, progress=self._ask_within(index, share, 1.0))
+        cache.trim()
+        return result
 
     def _ask_within(self, index, begin, end):
         """`ask` for one stage of one object."""

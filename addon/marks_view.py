@@ -10,7 +10,8 @@ from gpu_extras.batch import batch_for_shader
 
 from . import mesh_io, report, tile_report
 
-POLE, ZERO = (1.0, 0.55, 0.10), (0.95, 0.95, 0.95)  # sRGB
+POLE, ZERO, LIT = (1.0, 0.55, 0.10), (0.95, 0.95, 0.95), (1.0, 0.85, 0.25)  # sRGB
+HOVERED = 1.5  # times as large is the pole under the pointer
 RIM = (0.05, 0.05, 0.05)
 RADIUS, RIM_WIDTH = 6.0, 1.5  # pixels, in a user interface of normal size
 CORNERS = 20  # of a disc
@@ -18,20 +19,22 @@ HIDDEN = 0.25  # opacity behind something
 NEARER = 2.0  # radii by which a disc is moved towards the viewer: the faces around its vertex must not cut it
 
 
-def draw(context, objects):
-    found = [_points(obj) for obj in objects if obj.get(report.PROPERTY)]
+def draw(context, objects, dragged):
+    """`dragged`: see `overlay.dragged`."""
+    found = [_points(obj, dragged.get(obj.name)) for obj in objects if obj.get(report.PROPERTY)]
     if not found:
         return
-    points, is_pole = (np.concatenate(parts) for parts in zip(*found))
+    points, is_pole, is_hovered = (np.concatenate(parts) for parts in zip(*found))
     if not len(points):
         return
     view = context.region_data
     unit = context.preferences.system.ui_scale
-    radii = RADIUS * unit * pixel_sizes(points, view, context.region.height)
+    radii = RADIUS * unit * pixel_sizes(points, view, context.region.height) * np.where(is_hovered, HOVERED, 1)
     axes = np.array(view.view_matrix.inverted())
     towards = axes[:3, 3] - points if view.is_perspective else np.tile(axes[:3, 2], (len(points), 1))
     towards = radii[:, None] * towards / np.linalg.norm(towards, axis=1, keepdims=True)
-    colours = np.repeat(np.where(is_pole[:, None], POLE, ZERO), 3 * CORNERS, axis=0)
+    colours = np.where(is_hovered[:, None], LIT, np.where(is_pole[:, None], POLE, ZERO))
+    colours = np.repeat(colours, 3 * CORNERS, axis=0)
     dots = discs(points + NEARER * towards, radii, axes[:3, :2].T)
     rims = discs(points + NEARER * towards, (1 + RIM_WIDTH / RADIUS) * radii, axes[:3, :2].T)
     gpu.state.depth_mask_set(False)  # a disc is drawn over its rim, and hidden or not by the meshes alone
@@ -44,12 +47,18 @@ def draw(context, objects):
     gpu.state.depth_mask_set(True)
 
 
-def _points(obj):
-    """((n, 3) places in the world, (n,) whether it is a pole) of an object with a report."""
+def _points(obj, dragged):
+    """Of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the pointer is on
+    it."""
     vertices, is_pole = tile_report.marks(obj[report.PROPERTY])
+    if dragged is not None:
+        vertices = np.concatenate([dragged.poles, dragged.zeros])
+        is_pole = np.arange(len(vertices)) < len(dragged.poles)
     if len(vertices) and vertices.max() >= len(obj.data.vertices):  # the mesh is not what it was
         vertices, is_pole = vertices[:0], is_pole[:0]
-    return mesh_io.world_points(obj, vertices), is_pole
+    hovered = None if dragged is None else dragged.hovered
+    is_hovered = np.arange(len(vertices)) == (-1 if hovered is None else hovered)
+    return mesh_io.world_points(obj, vertices), is_pole, is_hovered
 
 
 def pixel_sizes(points, view, height):

@@ -110,12 +110,18 @@ def remove_maps(mesh):
         mesh.attributes.remove(mesh.attributes[name])
 
 
+def _of_loops(mesh, polygons, uv):
+    """(#C,2) in the order of the loops; without `polygons` it is."""
+    if polygons is None or polygons.loops is None:
+        return uv
+    scattered = np.zeros((len(mesh.loops), 2), np.float32)
+    scattered[polygons.loops] = uv
+    return scattered
+
+
 def write_map(mesh, polygons, name, uv):
     """Writes (#C,2) float32 `uv` as a new UV map, or as a corner attribute when all slots are taken."""
-    if polygons.loops is not None:
-        scattered = np.zeros((len(mesh.loops), 2), np.float32)
-        scattered[polygons.loops] = uv
-        uv = scattered
+    uv = _of_loops(mesh, polygons, uv)
     # References to layers do not survive the next `new`: look up by name, keep nothing.
     if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:
         layer = mesh.uv_layers.new(name=name, do_init=False)
@@ -152,6 +158,14 @@ def read_map(mesh, name):
     if layer is not None:
         return read_values(compatibility.uv_values(layer))
     return read_values(_attribute_vectors(mesh.attributes[name], 2))
+
+
+def overwrite_map(mesh, polygons, name, uv):
+    """Writes (#C,2) float32 `uv` into a UV map or corner attribute that there is."""
+    layer = mesh.uv_layers.get(name)
+    values = _attribute_vectors(mesh.attributes[name], 2) if layer is None else compatibility.uv_values(layer)
+    write_values(values, _of_loops(mesh, polygons, uv))
+    mesh.update()
 
 
 def show_map(mesh, name):

@@ -4,6 +4,8 @@
 What is drawn is in `heat_view` and `marks_view`, which are imported when they are first needed.
 """
 
+from dataclasses import dataclass
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty
 
@@ -17,6 +19,18 @@ QUANTITIES = (
 )
 
 _handles = []
+
+
+@dataclass(frozen=True)
+class Dragged:
+    """The marks of an object whose poles are dragged."""
+
+    poles: object  # vertices
+    zeros: object  # vertices
+    hovered: int | None  # among the poles
+
+
+dragged = {}  # `Dragged` by the object's name, while it lasts
 
 
 def _objects(context):
@@ -36,10 +50,10 @@ def _draw_in_space():
         from . import heat_view
 
         heat_view.draw_faces(context, objects, quantity)
-    if objects and getattr(context.window_manager, MARKS):
+    if objects and (dragged or getattr(context.window_manager, MARKS)):
         from . import marks_view
 
-        marks_view.draw(context, objects)
+        marks_view.draw(context, objects, dragged)
 
 
 def _draw_on_screen():

@@ -6,6 +6,7 @@ import textwrap
 import bpy
 
 from . import native, overlay
+from .drag import HOLOMORPH_OT_drag_poles
 from .lod import HOLOMORPH_OT_levels
 from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
 from .tile import HOLOMORPH_OT_tile
@@ -58,7 +59,9 @@ def _draw_overlays(layout, context):
     column.label(text="Heat map of the active UV map")
     column.row(align=True).prop(context.window_manager, overlay.HEAT, expand=True)
     column.operator(HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
-    layout.prop(context.window_manager, overlay.MARKS)
+    row = layout.row(align=True)
+    row.prop(context.window_manager, overlay.MARKS, toggle=True)
+    row.operator(HOLOMORPH_OT_drag_poles.bl_idname)
 
 
 def _draw_sentence(layout, sentence):

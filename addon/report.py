@@ -10,6 +10,7 @@ from . import maps, native
 
 PROPERTY = "holomorph_report"
 SUMMARISED = 8  # parts that the panel shows
+SHOWN_PERIODS = 4  # likewise, of each part
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
 MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
 COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
@@ -118,14 +119,19 @@ def _topology(part):
     return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
 
 
-def _tiling_lines(tiling):
+def tiling_lines(tiling):
+    """What the panels show of a part's tiling: words, then numbers."""
     yield tiling["verdict"]
     yield f"added distortion {tiling['added_distortion']:.4f}"
     yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
+    yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
+    if tiling["periods"]:
+        shown = ", ".join(f"({u}, {v})" for u, v in tiling["periods"][:SHOWN_PERIODS])
+        yield f"periods: {shown}" + (", ..." if len(tiling["periods"]) > SHOWN_PERIODS else "")
 
 
 def _result_lines(part):
-    yield from _tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
+    yield from tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
     angle = part["main_map"]["mean_angle"]  # none where it is infinite
     collapsed = angle is None or angle > COLLAPSED
     yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"

@@ -8,6 +8,8 @@ import numpy as np
 
 from . import choices, native
 
+DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hierarchy
+DOUBLES_OF_TILING = 6  # for each corner: UVs and quality
 KEPT_TILINGS = 4  # of each part: the redo panel goes back and forth between a few
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
 
@@ -45,6 +47,7 @@ class SolvedComponent:
     tilings: dict = field(
         default_factory=dict, compare=False
     )  # `tiling.TiledPart` by `tiling.TileOptions`, newest last
+    last_rounded: dict = field(default_factory=dict, compare=False)  # `tiling.TileOptions` by the tiler that rounded
 
     @property
     def form_count(self):
@@ -76,6 +79,13 @@ class SolvedComponent:
         """The area of the component's surface."""
         return self.surface.area
 
+    @property
+    def size(self):
+        """About how many doubles are held: harmonic forms and potentials; of a tiler also a solver; and of tilings."""
+        forms, tiler = 4 * self.form_count + 4, 2 * self.form_count + DOUBLES_OF_TILER
+        of_edges = (forms + len(self.tilers) * tiler) * len(self.structure.edges)
+        return of_edges + len(self.tilings) * DOUBLES_OF_TILING * len(self.surface.corner_vertices)
+
 
 @dataclass(frozen=True)
 class SolvedObject:
@@ -97,8 +107,8 @@ class SolvedObject:
 
     @property
     def size(self):
-        """About how many doubles the structures hold: the harmonic forms and the potentials."""
-        return sum((4 * c.form_count + 4) * len(c.structure.edges) for c in self.done)
+        """About how many doubles the parts hold."""
+        return sum(c.size for c in self.done)
 
 
 def solve(task, progress=None):

@@ -52,7 +52,13 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
 
         results = targets.align(self._targets, work.results)
         options = tile_run.TileWriteOptions(
-            self.quarters, self.checker, self.texture, self.repeats, self.seams, self.empties
+            self.quarters,
+            self.checker,
+            self.texture,
+            self.repeats,
+            self.seams,
+            self.empties,
+            self.pole_group,
         )
         outcome = tile_run.write(context, self._targets, results, options, time_has_passed)
         return self.tell(outcome)

@@ -3,7 +3,7 @@
 
 import numpy as np
 
-from . import mesh_edges, mesh_io, tiling
+from . import mesh_edges, mesh_io, report, tile_report, tiling
 
 AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
@@ -19,7 +19,7 @@ def options(properties, target):
         _direction(properties, obj),
         properties.boundary,
         properties.turn,
-        _allowed(properties.pole_group, obj),
+        allowed(properties.pole_group, obj),
     )
 
 
@@ -28,23 +28,33 @@ def _poles(properties, obj):
         return properties.pole_count
     if properties.poles == "AUTOMATIC":
         return tiling.AUTOMATIC
+    if properties.poles == "KEPT":
+        return _kept_poles(obj)
     selected = tuple(sorted(mesh_io.selected_vertices(obj.data).tolist()))
     if not selected:
         raise ValueError(f"{obj.name}: select the vertices that are to be poles")
     return selected
 
 
-def _allowed(name, obj):
+def _kept_poles(obj):
+    vertices, is_pole = tile_report.marks(obj.get(report.PROPERTY))
+    kept = vertices[is_pole & (vertices < len(obj.data.vertices))]
+    if not len(kept):
+        raise ValueError(f"{obj.name}: there are no poles of an earlier tiling")
+    return tuple(sorted(kept.tolist()))
+
+
+def allowed(name, obj):
     """See `tiling.TileOptions`: where the group's weight is above `ALLOWING`."""
     if not name:
         return None
     group = obj.vertex_groups.get(name)
     if group is None:
         raise ValueError(f"{obj.name}: there is no vertex group {name!r}")
-    allowed = mesh_io.weights(obj.data, group.index) > ALLOWING
-    if not allowed.any():
+    mask = mesh_io.weights(obj.data, group.index) > ALLOWING
+    if not mask.any():
         raise ValueError(f"{obj.name}: no vertex has a weight above {ALLOWING} in {name!r}")
-    return allowed.tobytes()
+    return mask.tobytes()
 
 
 def _direction(properties, obj):

@@ -11,6 +11,7 @@ MOST_POLES = 16
 POLES = (
     ("AUTOMATIC", "Automatic", "As many as the evenness of the texture asks for, where they are hardly seen"),
     ("COUNT", "Number", "So many on each part, placed by themselves"),
+    ("KEPT", "As They Are", "Those of the object's last tiling, as they were placed or dragged"),
     ("SELECTED", "Selected Vertices", "The selected vertices; automatic on parts without any"),
 )
 LATTICES = (
@@ -96,6 +97,9 @@ class TileProperties:
     )
 
     def draw_options(self, layout, obj):
+        from . import tile_report
+
+        tile_report.draw_read_out(layout, obj)
         for group in DRAWN:
             column = layout.column()
             for name in group:

@@ -1,17 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is reported of a tiling: first in words, then in numbers."""
 
+from dataclasses import asdict
+
 import numpy as np
 
-from . import native, report
+from . import native, report, tiling
 
 EVEN, FAIRLY_EVEN = 6.0, 20.0  # the largest 95 : 5 % ratios of the density that are called so
 SHEARED, SLIGHTLY_SHEARED = 1.05, 1.01  # likewise the smallest mean s1 / s2 that the rounding adds
+SHOWN_PARTS = 8  # of which the redo panel shows a line
 
 
-def verdict(tiling):
+def verdict(made):
     """A few words, such as "Even, seamless, 8 poles"."""
-    ratio, added, count = tiling.density_ratio, tiling.added_distortion, len(tiling.poles)
+    ratio, added, count = made.density_ratio, made.added_distortion, len(made.poles)
     words = ["even" if ratio <= EVEN else "fairly even" if ratio <= FAIRLY_EVEN else "uneven", "seamless"]
     if added >= SLIGHTLY_SHEARED:
         words.append("sheared" if added >= SHEARED else "slightly sheared")
@@ -47,6 +50,41 @@ def part_report(part):
             ),
         }
     )
+
+
+def asked(options):
+    """`tiling.TileOptions` for a report; where poles are allowed is a vertex group of the object."""
+    return {name: value for name, value in asdict(options).items() if name != "allowed"}
+
+
+def asked_again(stored, allowed):
+    """The `tiling.TileOptions` out of a stored report; None where there are none."""
+    values = report.parsed(stored).get("asked")
+    if values is None:
+        return None
+    values = {name: _as_tuple(value) for name, value in values.items()}
+    return tiling.TileOptions(**values, allowed=allowed)
+
+
+def _as_tuple(value):
+    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value
+
+
+def read_out(stored):
+    """Those of all parts in a stored report, for the redo panel; none if someone has edited it."""
+    parts = [part["tiling"] for part in report.parsed(stored).get("components", []) if "tiling" in part]
+    if len(parts) == 1:
+        return list(report.tiling_lines(parts[0]))
+    return [f"Part {index}: {part['verdict']}" for index, part in enumerate(parts[:SHOWN_PARTS], 1)]
+
+
+def draw_read_out(layout, obj):
+    """In a redo panel, for the active object or None."""
+    lines = read_out(obj.get(report.PROPERTY)) if obj is not None else []
+    if lines:
+        column = layout.box().column(align=True)
+        for line in lines:
+            column.label(text=line)
 
 
 def notes(obj, entry):

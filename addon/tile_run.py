@@ -20,6 +20,7 @@ class TileWriteOptions:
     repeats: int = 1  # images of the texture across a tile
     seams: bool = False
     empties: bool = False
+    pole_group: str = ""  # see `tile_choices.allowed`
 
 
 def write(context, targets, results, options, time_has_passed=False):
@@ -64,7 +65,8 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
 
 def _entry(obj, tiled, written, new_seams, options):
     parts = [tile_report.part_report(part) for part in tiled.parts]
-    return report.object_report(obj, tiled.solved, written, new_seams, options, parts)
+    entry = report.object_report(obj, tiled.solved, written, new_seams, options, parts)
+    return entry | {"asked": tile_report.asked(tiled.options)}
 
 
 def _seam_pairs(tiled):

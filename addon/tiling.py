@@ -29,6 +29,7 @@ class TileOptions:
     boundary: str = "straight"
     turn: float = 0.0  # radians by which the texture is rotated
     allowed: bytes | None = None  # of the bools that tell where poles may be that are not chosen; None for anywhere
+    moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,7 @@ class TiledObject:
 
     solved: object  # `solve.SolvedObject`
     parts: tuple
+    options: TileOptions = TileOptions()  # that all parts share
 
     @property
     def done(self):
@@ -75,7 +77,7 @@ def tile(solved, options, progress=None):
         own = _own_options(component, options, share)
         parts.append(tile_part(component, own, scaled(progress, done, share)))
         done += share
-    return TiledObject(solved, tuple(parts))
+    return TiledObject(solved, tuple(parts), options)
 
 
 def tile_part(component, options, progress=None):
@@ -91,20 +93,25 @@ def tile_part(component, options, progress=None):
 
 
 def _made(component, options, progress):
-    """The library's `Tiling`."""
+    """The library's `Tiling`; what it rounded last is not rounded again for poles that are dragged."""
     tiler = component.tiler(options.poles, options.boundary, options.allowed, scaled(progress, 0.0, PLACING_SHARE))
-    return tiler.tile(
-        options.tiles or None,
-        lattice=options.lattice,
-        direction=options.direction,
-        turn=options.turn or None,
-        progress=scaled(progress, PLACING_SHARE, 1 - PLACING_SHARE),
-    )
+    rounded = replace(options, moved=())
+    if not options.moved or component.last_rounded.get(tiler) != rounded:
+        made = tiler.tile(
+            options.tiles or None,
+            lattice=options.lattice,
+            direction=options.direction,
+            turn=options.turn or None,
+            progress=scaled(progress, PLACING_SHARE, 1 - PLACING_SHARE),
+        )
+        component.last_rounded.clear()
+        component.last_rounded[tiler] = rounded
+    return tiler.with_poles_moved(dict(options.moved), progress=progress) if options.moved else made
 
 
 def _own_options(component, options, share):
     """What is asked of one part, vertices as it counts them: its share of the tiles; automatic poles where none of the
-    chosen ones lies, and none where none may be."""
+    chosen ones lies, and none where none may be; the poles that are dragged on it."""
     poles, allowed, own = options.poles, options.allowed, component.surface.vertex_index
     if isinstance(poles, tuple):
         poles = tuple(np.flatnonzero(np.isin(own, poles)).tolist()) or AUTOMATIC
@@ -113,7 +120,8 @@ def _own_options(component, options, share):
         allowed = mask.tobytes()
         if not mask.any():
             allowed, poles = None, poles if isinstance(poles, tuple) else 0
-    return replace(options, tiles=options.tiles * share, poles=poles, allowed=allowed)
+    moved = tuple((pole, int(place)) for pole, vertex in options.moved for place in np.flatnonzero(own == vertex))
+    return replace(options, tiles=options.tiles * share, poles=poles, allowed=allowed, moved=moved)
 
 
 def scaled(progress, done, share):

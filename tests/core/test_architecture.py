@@ -29,7 +29,16 @@ ROOM_BELOW = {
     "bindings": ["tiling", "plane", "multiresolution"],
 }
 # The add-on's bottom and top; every other module is between them.
-ADDON_LEVEL = {"compatibility": 0, "native": 0, "operators": 2, "tile": 2, "panel": 3, "__init__": 4, "headless": 5}
+ADDON_LEVEL = {
+    "compatibility": 0,
+    "native": 0,
+    "operators": 2,
+    "tile": 2,
+    "presets": 3,
+    "panel": 3,
+    "__init__": 4,
+    "headless": 5,
+}
 HEADER_LINES = 110
 FILE_LINES = 250
 

@@ -15,23 +15,11 @@ import bpy
 sys.path.insert(0, str(Path(__file__).parent))
 from objects import maps, part_report, pick, pick_vertices, sheet, torus
 from running import run
-from screen import area, click, event, hover, inside, move, picture, region, tap, window
+from screen import area, click, hover, inside, picture, region, tap, window
+from sidebar import count_draws, drawn, open_tab, press_button
 
-PANEL_TABS_STEP = 30  # pixels; a tab is longer
 PATIENCE = 90  # seconds for a solve
-BUTTONS = {"maps": 44, "punctures": 112, "rectangle": 133}  # pixels below the top of the sidebar, in edit mode
 seen = {}
-drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
-
-
-def count_draws(panel, kind):
-    original = panel.draw
-
-    def draw(self, context):
-        drawn[kind] += 1
-        original(self, context)
-
-    panel.draw = draw
 
 
 def note(method):
@@ -73,29 +61,6 @@ def wait_until(called):
         yield 0.02
 
 
-def open_tab(kind):
-    """Clicks along the tabs from the lowest, ours, upwards until our panel is drawn."""
-    sidebar = region(area(kind), "UI")
-    for height in range(40, sidebar.height, PANEL_TABS_STEP):
-        before = drawn[kind]
-        click(sidebar.x + sidebar.width - 8, sidebar.y + height)
-        sidebar.tag_redraw()
-        yield 0.4
-        if drawn[kind] > before:
-            seen[f"tab in {kind}"] = True
-            return
-
-
-def press_button(kind, button="maps"):
-    """Clicks one of our buttons, unhurriedly: they are below the panel's header, at the top of the sidebar."""
-    sidebar = region(area(kind), "UI")
-    move(sidebar.x + sidebar.width * 0.4, sidebar.y + sidebar.height - BUTTONS[button])
-    yield 0.3
-    event("LEFTMOUSE", "PRESS")
-    yield 0.1
-    event("LEFTMOUSE", "RELEASE")
-
-
 def wait_for_maps(name):
     start = time.monotonic()
     while not maps(name) and time.monotonic() - start < PATIENCE:
@@ -128,7 +93,7 @@ def prepare():
 
 def small_mesh():
     view = area("VIEW_3D")
-    yield from open_tab("VIEW_3D")
+    yield from open_tab("VIEW_3D", seen)
     picture("panel.png")
     yield 0.5
     yield from press_button("VIEW_3D")
@@ -169,7 +134,7 @@ def image_editor():
     while maps("Small"):
         layers = bpy.data.objects["Small"].data.uv_layers
         layers.remove(layers[0])
-    yield from open_tab("IMAGE_EDITOR")
+    yield from open_tab("IMAGE_EDITOR", seen)
     yield from press_button("IMAGE_EDITOR")
     yield 2
     seen["button of the UV editor"] = maps("Small")

@@ -245,6 +245,7 @@ Tiling Tiler::map_of(const Candidate& candidate, Execution& execution) {
 
 Tiling Tiler::with_poles_moved(const std::vector<PoleMove>& moves, Execution& execution) {
   execution.stage("poles at their places", 0.0, 0.9);
+  if (moves.empty()) return map_of(last_->candidate, execution);
   Candidate candidate = last_->candidate;
   const std::vector<char> moved = put(moves, *landscape_, names_, candidate);
   const Index n = landscape_->form_count(), k = last_->problem.residues.rows();

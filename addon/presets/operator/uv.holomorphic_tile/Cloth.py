@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import bpy
+
+op = bpy.context.active_operator
+
+op.tiles = 100
+op.lattice = "square"
+op.direction = "NONE"
+op.boundary = "straight"
+op.checker = True
+op.texture = "WEAVE"
+op.repeats = 2

@@ -1,0 +1,42 @@
+"""The add-on's tab in a sidebar, and its buttons."""
+
+from screen import area, click, event, move, region
+
+TABS_STEP = 30  # pixels; a tab is longer
+# Pixels below the top of the sidebar; those for selected vertices in edit mode, that for poles below the report of one
+# part of genus 1.
+BUTTONS = {"maps": 44, "tile": 65, "drag": 405, "punctures": 112, "rectangle": 133}
+drawn = {"VIEW_3D": 0, "IMAGE_EDITOR": 0}
+
+
+def count_draws(panel, kind):
+    original = panel.draw
+
+    def draw(self, context):
+        drawn[kind] += 1
+        original(self, context)
+
+    panel.draw = draw
+
+
+def open_tab(kind, seen):
+    """Clicks along the tabs from the lowest, ours, upwards until our panel is drawn."""
+    sidebar = region(area(kind), "UI")
+    for height in range(40, sidebar.height, TABS_STEP):
+        before = drawn[kind]
+        click(sidebar.x + sidebar.width - 8, sidebar.y + height)
+        sidebar.tag_redraw()
+        yield 0.4
+        if drawn[kind] > before:
+            seen[f"tab in {kind}"] = True
+            return
+
+
+def press_button(kind, button="maps", right=0.4):
+    """Clicks one of our buttons, unhurriedly: they are below the panel's header, at the top of the sidebar."""
+    sidebar = region(area(kind), "UI")
+    move(sidebar.x + sidebar.width * right, sidebar.y + sidebar.height - BUTTONS[button])
+    yield 0.3
+    event("LEFTMOUSE", "PRESS")
+    yield 0.1
+    event("LEFTMOUSE", "RELEASE")

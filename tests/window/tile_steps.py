@@ -1,0 +1,172 @@
+"""Runs inside Blender with a window and simulated events: tiles, uses the redo panel and its presets, drags poles."""
+
+import importlib
+import json
+import sys
+import time
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from objects import part_report, pick, torus
+from running import run
+from screen import area, click, event, hover, inside, move, picture, region, tap, window
+from sidebar import count_draws, open_tab, press_button
+
+PATIENCE = 60  # seconds for the texture to follow
+seen = {}
+NAME = "Ring"
+
+
+def addon(name):
+    return importlib.import_module(f"holomorph_addon.{name}")
+
+
+def obj():
+    return bpy.data.objects[NAME]
+
+
+def uv():
+    return addon("mesh_io").read_map(obj().data, "Holomorphic")
+
+
+def note_stages():
+    """A list of the stages that the library's jobs go through from now on."""
+    work, noted = addon("jobs").Work, []
+    original = work.ask
+
+    def ask(self, fraction, stage):
+        noted.append(stage)
+        return original(self, fraction, stage)
+
+    work.ask = ask
+    return noted
+
+
+def poles():
+    vertices, is_pole = addon("tile_report").marks(obj()["holomorph_report"])
+    return vertices[is_pole].tolist()
+
+
+def on_screen(vertex):
+    """Where a vertex is seen, in the window."""
+    view = region(area("VIEW_3D"), "WINDOW")
+    point = addon("mesh_io").world_points(obj(), [vertex])[0]
+    place = location_3d_to_region_2d(view, area("VIEW_3D").spaces.active.region_3d, point)
+    return view.x + place.x, view.y + place.y
+
+
+def wait_until(is_so):
+    start = time.perf_counter()
+    while not is_so() and time.perf_counter() - start < PATIENCE:
+        yield 0.1
+
+
+def prepare():
+    bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.view.smooth_view = 0
+    window().workspace = bpy.data.workspaces["Layout"]
+    yield 2
+    for each in list(bpy.data.objects):
+        bpy.data.objects.remove(each)
+    torus(NAME, 96, 48, 0)
+    pick(NAME)
+    view = area("VIEW_3D").spaces.active
+    view.show_region_ui = True
+    view.shading.type, view.shading.color_type = "SOLID", "TEXTURE"
+    with inside(area("VIEW_3D")):
+        bpy.ops.view3d.view_axis(type="TOP")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message="Start")
+    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
+    yield 1
+    yield from open_tab("VIEW_3D", seen)
+
+
+def tiling():
+    """By the button, in the background."""
+    yield from press_button("VIEW_3D", "tile")
+    yield from wait_until(lambda: "holomorph_report" in obj())
+    yield 1
+    seen["tiled"] = part_report(NAME)["tiling"]["verdict"]
+    picture("tiled.png")
+
+
+def redo_panel():
+    """Opened, and a preset chosen at its top: the poles stay those that were placed."""
+    hud = region(area("VIEW_3D"), "HUD")
+    click(hud.x + 30, hud.y + hud.height / 2)
+    yield 1.5
+    picture("tile_redo_panel.png")
+    click(hud.x + 100, hud.y + hud.height - 43)
+    yield 1
+    picture("tile_presets.png")
+    yield 0.5
+    stages = note_stages()
+    tap("W")  # the letter that is underlined in its entry
+    yield 2
+    seen["stages of the preset"] = sorted(set(stages))
+    seen["texture after the preset"] = json.loads(obj()["holomorph_report"])["dials"]["texture"]
+    picture("tile_preset.png")
+
+
+def visible_pole():
+    """Place in the report of a pole on the upper side."""
+    points = addon("mesh_io").world_points(obj(), poles())
+    return int(np.argmax(points[:, 2]))
+
+
+def drag_by_hand(pole, place):
+    """Presses the button, then takes the pole to a vertex and lets it go there. Seconds until the texture follows."""
+    yield from press_button("VIEW_3D", "drag", 0.7)
+    yield 0.5
+    move(*on_screen(poles()[pole]))
+    yield 0.5
+    picture("drag_hovered.png")
+    yield 0.5
+    before = uv()
+    event("LEFTMOUSE", "PRESS")
+    yield 0.1
+    move(*on_screen(place))
+    start = time.perf_counter()
+    yield from wait_until(lambda: not np.array_equal(uv(), before))
+    seen["seconds until the texture follows"] = time.perf_counter() - start
+    yield 1
+    picture("drag_followed.png")
+    event("LEFTMOUSE", "RELEASE")
+    yield 0.3
+
+
+def dragging():
+    pole, before, old = visible_pole(), uv(), poles()
+    points = addon("mesh_io").world_points(obj())
+    place = int(np.argmin(np.linalg.norm(points - (0, -1.0, 0.4), axis=1)))
+    for key in ("ESC", "RET"):
+        yield from drag_by_hand(pole, place)
+        seen[f"map changed before {key}"] = not np.array_equal(uv(), before)
+        tap(key)
+        yield 1
+        seen[f"map as before after {key}"] = bool(np.array_equal(uv(), before))
+        seen[f"poles as before after {key}"] = poles() == old
+    seen["pole is where it was put"] = poles()[pole] == place
+    seen["added distortion after dragging"] = part_report(NAME)["tiling"]["added_distortion"]
+    picture("drag_kept.png")
+    hover(area("VIEW_3D"))
+    yield 0.3
+    tap("Z", ctrl=True)
+    yield 1
+    seen["map as before after undo"] = bool(np.array_equal(uv(), before)) and poles() == old
+    tap("Z", ctrl=True, shift=True)
+    yield 1
+    seen["pole is there after redo"] = poles()[pole] == place
+
+
+def steps():
+    for part in (prepare, tiling, redo_panel, dragging):
+        yield from part()
+
+
+run(steps(), seen)
