@@ -17,6 +17,16 @@ SparseRows joined(Array<int>&& starts, const std::vector<std::vector<Entry>>& pa
   return result;
 }
 
+Array<int> rows_by_length(const SparseRows& M, Execution& execution) {
+  Array<int> order(M.size());
+  for_row_chunks(M.size(), execution, [&](int, int, int begin, int end) {
+    std::iota(order.begin() + begin, order.begin() + end, begin);
+    std::stable_sort(order.begin() + begin, order.begin() + end,
+                     [&](int a, int b) { return M[a].size() < M[b].size(); });
+  });
+  return order;
+}
+
 SparseRows transposed(const EqualRows& M, int columns) {
   SparseRows R;
   R.starts.resize(columns + std::size_t{1});
