@@ -173,7 +173,7 @@ void BlockSolve<K>::precondition(Sums<K>& rz, Sums<K>& zAz) {
   Block<K>* const Az = cycle_.scratch();
   const float* const omega = A_.omega.data();
   std::vector<Moments<K>> parts(row_chunks(n_));
-  cycle_.run([=, &A = A_, &parts](int chunk, Rows rows) {
+  cycle_.run([=, &A = A_.A, &parts](int chunk, Rows rows) {
     Block<K> with_r = Block<K>::Zero(), with_Az = with_r;
     for_differences<K>(A, rows, z, [=, &with_r, &with_Az](int i, const Block<K>& Az_i) {
       Az[i] = Az_i;

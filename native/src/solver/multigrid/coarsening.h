@@ -10,7 +10,6 @@ namespace holomorph::solver {
 /// that.
 struct Operator {
   SparseRows A;          ///< off-diagonal weights w_ij = -a_ij, of any signs
-  Array<int> order;      ///< rows_by_length() of A
   Array<float> omega;    ///< n, the smoother's step: x += omega (r - A x); negative at a fixed vertex
   Array<float> largest;  ///< n: max_j w_ij, or 0 where none is positive
   Array<char> fixed;     ///< n: whether the vertex is fixed; empty where none is

@@ -35,7 +35,7 @@ void Cycle<K>::restrict_residual(std::size_t k) {
   level.down.run(
       workers_,
       [=, &level](int chunk) {
-        for_differences<K>(level.op, rows_of_chunk(chunk, fine_rows), s,
+        for_differences<K>(level.op.A, rows_of_chunk(chunk, fine_rows), s,
                            [=](int i, const Block<K>& As) { t[i] = residual_of_step<K>(omega[i], s[i]) - As; });
       },
       [=, &level](int chunk) {
@@ -60,7 +60,7 @@ void Cycle<K>::smooth(std::size_t k, Rows rows) {
   Block<K>* const u = work_[k].u.data();
   const float* const omega = op.omega.data();
   const Block<K> natural = natural_;
-  for_differences<K>(op, rows, t,
+  for_differences<K>(op.A, rows, t,
                      [=](int i, const Block<K>& At) { u[i] = t[i] + (s[i] - jacobi_step<K>(omega[i], At, natural)); });
 }
 
@@ -83,7 +83,7 @@ void Cycle<K>::correct_twice() {
   const Block<K> natural = natural_;
   correct(twice_);
   for_chunks(level.rows(), workers_, [=, &level](int, Rows rows) {
-    for_differences<K>(level.op, rows, u, [=](int i, const Block<K>& Au) {
+    for_differences<K>(level.op.A, rows, u, [=](int i, const Block<K>& Au) {
       first[i] = u[i];
       s[i] -= jacobi_step<K>(omega[i], Au, natural);
     });

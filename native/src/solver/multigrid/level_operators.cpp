@@ -35,7 +35,7 @@ void write_measures(const RowMeasures& row, double step, int i, Operator& result
 }
 
 Operator empty_operator(std::size_t rows, Array<char> fixed) {
-  return {{}, {}, Array<float>(rows), Array<float>(rows), std::move(fixed)};
+  return {{}, Array<float>(rows), Array<float>(rows), std::move(fixed)};
 }
 
 // The largest entry of each row, that of the diagonal included.
@@ -93,7 +93,6 @@ Operator finest_operator(const Laplacian& L, Array<char> fixed, Execution& execu
     }
     write_measures(measures, kFinestStep, i, result);
   });
-  result.order = rows_by_length(result.A, execution);
   return result;
 }
 
@@ -117,7 +116,6 @@ Operator coarse_operator(const Operator& fine, const Coarsening& coarse, const E
     });
     write_measures(measures, kCoarseStep, I, result);
   });
-  result.order = rows_by_length(result.A, execution);
   return result;
 }
 
