@@ -1,14 +1,9 @@
 #include "solver/direct/sparse_cholesky.h"
 
 #include <cmath>
-#include <future>
-#include <mutex>
-
-#ifndef _WIN32
-#include <unistd.h>
-#endif
 
 #include "base/errors.h"
+#include "solver/direct/foreign_threads.h"
 
 #ifdef HOLOMORPH_WITH_CHOLMOD
 #include <Eigen/CholmodSupport>
@@ -16,57 +11,10 @@
 #include <Eigen/SparseCholesky>
 #endif
 
-#ifdef HOLOMORPH_WITH_OPENBLAS
-extern "C" {
-void openblas_set_num_threads(int);
-int openblas_get_num_threads(void);
-}
-#endif
-
 namespace holomorph::solver {
 namespace {
 
 using Lower = Eigen::SparseMatrix<double>;
-
-// The number of BLAS threads belongs to the process: it is 1 while any thread of the process factorises or solves, and
-// the last of these puts it back.
-class OneBlasThread {
- public:
-#ifdef HOLOMORPH_WITH_OPENBLAS
-  OneBlasThread() {
-    const std::lock_guard lock(mutex_);
-    if (users_++ > 0) return;
-    before_ = openblas_get_num_threads();
-    openblas_set_num_threads(1);
-  }
-  ~OneBlasThread() {
-    const std::lock_guard lock(mutex_);
-    if (--users_ == 0) openblas_set_num_threads(before_);
-  }
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
-
- private:
-  static inline std::mutex mutex_;
-  static inline int users_ = 0, before_ = 1;
-#else
-  OneBlasThread() {}
-#endif
-};
-
-#ifndef _WIN32
-const pid_t kLoadedIn = getpid();
-bool is_forked() { return getpid() != kLoadedIn; }
-#else
-bool is_forked() { return false; }
-#endif
-
-// work(), on a thread of its own in a process made by fork: there the calling thread may remember OpenMP threads, from
-// an earlier factorisation, which only its parent has, and would wait for them for ever.
-template <class Work>
-auto on_sound_thread(const Work& work) {
-  return is_forked() ? std::async(std::launch::async, work).get() : work();
-}
 
 void check(bool done, Eigen::Index unknowns) {
   if (done) return;

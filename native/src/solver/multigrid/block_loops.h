@@ -39,16 +39,17 @@ void for_chunks(int rows, Workers& workers, const Loop& loop) {
 // Bodies of the loops below capture pointers by value: to the compiler a block that is written may be one of the
 // pointers of an array, which would be read again for every row.
 
-/// body(i, (A x)_i) for a range of rows, with (A x)_i = sum_j w_ij (x_i - x_j).
+/// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j).
 template <int K, class Body>
 EIGEN_STRONG_INLINE void for_differences(const SparseRows& A, Rows rows, const Block<K>* x, const Body& body) {
-  const int* const starts = A.starts.data();
+  const int *const starts = A.starts.data(), *const ends = A.ends.data(), *const order = A.order.data();
   const Entry* const entries = A.entries.data();
-  for (int i = rows.begin; i < rows.end; ++i) {
+  for (int k = rows.begin; k < rows.end; ++k) {
+    const int i = order[k];
     prefetch(entries + starts[i] + kAhead);
     const Block<K> here = x[i];
     Block<K> sum = Block<K>::Zero();
-    for (int e = starts[i], end = starts[i + 1]; e < end; ++e) sum += entries[e].weight * (here - x[entries[e].column]);
+    for (int e = starts[i], end = ends[i]; e < end; ++e) sum += entries[e].weight * (here - x[entries[e].column]);
     body(i, sum);
   }
 }
@@ -56,11 +57,11 @@ EIGEN_STRONG_INLINE void for_differences(const SparseRows& A, Rows rows, const B
 /// body(i, (R x)_i) for a range of rows.
 template <int K, class Body>
 EIGEN_STRONG_INLINE void for_products(const SparseRows& R, Rows rows, const Block<K>* x, const Body& body) {
-  const int* const starts = R.starts.data();
+  const int *const starts = R.starts.data(), *const ends = R.ends.data();
   const Entry* const entries = R.entries.data();
   for (int i = rows.begin; i < rows.end; ++i) {
     Block<K> sum = Block<K>::Zero();
-    for (int e = starts[i], end = starts[i + 1]; e < end; ++e) sum += entries[e].weight * x[entries[e].column];
+    for (int e = starts[i], end = ends[i]; e < end; ++e) sum += entries[e].weight * x[entries[e].column];
     body(i, sum);
   }
 }

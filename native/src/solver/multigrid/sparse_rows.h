@@ -17,13 +17,12 @@ struct Entry {
 
 /// Compressed rows.
 struct SparseRows {
-  Array<int> starts;     ///< #rows + 1, where each row begins, and the end of the last
-  Array<Entry> entries;  ///< in each row in any order, but the same at any number of threads
+  Array<int> starts, ends;  ///< #rows, where the entries of each begin and end
+  Array<Entry> entries;     ///< in each row in any order, but the same at any number of threads
+  Array<int> order;         ///< the rows as they lie in memory, of build_rows()
 
-  int size() const { return starts.empty() ? 0 : static_cast<int>(starts.size()) - 1; }
-  std::span<const Entry> operator[](int i) const {
-    return {entries.data() + starts[i], entries.data() + starts[i + 1]};
-  }
+  int size() const { return static_cast<int>(starts.size()); }
+  std::span<const Entry> operator[](int i) const { return {entries.data() + starts[i], entries.data() + ends[i]}; }
 };
 
 /// Rows of `each` entries, the largest weight first. Missing ones have weight 0 and the first one's column: it is in
@@ -55,23 +54,25 @@ void for_row_chunks(int rows, Execution& execution, const Body& body) {
   }
 }
 
-/// The matrix whose chunks of rows have these entries, one after the other.
-/// @param starts #rows + 1: starts[i + 1] is the end of row i in its chunk's part
-SparseRows joined(Array<int>&& starts, const std::vector<std::vector<Entry>>& parts, Execution& execution);
+/// The matrix whose chunks of rows have these entries.
+/// @param ends #rows, of each row in its chunk's part
+SparseRows joined(Array<int>&& ends, const std::vector<std::vector<Entry>>& parts, Execution& execution);
 
-/// A matrix with `rows` rows, built in parallel: make_row(thread, i, part) appends the entries of row i to `part`.
+/// A matrix with `rows` rows, built in parallel: make_row(thread, i, part) appends the entries of row i to `part`. It
+/// lies in memory chunk by chunk, in each the shortest rows first: a loop whose number of rounds changes from row to
+/// row costs more by the processor's wrong guesses of its end than by its work.
 /// @param make_row its result must not depend on the thread @throws std::bad_alloc, Cancelled
 template <class MakeRow>
 SparseRows build_rows(int rows, Execution& execution, const MakeRow& make_row) {
-  Array<int> starts(rows + std::size_t{1});
+  Array<int> ends(rows);
   std::vector<std::vector<Entry>> parts(row_chunks(rows));
   for_row_chunks(rows, execution, [&](int thread, int chunk, int begin, int end) {
     for (int i = begin; i < end; ++i) {
       make_row(thread, i, parts[chunk]);
-      starts[i + 1] = static_cast<int>(parts[chunk].size());
+      ends[i] = static_cast<int>(parts[chunk].size());
     }
   });
-  return joined(std::move(starts), parts, execution);
+  return joined(std::move(ends), parts, execution);
 }
 
 /// The transpose, without zeros; entries of a row ascending. Cost: two passes over the entries, one thread.

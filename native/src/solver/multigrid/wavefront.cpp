@@ -27,10 +27,12 @@ ChunkNeeds chunk_needs(const SparseRows& M, int each, int chunks, Workers& worke
   run_throwing(workers, chunks, [&](int chunk) {
     const int begin = std::min(chunk * each, M.size()), end = std::min(begin + each, M.size());
     std::vector<char> found(chunks, 0);
-    for (int e = M.starts[begin]; e < M.starts[end]; ++e) {
-      const int need = M.entries[e].column / kChunkRows;
-      if (found[need] == 0) needs[chunk].push_back(need);
-      found[need] = 1;
+    for (int i = begin; i < end; ++i) {
+      for (const Entry& entry : M[i]) {
+        const int need = entry.column / kChunkRows;
+        if (found[need] == 0) needs[chunk].push_back(need);
+        found[need] = 1;
+      }
     }
   });
   return needs;

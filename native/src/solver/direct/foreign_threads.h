@@ -1,0 +1,28 @@
+// The threads of the libraries that factorise: BLAS's and OpenMP's.
+#pragma once
+
+#include <future>
+
+namespace holomorph::solver {
+
+/// While any lives, BLAS has one thread, and so the same bits at any number. That number belongs to the process: the
+/// end of the last puts it back.
+class OneBlasThread {
+ public:
+  OneBlasThread();
+  ~OneBlasThread();
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+};
+
+/// Whether this process was made by fork after the library was loaded.
+bool is_forked();
+
+/// work(), on a thread of its own in a process made by fork: there the calling thread may remember OpenMP threads, from
+/// an earlier factorisation, which only its parent has, and would wait for them for ever.
+template <class Work>
+auto on_sound_thread(const Work& work) {
+  return is_forked() ? std::async(std::launch::async, work).get() : work();
+}
+
+}  // namespace holomorph::solver
