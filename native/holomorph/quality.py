@@ -10,8 +10,9 @@ class Quality:
     """Distortion of a UV map per triangle, s1 >= s2 its singular values.
 
     angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed or a UV is not finite); area:
-    (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the triangles that have not
-    collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 % quantile.
+    (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the
+    triangles that have not collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 %
+    quantile.
     """
 
     angle: np.ndarray
