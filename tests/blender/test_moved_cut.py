@@ -19,6 +19,16 @@ def picture(obj, path):
     return values
 
 
+def glow(obj):
+    """The texture alone, without lights, whose random paths differ where a colour differs in its last bit."""
+    tree = obj.material_slots[0].material.node_tree
+    shader = next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED")
+    emission = tree.nodes.new("ShaderNodeEmission")
+    tree.links.new(shader.inputs["Base Color"].links[0].from_socket, emission.inputs["Color"])
+    for output in (n for n in tree.nodes if n.type == "OUTPUT_MATERIAL"):
+        tree.links.new(emission.outputs["Emission"], output.inputs["Surface"])
+
+
 def shift_random_faces(obj, by):
     """The cut now runs around each of them."""
     sizes = np.empty(len(obj.data.polygons), np.int32)
@@ -32,7 +42,8 @@ def shift_random_faces(obj, by):
 def test_a_cut_elsewhere(by, seen, tmp_path):
     obj = torus()
     assert bpy.ops.uv.holomorphic_tile(tiles=60, texture="BRICKS") == {"FINISHED"}
+    glow(obj)
     before = picture(obj, tmp_path / "before.png")
     shift_random_faces(obj, by)
     difference = np.abs(picture(obj, tmp_path / "after.png") - before).max()
-    assert (difference > 20 * STEP) if seen else (difference < STEP)
+    assert (difference > 20 * STEP) if seen else (difference < 1.5 * STEP)
