@@ -9,6 +9,7 @@
 #include "mesh/make_surface.h"
 #include "structure/punctured_structure.h"
 #include "tiling/abel_jacobi.h"
+#include "tiling/closed_maps.h"
 #include "tiling/leverage.h"
 #include "tiling/rounding.h"
 #include "tiling/seamless_map.h"
@@ -70,6 +71,24 @@ TEST(AbelJacobi, FollowsItsDerivative) {
   const Eigen::VectorXd step = -(leverage.abel_jacobi_derivatives({triangle}).col(0) * (b.z - a.z)).real();
   const Eigen::VectorXd start = map.at(from), exact = nearest_representative(map.at(to), start) - start;
   EXPECT_LT((exact - step).norm(), 0.1 * step.norm());
+}
+
+TEST(ClosedMaps, OneFormIsTheCombinationOfTheBasis) {
+  Execution execution(1);
+  const auto surface = wavy_torus(30, 20);
+  const std::vector<int> vertices{5, 300, 470};
+  const Landscape landscape(surface, {}, execution);
+  ClosedMaps maps(landscape, vertices, {}, {}, execution);
+  const auto s = structure::punctured_structure(surface, {vertices, {1.0, 1.0, -2.0}, {}}, {}, execution);
+  const AbelJacobi map(landscape, execution);
+  const Eigen::VectorXcd r{{Complex(2, -1), Complex(1, 3)}};
+  Eigen::VectorXcd X = r[0] * (map.at(5) - map.at(470)) + r[1] * (map.at(300) - map.at(470));
+  X += Eigen::VectorXcd{{Complex(4, -7), Complex(-3, 2)}};
+  const SeamlessForm form = maps.form(X, r, {});
+  for (const Complex period : form.periods) EXPECT_LT(std::abs(period - TextureLattice{}.nearest(period)), 1e-12);
+  Eigen::MatrixXd difference = maps.function(form, execution) - function_of(s, form, execution);
+  difference.rowwise() -= Eigen::RowVectorXd(difference.row(0));
+  EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-8);
 }
 
 TEST(SurfaceWalk, ComesBack) {
