@@ -93,7 +93,7 @@ def test_residues_are_on_the_lattice_and_sum_to_zero(name):
     assert made.periods.shape == (2 * mesh.genus + max(0, mesh.boundary_count - 1), 2)
 
 
-@pytest.mark.parametrize(("mesh", "poles"), [(SPHERE, 2), (SPHERE, 3), (TORUS, 3), (DOUBLE, 0)])
+@pytest.mark.parametrize(("mesh", "poles"), [(SPHERE, 2), (SPHERE, 3), (DOUBLE, 0)])
 def test_zeros_and_poles_count_the_genus(mesh, poles):
     """Where no zero lies in the star of a pole: poles are often beside zeros, and even the density there."""
     made = conformal_structure(surface_of(mesh)).tile(256, poles=poles)
