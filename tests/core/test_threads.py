@@ -4,12 +4,13 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 
 import families
 import numpy as np
 import pytest
-from holomorph import Cancelled, InvalidMesh, Surface, conformal_structure
+from holomorph import Cancelled, InvalidMesh, Surface, Tiler, conformal_structure
 from solved import CLOSED, surface_of
 from test_read import obj
 
@@ -58,6 +59,16 @@ def test_one_structure_is_asked_by_several():
         lambda: [shared.prepare_uv(), shared.uv_solver] and expected,
     )
     assert answers == [expected] * (AT_ONCE + 1)
+
+
+def test_one_tiler_is_asked_by_several():
+    """It keeps forms and poles between tilings, so it does one at a time."""
+    surface = surface_of(CLOSED["genus 2 block"])
+    alone = Tiler(surface, 4)
+    tiles = (64, 100, 150, 200)
+    expected = [alone.tile(count).uv.tobytes() for count in tiles]
+    shared = Tiler(surface, 4)
+    assert at_once(*[partial(lambda count: shared.tile(count).uv.tobytes(), count) for count in tiles]) == expected
 
 
 def test_cancelling_one_leaves_the_others():

@@ -2,6 +2,8 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include <mutex>
+
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
@@ -14,9 +16,24 @@ namespace {
 using tiling::Tiler;
 using tiling::Tiling;
 
+/// A tiler for Python, which does one thing at a time.
 struct PyTiler {
   int threads;
-  std::unique_ptr<Tiler> value;
+  Tiler value;
+  std::mutex mutex;
+
+  PyTiler(const std::shared_ptr<mesh::Surface>& surface, bool straight, const std::vector<int>& names,
+          const std::string& solver, int thread_count)
+      : threads(thread_count), value(surface, structure::Options{solver}, straight, names) {}
+
+  /// `use(tiler, execution)` without the interpreter's lock.
+  template <class Use>
+  auto run(const py::object& progress, Use use) {
+    Execution execution(threads, callback(progress));
+    const py::gil_scoped_release unlocked;
+    const std::lock_guard<std::mutex> one_at_a_time(mutex);
+    return use(value, execution);
+  }
 };
 
 }  // namespace
@@ -42,36 +59,32 @@ void bind_tiling(py::module_& m) {
       .def_readonly("distortion", &Tiling::distortion)
       .def_readonly("left_over", &Tiling::left_over);
   py::class_<PyTiler>(m, "Tiler")
-      .def(py::init([](const std::shared_ptr<mesh::Surface>& surface, bool straight, const std::vector<int>& names,
-                       const std::string& solver, int threads) {
-        return PyTiler{threads, std::make_unique<Tiler>(surface, structure::Options{solver}, straight, names)};
-      }))
+      .def(py::init<const std::shared_ptr<mesh::Surface>&, bool, const std::vector<int>&, const std::string&, int>())
       .def("place",
            [](PyTiler& t, std::optional<int> count, std::vector<int> vertices, const std::vector<bool>& allowed,
               const py::object& progress) {
-             Execution execution(t.threads, callback(progress));
-             const py::gil_scoped_release unlocked;
-             t.value->place({count, std::move(vertices), {allowed.begin(), allowed.end()}}, execution);
+             const tiling::PoleWishes wishes{count, std::move(vertices), {allowed.begin(), allowed.end()}};
+             t.run(progress, [&](Tiler& tiler, Execution& execution) { tiler.place(wishes, execution); });
            })
       .def("poles",
            [](const PyTiler& t) {
-             return py::make_tuple(copy(t.value->poles().vertices), copy(t.value->poles().residues),
-                                   t.value->optimal_density_ratio());
+             return py::make_tuple(copy(t.value.poles().vertices), copy(t.value.poles().residues),
+                                   t.value.optimal_density_ratio());
            })
       .def("tile",
            [](PyTiler& t, double tiles, std::complex<double> a, std::complex<double> b, std::optional<double> turn,
               std::optional<std::array<double, 3>> direction, double most_turn, const py::object& progress) {
-             Execution execution(t.threads, callback(progress));
-             const py::gil_scoped_release unlocked;
-             return std::make_shared<Tiling>(t.value->tile({tiles, {a, b}, direction, turn, most_turn}, execution));
+             return t.run(progress, [&](Tiler& tiler, Execution& execution) {
+               return std::make_shared<Tiling>(tiler.tile({tiles, {a, b}, direction, turn, most_turn}, execution));
+             });
            })
       .def("with_poles_moved",
            [](PyTiler& t, const std::vector<std::pair<int, int>>& pairs, const py::object& progress) {
              std::vector<tiling::PoleMove> moves;
              for (const auto& [pole, vertex] : pairs) moves.push_back({pole, vertex});
-             Execution execution(t.threads, callback(progress));
-             const py::gil_scoped_release unlocked;
-             return std::make_shared<Tiling>(t.value->with_poles_moved(moves, execution));
+             return t.run(progress, [&](Tiler& tiler, Execution& execution) {
+               return std::make_shared<Tiling>(tiler.with_poles_moved(moves, execution));
+             });
            });
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/errors.h"
 #include "mesh/graph_distances.h"
+#include "structure/puncture_choice.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -21,6 +23,26 @@ std::vector<int> evenly(const std::vector<int>& list, int count) {
 }
 
 }  // namespace
+
+std::vector<int> PoleCandidates::first() {
+  if (!allowed_.empty()) return first_allowed();
+  if (landscape_.closed()) return structure::far_apart(landscape_.surface(), landscape_.half_edges());
+  return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
+}
+
+// Candidates far from each other.
+std::vector<int> PoleCandidates::first_allowed() {
+  std::vector<int> poles;
+  for (const std::size_t count = landscape_.closed() ? 2 : 1; poles.size() < count;) {
+    const std::vector<int> candidates = everywhere(poles);
+    if (candidates.empty())
+      throw TopologyError("the vertices where poles may be have no room for " + std::to_string(count));
+    const auto& distance = distances(poles.empty() ? candidates.front() : poles.front());
+    poles.push_back(*std::max_element(candidates.begin(), candidates.end(),
+                                      [&](int a, int b) { return distance[a] < distance[b]; }));
+  }
+  return poles;
+}
 
 std::vector<int> PoleCandidates::everywhere(const std::vector<int>& others) { return free_ones(spread(), others); }
 

@@ -16,12 +16,16 @@ class PoleCandidates {
   PoleCandidates(const Landscape& landscape, const std::vector<char>& allowed)
       : landscape_(landscape), allowed_(allowed) {}
 
+  /// Where a surface without forms has its first poles: two far apart on a closed one, one deep inside another.
+  /// @throws TopologyError if there is no room
+  std::vector<int> first();
   /// Some 200 all over the surface, ascending.
   std::vector<int> everywhere(const std::vector<int>& others);
   /// Those, and some in balls of several sizes around `vertex`, which is none of them; ascending.
   std::vector<int> for_move(int vertex, const std::vector<int>& others);
 
  private:
+  std::vector<int> first_allowed();
   std::vector<int> spread() const;
   std::vector<int> near(int vertex);
   std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);

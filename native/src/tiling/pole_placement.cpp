@@ -1,19 +1,13 @@
 #include "tiling/pole_placement.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <optional>
 
 #include "base/chunks.h"
 #include "base/errors.h"
-#include "mesh/graph_distances.h"
-#include "structure/puncture_choice.h"
-#include "tiling/leverage.h"
 #include "tiling/pole_candidates.h"
+#include "tiling/pole_objective.h"
 #include "uv/balance.h"
 
 namespace holomorph::tiling {
@@ -30,9 +24,7 @@ constexpr double kEvenWithout = 3, kEvenWith = 6;
 constexpr int kThinning = 3;             // every third sample is enough to tell which candidates are worth a trial
 constexpr int kTried = 2, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 3;
-constexpr double kLeverage = 0.06, kEnough = 0.4;  // weight of the leverage; singular values that are enough
 constexpr double kGain = 1e-3;                     // less is no gain
-constexpr int kSteps = 25;                         // of the minimiser
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
@@ -48,32 +40,17 @@ class Search {
         rules_(rules),
         execution_(execution),
         candidates_(landscape, rules.allowed),
-        theta_(landscape.holomorphic().M) {
-    if (landscape.closed() && landscape.form_count() > 0) leverage_.emplace(landscape);
-    first_triangle_.assign(landscape.surface().vertex_count, -1);
-    for (int t = static_cast<int>(landscape.surface().triangles.size()) - 1; t >= 0; --t) {
-      for (const int v : landscape.surface().triangles[t]) first_triangle_[v] = t;
-    }
-  }
-
-  // The best form with these poles, from the coefficients given. @pre their columns and leverage are prepared
-  void optimise(Poles& poles, const std::vector<double>& floors) {
-    const uv::SampledParts parts{columns(poles.vertices), {}};
-    Eigen::VectorXd x = uv::as_unknowns(unknowns(poles), rules_.kind);
-    uv::descend(parts, rules_.kind, x, floors, kSteps);
-    set(uv::as_complex(x, rules_.kind), poles);
-    poles.variance = objective(poles, (parts.M * unknowns(poles)).cwiseAbs2().array());
-  }
+        objective_(landscape, rules.kind) {}
 
   void refine(Poles& poles) {
-    prepare_leverage(poles.vertices);
-    optimise(poles, kFromNear);
+    objective_.prepare(poles.vertices, execution_);
+    objective_.optimise(poles, kFromNear, execution_);
   }
 
   Poles begin() {
     Poles poles;
     poles.vertices = rules_.fixed;
-    if (poles.vertices.empty() && landscape_.form_count() == 0) poles.vertices = first_poles();
+    if (poles.vertices.empty() && landscape_.form_count() == 0) poles.vertices = candidates_.first();
     const auto k = static_cast<Index>(poles.vertices.size());
     poles.residues = VectorXcd::Ones(k);
     if (landscape_.closed() && k > 0) poles.residues[k - 1] = -static_cast<double>(k - 1);
@@ -83,8 +60,8 @@ class Search {
       poles.coefficients = landscape_.form_count() == 1 ? VectorXcd::Ones(1)
                                                         : uv::lowest_variance(parts, rules_.kind, execution_.workers());
     }
-    prepare_leverage(poles.vertices);
-    optimise(poles, kFromAfar);
+    objective_.prepare(poles.vertices, execution_);
+    objective_.optimise(poles, kFromAfar, execution_);
     return poles;
   }
 
@@ -112,10 +89,8 @@ class Search {
       if (!known) tried.push_back(joined(poles, trial));
     }
     if (tried.empty()) return false;
-    landscape_.poles(vertices_of(tried), execution_);
-    prepare_leverage(vertices_of(tried));
-    run_throwing(execution_.workers(), static_cast<int>(tried.size()), [&](int i) { optimise(tried[i], kWithTrial); });
-    poles = best(std::move(tried));
+    objective_.prepare(vertices_of(tried), execution_);
+    poles = best_optimised(std::move(tried), kWithTrial);
     return true;
   }
 
@@ -142,95 +117,18 @@ class Search {
     return all;
   }
 
-  static Poles best(std::vector<Poles> list) {
+  Poles best_optimised(std::vector<Poles> list, const std::vector<double>& floors) {
+    run_throwing(execution_.workers(), static_cast<int>(list.size()),
+                 [&](int i) { objective_.optimise(list[i], floors, execution_); });
     return *std::min_element(list.begin(), list.end(),
                              [](const Poles& a, const Poles& b) { return a.variance < b.variance; });
-  }
-
-  // Closed: the last pole takes the rest.
-  MatrixXcd columns(const std::vector<int>& vertices) {
-    MatrixXcd poles = landscape_.poles(vertices, execution_);
-    if (landscape_.closed() && poles.cols() > 0)
-      poles = (poles.leftCols(poles.cols() - 1).colwise() - poles.col(poles.cols() - 1)).eval();
-    MatrixXcd all(theta_.rows(), theta_.cols() + poles.cols());
-    all << theta_, poles;
-    return all;
-  }
-
-  VectorXcd unknowns(const Poles& poles) const {
-    const Index free = std::max<Index>(0, poles.residues.size() - (landscape_.closed() ? 1 : 0));
-    VectorXcd x(poles.coefficients.size() + free);
-    x << poles.coefficients, poles.residues.head(free);
-    return x;
-  }
-
-  void set(const VectorXcd& x, Poles& poles) const {
-    const Index n = poles.coefficients.size(), free = x.size() - n;
-    poles.coefficients = x.head(n);
-    poles.residues.head(free) = x.tail(free);
-    if (poles.residues.size() > free) poles.residues[free] = -x.tail(free).sum();
-  }
-
-  double objective(const Poles& poles, const Eigen::ArrayXd& density) {
-    return uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, leverage_metric(density));
-  }
-
-  // kLeverage mean log(1 + (kEnough / sigma)^2) over the singular values of [r_i tau_i] in the weighted Gram matrix.
-  double leverage_term(const std::vector<int>& vertices, const VectorXcd& residues, const MatrixXcd& metric) const {
-    const auto g = theta_.cols();
-    if (!leverage_ || residues.size() < g) return 0;
-    MatrixXcd rows(g, residues.size());
-    for (Index i = 0; i < residues.size(); ++i) rows.col(i) = residues[i] * tau_.at(vertices[i]);
-    const MatrixXcd V = metric * rows;
-    MatrixXcd S = V * V.adjoint();
-    S += 1e-9 * MatrixXcd::Identity(g, g);
-    const MatrixXcd sum = S + kEnough * kEnough * MatrixXcd::Identity(g, g);
-    return kLeverage / static_cast<double>(g) *
-           (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
-  }
-
-  MatrixXcd leverage_metric(const Eigen::ArrayXd& density) const {
-    if (!leverage_) return {};
-    const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
-    return MatrixXcd(metric.matrixU()) * std::sqrt(landscape_.area());
-  }
-
-  // Before threads look it up.
-  void prepare_leverage(std::vector<int> vertices) {
-    if (!leverage_) return;
-    std::erase_if(vertices, [&](int v) { return tau_.contains(v); });
-    std::vector<int> triangles;
-    for (const int v : vertices) triangles.push_back(first_triangle_[v]);
-    const MatrixXcd tau = leverage_->tau(triangles);
-    for (std::size_t i = 0; i < vertices.size(); ++i) tau_.emplace(vertices[i], tau.col(static_cast<Index>(i)));
-  }
-
-  std::vector<int> first_poles() {
-    if (!rules_.allowed.empty()) return first_allowed_poles();
-    if (landscape_.closed()) return structure::far_apart(landscape_.surface(), landscape_.half_edges());
-    return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
-  }
-
-  // The same where poles are not allowed everywhere: candidates far from each other.
-  std::vector<int> first_allowed_poles() {
-    std::vector<int> poles;
-    for (const std::size_t count = landscape_.closed() ? 2 : 1; poles.size() < count;) {
-      const std::vector<int> candidates = candidates_.everywhere(poles);
-      if (candidates.empty())
-        throw TopologyError("the vertices where poles may be have no room for " + std::to_string(count));
-      const auto distance = mesh::graph_distances(landscape_.half_edges(), landscape_.lengths(),
-                                                  {poles.empty() ? candidates.front() : poles.front()});
-      poles.push_back(*std::max_element(candidates.begin(), candidates.end(),
-                                        [&](int a, int b) { return distance[a] < distance[b]; }));
-    }
-    return poles;
   }
 
   // All candidates with all trial residues beside the form as it is, the best first.
   std::vector<Trial> trials_everywhere(const Poles& poles) {
     const std::vector<int> candidates = candidates_.everywhere(poles.vertices);
     const MatrixXcd green = thinned(landscape_.poles(candidates, execution_));
-    const VectorXcd A = thinned(columns(poles.vertices) * unknowns(poles));
+    const VectorXcd A = thinned(objective_.form(poles, execution_));
     const double scale = std::sqrt(A.cwiseAbs2().mean() * landscape_.area());
     const int phases = rules_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
     std::vector<Trial> trials;
@@ -267,17 +165,17 @@ class Search {
     const std::vector<int> candidates = candidates_.for_move(poles.vertices[i], others);
     if (candidates.empty()) return false;
     const MatrixXcd green = thinned(landscape_.poles(candidates, execution_));
-    const VectorXcd A = columns(poles.vertices) * unknowns(poles);
+    const VectorXcd A = objective_.form(poles, execution_);
     const VectorXcd without = thinned(A - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_).col(0));
-    prepare_leverage(candidates);
-    prepare_leverage(poles.vertices);
-    const MatrixXcd metric = leverage_metric(A.cwiseAbs2().array());
+    objective_.prepare(candidates, execution_);
+    objective_.prepare(poles.vertices, execution_);
+    const MatrixXcd metric = objective_.leverage_metric(A.cwiseAbs2().array());
     std::vector<std::pair<double, int>> scores(candidates.size());
     run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
       std::vector<int> vertices = poles.vertices;
       vertices[i] = candidates[j];
       const Eigen::ArrayXd density = (without + poles.residues[i] * green.col(j)).cwiseAbs2().array();
-      scores[j] = {uv::log_variance(density) + leverage_term(vertices, poles.residues, metric), candidates[j]};
+      scores[j] = {uv::log_variance(density) + objective_.leverage_term(vertices, poles.residues, metric), candidates[j]};
     });
     std::sort(scores.begin(), scores.end());
     std::vector<Poles> tried;
@@ -285,8 +183,7 @@ class Search {
       tried.push_back(poles);
       tried.back().vertices[i] = scores[j].second;
     }
-    run_throwing(execution_.workers(), static_cast<int>(tried.size()), [&](int j) { optimise(tried[j], kFromNear); });
-    Poles found = best(std::move(tried));
+    Poles found = best_optimised(std::move(tried), kFromNear);
     if (found.variance > poles.variance * (1 - kGain)) return false;
     poles = std::move(found);
     return true;
@@ -296,10 +193,7 @@ class Search {
   const PlacementRules& rules_;
   Execution& execution_;
   PoleCandidates candidates_;
-  MatrixXcd theta_;
-  std::optional<Leverage> leverage_;
-  std::vector<int> first_triangle_;
-  std::map<int, VectorXcd> tau_;
+  PoleObjective objective_;
 };
 
 }  // namespace
