@@ -38,8 +38,7 @@ void PoleObjective::optimise(Poles& poles, const std::vector<double>& floors, Ex
   uv::descend(parts, kind_, x, floors, kSteps);
   set(uv::as_complex(x, kind_), poles);
   const Eigen::ArrayXd density = (parts.M * unknowns(poles)).cwiseAbs2().array();
-  poles.variance =
-      uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, leverage_metric(density));
+  poles.variance = uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, leverage_metric(density));
 }
 
 VectorXcd PoleObjective::form(const Poles& poles, Execution& execution) const {

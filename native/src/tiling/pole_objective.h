@@ -15,8 +15,8 @@ class PoleObjective {
   /// The landscape outlives this.
   PoleObjective(Landscape& landscape, uv::Coefficients kind);
 
-  /// The best form with these poles, from the coefficients given, and its value as `variance`; for each of the floors of
-  /// the density in turn. @pre `prepare` was called for the poles
+  /// The best form with these poles, from the coefficients given, and its value as `variance`; for each of the floors
+  /// of the density in turn. @pre `prepare` was called for the poles
   void optimise(Poles& poles, const std::vector<double>& floors, Execution& execution) const;
   /// Solves for the forms of poles at these vertices, before threads look them up. @throws SolverError, Cancelled
   void prepare(const std::vector<int>& vertices, Execution& execution);

@@ -24,7 +24,7 @@ constexpr double kEvenWithout = 3, kEvenWith = 6;
 constexpr int kThinning = 3;             // every third sample is enough to tell which candidates are worth a trial
 constexpr int kTried = 2, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 3;
-constexpr double kGain = 1e-3;                     // less is no gain
+constexpr double kGain = 1e-3;  // less is no gain
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
@@ -175,7 +175,8 @@ class Search {
       std::vector<int> vertices = poles.vertices;
       vertices[i] = candidates[j];
       const Eigen::ArrayXd density = (without + poles.residues[i] * green.col(j)).cwiseAbs2().array();
-      scores[j] = {uv::log_variance(density) + objective_.leverage_term(vertices, poles.residues, metric), candidates[j]};
+      scores[j] = {uv::log_variance(density) + objective_.leverage_term(vertices, poles.residues, metric),
+                   candidates[j]};
     });
     std::sort(scores.begin(), scores.end());
     std::vector<Poles> tried;
