@@ -36,30 +36,41 @@ IntegerForms on_flipped(IntegerForms classes, const mesh::Surface& before, const
   return classes;
 }
 
+bool has_diagonals(const mesh::Surface& surface) {
+  return surface.polygon_edge_count < static_cast<int>(surface.edges.size());
+}
+
 }  // namespace
 
 ClosedMaps::ClosedMaps(const Landscape& landscape, const std::vector<int>& vertices, const std::vector<int>& names,
                        const structure::Options& options, Execution& execution) {
   structure::Punctures punctures{vertices, std::vector<Complex>(vertices.size(), 1.0), names};
   punctures.residues.back() = -static_cast<double>(vertices.size() - 1);
-  punctured_ = structure::punctured_surface(landscape.structure().surface, std::move(punctures), execution);
-  auto& [s, half_edges, weights, poles] = punctured_;
-  s.memory = structure::plan_memory({s.surface->vertex_count, static_cast<std::int64_t>(s.surface->edges.size()), 2},
-                                    options.solver, options.memory_limit, structure::Keeping::all);
-  systems_ =
-      std::make_unique<structure::HarmonicSystems>(half_edges, weights, std::vector<int>{}, s.memory.choice, execution);
+  auto punctured = structure::punctured_surface(landscape.structure().surface, std::move(punctures), execution);
+  structure_ = std::make_shared<structure::Structure>(std::move(punctured.structure));
+  half_edges_ = std::move(punctured.half_edges);
+  weights_ = std::move(punctured.weights);
+  poles_ = std::move(punctured.poles);
+  const structure::Structure& s = *structure_;
+  systems_ = has_diagonals(*s.surface) ? nullptr : landscape.systems();
+  if (!systems_) {
+    const structure::Extent extent{s.surface->vertex_count, static_cast<std::int64_t>(s.surface->edges.size()), 2};
+    const auto plan = structure::plan_memory(extent, options.solver, options.memory_limit, structure::Keeping::all);
+    systems_ =
+        std::make_shared<structure::HarmonicSystems>(half_edges_, weights_, std::vector<int>{}, plan.choice, execution);
+  }
   const structure::Structure& plain = landscape.structure();
   change_ = change_of_basis(plain.topology.classes, s);
   pole_parts_.resize(change_.rows(), s.topology.families.poles);
   if (change_.rows() == 0) return;
   // Away from the flipped diagonals the harmonic forms are those of the landscape, and integers are all that is wanted.
-  const forms::ClosedForms harmonic{on_flipped(plain.topology.classes, *plain.surface, *s.surface, half_edges),
+  const forms::ClosedForms harmonic{on_flipped(plain.topology.classes, *plain.surface, *s.surface, half_edges_),
                                     landscape.harmonic().functions};
-  pole_parts_ = forms::harmonic_part(half_edges, poles, harmonic, plain.gram[0]);
+  pole_parts_ = forms::harmonic_part(half_edges_, poles_, harmonic, plain.gram[0]);
 }
 
 SeamlessForm ClosedMaps::form(const VectorXcd& X, const VectorXcd& r, const TextureLattice& lattice) const {
-  const auto& families = punctured_.structure.topology.families;
+  const auto& families = structure_->topology.families;
   VectorXcd periods = X - pole_parts_ * r;
   for (Complex& period : periods) period = lattice.nearest(period);
   SeamlessForm result{change_ * periods, VectorXcd(families.count())};
@@ -68,10 +79,10 @@ SeamlessForm ClosedMaps::form(const VectorXcd& X, const VectorXcd& r, const Text
 }
 
 uv::UvArray ClosedMaps::function(const SeamlessForm& form, Execution& execution) {
-  const auto& [s, half_edges, weights, poles] = punctured_;
-  const auto& families = s.topology.families;
-  const auto natural = topology::first_forms(s.topology.classes, families.natural, families.natural);
-  return forms::function_with_poles(half_edges, weights, poles, natural, form.periods,
+  const auto& topology = structure_->topology;
+  const auto& families = topology.families;
+  const auto natural = topology::first_forms(topology.classes, families.natural, families.natural);
+  return forms::function_with_poles(half_edges_, weights_, poles_, natural, form.periods,
                                     form.coefficients.segment(families.natural, families.poles), systems_->solver(),
                                     execution);
 }

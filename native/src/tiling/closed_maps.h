@@ -19,8 +19,9 @@ class ClosedMaps {
   ClosedMaps(const ClosedMaps&) = delete;
   ClosedMaps& operator=(const ClosedMaps&) = delete;
 
-  const std::vector<int>& vertices() const { return punctured_.structure.punctures.vertices; }
-  const structure::Structure& structure() const { return punctured_.structure; }
+  const std::vector<int>& vertices() const { return structure_->punctures.vertices; }
+  /// Surface, topology, punctures and stars.
+  const std::shared_ptr<const structure::Structure>& structure() const { return structure_; }
 
   /// @param X as the tiling_problem has it: periods besides the poles in the classes of the landscape
   /// @param r residues of the poles but the last
@@ -29,10 +30,13 @@ class ClosedMaps {
   uv::UvArray function(const SeamlessForm& form, Execution& execution);
 
  private:
-  structure::PuncturedSurface punctured_;
-  std::unique_ptr<structure::HarmonicSystems> systems_;
-  Eigen::MatrixXd change_;      // from the classes of the landscape to those of the structure
-  Eigen::MatrixXd pole_parts_;  // in the classes of the landscape
+  std::shared_ptr<const structure::Structure> structure_;
+  mesh::HalfEdges half_edges_;
+  Array<double> weights_;
+  forms::Poles poles_;
+  std::shared_ptr<structure::HarmonicSystems> systems_;  // the landscape's where it has the same triangles
+  Eigen::MatrixXd change_;                               // from the classes of the landscape to those of the structure
+  Eigen::MatrixXd pole_parts_;                           // in the classes of the landscape
 };
 
 }  // namespace holomorph::tiling

@@ -59,7 +59,7 @@ void Landscape::solve(const structure::Options& options, Execution& execution) {
   structure_.memory = structure::plan_memory({surface().vertex_count, static_cast<std::int64_t>(surface().edges.size()),
                                               topology.families.count() + pole_columns},
                                              options.solver, options.memory_limit, structure::Keeping::all);
-  systems_ = std::make_unique<structure::HarmonicSystems>(
+  systems_ = std::make_shared<structure::HarmonicSystems>(
       half_edges_, weights_, mesh::boundary_vertices(topology.boundary), structure_.memory.choice, execution);
   if (natural > 0) {
     const auto classes =
@@ -70,7 +70,6 @@ void Landscape::solve(const structure::Options& options, Execution& execution) {
     const auto values = uv::values_on_sides(surface(), *sides_, harmonic_, samples_);
     holomorphic_ = uv::sampled_parts(surface(), {samples_, values}, structure_.differentials);
   }
-  if (on_level_) systems_.reset();
 }
 
 Eigen::MatrixXcd Landscape::poles(const std::vector<int>& vertices, Execution& execution) {

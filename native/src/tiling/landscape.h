@@ -47,6 +47,9 @@ class Landscape {
   /// Solved for once for each vertex and kept. @throws SolverError, Cancelled
   Eigen::MatrixXcd poles(const std::vector<int>& vertices, Execution& execution);
 
+  /// What solves on the surface's own triangles; null where nothing had to be solved for.
+  const std::shared_ptr<structure::HarmonicSystems>& systems() const { return systems_; }
+
   const mesh::Sides& sides() const { return *sides_; }
   /// #triangles x #harmonic forms: h_x - i h_y of the harmonic forms on triangles, x along side 0.
   Eigen::MatrixXcd derivatives(const std::vector<int>& triangles) const;
@@ -61,7 +64,7 @@ class Landscape {
   Array<double> lengths_, weights_;
   std::vector<double> vertex_share_;  // #V of the area
   double area_ = 0;
-  std::unique_ptr<structure::HarmonicSystems> systems_;
+  std::shared_ptr<structure::HarmonicSystems> systems_;
   forms::ClosedForms harmonic_;
   std::vector<int> samples_;
   uv::SampledParts holomorphic_;

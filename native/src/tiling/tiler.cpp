@@ -271,7 +271,7 @@ void Tiler::write_map(Tiling& result, const VectorXcd& X, const TextureLattice& 
     if (!closed_maps_ || closed_maps_->vertices() != result.poles)
       closed_maps_ = std::make_shared<ClosedMaps>(*landscape_, result.poles, names_, options_, execution);
     const SeamlessForm form = closed_maps_->form(X, all.head(count - 1), lattice);
-    result.structure = {closed_maps_, &closed_maps_->structure()};
+    result.structure = closed_maps_->structure();
     finish_map(result, form, closed_maps_->function(form, execution), execution);
     return;
   }
