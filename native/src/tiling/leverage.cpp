@@ -12,6 +12,17 @@ Leverage::Leverage(const Landscape& landscape) : landscape_(landscape) {
   both << theta, theta.conjugate();
   split_ = both.inverse();
   inverse_wedge_ = landscape.structure().topology.pairing.cast<double>().inverse();
+  const auto& triangles = landscape.surface().triangles;
+  first_triangle_.assign(landscape.surface().vertex_count, -1);
+  for (int t = static_cast<int>(triangles.size()) - 1; t >= 0; --t) {
+    for (const int v : triangles[t]) first_triangle_[v] = t;
+  }
+}
+
+std::vector<int> Leverage::triangles_at(const std::vector<int>& vertices) const {
+  std::vector<int> triangles;
+  for (const int v : vertices) triangles.push_back(first_triangle_[v]);
+  return triangles;
 }
 
 Eigen::MatrixXcd Leverage::abel_jacobi_derivatives(const std::vector<int>& triangles) const {

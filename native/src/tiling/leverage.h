@@ -24,8 +24,12 @@ class Leverage {
   /// g x #triangles: tau on each.
   Eigen::MatrixXcd tau(const std::vector<int>& triangles) const;
 
+  /// The first triangle at each vertex, which stands for it.
+  std::vector<int> triangles_at(const std::vector<int>& vertices) const;
+
  private:
   const Landscape& landscape_;
+  std::vector<int> first_triangle_;  // #V
   Eigen::MatrixXd inverse_wedge_;
   Eigen::MatrixXcd split_;
 };

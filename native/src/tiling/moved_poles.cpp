@@ -16,14 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-std::vector<Index> Candidate::used() const {
-  std::vector<Index> indices;
-  for (Index i = 0; i < residues.size(); ++i) {
-    if (residues[i] != Complex(0)) indices.push_back(i);
-  }
-  return indices;
-}
-
 std::vector<char> put(const std::vector<PoleMove>& moves, const Landscape& landscape, const std::vector<int>& names,
                       Candidate& candidate) {
   const std::vector<Index> used = candidate.used();

@@ -5,20 +5,9 @@
 #include <vector>
 
 #include "tiling/abel_jacobi.h"
-#include "tiling/pole_moves.h"
-#include "tiling/rounding.h"
+#include "tiling/candidate.h"
 
 namespace holomorph::tiling {
-
-/// A rounding with its poles where they are.
-struct Candidate {
-  Rounding rounding;
-  PlacedPoles poles;
-  Eigen::VectorXcd residues;  ///< of all poles
-  Eigen::VectorXcd X;         ///< periods besides the poles; with boundary c
-
-  std::vector<Eigen::Index> used() const;  ///< the poles of the tiling: a rounding may need fewer than there are
-};
 
 /// What a tiling was made of.
 struct Choice {

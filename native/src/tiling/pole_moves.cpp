@@ -3,10 +3,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <unordered_map>
 
+#include "tiling/pole_vertices.h"
 #include "tiling/surface_walk.h"
 
 namespace holomorph::tiling {
@@ -30,20 +30,21 @@ constexpr std::size_t kAround = 36;  // vertices around a pole that are exchange
 class Moving {
  public:
   Moving(const Landscape& landscape, const AbelJacobi& abel_jacobi, const Leverage& leverage, const VectorXcd& periods,
-         const VectorXcd& residues, const MatrixXcd& metric, const MoveRules& rules, PlacedPoles poles,
-         const std::vector<int>& first_triangle)
+         const VectorXcd& residues, const MatrixXcd& metric, const MoveRules& rules, PlacedPoles poles)
       : landscape_(landscape),
-        abel_jacobi_(abel_jacobi),
         leverage_(leverage),
         periods_(periods),
         residues_(residues),
         to_defect_(metric * leverage.split().bottomRows(metric.cols())),
         metric_(metric),
         rules_(rules),
+        vertices_(landscape, abel_jacobi, rules.allowed),
         poles_(std::move(poles)),
         held_(rules.held.empty() ? std::vector<char>(poles_.vertices.size(), 0) : rules.held),
         gone_(poles_.vertices.size(), 0.0) {
-    for (const int v : poles_.vertices) points_.push_back(at_vertex(landscape.surface(), first_triangle[v], v));
+    const std::vector<int> triangles = leverage.triangles_at(poles_.vertices);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      points_.push_back(at_vertex(landscape.surface(), triangles[i], poles_.vertices[i]));
   }
 
   PlacedPoles run() {
@@ -131,50 +132,27 @@ class Moving {
       poles_.parts[i] -= (on_triangle(triangle).derivative * part).real();
   }
 
-  std::vector<int> corners_around(int vertex) const {
-    return mesh::corners_around(landscape_.surface(), landscape_.half_edges(), vertex);
-  }
-
   // The corners around the settled poles but two, ascending.
   std::vector<int> corners_but(std::size_t i, std::size_t j) const {
     std::vector<int> all;
     for (std::size_t k = 0; k < poles_.vertices.size(); ++k) {
       if (k == i || k == j || !held_[k]) continue;
-      const auto corners = corners_around(poles_.vertices[k]);
+      const auto corners = vertices_.corners_around(poles_.vertices[k]);
       all.insert(all.end(), corners.begin(), corners.end());
     }
     std::sort(all.begin(), all.end());
     return all;
   }
 
-  static bool are_apart(const std::vector<int>& a, const std::vector<int>& b) {
-    for (auto x = a.begin(), y = b.begin(); x != a.end() && y != b.end();) {
-      if (*x == *y) return false;
-      ++(*x < *y ? x : y);
-    }
-    return true;
-  }
-
-  bool is_allowed(int vertex) const {
-    return (rules_.allowed.empty() || rules_.allowed[vertex]) &&
-           mesh::has_proper_star(landscape_.surface(), landscape_.half_edges(), vertex);
-  }
-
-  const VectorXd& part_at(int vertex) {
-    auto& part = parts_[vertex];
-    if (part.size() == 0) part = abel_jacobi_.at(vertex);
-    return part;
-  }
-
   // At the nearest vertex that can take it, else back where it was.
   void hold(std::size_t i) {
     const std::vector<int> others = corners_but(i, i);
     for (const int v : nearest_corners(landscape_.surface(), points_[i])) {
-      if (!is_allowed(v) || !are_apart(corners_around(v), others)) continue;
+      if (!vertices_.is_allowed(v) || !are_apart(vertices_.corners_around(v), others)) continue;
       poles_.vertices[i] = v;
       break;
     }
-    poles_.parts[i] = nearest_representative(part_at(poles_.vertices[i]), poles_.parts[i]);
+    poles_.parts[i] = vertices_.part(poles_.vertices[i], poles_.parts[i]);
     held_[i] = 1;
   }
 
@@ -187,25 +165,11 @@ class Moving {
 
   // The vertices around a pole, itself among them; it alone where the pole has to stay.
   std::vector<Neighbour> around(std::size_t i) {
-    const auto& mesh = landscape_.half_edges();
-    const std::size_t most = !rules_.held.empty() && rules_.held[i] ? 0 : kAround;
-    std::vector<int> queue{poles_.vertices[i]};
-    std::map<int, char> seen{{poles_.vertices[i], 1}};
-    for (std::size_t next = 0; next < queue.size() && queue.size() < most; ++next) {
-      const mesh::HalfedgeHandle first = mesh.halfedge_handle(mesh::VertexHandle(queue[next]));
-      mesh::HalfedgeHandle h = first;
-      do {
-        const int v = mesh::to_vertex(mesh, h);
-        if (seen.emplace(v, 1).second) queue.push_back(v);
-        h = mesh::next(mesh, mesh::opposite(h));
-      } while (h != first);
-    }
     std::vector<Neighbour> list;
-    for (const int v : queue) {
-      if (!is_allowed(v)) continue;
-      VectorXd part = nearest_representative(part_at(v), poles_.parts[i]);
+    for (const int v : vertices_.around(poles_.vertices[i], !rules_.held.empty() && rules_.held[i] ? 0 : kAround)) {
+      VectorXd part = vertices_.part(v, poles_.parts[i]);
       VectorXcd effect = residues_[static_cast<Index>(i)] * (to_defect_ * part.cast<Complex>());
-      list.push_back({v, corners_around(v), std::move(part), std::move(effect)});
+      list.push_back({v, vertices_.corners_around(v), std::move(part), std::move(effect)});
     }
     return list;
   }
@@ -252,43 +216,33 @@ class Moving {
   }
 
   const Landscape& landscape_;
-  const AbelJacobi& abel_jacobi_;
   const Leverage& leverage_;
   const VectorXcd& periods_;
   const VectorXcd& residues_;
   MatrixXcd to_defect_;  // g x 2g
   const MatrixXcd& metric_;
   const MoveRules& rules_;
+  PoleVertices vertices_;
   PlacedPoles poles_;
   std::vector<SurfacePoint> points_;
   std::vector<char> held_;
   std::vector<double> gone_;
-  std::map<int, VectorXd> parts_;
   std::unordered_map<int, OnTriangle> on_triangle_;
 };
 
 }  // namespace
 
 PoleMoves::PoleMoves(const Landscape& landscape, const AbelJacobi& abel_jacobi)
-    : landscape_(landscape), abel_jacobi_(abel_jacobi), leverage_(landscape) {
-  first_triangle_.assign(landscape.surface().vertex_count, -1);
-  for (int t = static_cast<int>(landscape.surface().triangles.size()) - 1; t >= 0; --t) {
-    for (const int v : landscape.surface().triangles[t]) first_triangle_[v] = t;
-  }
-}
+    : landscape_(landscape), abel_jacobi_(abel_jacobi), leverage_(landscape) {}
 
 MatrixXcd PoleMoves::reach(const std::vector<int>& vertices, const VectorXcd& residues) const {
-  std::vector<int> triangles;
-  for (const int v : vertices) triangles.push_back(first_triangle_[v]);
-  const MatrixXcd lever = leverage_.tau(triangles) * residues.asDiagonal();
+  const MatrixXcd lever = leverage_.tau(leverage_.triangles_at(vertices)) * residues.asDiagonal();
   return lever * lever.adjoint();
 }
 
 PlacedPoles PoleMoves::moved(PlacedPoles poles, const VectorXcd& periods, const VectorXcd& residues,
                              const MatrixXcd& metric, const MoveRules& rules) const {
-  return Moving(landscape_, abel_jacobi_, leverage_, periods, residues, metric, rules, std::move(poles),
-                first_triangle_)
-      .run();
+  return Moving(landscape_, abel_jacobi_, leverage_, periods, residues, metric, rules, std::move(poles)).run();
 }
 
 }  // namespace holomorph::tiling

@@ -41,7 +41,6 @@ class PoleMoves {
   const Landscape& landscape_;
   const AbelJacobi& abel_jacobi_;
   Leverage leverage_;
-  std::vector<int> first_triangle_;
 };
 
 }  // namespace holomorph::tiling

@@ -16,19 +16,14 @@ constexpr int kSteps = 25;                         // of the minimiser
 
 PoleObjective::PoleObjective(Landscape& landscape, uv::Coefficients kind) : landscape_(landscape), kind_(kind) {
   if (landscape.closed() && landscape.form_count() > 0) leverage_.emplace(landscape);
-  first_triangle_.assign(landscape.surface().vertex_count, -1);
-  for (int t = static_cast<int>(landscape.surface().triangles.size()) - 1; t >= 0; --t) {
-    for (const int v : landscape.surface().triangles[t]) first_triangle_[v] = t;
-  }
 }
 
 void PoleObjective::prepare(const std::vector<int>& vertices, Execution& execution) {
   landscape_.poles(vertices, execution);
   if (!leverage_) return;
-  std::vector<int> missing = vertices, triangles;
+  std::vector<int> missing = vertices;
   std::erase_if(missing, [&](int v) { return tau_.contains(v); });
-  for (const int v : missing) triangles.push_back(first_triangle_[v]);
-  const MatrixXcd tau = leverage_->tau(triangles);
+  const MatrixXcd tau = leverage_->tau(leverage_->triangles_at(missing));
   for (std::size_t i = 0; i < missing.size(); ++i) tau_.emplace(missing[i], tau.col(static_cast<Index>(i)));
 }
 

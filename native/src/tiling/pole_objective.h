@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tiling/leverage.h"
-#include "tiling/pole_placement.h"
+#include "tiling/poles.h"
 
 namespace holomorph::tiling {
 
@@ -36,7 +36,6 @@ class PoleObjective {
   Landscape& landscape_;
   uv::Coefficients kind_;
   std::optional<Leverage> leverage_;  // of a closed surface with handles
-  std::vector<int> first_triangle_;   // #V
   std::map<int, Eigen::VectorXcd> tau_;
 };
 

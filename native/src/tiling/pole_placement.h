@@ -4,16 +4,9 @@
 #include <vector>
 
 #include "tiling/landscape.h"
+#include "tiling/poles.h"
 
 namespace holomorph::tiling {
-
-/// theta_0 = sum_j c_j theta_j + sum_i r_i omega_i; its scale is free.
-struct Poles {
-  std::vector<int> vertices;
-  Eigen::VectorXcd coefficients;  ///< c_j
-  Eigen::VectorXcd residues;      ///< r_i; they sum to 0 on a closed surface
-  double variance = 0;            ///< of log |theta_0|^2 over the area, floored
-};
 
 struct PlacementRules {
   uv::Coefficients kind = uv::Coefficients::complex;
@@ -34,11 +27,5 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution&
 
 /// With the best coefficients and residues near those given.
 Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution);
-
-/// |theta_0|^2 on the samples.
-Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution);
-
-/// 95 % over 5 % quantile.
-double density_ratio(const Eigen::ArrayXd& density);
 
 }  // namespace holomorph::tiling

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/chunks.h"
-#include "tiling/pole_placement.h"
+#include "tiling/poles.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -63,6 +63,16 @@ MatrixXcd measure_rows(const RoundingProblem& p, const VectorXcd& weights, doubl
   return rows;
 }
 
+// The rotations of the texture that are tried.
+std::vector<double> phases_of(const RoundingProblem& p, const RoundingWishes& wishes) {
+  if (p.kind == uv::Coefficients::real) return {0};
+  std::vector<double> phases;
+  for (int i = 0; !wishes.phase && i < kPhases; ++i) phases.push_back(p.symmetry * i / kPhases);
+  for (int i = 0; wishes.phase && i < kNearPhases; ++i)
+    phases.push_back(*wishes.phase + wishes.turn * (2.0 * i / (kNearPhases - 1) - 1));
+  return phases;
+}
+
 }  // namespace
 
 Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
@@ -108,14 +118,7 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double scale = std::sqrt(wishes.tiles / (wishes.area * sorted[sorted.size() / 2]));
   const VectorXcd weights = mean_weights(density);
-  std::vector<double> phases{0};
-  if (p.kind == uv::Coefficients::complex) {
-    phases.clear();
-    for (int i = 0; !wishes.phase && i < kPhases; ++i) phases.push_back(p.symmetry * i / kPhases);
-    for (int i = 0; wishes.phase && i < kNearPhases; ++i)
-      phases.push_back(*wishes.phase + wishes.turn * (2.0 * i / (kNearPhases - 1) - 1));
-  }
-
+  const std::vector<double> phases = phases_of(p, wishes);
   std::map<std::vector<std::int64_t>, Rounding> found;
   for (std::size_t d = 0; d < std::size(kDefects); ++d) {
     execution.report(static_cast<double>(d) / std::size(kDefects));

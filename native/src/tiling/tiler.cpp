@@ -5,10 +5,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "base/chunks.h"
 #include "base/errors.h"
 #include "structure/punctured_structure.h"
 #include "tiling/flow.h"
+#include "tiling/pole_placement.h"
 #include "tiling/seamless_map.h"
 #include "tiling/tiling_problem.h"
 
@@ -24,9 +24,7 @@ using Eigen::VectorXcd;
 constexpr double kReach = 0.05;  // how far poles are expected to move, in square roots of the area
 constexpr double kLeastTiles = 100, kTilesPerHandle = 64;
 constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;
-constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};  // how far poles may go, in square roots of the area: each is tried
-constexpr double kMakeUp = 0.1;                     // likewise, for those that make up for one that is moved
-constexpr std::size_t kWeighed = 3;  // of each, roundings whose density is found with the poles where they are
+constexpr double kMakeUp = 0.1;  // likewise, for those that make up for one that is moved
 
 std::string text(double number) {
   std::ostringstream out;
@@ -161,54 +159,6 @@ RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& exe
   return result;
 }
 
-// Candidate i went way i % ways.
-std::vector<Candidate> Tiler::best_of_each_way(std::vector<Candidate> candidates, int ways) {
-  std::vector<Candidate> kept;
-  for (int way = 0; way < ways; ++way) {
-    std::vector<const Candidate*> order;
-    for (std::size_t i = way; i < candidates.size(); i += ways) order.push_back(&candidates[i]);
-    std::stable_sort(order.begin(), order.end(),
-                     [](const Candidate* a, const Candidate* b) { return a->rounding.rank < b->rounding.rank; });
-    order.resize(std::min<std::size_t>(order.size(), kWeighed));
-    for (const Candidate* c : order) kept.push_back(*c);
-  }
-  return kept;
-}
-
-// The poles move for each rounding, and the best of what comes out is taken.
-Candidate Tiler::best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
-                      double tiles, Execution& execution) {
-  const Index n = landscape_->form_count(), k = problem.residues.rows();
-  const bool moves = has_leverage() && !chosen_ && k > 0;
-  const MatrixXcd metric = moves ? MatrixXcd(defect_metric(problem) / std::sqrt(tiles)) : MatrixXcd();
-  const int ways = moves ? static_cast<int>(std::size(kMoves)) : 1;
-  std::vector<Candidate> candidates(list.size() * ways);
-  run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int i) {
-    Candidate& c = candidates[i];
-    const Rounding& rounded = list[i / ways];
-    const VectorXcd z = rounded.z.cast<double>().cast<Complex>(), periods = problem.periods * z;
-    c = {rounded, placed, all_residues(*landscape_, placed.vertices.size(), problem.residues * z), rounded.y.head(n)};
-    if (!has_leverage()) return;
-    if (moves && kMoves[i % ways] > 0)
-      c.poles = pole_moves_->moved(placed, periods, c.residues, metric, {allowed_, kMoves[i % ways], {}});
-    c.X = periods;
-    for (std::size_t j = 0; j < c.poles.parts.size(); ++j) c.X += c.residues[static_cast<Index>(j)] * c.poles.parts[j];
-    const VectorXcd split = pole_moves_->leverage().split(c.X);
-    c.rounding.y.head(n) = split.head(n);
-    c.rounding.y.tail(n) = split.tail(n);
-    measure(problem, c.rounding);
-  });
-  const auto better = [](const Candidate& a, const Candidate& b) { return a.rounding.rank < b.rounding.rank; };
-  if (!moves) return *std::min_element(candidates.begin(), candidates.end(), better);
-  candidates = best_of_each_way(std::move(candidates), ways);
-  for (Candidate& c : candidates) {
-    RoundingProblem there = problem;
-    there.forms.middleCols(n, k) = pole_forms(*landscape_, c.poles.vertices, execution);
-    measure(there, c.rounding);
-  }
-  return *std::min_element(candidates.begin(), candidates.end(), better);
-}
-
 Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
   execution.stage("rounding", 0.0, 0.4);
   PlacedPoles placed{poles_.vertices, {}};
@@ -220,7 +170,8 @@ Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
   const RoundingWishes rounding = rounding_wishes(wishes, execution);
   const std::vector<Rounding> list = roundings(problem, rounding, execution);
   if (list.empty()) refuse(problem, rounding, execution);
-  Candidate chosen = best(problem, list, placed, rounding.tiles, execution);
+  Candidate chosen = best_candidate(problem, list, placed, {pole_moves_.get(), !chosen_, allowed_}, rounding.tiles,
+                                    *landscape_, execution);
   last_ = {std::move(chosen), std::move(problem), C, wishes.lattice, rounding.tiles};
   execution.stage("poles at their places", 0.4, 0.9);
   return map_of(last_->candidate, execution);

@@ -9,11 +9,12 @@
 #include "structure/options.h"
 #include "structure/structure.h"
 #include "tiling/abel_jacobi.h"
+#include "tiling/candidate.h"
 #include "tiling/closed_maps.h"
 #include "tiling/coarse_level.h"
 #include "tiling/moved_poles.h"
 #include "tiling/pole_moves.h"
-#include "tiling/pole_placement.h"
+#include "tiling/poles.h"
 #include "tiling/rounding.h"
 
 namespace holomorph::tiling {
@@ -75,9 +76,6 @@ class Tiler {
   std::shared_ptr<structure::Structure> structure_at(const std::vector<int>& vertices, Execution& execution);
   Eigen::MatrixXd parts(PlacedPoles& placed, Execution& execution);
   RoundingWishes rounding_wishes(const TilingWishes& wishes, Execution& execution);
-  static std::vector<Candidate> best_of_each_way(std::vector<Candidate> candidates, int ways);
-  Candidate best(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
-                 double tiles, Execution& execution);
   Tiling map_of(const Candidate& candidate, Execution& execution);
   void write_map(Tiling& result, const Eigen::VectorXcd& X, const TextureLattice& lattice, Execution& execution);
 

@@ -3,7 +3,7 @@
 
 #include "tiling/landscape.h"
 #include "tiling/leverage.h"
-#include "tiling/pole_placement.h"
+#include "tiling/poles.h"
 #include "tiling/rounding.h"
 
 namespace holomorph::tiling {

@@ -1,0 +1,22 @@
+#include "tiling/poles.h"
+
+#include <algorithm>
+
+namespace holomorph::tiling {
+
+Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution) {
+  return (landscape.holomorphic().M * poles.coefficients + landscape.poles(poles.vertices, execution) * poles.residues)
+      .cwiseAbs2()
+      .array();
+}
+
+double density_ratio(const Eigen::ArrayXd& density) {
+  std::vector<double> sorted(density.begin(), density.end());
+  std::sort(sorted.begin(), sorted.end());
+  const auto at = [&](double q) {
+    return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+  };
+  return at(0.95) / at(0.05);
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,24 @@
+// A form with poles, in the bases of a landscape, and how even its density is.
+#pragma once
+
+#include <vector>
+
+#include "tiling/landscape.h"
+
+namespace holomorph::tiling {
+
+/// theta_0 = sum_j c_j theta_j + sum_i r_i omega_i; its scale is free.
+struct Poles {
+  std::vector<int> vertices;
+  Eigen::VectorXcd coefficients;  ///< c_j
+  Eigen::VectorXcd residues;      ///< r_i; they sum to 0 on a closed surface
+  double variance = 0;            ///< of log |theta_0|^2 over the area, floored
+};
+
+/// |theta_0|^2 on the samples.
+Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution);
+
+/// 95 % over 5 % quantile.
+double density_ratio(const Eigen::ArrayXd& density);
+
+}  // namespace holomorph::tiling
