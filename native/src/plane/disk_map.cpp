@@ -7,7 +7,7 @@
 namespace holomorph::plane {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of |z| on the boundary
+constexpr double kRounding = 1e-12;  // what |z| may be off on the boundary
 
 }  // namespace
 

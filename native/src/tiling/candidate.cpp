@@ -15,7 +15,7 @@ using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 
 constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};  // how far poles may go, in square roots of the area: each is tried
-constexpr std::ptrdiff_t kWeighed = 3;  // of each, roundings whose density is found with the poles where they are
+constexpr std::ptrdiff_t kWeighed = 3;  // roundings for each, whose density is found with the poles where they are
 
 bool better(const Candidate& a, const Candidate& b) { return a.rounding.rank < b.rounding.rank; }
 

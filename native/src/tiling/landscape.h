@@ -72,7 +72,7 @@ class Landscape {
 
   std::unique_ptr<Landscape> on_level_;  // where it serves for the poles
   std::vector<int> level_vertex_;        // #V there
-  Eigen::VectorXcd from_level_;          // of A in the frame of each sample of the level
+  Eigen::VectorXcd from_level_;          // A in the frame of each sample of the level
 };
 
 }  // namespace holomorph::tiling

@@ -19,11 +19,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kSteps = 40;           // of Newton's method
+constexpr int kSteps = 40;           // at most, in Newton's method
 constexpr double kDone = 1e-8;       // rms |mu| that is nothing
 constexpr double kStride = 0.03;     // longest step, in square roots of the area
 constexpr double kDamping = 1e-6;    // relative
-constexpr int kRounds = 12;          // of exchanges of pairs
+constexpr int kRounds = 12;          // at most, that exchange pairs
 constexpr std::size_t kAround = 36;  // vertices around a pole that are exchanged
 
 // The poles while they move. One that has gone to a vertex is held there.
@@ -67,7 +67,7 @@ class Moving {
 
   // What a triangle has to do with the poles on it, found once.
   struct OnTriangle {
-    VectorXcd derivative;  // of the Abel-Jacobi map
+    VectorXcd derivative;  // the Abel-Jacobi map, differentiated
     VectorXcd tau;
   };
 

@@ -12,7 +12,7 @@ using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 
 constexpr double kLeverage = 0.06, kEnough = 0.4;  // weight of the leverage; singular values that are enough
-constexpr int kSteps = 25;                         // of the minimiser
+constexpr int kSteps = 25;                         // at most, for the minimiser
 
 PoleObjective::PoleObjective(Landscape& landscape, uv::Coefficients kind) : landscape_(landscape), kind_(kind) {
   if (landscape.closed() && landscape.form_count() > 0) leverage_.emplace(landscape);

@@ -35,7 +35,7 @@ class PoleObjective {
 
   Landscape& landscape_;
   uv::Coefficients kind_;
-  std::optional<Leverage> leverage_;  // of a closed surface with handles
+  std::optional<Leverage> leverage_;  // only on a closed surface with handles
   std::map<int, Eigen::VectorXcd> tau_;
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kInwards = 1e-3;  // of the way to the centre
+constexpr double kInwards = 1e-3;  // part of the way to the centre
 
 std::array<Complex, 3> corners(const mesh::Surface& surface, int triangle) {
   const auto [e0, e1, e2] = surface.triangle_edges[triangle];

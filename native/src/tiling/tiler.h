@@ -84,7 +84,7 @@ class Tiler {
   uv::Coefficients kind_;
   std::vector<int> names_;
   std::unique_ptr<Landscape> landscape_;
-  std::unique_ptr<AbelJacobi> abel_jacobi_;  // of a closed surface with handles
+  std::unique_ptr<AbelJacobi> abel_jacobi_;  // only on a closed surface with handles
   std::unique_ptr<PoleMoves> pole_moves_;    // the same
   Poles poles_;
   std::vector<char> allowed_;  // #V, where poles may go; empty: anywhere
@@ -93,7 +93,7 @@ class Tiler {
   std::shared_ptr<structure::Structure> structure_;  // at structure_poles_, kept for the next tiling
   std::vector<int> structure_poles_;
   std::shared_ptr<ClosedMaps> closed_maps_;  // the same on a closed surface with poles
-  std::optional<Choice> last_;               // of the last tiling
+  std::optional<Choice> last_;               // what the last tiling was made of
 };
 
 }  // namespace holomorph::tiling

@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
 struct Sizes {
-  Index n, loops, handles, k, l;  // of straight loops with a boundary: the handles' loops have v-periods, too
+  Index n, loops, handles, k, l;  // with straight loops and a boundary the handles' loops have v-periods, too
 };
 
 // Which period or residue each integer stands for, and the translation that it counts.

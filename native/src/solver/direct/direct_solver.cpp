@@ -90,7 +90,7 @@ class DirectSolver final : public LaplaceSolver {
 
   struct Refined {
     Eigen::MatrixXd X, R;  // R = B - L X
-    double size;           // of R, relative to B
+    double size;           // norm of R, relative to B
   };
 
   Refined refined(const Eigen::MatrixXd& B, Execution& execution) {
@@ -139,7 +139,7 @@ class DirectSolver final : public LaplaceSolver {
   std::vector<int> fixed_;
   Eigen::Index pin_ = 0;
   SparseCholesky factor_;
-  Condition condition_ = Condition::natural;  // of the solve that runs
+  Condition condition_ = Condition::natural;  // in the solve that runs
   double done_ = 0;                           // for the progress function
 };
 
