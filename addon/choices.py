@@ -95,12 +95,12 @@ def numbers(text):
     return tuple(result)
 
 
-def stray_vertex(surface, choices):
+def stray_vertex(corner_vertices, choices):
     """The first explicitly chosen vertex that no face has, or None."""
     chosen = np.asarray(choices.selected if choices.is_explicit else (), np.int64)
     if len(chosen) == 0:
         return None
-    stray = chosen[~np.isin(chosen, surface.corner_vertices)]
+    stray = chosen[~np.isin(chosen, corner_vertices)]
     return int(stray[0]) if len(stray) else None
 
 

@@ -63,14 +63,14 @@ def map_values(solved, options):
 def values(solved, index, options):
     """(#C,2) float32: the main map for index 0, else that of a form."""
     write, parts = native.load().place, _parts(solved, index)
-    whole = len(parts) == 1 and parts[0].surface is solved.surface  # then every row is written
-    placed = (np.empty if whole else np.zeros)((len(solved.surface.corner_vertices), 2), np.float32)
+    whole = len(parts) == 1 and parts[0].surface.is_whole  # then every row is written
+    placed = (np.empty if whole else np.zeros)((len(solved.polygons.corner_vertices), 2), np.float32)
     raw = [_raw(part, index, options) for part in parts]
     for part, uv, place in zip(parts, raw, _places(parts, index, options, raw)):
         if index == 0:
             main_map(part, options, uv)
         # The two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary.
-        rows = None if part.surface is solved.surface else part.surface.corner_index
+        rows = None if part.surface.is_whole else part.surface.corner_index
         write(uv, place.factor, place.origin, place.target, placed, rows)
     return placed
 
@@ -80,7 +80,7 @@ def shape_points(solved):
 
     Spheres go to the unit sphere, disks to the unit disk in the plane z = 0.
     """
-    points, found = np.zeros((len(solved.surface.vertices), 3)), False
+    points, found = np.zeros((len(solved.polygons.vertices), 3)), False
     for part in solved.done:
         own = _shape(part)
         if own is not None:

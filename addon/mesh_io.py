@@ -30,7 +30,9 @@ class Polygons:
     loops: np.ndarray | None
 
     def share(self, surface):
-        """Takes the arrays of the surface that was made of these, which are equal: one copy of them is left."""
+        """Takes the arrays of the surface that was made of these, where they are equal: one copy of them is left."""
+        if not surface.is_whole:
+            return
         self.vertices, self.corner_vertices = surface.vertices, surface.corner_vertices
         self.face_offsets = surface.face_offsets
 

@@ -19,18 +19,19 @@ TEXT = "Holomorphic Report"
 
 def object_report(obj, solved, written, new_seams, options, components):
     """One object: its maps as written, the options with which they were, and the report of each component."""
+    package = native.load().report
     return {
         "object": obj.name,
         "mesh": obj.data.name,
-        "vertices": len(solved.surface.vertices),
-        "faces": len(solved.surface.face_offsets) - 1,
+        "vertices": len(solved.polygons.vertices),
+        "faces": len(solved.polygons.face_offsets) - 1,
         "done": bool(solved.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": vars(options),
         "seams_added": new_seams,
-        "repairs": native.load().report.repairs_report(solved.surface.repairs),
+        "repairs": package.repairs_report(solved.surface.repairs),
         "seconds": solved.seconds,
-        "components": components,
+        "components": components + [package.refused_report(refused) for refused in solved.surface.refused],
     }
 
 
@@ -115,6 +116,8 @@ def _summary(entry):
 
 
 def _topology(part):
+    if "genus" not in part:
+        return "no surface"
     loops = part["boundary_count"]
     return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
 

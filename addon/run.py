@@ -124,6 +124,15 @@ def _problems(obj, solved, tiled):
             yield f"{obj.name}: {part}made without your choice: {native.sentence(component.note)}"
         if id(component) in refused:
             yield f"{obj.name}: {part}not seamless: {native.sentence(refused[id(component)])}"
+    yield from surface_problems(obj, solved.surface)
+
+
+def surface_problems(obj, surface):
+    """The parts that are no surface."""
+    for refused in surface.refused:
+        yield f"{obj.name}: {len(refused.faces)} faces left out: {native.sentence(refused.reason)}"
+    if surface.is_unwelded:
+        yield f"{obj.name}: every face is apart; Mesh > Merge > By Distance joins those that touch"
 
 
 def _modifier_notes(obj, solved):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From polygons to conformal structures, component by component. No bpy here: it runs in a worker thread."""
 
+import functools
 import time
 from dataclasses import dataclass, field, replace
 
@@ -89,9 +90,10 @@ class SolvedComponent:
 
 @dataclass(frozen=True)
 class SolvedObject:
-    """The components of one object in the library's order, and the repairs of the whole."""
+    """The components of one object in the library's order, the mesh as given, and the surface in it."""
 
     surface: object
+    polygons: object
     components: tuple
     seconds: float
 
@@ -120,19 +122,22 @@ def solve(task, progress=None):
     holomorph = native.load()
     start = time.perf_counter()
     polygons = task.polygons
-    surface = holomorph.Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    surface = holomorph.Surface.from_polygons(
+        polygons.vertices, polygons.corner_vertices, polygons.face_offsets, strict=False
+    )
     polygons.share(surface)
     parts = surface.components
-    stray = choices.stray_vertex(surface, task.chosen)
+    stray = choices.stray_vertex(polygons.corner_vertices, task.chosen)
     if stray is not None:
         raise holomorph.InvalidMesh(f"vertex {stray} belongs to no face and cannot be chosen")
     total = max(sum(len(p.face_index) for p in parts), 1)
     solved, done = [], 0
     for part in parts:
         share = len(part.face_index) / total
-        solved.append(_solve_component(holomorph, surface, part, task.chosen, _scaled(progress, done, share)))
+        make = functools.partial(_make, holomorph, surface, polygons.vertices, part)
+        solved.append(_solve_component(holomorph, make, part, task.chosen, _scaled(progress, done, share)))
         done += share
-    return SolvedObject(surface, tuple(solved), time.perf_counter() - start)
+    return SolvedObject(surface, polygons, tuple(solved), time.perf_counter() - start)
 
 
 def _scaled(progress, done, share):
@@ -141,29 +146,29 @@ def _scaled(progress, done, share):
     return lambda fraction, stage: progress(done + share * fraction, stage)
 
 
-def _solve_component(holomorph, surface, part, chosen, progress):
+def _solve_component(holomorph, make, part, chosen, progress):
     """The first attempt that the library accepts; a part that it refuses altogether is skipped, with its sentence."""
     note = ""
     *earlier, last = choices.attempts(part, chosen)
     for keywords in earlier:
         try:
-            return _make(holomorph, surface, part, keywords, note, progress)
+            return make(keywords, note, progress)
         except (holomorph.InvalidMesh, holomorph.TopologyError) as error:
             note = note or str(error)
     try:
-        return _make(holomorph, surface, part, last, note, progress)
+        return make(last, note, progress)
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
         if choices.are_explicit(last, chosen):
             raise
         return SolvedComponent(part, None, None, reason=str(error), note=note)
 
 
-def _make(holomorph, surface, part, keywords, note, progress):
+def _make(holomorph, surface, vertices, part, keywords, note, progress):
     target = part
     if choices.name_vertices(keywords):
         # The part's faces with all of the mesh's vertices: then the library names vertices by the mesh's indices.
         corners = part.vertex_index[part.corner_vertices]
-        target = holomorph.Surface.from_polygons(surface.vertices, corners, part.face_offsets)
+        target = holomorph.Surface.from_polygons(vertices, corners, part.face_offsets)
     structure = holomorph.conformal_structure(target, progress=_scaled(progress, 0.0, UV_START), **keywords)
     structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
     structure = replace(structure, surface=surface)  # so do its results

@@ -41,6 +41,7 @@ def _problems(outcome, obj, tiled):
         if part.tiling is None:
             which = "" if len(tiled.parts) == 1 else f"part {index} of {len(tiled.parts)} "
             outcome.problems.append(f"{obj.name}: {which}skipped: {native.sentence(part.reason)}")
+    outcome.problems += run.surface_problems(obj, tiled.solved.surface)
 
 
 def _write_object(context, outcome, obj, polygons, tiled, options):

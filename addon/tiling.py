@@ -133,7 +133,7 @@ def scaled(progress, done, share):
 
 def placed(tiled, quarters=0):
     """(#C, 2) float32: the parts side by side in the UV plane, each turned by quarters and moved by whole units."""
-    uv = np.zeros((len(tiled.solved.surface.corner_vertices), 2))
+    uv = np.zeros((len(tiled.solved.polygons.corner_vertices), 2))
     turn = np.linalg.matrix_power(QUARTER, quarters % 4)
     turned = [part.tiling.uv @ turn for part in tiled.done]
     lows = [np.floor(values.min(axis=0)) for values in turned]

@@ -24,9 +24,10 @@ from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
 from .quality import Quality
+from .repairs import Refused, Repairs
 from .results import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure
-from .surface import Repairs, Surface
+from .surface import Surface
 from .tiling import PlacedPoles, Tiler, Tiling, place_poles
 
 __all__ = [
@@ -45,6 +46,7 @@ __all__ = [
     "PuncturedStructure",
     "Quality",
     "RectangleMap",
+    "Refused",
     "Repairs",
     "Residuals",
     "SOLVERS",

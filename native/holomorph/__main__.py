@@ -6,7 +6,7 @@ import sys
 
 from . import Error, Surface, __version__, conformal_structure
 from .checks import SOLVERS, check_options
-from .report import component_report, repairs_report, skipped_report
+from .report import component_report, refused_report, repairs_report, skipped_report
 
 
 def main(arguments=None):
@@ -50,7 +50,7 @@ def mesh_report(path, threads=None, solver="auto"):
         "mesh": str(path),
         "faces": len(surface.face_offsets) - 1,
         "repairs": repairs_report(surface.repairs),
-        "components": parts,
+        "components": parts + [refused_report(refused) for refused in surface.refused],
     }
 
 

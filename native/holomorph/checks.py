@@ -38,9 +38,7 @@ def check_memory_limit(memory_limit):
 
 def only_component(surface):
     """The one component of a connected surface, without isolated vertices. @throws TopologyError"""
-    count = len(surface.components)
-    if count != 1:
-        raise TopologyError(f"the surface has {count} connected components; take one of surface.components")
+    surface.require_connected()
     return surface.components[0]
 
 

@@ -66,6 +66,11 @@ def skipped_report(surface, reason):
     return {"done": False, **_topology(surface), "reason": str(reason)}
 
 
+def refused_report(refused):
+    """A component that was left out of a surface, a `Refused`."""
+    return {"done": False, "faces": len(refused.faces), "reason": refused.reason}
+
+
 def map_report(coefficients, quality):
     """A UV map: its coefficients and its `Quality`."""
     return plain(

@@ -188,7 +188,7 @@ class Structure:
         """Values at the component's vertices as values at the surface's, NaN at isolated ones."""
         if self._component is self.surface:
             return values
-        result = np.full((self.surface._native.vertex_count, *values.shape[1:]), np.nan, dtype=values.dtype)
+        result = np.full((self.surface.given_vertex_count, *values.shape[1:]), np.nan, dtype=values.dtype)
         result[self._component.vertex_index] = values
         return arrays.frozen(result)
 

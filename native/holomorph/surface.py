@@ -1,46 +1,34 @@
 """Surfaces: validated, consistently oriented polygon meshes, or intrinsic triangulations."""
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from . import _native, arrays
 from ._native import InvalidMesh, TopologyError
+from .repairs import Refused, Repairs
+
+UNWELDED = "every face is apart: Surface.read(path, weld=True) joins those that touch"
 
 
-@dataclass(frozen=True, eq=False)
-class Repairs:
-    """What was wrong with the input and handled inside; the input itself is never changed.
-
-    Attributes
-    ----------
-    reversed_faces : indices of polygons read in reverse, so that each component is oriented consistently
-    zero_area_faces : indices of polygons with a triangle whose corners lie on a line
-    isolated_vertices : indices of vertices of no polygon
-    mollification : added to the lengths of edges at degenerate triangles, in the unit of the positions; 0 if there are
-        none (Sharp & Crane 2020, doi:10.1111/cgf.14069). The intrinsic Delaunay triangulation that invariants come from
-        needs less, mostly none
-    """
-
-    reversed_faces: np.ndarray
-    zero_area_faces: np.ndarray
-    isolated_vertices: np.ndarray
-    mollification: float
-
-    def __bool__(self):
-        return bool(
-            len(self.reversed_faces) or len(self.zero_area_faces) or len(self.isolated_vertices) or self.mollification
-        )
+def _checked(vertices, corner_vertices, face_offsets, strict):
+    """What `Surface._adopt` takes."""
+    if strict:
+        return (_native.Surface.from_polygons(vertices, corner_vertices, face_offsets),)
+    return _native.Surface.sound_part(vertices, corner_vertices, face_offsets)
 
 
 class Surface:
-    """A surface of polygons, validated and triangulated. All arrays are read-only.
+    """A surface of polygons, validated and triangulated. All arrays are read-only. `given_vertex_count` is the number
+    of vertices of the mesh as given, and `refused` a tuple of the components (`Refused`) that were left out of it.
 
     Parameters
     ----------
     vertices : (#V, 3) reals
     faces : (#F, 3) or (#F, 4) integers, or a list of lists of any sizes
+    strict : refuse the whole mesh for any bad element. Else what can be done is: where fans of faces touch at a vertex,
+        each gets a vertex of its own, and components that are no surface are left out and listed in `refused`; elements
+        are then numbered anew, see `vertex_index`
 
     Raises
     ------
@@ -52,12 +40,11 @@ class Surface:
         if the surface is non-orientable.
     """
 
-    def __init__(self, vertices, faces):
-        corner_vertices, face_offsets = arrays.polygons(faces)
-        self._adopt(_native.Surface.from_polygons(arrays.real(vertices, 3, "vertices"), corner_vertices, face_offsets))
+    def __init__(self, vertices, faces, strict=True):
+        self._adopt(*_checked(arrays.real(vertices, 3, "vertices"), *arrays.polygons(faces), strict))
 
     @classmethod
-    def from_polygons(cls, vertices, corner_vertices, face_offsets):
+    def from_polygons(cls, vertices, corner_vertices, face_offsets, strict=True):
         """Mixed polygons: polygon f has the vertices ``corner_vertices[face_offsets[f]:face_offsets[f + 1]]``.
 
         Parameters
@@ -67,10 +54,11 @@ class Surface:
         face_offsets : (#F + 1,) integers from 0 to #C
         """
         return cls._of(
-            _native.Surface.from_polygons(
+            *_checked(
                 arrays.real(vertices, 3, "vertices"),
                 arrays.integer(corner_vertices, "corner_vertices"),
                 arrays.integer(face_offsets, "face_offsets"),
+                strict,
             )
         )
 
@@ -96,26 +84,39 @@ class Surface:
         return cls._of(_native.Surface.from_edge_lengths(vertex_count, faces, lengths, names))
 
     @classmethod
-    def read(cls, path):
-        """OBJ, OFF, PLY or STL; polygons are kept, in double precision. STL corners with equal coordinates are welded,
-        other files are taken as they are.
+    def read(cls, path, strict=False, weld=False):
+        """OBJ, OFF, PLY or STL; polygons are kept, in double precision.
+
+        Parameters
+        ----------
+        strict : as in `Surface`, but by default what can be done of a file is
+        weld : join vertices with equal coordinates, for files in which every face has vertices of its own; what that
+            leaves of a face with fewer than three corners is left out. STL files always are welded
 
         Raises
         ------
         InvalidMesh
-            if the file is missing or malformed (names the line or byte), or the mesh in it is invalid.
+            if the file is missing or malformed (names the line or byte), or no component of the mesh in it is valid.
         """
-        return cls._of(_native.Surface.read(path))
+        return cls._of(*_native.Surface.read(path, strict, weld))
 
     @classmethod
-    def _of(cls, native):
+    def _of(cls, *adopted):
         surface = cls.__new__(cls)
-        surface._adopt(native)
+        surface._adopt(*adopted)
         return surface
 
-    def _adopt(self, native, vertex_index=None, face_index=None, corner_index=None):
+    def _adopt(self, native, *rest):
         self._native = native
+        self._adopt_indices(*rest)
+
+    def _adopt_indices(
+        self, vertex_index=None, face_index=None, corner_index=None, given_vertex_count=None, split=(), refused=()
+    ):
         self._vertex_index, self._face_index, self._corner_index = vertex_index, face_index, corner_index
+        self._split_vertices = arrays.frozen(np.array(split, np.int32))
+        self.given_vertex_count = self._native.vertex_count if given_vertex_count is None else given_vertex_count
+        self.refused = tuple(Refused(faces, reason) for faces, reason in refused)
 
     def __repr__(self):
         vertices, faces, parts = self._native.vertex_count, len(self.face_offsets) - 1, self._native.component_count
@@ -153,17 +154,17 @@ class Surface:
 
     @cached_property
     def vertex_index(self):
-        """(#V,) index of each vertex in the surface that this one is a component of."""
+        """(#V,) index of each vertex in the mesh as given, of which this may be a component or the sound part."""
         return self._index(self._vertex_index, self._native.vertex_count)
 
     @cached_property
     def face_index(self):
-        """(#F,) index of each face in the surface that this one is a component of."""
+        """(#F,) index of each face in the mesh as given."""
         return self._index(self._face_index, len(self.face_offsets) - 1)
 
     @cached_property
     def corner_index(self):
-        """(#C,) index of each corner in the surface that this one is a component of."""
+        """(#C,) index of each corner in the mesh as given."""
         return self._index(self._corner_index, len(self.corner_vertices))
 
     @staticmethod
@@ -184,19 +185,24 @@ class Surface:
     @cached_property
     def _parts(self):
         parts = []
-        for native in self._native.components():
-            part = Surface.__new__(Surface)
-            part._adopt(*native)
-            parts.append(part)
+        given = self._vertex_index, self._face_index, self._corner_index
+        for native, *indices in self._native.components():
+            parts.append(Surface._of(native, *map(self._given, given, indices), self.given_vertex_count))
         return tuple(parts)
 
     @cached_property
     def _topology(self):
+        self.require_connected()
+        return self._native.topology()
+
+    def require_connected(self):
+        """Raises TopologyError where there are several components."""
         if self._native.component_count != 1:
+            hint = f"; {UNWELDED}" if self.is_unwelded else ""
             raise TopologyError(
                 f"the surface has {self._native.component_count} connected components; take one of surface.components"
+                + hint
             )
-        return self._native.topology()
 
     @property
     def euler_characteristic(self):
@@ -222,4 +228,24 @@ class Surface:
     def repairs(self):
         """What was handled inside."""
         native = self._native
-        return Repairs(native.reversed_faces, native.zero_area_faces, native.isolated_vertices, native.mollification())
+        return Repairs(
+            self._given(self._face_index, native.reversed_faces),
+            self._given(self._face_index, native.zero_area_faces),
+            self._given(self._vertex_index, native.isolated_vertices),
+            self._split_vertices,
+            native.mollification(),
+        )
+
+    @staticmethod
+    def _given(index, elements):
+        return elements if index is None else arrays.frozen(index[elements])
+
+    @property
+    def is_whole(self):
+        """Whether elements are numbered as in the mesh as given."""
+        return self._face_index is None
+
+    @property
+    def is_unwelded(self):
+        """Whether there are faces, and every one is apart: they may touch, but share no vertices."""
+        return self._native.component_count == len(self.face_offsets) - 1 > 1

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _native, arrays
-from ._native import TopologyError
 from .checks import own_vertices
 from .quality import Quality
 
@@ -78,10 +77,7 @@ class Tiler:
     ):
         if boundary not in BOUNDARIES:
             raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
-        if len(surface.components) != 1:
-            raise TopologyError(
-                f"the surface has {len(surface.components)} connected components; take one of surface.components"
-            )
+        surface.require_connected()
         self._surface, self._component, self._basis = surface, surface.components[0], None
         count, chosen = _wished(poles)
         vertices, labels = own_vertices(surface, self._component, chosen, "pole")

@@ -3,20 +3,14 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import everything, mesh_object, run, select, torus, torus_arrays, two_parts
+from conftest import module
+from scenes import everything, mesh_object, run, select, stored_report, torus, torus_arrays, two_parts, uv
 
 
 def non_manifold():
     vertices, faces = torus_arrays()
     faces = [*map(tuple, faces), (faces[0][0], faces[0][1], len(vertices))]
     return mesh_object("Bad", [*vertices, (0, 0, 2)], faces), "faces"
-
-
-def non_manifold_vertex():
-    """Two tori that share one vertex."""
-    vertices, faces = torus_arrays()
-    second = np.where(faces == 0, 0, faces + len(vertices) - 1)
-    return mesh_object("Bad", [*vertices, *(vertices[1:] + (0, 0, 3))], [*faces, *second]), "vertex"
 
 
 def not_a_number():
@@ -74,7 +68,6 @@ def no_faces():
 
 BAD = [
     non_manifold,
-    non_manifold_vertex,
     not_a_number,
     infinite,
     moebius,
@@ -120,14 +113,52 @@ def test_the_other_selected_objects_are_still_done(make):
     assert [layer.name for layer in good.data.uv_layers] == ["Holomorphic", "Holomorphic 1"]
 
 
-def test_a_part_that_is_not_orientable_refuses_its_whole_object():
+@pytest.mark.parametrize("torus_first", [True, False])
+def test_a_part_that_is_no_surface_is_left_out(torus_first):
     strip = moebius()[0].data
     part = ([tuple(v.co) for v in strip.vertices], [tuple(p.vertices) for p in strip.polygons])
-    obj = two_parts("Both", torus_arrays(), part)
-    before = everything(obj)
-    with pytest.raises(RuntimeError):
-        run()
-    assert everything(obj) == before
+    parts = (torus_arrays(), part) if torus_first else (part, torus_arrays())
+    obj = two_parts("Both", *parts)
+    assert run(seams=True) == {"FINISHED"}
+    entry = stored_report(obj)
+    assert [part["done"] for part in entry["components"]] == [True, False]
+    assert entry["components"][1]["faces"] == 12 and "orient" in entry["components"][1]["reason"]
+    corners = 4 * len(torus_arrays()[1])
+    own = np.arange(len(obj.data.loops)) < corners
+    if not torus_first:
+        own = own[::-1]
+    values = uv(obj)
+    assert not np.ptp(values[~own], axis=0).any() and (np.ptp(values[own], axis=0) > 0.1).all()
+    alone = torus("Alone")
+    run()
+    assert np.allclose(values[own], uv(alone), atol=1e-6)
+
+
+def test_tori_that_share_a_vertex_are_done():
+    vertices, faces = torus_arrays()
+    second = np.where(faces == 0, 0, faces + len(vertices) - 1)
+    obj = mesh_object("Two", [*vertices, *(vertices[1:] + (0, 0, 3))], [*faces, *second])
+    assert run(seams=True) == {"FINISHED"}
+    entry = stored_report(obj)
+    assert [(part["done"], part["genus"]) for part in entry["components"]] == [(True, 1), (True, 1)]
+    assert entry["repairs"]["split_vertices"] == {"count": 1, "first": [0]}
+
+
+def test_faces_that_are_all_apart_are_told_of():
+    vertices, faces = torus_arrays()
+    corners = np.asarray(faces)[:6]
+    obj = mesh_object("Loose", vertices[corners].reshape(-1, 3), np.arange(corners.size).reshape(corners.shape))
+    assert run() == {"FINISHED"}
+    assert any("By Distance" in line for line in module("run").surface_problems(obj, surface_of(obj)))
+
+
+def surface_of(obj):
+    mesh = obj.data
+    corners = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", corners)
+    points = np.array([v.co for v in mesh.vertices])
+    offsets = np.arange(0, len(corners) + 1, 4)
+    return module("native").load().Surface.from_polygons(points, corners, offsets, strict=False)
 
 
 def test_maps_of_an_earlier_run_survive_a_refusal():
@@ -174,8 +205,6 @@ def test_other_modes_are_told_what_to_do():
 
 
 def test_only_the_librarys_errors_are_caught(monkeypatch):
-    from conftest import module
-
     obj = torus()
     before = everything(obj)
 

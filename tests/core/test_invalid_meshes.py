@@ -56,7 +56,10 @@ INVALID = {
     "duplicate face": (with_faces(QUADS[4].tolist()), r"face(s)? .*\b4\b.*\b30\b|face(s)? .*\b30\b.*\b4\b"),
     "duplicate face, turned": (with_faces(np.roll(QUADS[4], 1).tolist()), r"\b4\b.*\b30\b|\b30\b.*\b4\b"),
     "duplicate face, reversed": (with_faces(QUADS[4, ::-1].tolist()), r"\b4\b.*\b30\b|\b30\b.*\b4\b"),
-    "three faces at an edge": (three_at_an_edge(), rf"vertices {min(QUADS[3, :2])}, {max(QUADS[3, :2])}.*3 faces"),
+    "three faces at an edge": (
+        three_at_an_edge(),
+        rf"vertices {min(QUADS[3, :2])} and {max(QUADS[3, :2])} has 3 faces",
+    ),
     "pinched vertex": (pinched(), r"vertex 0 "),
     "no faces": (replace(TORUS, corners=TORUS.corners[:0], offsets=TORUS.offsets[:1]), r"no faces"),
     "no area": (replace(TORUS, vertices=0 * TORUS.vertices), r"area"),
@@ -94,9 +97,8 @@ def large_with(vertices, *extra):
 def test_first_bad_element_of_a_large_mesh_is_named():
     a, b = (int(v) for v in LARGE.corners[4 * 40_000 : 4 * 40_000 + 2])
     one_more = np.concatenate([LARGE.vertices, [[5.0, 5, 5]]])
-    index = Surface(LARGE.vertices, LARGE.corners.reshape(-1, 4))._native.edges.tolist().index(sorted((a, b)))
     cases = [
-        (large_with(one_more, [a, b, 60_000]), rf"edge {index} \(vertices {min(a, b)}, {max(a, b)}\) has 3 faces"),
+        (large_with(one_more, [a, b, 60_000]), rf"edge between vertices {min(a, b)} and {max(a, b)} has 3 faces"),
         (large_with(LARGE.vertices, LARGE.corners[-4:].tolist()), r"faces 59999 and 60000 "),
         (
             replace(LARGE, vertices=np.where(np.arange(60_000)[:, None] >= 50_000, np.nan, LARGE.vertices)),

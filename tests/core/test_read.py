@@ -386,9 +386,10 @@ def test_real_mesh_is_read_like_its_row_says(name, tmp_path):
     path = real_file(name, tmp_path)
     if invalid or "N" in topology:
         with pytest.raises(Error):
-            Surface.read(path)
+            Surface.read(path, strict=True)
         return
     surface = Surface.read(path)
+    assert surface.is_whole and not surface.refused
     assert len(surface.vertices) == int(vertices)
     count = {int(size): int(number) for size, number in (entry.split(":") for entry in sizes.split(","))}
     found = np.unique(np.diff(surface.face_offsets), return_counts=True)

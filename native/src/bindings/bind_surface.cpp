@@ -10,7 +10,9 @@
 #include "mesh/intrinsic_surface.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "mesh/io/read.h"
+#include "mesh/io/weld.h"
 #include "mesh/make_surface.h"
+#include "mesh/sound_part.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -36,10 +38,46 @@ SurfacePointer from_edge_lengths(int vertex_count, const Contiguous<std::int64_t
   return std::make_shared<Surface>(mesh::make_intrinsic_surface(vertex_count, f, l, names, execution));
 }
 
-SurfacePointer read(const std::filesystem::path& path) {
+template <class Work>
+auto without_lock(const Work& work) {
   const py::gil_scoped_release unlocked;
-  Execution execution;
-  return std::make_shared<Surface>(mesh::make_surface(mesh::read(path), execution));
+  return work();
+}
+
+// (surface, vertex_index, face_index, corner_index, number of given vertices, split vertices, (faces, reason) of each
+// refused component); the indices are None where they are the surface's own.
+py::tuple as_tuple(mesh::SoundPart part) {
+  py::list refused;
+  for (const mesh::RefusedComponent& component : part.refused)
+    refused.append(py::make_tuple(copy(component.faces), component.reason));
+  const auto index = [whole = part.face_index.empty()](const std::vector<int>& list) {
+    return whole ? py::object(py::none()) : py::object(copy(list));
+  };
+  return py::make_tuple(std::make_shared<Surface>(std::move(part.surface)), index(part.vertex_index),
+                        index(part.face_index), index(part.corner_index), part.given_vertex_count,
+                        copy(part.split_vertices), refused);
+}
+
+template <class Index>
+py::tuple sound_part(const Contiguous<double>& vertices, const Contiguous<Index>& corner_vertices,
+                     const Contiguous<Index>& face_offsets) {
+  mesh::BasicPolygons<Index> polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
+  return as_tuple(without_lock([&] {
+    Execution execution;
+    return mesh::sound_part(std::move(polygons), execution);
+  }));
+}
+
+py::tuple read(const std::filesystem::path& path, bool strict, bool weld) {
+  return as_tuple(without_lock([&]() -> mesh::SoundPart {
+    Execution execution;
+    mesh::GivenPolygons polygons = mesh::read(path);
+    if (weld) polygons = mesh::welded(polygons);
+    if (!strict) return mesh::sound_part(std::move(polygons), execution);
+    mesh::Surface surface = mesh::make_surface(std::move(polygons), execution);
+    const int count = surface.vertex_count;
+    return {std::move(surface), {}, {}, {}, count, {}, {}};
+  }));
 }
 
 // (surface, vertex_index, face_index, corner_index) of each
@@ -81,7 +119,10 @@ void bind_surface(py::module_& m) {
                   py::arg("face_offsets").noconvert())
       .def_static("from_polygons", &from_polygons<std::int64_t>)
       .def_static("from_edge_lengths", &from_edge_lengths)
-      .def_static("read", &read)
+      .def_static("sound_part", &sound_part<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
+                  py::arg("face_offsets").noconvert())
+      .def_static("sound_part", &sound_part<std::int64_t>)
+      .def_static("read", &read, py::arg("path"), py::arg("strict"), py::arg("weld"))
       .def("components", &components)
       .def("topology", &topology)
       .def("area",

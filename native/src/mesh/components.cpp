@@ -6,6 +6,7 @@
 
 #include "mesh/intrinsic_surface.h"
 #include "mesh/make_surface.h"
+#include "mesh/polygon_parts.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -20,72 +21,37 @@ std::vector<std::vector<int>> faces_by_component(const Surface& parent) {
 // Takes components out of a surface, one after the other.
 class Cutter {
  public:
-  explicit Cutter(const Surface& parent) : parent_(parent), new_vertex_(parent.vertex_count, -1) {
-    if (!parent.intrinsic()) return;
-    reversed_.assign(parent.triangles.size(), 0);
-    for (const int f : parent.repairs.reversed_faces) reversed_[f] = 1;
-  }
+  explicit Cutter(const Surface& parent) : parent_(parent), parts_(parent.polygons) {}
 
   Component cut(std::vector<int> faces, Execution& execution) {
-    Component part;
-    part.face_index = std::move(faces);
-    number(part);
-    part.surface = parent_.intrinsic() ? intrinsic_part(part, execution) : polygon_part(part, execution);
-    for (const int v : part.vertex_index) new_vertex_[v] = -1;
-    return part;
+    PolygonPart part = parts_.take(std::move(faces));
+    Surface surface =
+        parent_.intrinsic() ? intrinsic_part(part, execution) : make_surface(std::move(part.polygons), execution);
+    return {std::move(surface), std::move(part.vertex_index), std::move(part.face_index), std::move(part.corner_index)};
   }
 
  private:
-  void number(Component& part) {
-    const Polygons& mesh = parent_.polygons;
-    for (const int f : part.face_index) {
-      for (auto c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) {
-        part.corner_index.push_back(static_cast<int>(c));
-        if (std::exchange(new_vertex_[mesh.corner_vertices[c]], 0) < 0)
-          part.vertex_index.push_back(mesh.corner_vertices[c]);
-      }
-    }
-    std::sort(part.vertex_index.begin(), part.vertex_index.end());
-    for (std::size_t v = 0; v < part.vertex_index.size(); ++v) new_vertex_[part.vertex_index[v]] = static_cast<int>(v);
-  }
-
-  // From its triangles as given (before any was reversed), edges by name.
-  Surface intrinsic_part(const Component& part, Execution& execution) const {
+  // From its triangles as given, edges by name.
+  Surface intrinsic_part(const PolygonPart& part, Execution& execution) const {
     std::vector<std::array<std::int64_t, 3>> triangles, names;
     std::vector<std::array<double, 3>> lengths;
-    for (const int f : part.face_index) {
-      Triple v = parent_.triangles[f], side = parent_.triangle_edges[f];
-      if (reversed_[f]) std::swap(v[1], v[2]), std::swap(side[0], side[2]);
-      std::array<std::int64_t, 3> vertices, name;
-      std::array<double, 3> length;
-      for (int i = 0; i < 3; ++i) {
-        vertices[i] = new_vertex_[v[i]];
-        name[i] = side[(i + 1) % 3];  // corner i lies opposite side i + 1
-        length[i] = parent_.edge_lengths[side[(i + 1) % 3]];
+    for (std::size_t i = 0; i < part.face_index.size(); ++i) {
+      const int* v = &part.polygons.corner_vertices[3 * i];
+      triangles.push_back({v[0], v[1], v[2]});
+      names.emplace_back();
+      lengths.emplace_back();
+      const int f = part.face_index[i];
+      for (int side = 0; side < 3; ++side) {
+        const int corner = parent_.triangle_corners[f][(side + 2) % 3] - 3 * f;  // opposite the side
+        names.back()[corner] = parent_.triangle_edges[f][side];
+        lengths.back()[corner] = parent_.edge_lengths[parent_.triangle_edges[f][side]];
       }
-      triangles.push_back(vertices);
-      names.push_back(name);
-      lengths.push_back(length);
     }
     return make_intrinsic_surface(static_cast<int>(part.vertex_index.size()), triangles, lengths, names, execution);
   }
 
-  Surface polygon_part(const Component& part, Execution& execution) const {
-    const Polygons& mesh = parent_.polygons;
-    Polygons polygons;
-    for (const int v : part.vertex_index) polygons.vertices.push_back(mesh.vertices[v]);
-    polygons.face_offsets.push_back(0);
-    for (const int f : part.face_index) {
-      for (auto c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c)
-        polygons.corner_vertices.push_back(new_vertex_[mesh.corner_vertices[c]]);
-      polygons.face_offsets.push_back(static_cast<int>(polygons.corner_vertices.size()));
-    }
-    return make_surface(std::move(polygons), execution);
-  }
-
   const Surface& parent_;
-  std::vector<int> new_vertex_;  // in the part that is cut, else -1
-  std::vector<char> reversed_;
+  PolygonParts parts_;
 };
 
 }  // namespace

@@ -109,21 +109,19 @@ std::vector<EdgeMeeting> meetings_of(const Polygons& mesh, const PolygonEdges& e
   return meetings;
 }
 
-// @pre check_polygons has passed
+}  // namespace
+
 Polygons narrowed(GivenPolygons given) {
   return {std::move(given.vertices),
           {given.corner_vertices.begin(), given.corner_vertices.end()},
           {given.face_offsets.begin(), given.face_offsets.end()}};
 }
 
-// @pre check_polygons has passed
-Surface surface_of(Polygons polygons, Execution& execution) {
+void complete(Surface& surface, const MeshLabels& label, Execution& execution) {
   Workers& workers = execution.workers();
-  Surface surface;
-  surface.polygons = std::move(polygons);
   const Polygons& mesh = surface.polygons;
   surface.vertex_count = static_cast<int>(mesh.vertices.size());
-  PolygonEdges edges = polygon_edges(mesh, workers);
+  PolygonEdges edges = polygon_edges(mesh, label, workers);
   surface.polygon_edge_count = static_cast<int>(edges.edges.size());
   const Orientation orientation =
       edges.oriented ? oriented_as_given(mesh, edges.edges)
@@ -131,7 +129,7 @@ Surface surface_of(Polygons polygons, Execution& execution) {
   const bool all_triangles = mesh.corner_vertices.size() == 3 * (mesh.face_offsets.size() - 1);
   const auto loop_of_vertex = all_triangles ? std::vector<int>{} : boundary_loop_of_vertex(edges, surface.vertex_count);
   surface.edges = std::move(edges.edges);
-  record_orientation(surface, orientation);
+  record_orientation(surface, orientation, label);
   resize_arrays(surface);
   for_rows(workers, surface.polygon_edge_count,
            [&](int e) { surface.edge_face_count[e] = edges.edge_sides[e][1] < 0 ? 1 : 2; });
@@ -141,20 +139,23 @@ Surface surface_of(Polygons polygons, Execution& execution) {
     surface.edge_lengths[e] = distance(mesh.vertices[a], mesh.vertices[b]);
   });
   edges = {};  // the half-edges take its pages
-  finish_records(surface, execution);
-  return surface;
+  finish_records(surface, execution, label);
 }
-
-}  // namespace
 
 Surface make_surface(Polygons polygons, Execution& execution) {
   check_polygons(polygons, execution.workers());
-  return surface_of(std::move(polygons), execution);
+  Surface surface;
+  surface.polygons = std::move(polygons);
+  complete(surface, {}, execution);
+  return surface;
 }
 
 Surface make_surface(GivenPolygons polygons, Execution& execution) {
   check_polygons(polygons, execution.workers());
-  return surface_of(narrowed(std::move(polygons)), execution);
+  Surface surface;
+  surface.polygons = narrowed(std::move(polygons));
+  complete(surface, {}, execution);
+  return surface;
 }
 
 }  // namespace holomorph::mesh

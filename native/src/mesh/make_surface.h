@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/execution.h"
+#include "mesh/element_labels.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {
@@ -13,5 +14,11 @@ namespace holomorph::mesh {
 /// Cost: linear in the number of corners, cubic in the size of a polygon up to 64 corners.
 Surface make_surface(Polygons polygons, Execution& execution);
 Surface make_surface(GivenPolygons polygons, Execution& execution);
+
+/// The same in steps: `check_polygons`, indices narrowed, and all else from `surface.polygons`, which stay as they are
+/// whatever is thrown.
+Polygons narrowed(GivenPolygons polygons);
+inline Polygons narrowed(Polygons polygons) { return polygons; }
+void complete(Surface& surface, const MeshLabels& label, Execution& execution);
 
 }  // namespace holomorph::mesh

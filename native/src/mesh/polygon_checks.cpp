@@ -19,7 +19,7 @@ constexpr std::int64_t kMaxCorners = std::numeric_limits<int>::max() / 8;
 using std::to_string;
 
 template <class Index>
-void check_sizes(const BasicPolygons<Index>& mesh) {
+void check_arrays(const BasicPolygons<Index>& mesh) {
   const auto corners = static_cast<std::int64_t>(mesh.corner_vertices.size());
   const auto& offsets = mesh.face_offsets;
   if (offsets.size() < 2) throw InvalidMesh("the mesh has no faces");
@@ -33,9 +33,6 @@ void check_sizes(const BasicPolygons<Index>& mesh) {
   }
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
     if (offsets[f + 1] < offsets[f]) throw InvalidMesh("face_offsets decrease at face " + to_string(f));
-    const auto size = offsets[f + 1] - offsets[f];  // no overflow: both are at least 0
-    if (size < 3)
-      throw InvalidMesh("face " + to_string(f) + " has " + to_string(size) + " corners; it needs at least 3");
   }
 }
 
@@ -47,13 +44,14 @@ bool is_usable(const std::array<double, 3>& point) {  // NaN: no comparison hold
   return std::abs(point[0]) <= kLargest && std::abs(point[1]) <= kLargest && std::abs(point[2]) <= kLargest;
 }
 
-[[noreturn]] void refuse_vertex(const std::array<double, 3>& point, int vertex) {
+std::string fault_of_vertex(const std::array<double, 3>& point, std::int64_t vertex) {
   for (const double x : point) {
-    if (!std::isfinite(x))
-      throw InvalidMesh("vertex " + to_string(vertex) + " has a coordinate that is " +
-                        (std::isnan(x) ? "not a number" : "infinite"));
+    if (!std::isfinite(x)) {
+      return "vertex " + to_string(vertex) + " has a coordinate that is " +
+             (std::isnan(x) ? "not a number" : "infinite");
+    }
   }
-  throw InvalidMesh("vertex " + to_string(vertex) + " has a coordinate beyond 1e60: scale the mesh down");
+  return is_usable(point) ? "" : "vertex " + to_string(vertex) + " has a coordinate beyond 1e60: scale the mesh down";
 }
 
 template <class Index>
@@ -76,42 +74,50 @@ bool is_sound(const BasicPolygons<Index>& mesh, int face) {
   const auto vertex_count = static_cast<Index>(mesh.vertices.size());
   const auto corners = corners_of(mesh, face);
   const auto in_range = [&](Index v) { return v >= 0 && v < vertex_count; };
-  if (!std::all_of(corners.begin(), corners.end(), in_range)) return false;
+  if (corners.size() < 3 || !std::all_of(corners.begin(), corners.end(), in_range)) return false;
   if (corners.size() > 3) return vertex_met_twice(corners) < 0;
   const Index a = corners[0], b = corners[1], c = corners[2];
   return a != b && b != c && c != a;
 }
 
 template <class Index>
-[[noreturn]] void refuse_face(const BasicPolygons<Index>& mesh, int face) {
+std::string fault_of(const BasicPolygons<Index>& mesh, int face) {
   const auto vertex_count = static_cast<Index>(mesh.vertices.size());
   const auto corners = corners_of(mesh, face);
+  const std::string name = "face " + to_string(face);
+  if (corners.size() < 3) return name + " has " + to_string(corners.size()) + " corners; it needs at least 3";
   for (const Index v : corners) {
-    if (v < 0) throw InvalidMesh("face " + to_string(face) + " has the negative vertex index " + to_string(v));
-    if (v >= vertex_count) {
-      throw InvalidMesh("face " + to_string(face) + " names vertex " + to_string(v) + ", but there are only " +
-                        to_string(vertex_count) + " vertices");
-    }
+    if (v < 0) return name + " has the negative vertex index " + to_string(v);
+    if (v >= vertex_count)
+      return name + " names vertex " + to_string(v) + ", but there are only " + to_string(vertex_count) + " vertices";
   }
-  throw InvalidMesh("face " + to_string(face) + " has vertex " + to_string(vertex_met_twice(corners)) + " twice");
+  if (const Index v = vertex_met_twice(corners); v >= 0) return name + " has vertex " + to_string(v) + " twice";
+  for (const Index v : corners) {
+    if (!is_usable(mesh.vertices[v])) return fault_of_vertex(mesh.vertices[v], v);
+  }
+  return {};
 }
 
 template <class Index>
 void check(const BasicPolygons<Index>& mesh, Workers& workers) {
-  check_sizes(mesh);
+  check_arrays(mesh);
   const int vertices = static_cast<int>(mesh.vertices.size()), faces = static_cast<int>(mesh.face_offsets.size()) - 1;
   const int bad_vertex = first_row(workers, vertices, [&](int v) { return !is_usable(mesh.vertices[v]); });
-  if (bad_vertex < vertices) refuse_vertex(mesh.vertices[bad_vertex], bad_vertex);
+  if (bad_vertex < vertices) throw InvalidMesh(fault_of_vertex(mesh.vertices[bad_vertex], bad_vertex));
   const auto is_above = [&](double least) {
     return first_row(workers, vertices, [&](int v) { return largest_coordinate(mesh.vertices[v]) > least; }) < vertices;
   };
   if (!is_above(kSmallest) && is_above(0)) throw InvalidMesh("all coordinates are below 1e-60: scale the mesh up");
   const int bad_face = first_row(workers, faces, [&](int f) { return !is_sound(mesh, f); });
-  if (bad_face < faces) refuse_face(mesh, bad_face);
+  if (bad_face < faces) throw InvalidMesh(fault_of(mesh, bad_face));
 }
 
 }  // namespace
 
+void check_layout(const Polygons& mesh) { check_arrays(mesh); }
+void check_layout(const GivenPolygons& mesh) { check_arrays(mesh); }
+std::string fault_of_face(const Polygons& mesh, int face) { return fault_of(mesh, face); }
+std::string fault_of_face(const GivenPolygons& mesh, int face) { return fault_of(mesh, face); }
 void check_polygons(const Polygons& mesh, Workers& workers) { check(mesh, workers); }
 void check_polygons(const GivenPolygons& mesh, Workers& workers) { check(mesh, workers); }
 

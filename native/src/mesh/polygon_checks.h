@@ -1,10 +1,20 @@
 // Checks of single polygons, before anything walks the mesh.
 #pragma once
 
+#include <string>
+
 #include "base/workers.h"
 #include "mesh/polygons.h"
 
 namespace holomorph::mesh {
+
+/// Refuses a mesh without faces, offsets that do not fit, too many elements for 32 bits. @throws InvalidMesh
+void check_layout(const Polygons& polygons);
+void check_layout(const GivenPolygons& polygons);
+
+/// What is wrong with a single face or the vertices that it names; empty if nothing is. @pre check_layout has passed
+std::string fault_of_face(const Polygons& polygons, int face);
+std::string fault_of_face(const GivenPolygons& polygons, int face);
 
 /// Refuses, with the first bad element: no faces, offsets that do not fit, fewer than 3 corners, an index that is
 /// negative or too large, a vertex twice in a face, a position that is NaN, infinite or beyond

@@ -126,17 +126,16 @@ Pair duplicates(const Polygons& mesh, const Side* begin, const Side* end) {
   return {-1, -1};
 }
 
-[[noreturn]] void refuse(const Polygons& mesh, int edge, const Side* begin, const Side* end) {
+[[noreturn]] void refuse(const Polygons& mesh, const MeshLabels& label, const Side* begin, const Side* end) {
   const auto [f, g] = duplicates(mesh, begin, end);
-  if (f >= 0) throw InvalidMesh("faces " + to_string(f) + " and " + to_string(g) + " have the same vertices");
-  throw InvalidMesh("edge " + to_string(edge) + " (vertices " + to_string(begin->lower) + ", " +
-                    to_string(begin->higher) + ") has " + to_string(end - begin) + " faces; a surface has at most 2");
+  if (f >= 0) throw InvalidMesh("faces " + label.face(f) + " and " + label.face(g) + " have the same vertices");
+  throw InvalidMesh("the edge between vertices " + label.vertex(begin->lower) + " and " + label.vertex(begin->higher) +
+                    " has " + to_string(end - begin) + " faces; a surface has at most 2");
 }
 
 // Sorts all blocks. @return the number of the first edge of each block, and of all edges
-std::vector<int> first_edges(const Polygons& mesh, Blocks& blocks, Workers& workers) {
+std::vector<int> first_edges(const Polygons& mesh, Blocks& blocks, const MeshLabels& label, Workers& workers) {
   struct Bad {
-    int edge = -1;  // number in the block
     const Side *begin = nullptr, *end = nullptr;
   };
   std::vector<int> first(blocks.count() + 1, 0);
@@ -145,15 +144,14 @@ std::vector<int> first_edges(const Polygons& mesh, Blocks& blocks, Workers& work
     blocks.sort(block);
     int edges = 0;
     each_edge(blocks, block, [&](const Side* begin, const Side* end) {
-      if (end - begin > 2 || (end - begin == 2 && duplicates(mesh, begin, end)[0] >= 0))
-        bad[block] = {edges, begin, end};
+      if (end - begin > 2 || (end - begin == 2 && duplicates(mesh, begin, end)[0] >= 0)) bad[block] = {begin, end};
       ++edges;
-      return bad[block].edge < 0;
+      return !bad[block].begin;
     });
     first[block + 1] = edges;
   });
   for (int block = 0; block < blocks.count(); ++block) {
-    if (bad[block].edge >= 0) refuse(mesh, first[block] + bad[block].edge, bad[block].begin, bad[block].end);
+    if (bad[block].begin) refuse(mesh, label, bad[block].begin, bad[block].end);
     first[block + 1] += first[block];
   }
   return first;
@@ -169,9 +167,9 @@ std::vector<int> corner_faces(const Polygons& mesh) {
   return face_of;
 }
 
-PolygonEdges polygon_edges(const Polygons& mesh, Workers& workers) {
+PolygonEdges polygon_edges(const Polygons& mesh, const MeshLabels& label, Workers& workers) {
   Blocks blocks(mesh, workers);
-  const std::vector<int> first = first_edges(mesh, blocks, workers);
+  const std::vector<int> first = first_edges(mesh, blocks, label, workers);
   PolygonEdges result;
   result.side_edge.resize(mesh.corner_vertices.size());
   result.edges.resize(first.back());

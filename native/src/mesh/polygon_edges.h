@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/workers.h"
+#include "mesh/element_labels.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {
@@ -19,7 +20,7 @@ struct PolygonEdges {
 /// @pre check_polygons has passed.
 /// Cost: linear, in parallel.
 /// @throws InvalidMesh for an edge of more than two faces, and for two faces with the same vertices.
-PolygonEdges polygon_edges(const Polygons& polygons, Workers& workers);
+PolygonEdges polygon_edges(const Polygons& polygons, const MeshLabels& label, Workers& workers);
 
 /// #V: equal numbers at the vertices of one boundary loop, -1 in the interior.
 std::vector<int> boundary_loop_of_vertex(const PolygonEdges& edges, int vertex_count);

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/errors.h"
+#include "mesh/element_labels.h"
 #include "mesh/triangle_geometry.h"
-#include "mesh/vertex_labels.h"
 
 namespace holomorph::mesh {
 namespace {
@@ -30,7 +30,7 @@ bool on_boundary(const HalfEdges& mesh, int vertex) {
 }
 
 // Marks the vertices of a star with its centre. Refuses those of another star, of the boundary, and any twice.
-void claim(const HalfEdges& mesh, const Star& star, const VertexLabels& label, std::vector<int>& owner) {
+void claim(const HalfEdges& mesh, const Star& star, const Labels& label, std::vector<int>& owner) {
   const std::string itself = "the star of puncture " + label(star.vertex);
   const auto take = [&](int v) {
     if (owner[v] == star.vertex)
@@ -69,7 +69,7 @@ Side across(const Surface& surface, Side s) {
 
 // Refuses polygons with two of the vertices. @return #V 1 for each of the vertices
 std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vector<int>& vertices,
-                                         const VertexLabels& label) {
+                                         const Labels& label) {
   std::vector<char> chosen(surface.vertex_count, 0);
   for (const int v : vertices) chosen[v] = 1;
   const auto& offsets = surface.polygons.face_offsets;
@@ -114,7 +114,7 @@ void flip(Surface& surface, Side s) {
 }  // namespace
 
 Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, const std::vector<int>& labels) {
-  const VertexLabels label(labels);
+  const Labels label(labels);
   Star result;
   result.vertex = vertex;
   const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
@@ -147,7 +147,7 @@ std::vector<int> star_vertices(const Surface& surface, const HalfEdges& mesh, in
 
 std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
                         const std::vector<int>& labels) {
-  const VertexLabels label(labels);
+  const Labels label(labels);
   std::vector<Star> result;
   std::vector<int> owner(half_edges.n_vertices(), -1);
   for (const int v : vertices) {
@@ -195,7 +195,7 @@ void mark_star(const Surface& surface, const HalfEdges& mesh, int vertex, std::v
 
 void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& labels) {
   if (surface.intrinsic()) return;  // triangles have no diagonals
-  const std::vector<char> chosen = refuse_shared_polygons(surface, vertices, VertexLabels(labels));
+  const std::vector<char> chosen = refuse_shared_polygons(surface, vertices, Labels(labels));
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
     // Each flip lowers the number of the polygon's diagonals at its one chosen corner.
     for (int i = 0; i < 3;) {

@@ -10,22 +10,20 @@
 namespace holomorph::mesh {
 namespace {
 
-using std::to_string;
-
 void record_isolated_vertices(Surface& surface, const HalfEdges& mesh) {
   for (int v = 0; v < surface.vertex_count; ++v) {
     if (!mesh.halfedge_handle(VertexHandle(v)).is_valid()) surface.repairs.isolated_vertices.push_back(v);
   }
 }
 
-void record_zero_areas(Surface& surface, Workers& workers) {
+void record_zero_areas(Surface& surface, const MeshLabels& label, Workers& workers) {
   const auto is_zero = [&surface](int t) {
     const auto& [i, j, k] = surface.triangle_edges[t];
     return is_degenerate(surface.edge_lengths[i], surface.edge_lengths[j], surface.edge_lengths[k]);
   };
   const int triangles = static_cast<int>(surface.triangles.size());
   const int count = sum_over_rows(workers, triangles, 0, [&](int t, int& sum) { sum += is_zero(t); });
-  if (count == triangles) throw InvalidMesh("all faces have zero area (face 0 is the first)");
+  if (count == triangles) throw InvalidMesh("all faces have zero area (face " + label.face(0) + " is the first)");
   auto& zero = surface.repairs.zero_area_faces;
   for (int t = 0; count > 0 && t < triangles; ++t) {
     const int face = surface.triangle_faces[t];
@@ -35,11 +33,13 @@ void record_zero_areas(Surface& surface, Workers& workers) {
 
 }  // namespace
 
-void record_orientation(Surface& surface, const Orientation& orientation) {
+void record_orientation(Surface& surface, const Orientation& orientation, const MeshLabels& label) {
   if (const int e = orientation.conflict; e >= 0) {
     const auto [a, b] = surface.edges[e];
-    throw TopologyError("the surface is non-orientable: its faces cannot be oriented consistently at edge " +
-                        to_string(e) + " (vertices " + to_string(a) + ", " + to_string(b) + ")");
+    throw TopologyError(
+        "the surface is non-orientable: its faces cannot be oriented consistently at the edge "
+        "between vertices " +
+        label.vertex(a) + " and " + label.vertex(b));
   }
   surface.face_component = orientation.face_component;
   surface.component_count = orientation.component_count;
@@ -48,8 +48,8 @@ void record_orientation(Surface& surface, const Orientation& orientation) {
   }
 }
 
-void finish_records(Surface& surface, Execution& execution) {
-  record_zero_areas(surface, execution.workers());
+void finish_records(Surface& surface, Execution& execution, const MeshLabels& label) {
+  record_zero_areas(surface, label, execution.workers());
   const HalfEdges mesh = half_edges(surface, execution);
   refuse_pinched_vertices(mesh, execution.workers());
   record_isolated_vertices(surface, mesh);

@@ -2,16 +2,17 @@
 #pragma once
 
 #include "base/execution.h"
+#include "mesh/element_labels.h"
 #include "mesh/orientation.h"
 #include "mesh/surface.h"
 
 namespace holomorph::mesh {
 
 /// Components and reversed faces. @throws TopologyError naming the edge at which no orientation fits
-void record_orientation(Surface& surface, const Orientation& orientation);
+void record_orientation(Surface& surface, const Orientation& orientation, const MeshLabels& label = {});
 
 /// Isolated vertices, zero areas; refuses non-manifold vertices and a surface without area.
 /// @throws InvalidMesh
-void finish_records(Surface& surface, Execution& execution);
+void finish_records(Surface& surface, Execution& execution, const MeshLabels& label = {});
 
 }  // namespace holomorph::mesh

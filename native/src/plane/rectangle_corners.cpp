@@ -6,14 +6,14 @@
 
 #include "base/errors.h"
 #include "mesh/components.h"
+#include "mesh/element_labels.h"
 #include "mesh/triangle_geometry.h"
-#include "mesh/vertex_labels.h"
 
 namespace holomorph::plane {
 namespace {
 
 using mesh::HalfedgeHandle;
-using mesh::VertexLabels;
+using mesh::Labels;
 
 // Least exterior angle of a corner, in radians.
 constexpr double kCorner = std::numbers::pi / 4;
@@ -34,7 +34,7 @@ mesh::BoundaryLoops checked_boundary(const mesh::Surface& surface, const mesh::H
 }
 
 // @param place #V index of each vertex in the loop, -1 for others
-void check_corners(const std::vector<int>& corners, const std::vector<int>& place, const VertexLabels& label) {
+void check_corners(const std::vector<int>& corners, const std::vector<int>& place, const Labels& label) {
   if (corners.size() != 4)
     throw TopologyError("there are " + std::to_string(corners.size()) + " rectangle corners; four are needed");
   for (const int v : corners) {
@@ -47,8 +47,7 @@ void check_corners(const std::vector<int>& corners, const std::vector<int>& plac
   }
 }
 
-Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count,
-               const VertexLabels& label) {
+Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, int vertex_count, const Labels& label) {
   const int n = static_cast<int>(loop.size());
   std::vector<int> place(vertex_count, -1);
   for (int i = 0; i < n; ++i) place[loop[i]] = i;
@@ -75,7 +74,7 @@ Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, in
 Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& corners,
                       const std::vector<int>& labels) {
   const auto boundary = checked_boundary(surface, half_edges);
-  return sides_of(around(half_edges, boundary), corners, surface.vertex_count, VertexLabels(labels));
+  return sides_of(around(half_edges, boundary), corners, surface.vertex_count, Labels(labels));
 }
 
 std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides) {

@@ -3,7 +3,7 @@
 #include <unordered_map>
 
 #include "base/errors.h"
-#include "mesh/vertex_labels.h"
+#include "mesh/element_labels.h"
 
 namespace holomorph::uv {
 namespace {
@@ -134,7 +134,7 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
     if (at_start[h.idx()] == at_start[next(mesh, o).idx()] && at_start[o.idx()] == at_start[next(mesh, h).idx()])
       continue;
     const auto [a, b] = surface.edges[e];
-    const mesh::VertexLabels label(labels);
+    const mesh::Labels label(labels);
     throw TopologyError("the cut does not leave disks: between the vertices " + label(a) + " and " + label(b) +
                         ", where it does not run, the map still jumps");
   }

@@ -11,7 +11,7 @@ namespace holomorph::mesh {
 /// OBJ: `v` and `f` lines, negative indices, continued lines; other lines are skipped.
 /// OFF: text, with normals, colours or texture coordinates skipped; 4D, nD and binary OFF are refused.
 /// PLY: text and binary of either byte order; elements and properties that are not polygons or positions are skipped.
-/// STL: text and binary; corners with equal coordinates (-0 equals 0) become one vertex, in order of first appearance.
+/// STL: text and binary; corners are welded (weld.h).
 /// Indices beyond the vertices, coordinates that are not finite and faces with fewer than 3 corners pass: they are
 /// the mesh's faults, and its validation names them.
 /// @throws InvalidMesh if the file cannot be read or is malformed; the sentence names file and line, byte or element.

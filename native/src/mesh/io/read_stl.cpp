@@ -1,12 +1,13 @@
 // STL, text or binary: a list of triangles with coordinates. Corners with equal coordinates are welded to one vertex.
 #include "mesh/io/read_stl.h"
 
-#include <bit>
 #include <cstring>
+#include <numeric>
 #include <string>
 
 #include "mesh/io/byte_order.h"
 #include "mesh/io/scanner.h"
+#include "mesh/io/weld.h"
 
 namespace holomorph::mesh {
 
@@ -18,51 +19,14 @@ constexpr std::size_t header_size = 80;    // bytes of comment before the count
 constexpr std::size_t triangle_size = 50;  // bytes: normal and three corners as float32, two bytes of attribute
 constexpr std::size_t normal_size = 12;
 
-/// Gives equal points equal numbers, counted by first appearance. NaN equals nothing, so each such point is a vertex of
-/// its own.
-class Weld {
- public:
-  explicit Weld(std::size_t corners) : slots_(std::bit_ceil(2 * corners + 1), empty) {}
-
-  std::int64_t operator()(Point p) {
-    for (auto& x : p) x += 0.0;  // -0 becomes 0, so that equal coordinates have equal bits
-    const auto mask = slots_.size() - 1;
-    for (auto slot = hash(p) & mask;; slot = (slot + 1) & mask) {  // ends: at least half of the slots are empty
-      if (slots_[slot] == empty) {
-        slots_[slot] = static_cast<std::int64_t>(points.size());
-        points.push_back(p);
-        return slots_[slot];
-      }
-      if (points[static_cast<std::size_t>(slots_[slot])] == p) return slots_[slot];
-    }
-  }
-
-  std::vector<Point> points;
-
- private:
-  static constexpr std::int64_t empty = -1;
-
-  static std::size_t hash(const Point& p) {
-    std::uint64_t h = 0;
-    for (const auto x : p) {  // multiply and fold, so that the low bits depend on all bits of all coordinates
-      h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
-      h ^= h >> 32;
-    }
-    return static_cast<std::size_t>(h);
-  }
-
-  std::vector<std::int64_t> slots_;
-};
-
-GivenPolygons welded(const std::vector<Point>& corners) {
+// As a triangle of three vertices each, which welding then joins.
+GivenPolygons triangles(std::vector<Point> corners) {
   GivenPolygons mesh;
-  Weld weld(corners.size());
-  mesh.corner_vertices.reserve(corners.size());
-  for (const auto& p : corners) mesh.corner_vertices.push_back(weld(p));
-  mesh.vertices = std::move(weld.points);
-  mesh.face_offsets.reserve(corners.size() / 3 + 1);
+  mesh.corner_vertices.resize(corners.size());
+  std::iota(mesh.corner_vertices.begin(), mesh.corner_vertices.end(), std::int64_t{0});
   for (std::size_t c = 0; c <= corners.size(); c += 3) mesh.face_offsets.push_back(static_cast<std::int64_t>(c));
-  return mesh;
+  mesh.vertices = std::move(corners);
+  return welded(mesh);
 }
 
 std::vector<Point> binary_corners(const FileText& file) {
@@ -142,10 +106,10 @@ bool is_text(const FileText& file) {
 }  // namespace
 
 GivenPolygons read_stl(const FileText& file) {
-  if (is_text(file)) return welded(text_corners(file));
+  if (is_text(file)) return triangles(text_corners(file));
   if (file.bytes.size() < header_size + 4)
     file.fail("the file is neither a text STL ('solid ...') nor as long as the header of a binary one");
-  return welded(binary_corners(file));
+  return triangles(binary_corners(file));
 }
 
 }  // namespace holomorph::mesh

@@ -34,7 +34,7 @@ class Wavefront {
       int number = 0;
       ((number++ == loop ? loops(chunk) : void()), ...);
     };
-    constexpr int kAnyNumber = 0;  // of segments is worth a second thread
+    constexpr int kAnyNumber = 0;  // any number of segments is worth a second thread
     workers.run(
         static_cast<int>(segments_.size()),
         [&](int, int segment) {

@@ -1,0 +1,26 @@
+// What vertices and faces are called in messages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace holomorph::mesh {
+
+/// The number of an element in the mesh that the caller knows, of which this one may be a part.
+class Labels {
+ public:
+  /// @param labels one for each element, which outlive this; empty: its own index
+  explicit Labels(const std::vector<int>& labels) : labels_(labels) {}
+  std::string operator()(int element) const { return std::to_string(labels_.empty() ? element : labels_[element]); }
+
+ private:
+  const std::vector<int>& labels_;
+};
+
+/// Those of a whole mesh.
+struct MeshLabels {
+  static inline const std::vector<int> kOwnIndices;
+  Labels vertex{kOwnIndices}, face{kOwnIndices};
+};
+
+}  // namespace holomorph::mesh
