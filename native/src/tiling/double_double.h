@@ -1,18 +1,11 @@
-// Columns of numbers in twice the working precision: each is an unevaluated sum high + low, |low| <= ulp(high) / 2
-// (Dekker 1971, doi:10.1007/BF01397083).
+// Columns of numbers in twice the working precision.
 #pragma once
 
 #include <Eigen/Core>
-#include <utility>
+
+#include "base/double_double.h"
 
 namespace holomorph::tiling {
-
-/// The upper 26 bits of a double, and the rest: products of such halves are exact.
-inline std::pair<double, double> halves(double a) {
-  constexpr double kSplit = 134217729;  // 2^27 + 1
-  const double shifted = kSplit * a, upper = shifted - (shifted - a);
-  return {upper, a - upper};
-}
 
 struct DoubleDoubleColumns {
   Eigen::MatrixXd high, low;
