@@ -102,7 +102,7 @@ class BoundedStructure(FormStructure):
     def _capacity_bounds(self):
         if not self._is_exact:
             return None
-        natural, dirichlet = self.gram_matrices
+        natural, dirichlet = self._native.certain_gram_matrices()
         return arrays.frozen(np.linalg.inv(natural)), dirichlet
 
     @property
@@ -125,7 +125,7 @@ class BoundedStructure(FormStructure):
         self._check_annulus()
         if not self._is_exact:
             return None
-        natural, dirichlet = self.gram_matrices
+        natural, dirichlet = self._native.certain_gram_matrices()
         return float(1 / dirichlet[0, 0]), float(natural[0, 0])
 
     def _check_planar(self, what):

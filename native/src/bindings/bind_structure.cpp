@@ -206,6 +206,7 @@ void bind_values(py::class_<Structure, Pointer>& type) {
              return copy(mesh::triangles_on_one_loop(*s.value.surface, s.value.topology.boundary));
            })
       .def("gram_matrices", [](const Structure& s) { return matrices(s.value.gram); })
+      .def("certain_gram_matrices", [](const Structure& s) { return matrices(s.value.certain_gram); })
       .def("projected",
            [](const Structure& s) {
              const auto& star = s.value.holomorphic.star;

@@ -44,7 +44,8 @@ MatrixXd gram_of_double(const MatrixXd& classes, const MatrixXd& G_N, const Matr
 
 }  // namespace
 
-HolomorphicBasis closed_basis(const MatrixXd& G, const IntegerMatrix& W, const topology::CanonicalBasis& canonical) {
+HolomorphicBasis closed_basis(const MatrixXd& G, const MatrixXd& certain, const IntegerMatrix& W,
+                              const topology::CanonicalBasis& canonical) {
   const auto g = G.rows() / 2;
   const MatrixXd S = canonical.classes.cast<double>();
   const auto in_canonical = [&S](const MatrixXd& gram) { return symmetric(S * gram * S.transpose()); };
@@ -54,21 +55,22 @@ HolomorphicBasis closed_basis(const MatrixXd& G, const IntegerMatrix& W, const t
   MatrixXcd periods(2 * g, g);  // int_{a_i} theta_j = delta_ij, int_{b_i} theta_j = Omega_ij
   periods << MatrixXcd::Identity(g, g), result.period_matrix;
   result.differentials = S.transpose() * periods;  // zeta = R^-1 (a, b), and R^-1 = S^T
-  result.bounds = period_bounds(in_canonical(G));
+  result.bounds = period_bounds(in_canonical(certain));
   return result;
 }
 
-HolomorphicBasis bounded_basis(const MatrixXd& G_N, const MatrixXd& G_D, const IntegerMatrix& W, int genus) {
+HolomorphicBasis bounded_basis(const std::vector<MatrixXd>& gram, const std::vector<MatrixXd>& certain,
+                               const IntegerMatrix& W, int genus) {
   const Index n = W.rows();
   HolomorphicBasis result;
-  result.star = projected_star(G_N, G_D, W.cast<double>());
+  result.star = projected_star(gram[0], gram[1], W.cast<double>());
   result.differentials.resize(2 * n, n);
   result.differentials.topRows(n).setIdentity();
   result.differentials.bottomRows(n) =
       std::complex<double>(0, 1) * result.star.star.transpose().cast<std::complex<double>>();
   const MatrixXd classes = canonical_classes_of_double(W, 2 * genus);
   result.period_matrix = period_matrix(gram_of_double(classes, result.star.natural_gram, result.star.dirichlet_gram));
-  result.bounds = period_bounds(gram_of_double(classes, G_N, G_D));
+  result.bounds = period_bounds(gram_of_double(classes, certain[0], certain[1]));
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "conformal/projection.h"
 #include "topology/homology.h"
@@ -22,16 +23,18 @@ struct HolomorphicBasis {
 
 /// Of a closed surface: theta_j has the period 1 over a_j and 0 over the other a, n = g.
 /// @param G 2g x 2g, of the harmonic basis dual to zeta. @param W its wedge matrix
-HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const topology::IntegerMatrix& W,
-                              const topology::CanonicalBasis& canonical);
+/// @param certain a matrix that is not below that of the surface, for the bounds: G, or G and its rounding
+HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const Eigen::MatrixXd& certain,
+                              const topology::IntegerMatrix& W, const topology::CanonicalBasis& canonical);
 
 /// Of a surface with boundary, n = 2g + b - 1, the genus of the double. theta_i = h^N_i + i sum_j C#_ij h^D_j: real
 /// combinations of these are holomorphic forms whose imaginary part vanishes along the boundary, so that each loop
 /// becomes a straight line. Omega is that of the double, (i/2) Cap# on planar surfaces.
-/// @param G_N,G_D n x n, of the natural and the Dirichlet forms: first those of the 2g handle classes, the same in both
-/// families, then those of the b - 1 loops
+/// @param gram n x n each, G_N and G_D of the natural and the Dirichlet forms: first those of the 2g handle classes, the
+/// same in both families, then those of the b - 1 loops
+/// @param certain as in closed_basis
 /// @param W n x n, W_ij = int h^N_i ^ h^D_j
-HolomorphicBasis bounded_basis(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd& G_D, const topology::IntegerMatrix& W,
-                               int genus);
+HolomorphicBasis bounded_basis(const std::vector<Eigen::MatrixXd>& gram, const std::vector<Eigen::MatrixXd>& certain,
+                               const topology::IntegerMatrix& W, int genus);
 
 }  // namespace holomorph::conformal

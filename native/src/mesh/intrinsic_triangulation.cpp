@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/chunks.h"
+#include "mesh/thin_triangles.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
@@ -32,16 +33,25 @@ bool has_degenerate_face(const IntrinsicTriangulation& t, HalfedgeHandle h) {
 // All cotangents, in the order of the edges, which is that of the vertices: near each other in memory wherever
 // neighbours are, in whatever order the faces come. @return whether a triangle is degenerate
 bool set_all_cotangents(IntrinsicTriangulation& t, Workers& workers) {
+  struct Count {
+    int degenerate = 0, thin = 0;
+    void operator+=(const Count& other) {
+      degenerate += other.degenerate;
+      thin += other.thin;
+    }
+  };
   t.cotangents.resize(t.half_edges.n_halfedges());
-  return sum_over_rows(workers, static_cast<int>(t.cotangents.size()), 0, [&t](int i, int& degenerate) {
-           const HalfedgeHandle h(i);
-           if (t.half_edges.is_boundary(h)) {
-             t.cotangents[i] = 0;
-           } else if (is_first_of_face(t.half_edges, h)) {
-             set_cotangents(t, h);
-             degenerate += has_degenerate_face(t, h);
-           }
-         }) > 0;
+  const auto count = sum_over_rows(workers, static_cast<int>(t.cotangents.size()), Count(), [&t](int i, Count& sum) {
+    const HalfedgeHandle h(i);
+    if (t.half_edges.is_boundary(h)) {
+      t.cotangents[i] = 0;
+    } else if (is_first_of_face(t.half_edges, h)) {
+      sum.thin += set_cotangents(t, h);
+      sum.degenerate += has_degenerate_face(t, h);
+    }
+  });
+  if (count.thin > 0) set_metric_errors(t, workers);
+  return count.degenerate > 0;
 }
 
 // The faces for which chosen(shortest side, longest side, slack) holds.
@@ -124,13 +134,15 @@ bool lengthen(IntrinsicTriangulation& t, const Chosen& chosen, Workers& workers)
 
 }  // namespace
 
-void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
+bool set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
   const double a = t.lengths[edge_of(h)], b = t.lengths[edge_of(h1)], c = t.lengths[edge_of(h2)];
   const double area = triangle_area(a, b, c);
-  t.cotangents[h.idx()] = cotangent(a, b, c, area);
-  t.cotangents[h1.idx()] = cotangent(b, c, a, area);
-  t.cotangents[h2.idx()] = cotangent(c, a, b, area);
+  const double x = cotangent(a, b, c, area), y = cotangent(b, c, a, area), z = cotangent(c, a, b, area);
+  t.cotangents[h.idx()] = x;
+  t.cotangents[h1.idx()] = y;
+  t.cotangents[h2.idx()] = z;
+  return is_thin(x, y, z);
 }
 
 IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
@@ -172,6 +184,7 @@ Array<double> cotangent_weights(const IntrinsicTriangulation& t, Execution& exec
   weights.resize(t.lengths.size());
   for_rows(execution.workers(), static_cast<int>(weights.size()),
            [&](int e) { weights[e] = 0.5 * t.cotangents[2 * e] + 0.5 * t.cotangents[2 * e + 1]; });
+  if (!t.metric_errors.empty()) sharpen_weights(t, weights, execution.workers());
   execution.report(1.0);
   return weights;
 }

@@ -23,10 +23,14 @@ struct IntrinsicTriangulation {
   double mollification = 0;  ///< added to some lengths, in their unit; with 0 the metric is that of the surface
   bool degenerate = false;   ///< whether some triangle of the surface is, and none has been mollified
 
-  /// Frees lengths and cotangents, which only the weights need.
+  /// #F where some triangle of the surface is thin, else none: by how much rounding may change energies on each.
+  Array<double> metric_errors;
+
+  /// Frees what only the weights need.
   void forget_metric() {
     lengths = Array<double>();
     cotangents = Array<double>();
+    metric_errors = Array<double>();
   }
 };
 
@@ -49,10 +53,10 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges
 /// By what intrinsic_triangulation lengthens edges; 0 if no triangle is degenerate.
 double mollification(const Surface& surface, Execution& execution);
 
-/// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are.
-void set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
+/// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are. @return whether it is thin
+bool set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
 
-/// #E weights k = (cot a + cot b) / 2 (paper Eq. 3).
+/// #E weights k = (cot a + cot b) / 2 (paper Eq. 3), those of thin triangles to all digits.
 Array<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Execution& execution);
 
 }  // namespace holomorph::mesh

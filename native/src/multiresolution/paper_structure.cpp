@@ -4,7 +4,9 @@
 #include "forms/codifferential.h"
 #include "forms/laplacian.h"
 #include "mesh/intrinsic_triangulation.h"
+#include "mesh/thin_triangles.h"
 #include "multiresolution/paper_forms.h"
+#include "structure/guarantee.h"
 #include "structure/invariants.h"
 
 namespace holomorph::multiresolution {
@@ -43,6 +45,7 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   const auto triangulation = mesh::intrinsic_triangulation(*result.surface, std::move(half_edges), execution.workers());
   result.mollification = triangulation.mollification;
   const auto weights = mesh::cotangent_weights(triangulation, execution);
+  const auto errors = mesh::energy_errors(triangulation, weights, execution.workers());
   const auto laplacian = forms::laplacian(triangulation.half_edges, weights, execution);
 
   execution.stage("harmonic forms", 0.3, 0.85);
@@ -53,7 +56,8 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   result.solver = std::move(solved.solver);
 
   execution.stage("certificates", 0.85, 1.0);
-  structure::complete(triangulation.half_edges, weights, classes, result, execution);
+  structure::complete(triangulation.half_edges, weights, errors, classes, result, execution);
+  structure::require_guaranteed(result);
   execution.finish();
   result.seconds = execution.seconds();
   return result;

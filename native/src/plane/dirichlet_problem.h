@@ -19,7 +19,12 @@ struct DirichletSolution {
   structure::SolverReport solver;
 };
 
+/// sum_e k_e (f_head - f_tail)^2 of each column, with any numbers k_e for weights: m.
+Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                         const Eigen::MatrixXd& functions);
+
 /// L f = 0 at the free vertices; natural at those of the boundary.
+/// Refined where weights ask for it (structure/refinement.h).
 /// @param values #V x m, 0 at the free vertices
 /// @throws SolverError, Cancelled
 DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<const double> weights,

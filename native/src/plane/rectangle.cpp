@@ -6,8 +6,10 @@
 #include "base/finite.h"
 #include "mesh/delaunay.h"
 #include "mesh/intrinsic_triangulation.h"
+#include "mesh/thin_triangles.h"
 #include "plane/dirichlet_problem.h"
 #include "plane/rectangle_corners.h"
+#include "structure/guarantee.h"
 
 namespace holomorph::plane {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 // u: 0 on side 3, 1 on side 1; v: 0 on side 0, 1 on side 2. Each has conditions, and so a system, of its own.
 struct Coordinates {
   DirichletSolution u, v;
+  std::vector<Eigen::MatrixXd> energies, errors;  // of u and v; and by how much rounding may change them, if at all
   double harmonicity() const { return std::max(u.harmonicity, v.harmonicity); }
 };
 
@@ -29,9 +32,15 @@ Coordinates coordinates(const mesh::IntrinsicTriangulation& triangulation, const
     return solve_dirichlet(triangulation.half_edges, weights, fixed, f, options, execution);
   };
   execution.stage("width", from, (from + to) / 2);
-  auto u = one(3, 1);
+  Coordinates result{one(3, 1), {}, {}, {}};
   execution.stage("height", (from + to) / 2, to);
-  return {std::move(u), one(0, 2)};
+  result.v = one(0, 2);
+  const auto errors = mesh::energy_errors(triangulation, weights, execution.workers());
+  for (const DirichletSolution* f : {&result.u, &result.v}) {
+    result.energies.emplace_back(f->energies);
+    if (!errors.empty()) result.errors.emplace_back(energies(triangulation.half_edges, errors, f->functions));
+  }
+  return result;
 }
 
 }  // namespace
@@ -53,9 +62,12 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   result.mollification = delaunay.mollification;
   const bool flipped = result.flip_count > 0;
   const Coordinates sharp = coordinates(delaunay, sides, options, 0.2, flipped ? 0.6 : 1.0, execution);
-  result.upper = sharp.u.energies[0];
-  result.lower = 1 / sharp.v.energies[0];
-  result.modulus = std::sqrt(result.upper * result.lower);
+  result.modulus = std::sqrt(sharp.u.energies[0] * (1 / sharp.v.energies[0]));
+  const auto certain = structure::certain_gram(sharp.energies, sharp.errors);
+  const Eigen::MatrixXd lower = certain[1].cwiseInverse();
+  if (result.mollification == 0) structure::require_ordered(lower, certain[0]);
+  result.lower = lower(0, 0);
+  result.upper = certain[0](0, 0);
 
   const Coordinates drawn = flipped ? coordinates(plain, sides, options, 0.6, 1.0, execution) : sharp;
   result.points.resize(surface.vertex_count);

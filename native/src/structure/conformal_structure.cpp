@@ -3,7 +3,9 @@
 #include "base/background_task.h"
 #include "base/errors.h"
 #include "mesh/delaunay.h"
+#include "mesh/thin_triangles.h"
 #include "structure/double_cover.h"
+#include "structure/guarantee.h"
 #include "structure/invariants.h"
 #include "structure/streamed_forms.h"
 
@@ -52,6 +54,7 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   const std::vector<int> fixed = mesh::boundary_vertices(triangulation.half_edges);
   mesh::make_delaunay(triangulation, execution);
   const auto weights = mesh::cotangent_weights(triangulation, execution);
+  const auto errors = mesh::energy_errors(triangulation, weights, execution.workers());
   triangulation.forget_metric();
   result.mollification = triangulation.mollification;
   result.flip_count = static_cast<int>(triangulation.flips.size());
@@ -71,7 +74,7 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   // Harmonic forms (§ 6).
   execution.stage("harmonic forms", 0.45, 0.85);
   if (!result.memory.keep_forms) {
-    measure_in_blocks(triangulation.half_edges, weights, *systems, std::move(classes), result, execution);
+    measure_in_blocks(triangulation.half_edges, weights, errors, *systems, std::move(classes), result, execution);
   } else {
     auto solved = systems ? systems->solve(classes, natural, result.memory.block, execution)
                           : solve_on_double(triangulation.half_edges, weights, classes, natural, options, execution);
@@ -79,8 +82,9 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
     result.functions.swap(solved.functions);
     result.solver = std::move(solved.solver);
     execution.stage("certificates", 0.85, 1.0);
-    complete(triangulation.half_edges, weights, classes, result, execution);
+    complete(triangulation.half_edges, weights, errors, classes, result, execution);
   }
+  require_guaranteed(result);
   execution.finish();
   result.seconds = execution.seconds();
   return result;

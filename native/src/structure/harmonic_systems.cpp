@@ -1,15 +1,8 @@
 #include "structure/harmonic_systems.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <sstream>
-#include <utility>
 
-#include "base/chunks.h"
-#include "base/errors.h"
 #include "forms/codifferential.h"
-#include "forms/harmonic_residuals.h"
 #include "forms/laplacian.h"
 #include "solver/solver_choice.h"
 
@@ -18,27 +11,6 @@ namespace {
 
 // Of the set-up, for the progress function.
 constexpr double kAssembly = 0.2;
-// Up to this weight a relative residual of 1e-10 keeps the error in energy far below kEnergyGoal.
-constexpr double kStiff = 1e3;
-constexpr int kMostRefinements = 10;
-// A step of refinement that leaves more than this part of the error was the last.
-constexpr double kLeastGain = 0.5;
-
-// Whether some weight is beyond kStiff.
-bool is_stiff(std::span<const double> weights, Workers& workers) {
-  const int count = static_cast<int>(weights.size());
-  return first_row(workers, count, [&](int e) { return !(std::abs(weights[e]) <= kStiff); }) < count;
-}
-
-// The largest sqrt(r . L^-1 r) over that of the energy.
-double energy_error(const forms::HarmonicResiduals& residuals, const solver::Solution& corrections) {
-  double worst = 0;
-  for (Eigen::Index j = 0; j < corrections.cols(); ++j) {
-    const double square = std::abs(residuals.R.col(j).dot(corrections.col(j)) / residuals.energies[j]);
-    if (!(std::sqrt(square) <= worst)) worst = std::sqrt(square);  // std::max would drop a NaN
-  }
-  return worst;
-}
 
 }  // namespace
 
@@ -61,48 +33,18 @@ void HarmonicSystems::solve_in_blocks(const topology::IntegerForms& classes, int
   for (int first = 0; first < count; first += block) {
     const int width = std::min(block, count - first);
     execution.part(static_cast<double>(first) / count, static_cast<double>(first + width) / count);
-    Block part{first, std::vector<solver::Condition>(width, solver::Condition::natural)};
+    FormBlock part{classes, first, std::vector<solver::Condition>(width, solver::Condition::natural)};
     std::fill(part.conditions.begin() + std::clamp(natural - first, 0, width), part.conditions.end(),
               solver::Condition::dirichlet);
-    take(first, solve_block(classes, part, execution));
-  }
-}
-
-forms::RowMajorMatrix HarmonicSystems::solve_block(const topology::IntegerForms& classes, const Block& block,
-                                                   Execution& execution) {
-  const int width = static_cast<int>(block.conditions.size());
-  forms::RowMajorMatrix functions =
-      solver_->solve(forms::codifferentials(half_edges_, weights_, classes, block.first, width, execution.workers()),
-                     block.conditions, execution);
-  if (is_stiff_) refine(classes, block, functions, execution);
-  return functions;
-}
-
-void HarmonicSystems::refine(const topology::IntegerForms& classes, const Block& block,
-                             forms::RowMajorMatrix& functions, Execution& execution) {
-  double error = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostRefinements; ++step) {
-    auto residuals =
-        forms::harmonic_residuals(half_edges_, weights_, classes, block.first, functions, execution.workers());
-    for (Eigen::Index j = 0; j < functions.cols(); ++j) {
-      if (block.conditions[j] == solver::Condition::dirichlet) residuals.R(fixed_, j).setZero();
+    forms::RowMajorMatrix functions =
+        solver_->solve(forms::codifferentials(half_edges_, weights_, classes, first, width, execution.workers()),
+                       part.conditions, execution);
+    if (is_stiff_) {
+      const double error = refine({half_edges_, weights_, fixed_}, part, functions, *solver_, execution);
+      energy_error_ = std::max(energy_error_, error);
     }
-    const solver::Solution corrections = solver_->solve(residuals.R, block.conditions, execution);
-    const double before = std::exchange(error, energy_error(residuals, corrections));
-    if (!(error <= kLeastGain * before)) {
-      error = std::min(error, before);
-      break;
-    }
-    functions += corrections;
-    if (error <= kEnergyGoal) break;
+    take(first, std::move(functions));
   }
-  if (!(error <= kEnergyError)) {
-    std::ostringstream message;
-    message << "the harmonic forms of a system of " << functions.rows() << " unknowns have a relative error of "
-            << error << " in energy instead of " << kEnergyError << ": triangles are too thin for double precision";
-    throw SolverError(message.str());
-  }
-  energy_error_ = std::max(energy_error_, error);
 }
 
 SolverReport HarmonicSystems::report() const {

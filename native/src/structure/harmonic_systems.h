@@ -10,6 +10,7 @@
 #include "forms/closed_forms.h"
 #include "mesh/half_edges.h"
 #include "structure/memory_plan.h"
+#include "structure/refinement.h"
 #include "structure/solver_report.h"
 
 namespace holomorph::structure {
@@ -18,10 +19,6 @@ struct HarmonicFunctions {
   forms::RowMajorMatrix functions;  ///< #V x #forms
   SolverReport solver;
 };
-
-/// Errors of forms in the energy norm, relative to the form's own: what refinement goes on to while it helps, and what
-/// is promised. Energies, and with them Gram matrices and bounds, are off by the square.
-inline constexpr double kEnergyGoal = 1e-10, kEnergyError = 1e-6;
 
 /// Set up before the classes are known. The triangulation and its weights outlive this.
 class HarmonicSystems {
@@ -34,10 +31,8 @@ class HarmonicSystems {
   /// Is given the functions of the forms first, first + 1, ..., #V x #block.
   using TakeFunctions = std::function<void(int first, forms::RowMajorMatrix&& functions)>;
 
-  /// Solves for `block` forms at a time, in order, and hands each block on. Where weights are so large that the
-  /// residual of the linear systems says nothing, the forms are refined until their error is at most kEnergyGoal of
-  /// their energy norm, |h - h_exact|^2 = r . L^-1 r with the r of forms::harmonic_residuals, or as small as the
-  /// rounding of the functions allows; kEnergyError is promised.
+  /// Solves for `block` forms at a time, in order, refines them where weights ask for it (refinement.h), and hands
+  /// each block on.
   /// @param classes on the triangulation. @param natural how many of them are; the others are Dirichlet
   /// @throws SolverError, Cancelled
   void solve_in_blocks(const topology::IntegerForms& classes, int natural, int block, Execution& execution,
@@ -49,20 +44,12 @@ class HarmonicSystems {
   SolverReport report() const;
 
  private:
-  struct Block {
-    int first;
-    std::vector<solver::Condition> conditions;
-  };
-  forms::RowMajorMatrix solve_block(const topology::IntegerForms& classes, const Block& block, Execution& execution);
-  void refine(const topology::IntegerForms& classes, const Block& block, forms::RowMajorMatrix& functions,
-              Execution& execution);
-
   const mesh::HalfEdges& half_edges_;
   std::span<const double> weights_;
   std::vector<int> fixed_;
   solver::Choice choice_;
   bool is_stiff_;
-  double energy_error_ = 0;  // largest so far, relative; of refined forms
+  double energy_error_ = 0;  // largest so far of refined forms
   std::unique_ptr<solver::LaplaceSolver> solver_;
 };
 

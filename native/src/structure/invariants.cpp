@@ -1,5 +1,7 @@
 #include "structure/invariants.h"
 
+#include "structure/guarantee.h"
+
 namespace holomorph::structure {
 namespace {
 
@@ -19,7 +21,7 @@ double largest_pairing_error(const mesh::HalfEdges& mesh, const forms::ClosedFor
 
 }  // namespace
 
-void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights, std::span<const double> errors,
               const topology::IntegerForms& classes, Structure& result, Execution& execution) {
   const Topology& topology = result.topology;
   const Families& families = topology.families;
@@ -29,6 +31,9 @@ void complete(const mesh::HalfEdges& triangulation, std::span<const double> weig
   if (families.dirichlet > 0) sizes.push_back(families.dirichlet);
   execution.part(0, 0.3);
   result.gram = forms::gram_matrices(triangulation, weights, forms, sizes, execution);
+  std::vector<Eigen::MatrixXd> uncertain;
+  if (!errors.empty()) uncertain = forms::gram_matrices(triangulation, errors, forms, sizes, execution);
+  result.certain_gram = certain_gram(result.gram, uncertain);
   execution.part(0.3, 1);
   result.certificate.residuals = forms::residuals(triangulation, weights, forms, execution, families.natural,
                                                   mesh::boundary_vertices(topology.boundary));
@@ -45,8 +50,8 @@ void set_holomorphic_basis(Structure& result) {
   const Topology& topology = result.topology;
   result.holomorphic =
       topology.families.dirichlet > 0
-          ? conformal::bounded_basis(result.gram[0], result.gram[1], topology.pairing, topology.type.genus)
-          : conformal::closed_basis(result.gram[0], topology.pairing, topology.canonical);
+          ? conformal::bounded_basis(result.gram, result.certain_gram, topology.pairing, topology.type.genus)
+          : conformal::closed_basis(result.gram[0], result.certain_gram[0], topology.pairing, topology.canonical);
   result.differentials = result.holomorphic.differentials;
 }
 

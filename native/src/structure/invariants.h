@@ -11,11 +11,13 @@ namespace holomorph::structure {
 /// What follows from the harmonic forms: Gram matrices, star, holomorphic basis, period matrix (paper § 7, Eq. 13), and
 /// the certificate.
 /// @param triangulation,weights,classes what was solved on, and the classes there
+/// @param errors mesh::energy_errors of the weights, or none
 /// @param result with its topology and functions
-void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+/// @throws SolverError
+void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights, std::span<const double> errors,
               const topology::IntegerForms& classes, Structure& result, Execution& execution);
 
-/// The star, the holomorphic basis and the period matrix from the Gram matrices alone.
+/// The star, the holomorphic basis and the period matrix from the Gram matrices alone. @throws SolverError
 void set_holomorphic_basis(Structure& result);
 
 }  // namespace holomorph::structure

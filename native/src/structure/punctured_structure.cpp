@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "mesh/intrinsic_triangulation.h"
+#include "mesh/thin_triangles.h"
+#include "structure/guarantee.h"
 #include "structure/harmonic_systems.h"
 #include "structure/invariants.h"
 
@@ -49,7 +51,7 @@ forms::Poles poles_of(const Structure& s, const mesh::HalfEdges& half_edges, std
 
 // The harmonic functions, and how much of each form the differentials of the poles have.
 void add_harmonic(const mesh::HalfEdges& half_edges, const Array<double>& weights, const forms::Poles& poles,
-                  HarmonicSystems& systems, Structure& s, Execution& execution) {
+                  const Array<double>& errors, HarmonicSystems& systems, Structure& s, Execution& execution) {
   const int natural = s.topology.families.natural;
   s.functions.resize(s.surface->vertex_count, 0);
   s.pole_parts.resize(0, s.topology.families.poles);
@@ -57,7 +59,7 @@ void add_harmonic(const mesh::HalfEdges& half_edges, const Array<double>& weight
   const auto classes =
       harmonic_classes(s.topology, half_edges, topology::first_forms(s.topology.classes, natural, natural));
   s.functions = systems.solve(classes, natural, s.memory.block, execution).functions;
-  complete(half_edges, weights, classes, s, execution);
+  complete(half_edges, weights, errors, classes, s, execution);
   forms::ClosedForms own{s.topology.classes, {}};
   own.functions.swap(s.functions);
   s.pole_parts = forms::harmonic_part(half_edges, poles, own, s.gram[0]);
@@ -161,13 +163,14 @@ PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> given, P
 
   execution.stage("solver", 0.25, 0.4);
   made.weights = mesh::cotangent_weights(triangulation, execution);
+  made.errors = mesh::energy_errors(triangulation, made.weights, execution.workers());
   made.poles = poles_of(result, made.half_edges, triangulation.lengths, made.weights);
   return made;
 }
 
 Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctures punctures, const Options& options,
                               Execution& execution) {
-  auto [result, half_edges, weights, poles] = punctured_surface(std::move(given), std::move(punctures), execution);
+  auto [result, half_edges, weights, errors, poles] = punctured_surface(std::move(given), std::move(punctures), execution);
   const mesh::Surface& surface = *result.surface;
   const Families& families = result.topology.families;
   const auto fixed = mesh::boundary_vertices(result.topology.boundary);
@@ -179,7 +182,7 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
   const auto third = forms::pole_functions(half_edges, weights, poles, systems.solver(), fixed, execution);
 
   execution.stage("harmonic forms", 0.6, 0.9);
-  add_harmonic(half_edges, weights, poles, systems, result, execution);
+  add_harmonic(half_edges, weights, poles, errors, systems, result, execution);
   result.solver = systems.report();
 
   execution.stage("certificates", 0.9, 1.0);
@@ -189,6 +192,7 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
   basis.functions.swap(result.functions);
   certify(basis, third.harmonicity, result);
   result.functions.swap(basis.functions);
+  require_guaranteed(result);
   execution.finish();
   result.seconds = execution.seconds();
   return result;

@@ -13,6 +13,7 @@ struct PuncturedSurface {
   Structure structure;         ///< surface, topology, punctures and stars
   mesh::HalfEdges half_edges;  ///< of the surface with its diagonals flipped
   Array<double> weights;       ///< #E
+  Array<double> errors;        ///< mesh::energy_errors
   forms::Poles poles;
 };
 

@@ -3,18 +3,23 @@
 #include <algorithm>
 
 #include "forms/codifferential.h"
+#include "structure/guarantee.h"
 #include "structure/invariants.h"
 #include "uv/balance.h"
 
 namespace holomorph::structure {
 
-void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const double> weights, HarmonicSystems& systems,
+void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+                       std::span<const double> errors, HarmonicSystems& systems,
                        topology::IntegerForms&& classes, Structure& result, Execution& execution) {
   const int n = classes.form_count;
   const mesh::Surface& surface = *result.surface;
   Certificate& certificate = result.certificate;
   forms::ClosedForms solved{std::move(classes), {}}, on_surface{result.topology.classes, {}};
   Eigen::MatrixXd G(n, n);
+  std::vector<Eigen::MatrixXd> uncertain;
+  if (!errors.empty()) uncertain = {Eigen::MatrixXd::Zero(n, n)};
+  const int blocks = (n + result.memory.block - 1) / result.memory.block;
   result.samples.triangles = uv::sample_triangles(surface);
   result.samples.on_sides.resize(2 * static_cast<Eigen::Index>(result.samples.triangles.size()), n);
   const auto measure = [&](int first, forms::RowMajorMatrix&& functions) {
@@ -22,6 +27,11 @@ void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const dou
     solved.first = on_surface.first = first;
     solved.functions.swap(functions);
     G.middleCols(first, width) = forms::class_products(triangulation, weights, solved.classes, solved);
+    // A positive matrix is at most the number of its diagonal blocks times these.
+    if (!errors.empty()) {
+      uncertain[0].block(first, first, width, width) =
+          blocks * forms::gram_matrices(triangulation, errors, solved, {static_cast<int>(width)}, execution)[0];
+    }
     const auto [closedness, harmonicity] =
         forms::residuals(triangulation, weights, solved, execution, static_cast<int>(width), {});
     certificate.residuals.closedness = std::max(certificate.residuals.closedness, closedness);
@@ -36,6 +46,7 @@ void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const dou
   result.solver = systems.report();
   certificate.asymmetry = (G - G.transpose()).cwiseAbs().maxCoeff() / G.cwiseAbs().maxCoeff();
   result.gram = {(G + G.transpose()) / 2};
+  result.certain_gram = certain_gram(result.gram, uncertain);
   set_holomorphic_basis(result);
 }
 

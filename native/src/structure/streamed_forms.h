@@ -13,7 +13,8 @@ namespace holomorph::structure {
 /// the Gram matrix from <eta_i, h_j>, the certificate, and the samples that the balance needs are left.
 /// @param triangulation,weights,classes what is solved on, and the classes there
 /// Memory: that of the plan. @throws SolverError, Cancelled
-void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const double> weights, HarmonicSystems& systems,
+void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+                       std::span<const double> errors, HarmonicSystems& systems,
                        topology::IntegerForms&& classes, Structure& result, Execution& execution);
 
 }  // namespace holomorph::structure

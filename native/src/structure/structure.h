@@ -43,6 +43,7 @@ struct Structure {
   Eigen::MatrixXd pole_parts;
 
   std::vector<Eigen::MatrixXd> gram;        ///< of the natural and, with boundary, of the Dirichlet forms
+  std::vector<Eigen::MatrixXd> certain_gram;  ///< the same with what rounding may have taken from them; for the bounds
   conformal::HolomorphicBasis holomorphic;  ///< of the natural and Dirichlet forms
 
   Certificate certificate;

@@ -65,7 +65,7 @@ void Landscape::solve(const structure::Options& options, Execution& execution) {
     const auto classes =
         structure::harmonic_classes(topology, half_edges_, topology::first_forms(topology.classes, natural, natural));
     structure_.functions = systems_->solve(classes, natural, structure_.memory.block, execution).functions;
-    structure::complete(half_edges_, weights_, classes, structure_, execution);
+    structure::complete(half_edges_, weights_, {}, classes, structure_, execution);
     harmonic_.functions.swap(structure_.functions);
     const auto values = uv::values_on_sides(surface(), *sides_, harmonic_, samples_);
     holomorphic_ = uv::sampled_parts(surface(), {samples_, values}, structure_.differentials);

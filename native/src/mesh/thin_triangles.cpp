@@ -1,0 +1,99 @@
+#include "mesh/thin_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/chunks.h"
+#include "base/double_double.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::mesh {
+namespace {
+
+// Half a unit in the last place. A length is right to 2.5 of these, an energy's rounding is some 4 of its terms.
+constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kOfLength = 2.5 * kRounding, kOfTerm = 4 * kRounding;
+
+std::array<double, 3> sides_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
+  return {t.lengths[edge_of(h)], t.lengths[edge_of(h1)], t.lengths[edge_of(h2)]};
+}
+
+bool is_thin_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
+  return is_thin(t.cotangents[h.idx()], t.cotangents[h1.idx()], t.cotangents[h2.idx()]);
+}
+
+// cotangent() opposite h, of the lengths as they are.
+DoubleDouble sharp_cotangent(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  const auto [a, b, c] = sides_at(t, h);
+  const DoubleDouble others = exact_sum(b, c), apart = exact_sum(b, -c), whole{a};
+  const DoubleDouble area = (whole + others) * (others - whole) * (whole - apart) * (whole + apart);  // 16 A^2
+  if (!(area.high > 0)) return {t.cotangents[h.idx()]};
+  const DoubleDouble above = exact_sum(b, -a) * exact_sum(b, a) + exact_product(c, c);
+  return above / sqrt(area);
+}
+
+double error_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  return t.metric_errors[t.half_edges.face_handle(h).idx()];
+}
+
+}  // namespace
+
+// A length l_i that is off by delta_i changes the metric by 2 l_i delta_i |grad lambda_j| |grad lambda_k|, the lengths
+// of these gradients l_k / 2A and l_j / 2A.
+MetricError metric_error(const std::array<double, 3>& sides) {
+  const auto [a, b, c] = sides;
+  const double bound = kOfLength * a * b * c * (a + b + c) / 2, area = triangle_area(a, b, c);
+  return bound < area * area ? MetricError{bound / (area * area), area} : MetricError{1, std::sqrt(bound)};
+}
+
+void set_metric_errors(IntrinsicTriangulation& t, Workers& workers) {
+  t.metric_errors.resize(t.half_edges.n_faces());
+  for_rows(workers, static_cast<int>(t.metric_errors.size()), [&t](int f) {
+    t.metric_errors[f] = metric_error(sides_at(t, t.half_edges.halfedge_handle(FaceHandle(f)))).relative;
+  });
+}
+
+MetricError face_error(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  return {error_at(t, h), metric_error(sides_at(t, h)).area};
+}
+
+void mix_metric_errors(IntrinsicTriangulation& t, HalfedgeHandle h, const std::array<MetricError, 2>& before) {
+  const auto& [first, second] = before;
+  const double mean =
+      (first.relative * first.area + second.relative * second.area) / (first.area + second.area);
+  for (const HalfedgeHandle side : {h, opposite(h)}) {
+    const double own = metric_error(sides_at(t, side)).relative;
+    t.metric_errors[t.half_edges.face_handle(side).idx()] = std::min(1.0, mean + own);
+  }
+}
+
+void sharpen_weights(const IntrinsicTriangulation& t, Array<double>& weights, Workers& workers) {
+  for_rows(workers, static_cast<int>(weights.size()), [&](int e) {
+    bool thin = false;
+    DoubleDouble sum;
+    for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
+      if (t.half_edges.is_boundary(h)) continue;
+      const bool thin_here = is_thin_at(t, h);
+      thin = thin || thin_here;
+      sum = sum + (thin_here ? sharp_cotangent(t, h) : DoubleDouble{t.cotangents[h.idx()]});
+    }
+    if (thin) weights[e] = 0.5 * sum.value();
+  });
+}
+
+Array<double> energy_errors(const IntrinsicTriangulation& t, const Array<double>& weights, Workers& workers) {
+  if (t.metric_errors.empty() || t.mollification > 0) return {};
+  Array<double> errors(weights.size());
+  for_rows(workers, static_cast<int>(errors.size()), [&](int e) {
+    errors[e] = kOfTerm * std::abs(weights[e]);
+    for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
+      if (!t.half_edges.is_boundary(h)) errors[e] += 0.5 * error_at(t, h) * t.cotangents[h.idx()];
+    }
+  });
+  return errors;
+}
+
+}  // namespace holomorph::mesh
