@@ -25,8 +25,9 @@ bool is_thin_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
   return is_thin(t.cotangents[h.idx()], t.cotangents[h1.idx()], t.cotangents[h2.idx()]);
 }
 
-// cotangent() opposite h, of the lengths as they are.
+// The cotangent opposite h; in a thin triangle to all digits, of the lengths as they are.
 DoubleDouble sharp_cotangent(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  if (!is_thin_at(t, h)) return {t.cotangents[h.idx()]};
   const auto [a, b, c] = sides_at(t, h);
   const DoubleDouble others = exact_sum(b, c), apart = exact_sum(b, -c), whole{a};
   const DoubleDouble area = (whole + others) * (others - whole) * (whole - apart) * (whole + apart);  // 16 A^2
@@ -76,9 +77,8 @@ void sharpen_weights(const IntrinsicTriangulation& t, Array<double>& weights, Wo
     DoubleDouble sum;
     for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
       if (t.half_edges.is_boundary(h)) continue;
-      const bool thin_here = is_thin_at(t, h);
-      thin = thin || thin_here;
-      sum = sum + (thin_here ? sharp_cotangent(t, h) : DoubleDouble{t.cotangents[h.idx()]});
+      thin = thin || is_thin_at(t, h);
+      sum = sum + sharp_cotangent(t, h);
     }
     if (thin) weights[e] = 0.5 * sum.value();
   });
@@ -90,7 +90,7 @@ Array<double> energy_errors(const IntrinsicTriangulation& t, const Array<double>
   for_rows(workers, static_cast<int>(errors.size()), [&](int e) {
     errors[e] = kOfTerm * std::abs(weights[e]);
     for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
-      if (!t.half_edges.is_boundary(h)) errors[e] += 0.5 * error_at(t, h) * t.cotangents[h.idx()];
+      if (!t.half_edges.is_boundary(h)) errors[e] += 0.5 * error_at(t, h) * sharp_cotangent(t, h).value();
     }
   });
   return errors;

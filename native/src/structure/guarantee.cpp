@@ -30,6 +30,7 @@ std::vector<Eigen::MatrixXd> certain_gram(const std::vector<Eigen::MatrixXd>& gr
 }
 
 void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper) {
+  if (lower.size() == 0) return;
   if (!lower.allFinite() || !upper.allFinite()) throw SolverError("the bounds of the conformal invariants are not finite");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> width(upper - lower, Eigen::EigenvaluesOnly);
   const double crossing = -width.eigenvalues().minCoeff() / upper.norm();

@@ -1,0 +1,141 @@
+"""Triangles of aspects up to 1e12: forms to what is promised, or an error, and bounds that hold."""
+
+import equivalence
+import families
+import numpy as np
+import pytest
+from holomorph import SolverError, Surface, conformal_structure
+from test_degenerate import square_with
+
+ROUNDING = 1e-13  # of a flat surface's modulus, in any triangulation
+SOLVERS = [{"solver": "direct"}, {"solver": "multigrid"}, {"solver": "direct", "boundary": "double_cover"}]
+every_solver = pytest.mark.parametrize("options", SOLVERS, ids=lambda options: " ".join(options.values()))
+
+
+def layout(n, m, width, jitter=0.0, cut="random", seed=0, straight=False):
+    """Of a strip 1 long and `width` high as n x m quads, cut along diagonals of any direction: the vertices' grid
+    indices (#T, 3, 2) and their positions in the plane. The vertices between the two sides are moved up and down, if
+    not `straight`; those of each row along by `jitter` of a step."""
+    noise = np.random.default_rng(seed).uniform(-0.4, 0.4, (2, n, m + 1))
+    inner = (np.arange(m + 1) > 0) & (np.arange(m + 1) < m) & (not straight)
+    u = (np.arange(n)[:, None] + jitter * noise[0]) / n
+    v = (np.arange(m + 1) + 0.8 * inner * noise[1]) * width / m
+    i, j = np.divmod(np.arange(n * m), m)
+    a, b, c, d = (np.stack([i + x, j + y], axis=1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    flipped = (cut == "random") * np.random.default_rng(seed).integers(2, size=n * m)[:, None, None] > 0
+    grid = np.stack(
+        [np.where(flipped, np.stack(p, 1), np.stack(q, 1)) for p, q in (([a, b, d], [a, b, c]), ([b, c, d], [a, c, d]))], 1
+    ).reshape(-1, 3, 2)
+    wrapped = grid[..., 0] % n, grid[..., 1]
+    return grid, np.stack([u[wrapped] + (grid[..., 0] == n), v[wrapped]], axis=-1)
+
+
+def glued(faces, corners):
+    """An intrinsic surface of triangles laid out in the plane, (#T, 3, 2)."""
+    sides = np.roll(corners, -1, axis=1) - np.roll(corners, -2, axis=1)
+    return Surface.from_edge_lengths(faces, np.hypot(*np.moveaxis(sides, -1, 0)))
+
+
+def ring(width, m=3, **keywords):
+    """A flat ribbon closed to a ring around 1: its modulus is its width."""
+    grid, corners = layout(24, m, width, **keywords)
+    return glued(grid[..., 0] % 24 * (m + 1) + grid[..., 1], corners)
+
+
+def holds(bounds, value):
+    lower, upper = bounds
+    return lower - ROUNDING * value <= value <= upper + ROUNDING * value
+
+
+# ---- rings ---------------------------------------------------------------------------------------------------------
+
+
+@every_solver
+@pytest.mark.parametrize("cut", ["random", "one way"])
+@pytest.mark.parametrize("m", [1, 3])
+@pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-5, 1e-6, 1e-7])
+def test_the_modulus_of_a_ring_of_right_triangles(width, m, cut, options):
+    """Weights of a / b and b / a side by side, a / b up to 1e6."""
+    structure = conformal_structure(ring(width, m, cut=cut), **options)
+    assert abs(structure.modulus / width - 1) < ROUNDING
+    assert holds(structure.modulus_bounds, width)
+    assert np.ptp(structure.modulus_bounds) < 1e-15
+    assert structure.solver.residual < 1e-7
+
+
+@every_solver
+@pytest.mark.parametrize("m", [1, 3])
+@pytest.mark.parametrize("width", [1e-2, 1e-3, 1e-4, 1e-5, 1e-6])
+def test_the_modulus_of_a_ring_of_obtuse_triangles(width, m, options):
+    """Rounded lengths leave open the square of the aspect."""
+    for seed in range(5):
+        structure = conformal_structure(ring(width, m, jitter=1.0, seed=seed), **options)
+        assert holds(structure.modulus_bounds, width)
+        assert np.ptp(structure.modulus_bounds) < width * max(ROUNDING, 1e-16 / width**2)
+
+
+@every_solver
+@pytest.mark.parametrize("width", [1e-8, 3e-9, 1e-9, 1e-10, 1e-11])
+def test_what_cannot_be_solved_is_refused(width, options):
+    """At 1e-8 the modulus was too large by a factor of 5.7, with a residual of 5e-15."""
+    for seed in range(5):
+        try:
+            structure = conformal_structure(ring(width, seed=seed), **options)
+        except SolverError as error:
+            assert "unknowns" in str(error) or "rounding" in str(error)
+            continue
+        assert width > 1e-9
+        assert abs(structure.modulus / width - 1) < 1e-9
+        assert holds(structure.modulus_bounds, width)
+
+
+@pytest.mark.parametrize("height", [1e-3, 1e-5, 1e-7])
+def test_prisms(height):
+    """In space."""
+    mesh = families.cylinder(24, 3)
+    vertices = mesh.vertices * [1, 1, height / np.ptp(mesh.vertices[:, 2])]
+    structure = conformal_structure(Surface(vertices, mesh.corners.reshape(-1, 4)))
+    modulus = height / (2 * 24 * np.sin(np.pi / 24))
+    assert abs(structure.modulus / modulus - 1) < 1e-7
+    assert holds(structure.modulus_bounds, modulus)
+
+
+@pytest.mark.parametrize("solver", ["direct", "multigrid"])
+@pytest.mark.parametrize("threads", [1, 2, 4])
+def test_bits_do_not_depend_on_the_threads(solver, threads):
+    surface = ring(1e-5, 40, jitter=0.5)
+    one, other = (conformal_structure(surface, solver=solver, threads=k) for k in (1, threads))
+    assert one.modulus_bounds == other.modulus_bounds
+    assert one.natural_forms.tobytes() == other.natural_forms.tobytes()
+
+
+# ---- needles -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("angle", [0.8, 1.0, 1.3, 1.5])
+@pytest.mark.parametrize("length", [1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 2e-12, 1e-12])
+def test_needles_in_a_square(length, angle):
+    """At 1e-9 the bounds crossed by 2e-9, at 1e-12 by 1e-6."""
+    _, square = square_with(lambda a, _: a + length * np.array([np.cos(angle), np.sin(angle), 0]))
+    lower, upper = square.modulus_bounds
+    assert lower - ROUNDING <= 1 <= upper + ROUNDING
+    assert upper - lower < length  # of the order of the error of interpolation
+
+
+# ---- tori ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("solver", ["direct", "multigrid"])
+@pytest.mark.parametrize("thinnest", [1e-2, 1e-4, 1e-6, 1e-8])
+def test_a_square_torus_with_a_thin_row(thinnest, solver):
+    """Im tau is the inverse of an integer in every basis."""
+    n, m = 12, 6
+    grid, corners = layout(n, m, 1.0, straight=True)
+    corners[..., 1] = np.append(np.linspace(0, 1 - thinnest, m), 1.0)[grid[..., 1]]
+    torus = conformal_structure(glued(grid[..., 0] % n * m + grid[..., 1] % m, corners), solver=solver)
+    omega = torus.period_matrix[0, 0]
+    imaginary = 1 / np.rint(1 / omega.imag)
+    assert equivalence.distance(torus.period_matrix, np.array([[1j]])) < ROUNDING / thinnest
+    lower, upper = (bound[0, 0] for bound in torus.period_bounds)
+    assert lower - ROUNDING <= imaginary <= upper + ROUNDING
+    assert upper - lower < max(ROUNDING, 1e-15 / thinnest)
