@@ -24,7 +24,11 @@ def layout(n, m, width, jitter=0.0, cut="random", seed=0, straight=False):
     a, b, c, d = (np.stack([i + x, j + y], axis=1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
     flipped = (cut == "random") * np.random.default_rng(seed).integers(2, size=n * m)[:, None, None] > 0
     grid = np.stack(
-        [np.where(flipped, np.stack(p, 1), np.stack(q, 1)) for p, q in (([a, b, d], [a, b, c]), ([b, c, d], [a, c, d]))], 1
+        [
+            np.where(flipped, np.stack(p, 1), np.stack(q, 1))
+            for p, q in (([a, b, d], [a, b, c]), ([b, c, d], [a, c, d]))
+        ],
+        1,
     ).reshape(-1, 3, 2)
     wrapped = grid[..., 0] % n, grid[..., 1]
     return grid, np.stack([u[wrapped] + (grid[..., 0] == n), v[wrapped]], axis=-1)

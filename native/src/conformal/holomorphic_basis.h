@@ -30,8 +30,8 @@ HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const Eigen::MatrixXd& c
 /// Of a surface with boundary, n = 2g + b - 1, the genus of the double. theta_i = h^N_i + i sum_j C#_ij h^D_j: real
 /// combinations of these are holomorphic forms whose imaginary part vanishes along the boundary, so that each loop
 /// becomes a straight line. Omega is that of the double, (i/2) Cap# on planar surfaces.
-/// @param gram n x n each, G_N and G_D of the natural and the Dirichlet forms: first those of the 2g handle classes, the
-/// same in both families, then those of the b - 1 loops
+/// @param gram n x n each, G_N and G_D of the natural and the Dirichlet forms: first those of the 2g handle classes,
+/// the same in both families, then those of the b - 1 loops
 /// @param certain as in closed_basis
 /// @param W n x n, W_ij = int h^N_i ^ h^D_j
 HolomorphicBasis bounded_basis(const std::vector<Eigen::MatrixXd>& gram, const std::vector<Eigen::MatrixXd>& certain,

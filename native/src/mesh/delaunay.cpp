@@ -110,7 +110,8 @@ class Flipper {
   void flip(int e) {
     const HalfedgeHandle a(2 * e), b(2 * e + 1);
     const bool has_errors = !t_.metric_errors.empty();
-    const std::array<MetricError, 2> errors = has_errors ? std::array{face_error(t_, a), face_error(t_, b)} : std::array<MetricError, 2>();
+    const std::array<MetricError, 2> errors =
+        has_errors ? std::array{face_error(t_, a), face_error(t_, b)} : std::array<MetricError, 2>();
     const double flipped_length = new_length(a, b);
     const HalfedgeHandle a1 = next(mesh_, a), a2 = next(mesh_, a1), b1 = next(mesh_, b), b2 = next(mesh_, b1);
     flip_links(mesh_, EdgeHandle(e));

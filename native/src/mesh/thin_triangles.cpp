@@ -63,8 +63,7 @@ MetricError face_error(const IntrinsicTriangulation& t, HalfedgeHandle h) {
 
 void mix_metric_errors(IntrinsicTriangulation& t, HalfedgeHandle h, const std::array<MetricError, 2>& before) {
   const auto& [first, second] = before;
-  const double mean =
-      (first.relative * first.area + second.relative * second.area) / (first.area + second.area);
+  const double mean = (first.relative * first.area + second.relative * second.area) / (first.area + second.area);
   for (const HalfedgeHandle side : {h, opposite(h)}) {
     const double own = metric_error(sides_at(t, side)).relative;
     t.metric_errors[t.half_edges.face_handle(side).idx()] = std::min(1.0, mean + own);

@@ -33,8 +33,8 @@ DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<c
     topology::IntegerForms no_classes;
     no_classes.rows.resize(weights.size());
     const std::vector<solver::Condition> conditions(values.cols(), solver::Condition::dirichlet);
-    result.solver.residual = structure::refine({half_edges, weights, fixed}, {no_classes, 0, conditions}, functions,
-                                               *solver, execution);
+    result.solver.residual =
+        structure::refine({half_edges, weights, fixed}, {no_classes, 0, conditions}, functions, *solver, execution);
   }
   result.functions = functions;
   Eigen::MatrixXd flux = L * result.functions;

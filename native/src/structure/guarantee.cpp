@@ -23,7 +23,8 @@ std::vector<Eigen::MatrixXd> certain_gram(const std::vector<Eigen::MatrixXd>& gr
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> parts(errors[i], gram[i], Eigen::EigenvaluesOnly);
     const double most = parts.info() == Eigen::Success ? parts.eigenvalues().maxCoeff() : 1;
-    if (!(most <= kMostUncertain)) refuse("rounding may change the energies of harmonic forms by", most, kMostUncertain);
+    if (!(most <= kMostUncertain))
+      refuse("rounding may change the energies of harmonic forms by", most, kMostUncertain);
     result[i] += errors[i];
   }
   return result;
@@ -31,7 +32,8 @@ std::vector<Eigen::MatrixXd> certain_gram(const std::vector<Eigen::MatrixXd>& gr
 
 void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper) {
   if (lower.size() == 0) return;
-  if (!lower.allFinite() || !upper.allFinite()) throw SolverError("the bounds of the conformal invariants are not finite");
+  if (!lower.allFinite() || !upper.allFinite())
+    throw SolverError("the bounds of the conformal invariants are not finite");
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> width(upper - lower, Eigen::EigenvaluesOnly);
   const double crossing = -width.eigenvalues().minCoeff() / upper.norm();
   if (!(crossing <= kCertain)) refuse("the bounds of the conformal invariants cross by", crossing, kCertain);

@@ -170,7 +170,8 @@ PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> given, P
 
 Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctures punctures, const Options& options,
                               Execution& execution) {
-  auto [result, half_edges, weights, errors, poles] = punctured_surface(std::move(given), std::move(punctures), execution);
+  auto [result, half_edges, weights, errors, poles] =
+      punctured_surface(std::move(given), std::move(punctures), execution);
   const mesh::Surface& surface = *result.surface;
   const Families& families = result.topology.families;
   const auto fixed = mesh::boundary_vertices(result.topology.boundary);

@@ -10,8 +10,8 @@
 namespace holomorph::structure {
 
 void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const double> weights,
-                       std::span<const double> errors, HarmonicSystems& systems,
-                       topology::IntegerForms&& classes, Structure& result, Execution& execution) {
+                       std::span<const double> errors, HarmonicSystems& systems, topology::IntegerForms&& classes,
+                       Structure& result, Execution& execution) {
   const int n = classes.form_count;
   const mesh::Surface& surface = *result.surface;
   Certificate& certificate = result.certificate;

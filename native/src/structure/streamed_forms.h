@@ -14,7 +14,7 @@ namespace holomorph::structure {
 /// @param triangulation,weights,classes what is solved on, and the classes there
 /// Memory: that of the plan. @throws SolverError, Cancelled
 void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const double> weights,
-                       std::span<const double> errors, HarmonicSystems& systems,
-                       topology::IntegerForms&& classes, Structure& result, Execution& execution);
+                       std::span<const double> errors, HarmonicSystems& systems, topology::IntegerForms&& classes,
+                       Structure& result, Execution& execution);
 
 }  // namespace holomorph::structure

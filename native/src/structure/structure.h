@@ -42,9 +42,9 @@ struct Structure {
   /// #natural x #poles: C, with omega_i = d(u_i - sum_j C_ji h_j) + i dv_i
   Eigen::MatrixXd pole_parts;
 
-  std::vector<Eigen::MatrixXd> gram;        ///< of the natural and, with boundary, of the Dirichlet forms
+  std::vector<Eigen::MatrixXd> gram;          ///< of the natural and, with boundary, of the Dirichlet forms
   std::vector<Eigen::MatrixXd> certain_gram;  ///< the same with what rounding may have taken from them; for the bounds
-  conformal::HolomorphicBasis holomorphic;  ///< of the natural and Dirichlet forms
+  conformal::HolomorphicBasis holomorphic;    ///< of the natural and Dirichlet forms
 
   Certificate certificate;
   SolverReport solver;
