@@ -58,8 +58,9 @@ def conformal_structure(
     one with punctures, DiskMap or RectangleMap (for three boundary edges TriangleMap) of a disk
 
     Raises TopologyError for several components, and for punctures, residues or corners that do not fit; SolverError if
-    neither a residual of 1e-10 nor, among slivers, the level of rounding is reached, or memory runs out, or
-    `memory_limit` does not hold two right-hand sides (names the bytes that would); Cancelled.
+    neither a residual of 1e-10 nor, among thin triangles, an error of 1e-6 in energy is reached, or rounding leaves no
+    digit of the invariants, or memory runs out, or `memory_limit` does not hold two right-hand sides (names the bytes
+    that would); Cancelled.
 
     Cost: 2n solves of the Laplacian for n complex forms (n = g closed, 2g + b - 1 with boundary), after one
     factorisation or the set-up of multigrid; 2 n #V numbers of memory.

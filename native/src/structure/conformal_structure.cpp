@@ -71,8 +71,7 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   topology::pull_back(triangulation.flips, classes);
   classes = harmonic_classes(result.topology, triangulation.half_edges, classes);
 
-  // Harmonic forms (§ 6).
-  execution.stage("harmonic forms", 0.45, 0.85);
+  execution.stage("harmonic forms", 0.45, 0.85);  // § 6
   if (!result.memory.keep_forms) {
     measure_in_blocks(triangulation.half_edges, weights, errors, *systems, std::move(classes), result, execution);
   } else {
