@@ -113,6 +113,7 @@ Eigen::Matrix2d gram_matrix_of_two(const HalfEdges& mesh, std::span<const double
         slots[slot].setZero();
         Row<2> value;
         for (int e = begin; e < end; ++e) {
+          if (weights[e] == 0) continue;
           value.setZero();
           add_along<2>(mesh, forms, HalfedgeHandle(2 * e), 1.0, value);
           slots[slot].noalias() += value.transpose() * (weights[e] * value);
@@ -179,8 +180,12 @@ std::vector<Eigen::MatrixXd> gram_matrices(const HalfEdges& mesh, std::span<cons
   for_blocks(
       weights.size(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
-        const RowMajorMatrix values = edge_values(mesh, forms, begin, end);
         const auto k = Eigen::Map<const Eigen::VectorXd>(weights.data() + begin, end - begin);
+        if ((k.array() == 0).all()) {
+          for (Eigen::MatrixXd& matrix : slots[slot]) matrix.setZero();
+          return;
+        }
+        const RowMajorMatrix values = edge_values(mesh, forms, begin, end);
         int first = 0;
         for (std::size_t i = 0; i < families.size(); first += families[i++]) {
           const auto h = values.middleCols(first, families[i]);

@@ -12,7 +12,8 @@
 namespace holomorph::forms {
 
 /// G_ij = sum_e k_e h_i(e) h_j(e), exactly the L2 products of the piecewise constant forms, within each family of
-/// forms. Summed in a fixed order of blocks of edges, so the bits do not depend on the number of threads.
+/// forms. Summed in a fixed order of blocks of edges, so the bits do not depend on the number of threads. Blocks
+/// without weights cost nothing.
 /// @param families numbers of forms of consecutive families. @return a matrix for each
 std::vector<Eigen::MatrixXd> gram_matrices(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                            const ClosedForms& forms, const std::vector<int>& families,

@@ -109,7 +109,7 @@ class Flipper {
 
   void flip(int e) {
     const HalfedgeHandle a(2 * e), b(2 * e + 1);
-    const bool has_errors = !t_.metric_errors.empty();
+    const bool has_errors = has_metric_error(t_, a);
     const std::array<MetricError, 2> errors =
         has_errors ? std::array{face_error(t_, a), face_error(t_, b)} : std::array<MetricError, 2>();
     const double flipped_length = new_length(a, b);

@@ -23,7 +23,8 @@ struct IntrinsicTriangulation {
   double mollification = 0;  ///< added to some lengths, in their unit; with 0 the metric is that of the surface
   bool degenerate = false;   ///< whether some triangle of the surface is, and none has been mollified
 
-  /// #F where some triangle of the surface is thin, else none: by how much rounding may change energies on each.
+  /// #F where some triangle of the surface is thin, else none: by how much rounding may change energies on each, 0
+  /// where that is negligible.
   Array<double> metric_errors;
 
   /// Frees what only the weights need.

@@ -20,24 +20,19 @@ std::array<double, 3> sides_at(const IntrinsicTriangulation& t, HalfedgeHandle h
   return {t.lengths[edge_of(h)], t.lengths[edge_of(h1)], t.lengths[edge_of(h2)]};
 }
 
-bool is_thin_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
-  const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
-  return is_thin(t.cotangents[h.idx()], t.cotangents[h1.idx()], t.cotangents[h2.idx()]);
+double error_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  return t.half_edges.is_boundary(h) ? 0.0 : t.metric_errors[t.half_edges.face_handle(h).idx()];
 }
 
-// The cotangent opposite h; in a thin triangle to all digits, of the lengths as they are.
+// The cotangent opposite h; in a triangle with an error to all digits, of the lengths as they are.
 DoubleDouble sharp_cotangent(const IntrinsicTriangulation& t, HalfedgeHandle h) {
-  if (!is_thin_at(t, h)) return {t.cotangents[h.idx()]};
+  if (!(error_at(t, h) > 0)) return {t.cotangents[h.idx()]};
   const auto [a, b, c] = sides_at(t, h);
   const DoubleDouble others = exact_sum(b, c), apart = exact_sum(b, -c), whole{a};
   const DoubleDouble area = (whole + others) * (others - whole) * (whole - apart) * (whole + apart);  // 16 A^2
   if (!(area.high > 0)) return {t.cotangents[h.idx()]};
   const DoubleDouble above = exact_sum(b, -a) * exact_sum(b, a) + exact_product(c, c);
   return above / sqrt(area);
-}
-
-double error_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
-  return t.metric_errors[t.half_edges.face_handle(h).idx()];
 }
 
 }  // namespace
@@ -53,8 +48,15 @@ MetricError metric_error(const std::array<double, 3>& sides) {
 void set_metric_errors(IntrinsicTriangulation& t, Workers& workers) {
   t.metric_errors.resize(t.half_edges.n_faces());
   for_rows(workers, static_cast<int>(t.metric_errors.size()), [&t](int f) {
-    t.metric_errors[f] = metric_error(sides_at(t, t.half_edges.halfedge_handle(FaceHandle(f)))).relative;
+    const HalfedgeHandle h = t.half_edges.halfedge_handle(FaceHandle(f)), h1 = next(t.half_edges, h),
+                         h2 = next(t.half_edges, h1);
+    const bool thin = is_thin(t.cotangents[h.idx()], t.cotangents[h1.idx()], t.cotangents[h2.idx()]);
+    t.metric_errors[f] = thin ? metric_error(sides_at(t, h)).relative : 0.0;
   });
+}
+
+bool has_metric_error(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+  return !t.metric_errors.empty() && (error_at(t, h) > 0 || error_at(t, opposite(h)) > 0);
 }
 
 MetricError face_error(const IntrinsicTriangulation& t, HalfedgeHandle h) {
@@ -72,14 +74,8 @@ void mix_metric_errors(IntrinsicTriangulation& t, HalfedgeHandle h, const std::a
 
 void sharpen_weights(const IntrinsicTriangulation& t, Array<double>& weights, Workers& workers) {
   for_rows(workers, static_cast<int>(weights.size()), [&](int e) {
-    bool thin = false;
-    DoubleDouble sum;
-    for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
-      if (t.half_edges.is_boundary(h)) continue;
-      thin = thin || is_thin_at(t, h);
-      sum = sum + sharp_cotangent(t, h);
-    }
-    if (thin) weights[e] = 0.5 * sum.value();
+    const HalfedgeHandle h(2 * e);
+    if (has_metric_error(t, h)) weights[e] = 0.5 * (sharp_cotangent(t, h) + sharp_cotangent(t, opposite(h))).value();
   });
 }
 
@@ -87,9 +83,10 @@ Array<double> energy_errors(const IntrinsicTriangulation& t, const Array<double>
   if (t.metric_errors.empty() || t.mollification > 0) return {};
   Array<double> errors(weights.size());
   for_rows(workers, static_cast<int>(errors.size()), [&](int e) {
-    errors[e] = kOfTerm * std::abs(weights[e]);
+    errors[e] = 0;
     for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
-      if (!t.half_edges.is_boundary(h)) errors[e] += 0.5 * error_at(t, h) * sharp_cotangent(t, h).value();
+      const double error = error_at(t, h);
+      if (error > 0) errors[e] += kOfTerm * std::abs(weights[e]) + 0.5 * error * sharp_cotangent(t, h).value();
     }
   });
   return errors;

@@ -16,8 +16,11 @@ struct MetricError {
 };
 MetricError metric_error(const std::array<double, 3>& sides);
 
-/// Sets metric_errors, one of each face.
+/// Sets metric_errors: one for each face, 0 where it is not thin.
 void set_metric_errors(IntrinsicTriangulation& triangulation, Workers& workers);
+
+/// Whether a face at the edge of `h` has a metric error.
+bool has_metric_error(const IntrinsicTriangulation& triangulation, HalfedgeHandle h);
 
 /// That of the face of `h` as it is, with the area that it stands for.
 MetricError face_error(const IntrinsicTriangulation& triangulation, HalfedgeHandle h);
@@ -27,8 +30,8 @@ MetricError face_error(const IntrinsicTriangulation& triangulation, HalfedgeHand
 void mix_metric_errors(IntrinsicTriangulation& triangulation, HalfedgeHandle h,
                        const std::array<MetricError, 2>& before);
 
-/// The weights of the edges of thin triangles, anew: opposite obtuse angles, what cot + cot leaves has as many digits
-/// less as the cotangents are larger.
+/// The weights of the edges of triangles with a metric error, anew: opposite obtuse angles, what cot + cot leaves has
+/// as many digits less as the cotangents are larger.
 void sharpen_weights(const IntrinsicTriangulation& triangulation, Array<double>& weights, Workers& workers);
 
 /// #E numbers u: sum_e u_e h(e)^2 bounds by how much rounding changes the energy of a form h; none where no triangle of

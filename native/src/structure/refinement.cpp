@@ -11,8 +11,8 @@
 namespace holomorph::structure {
 namespace {
 
-// Up to this weight a relative residual of 1e-10 keeps errors far below kEnergyError.
-constexpr double kStiff = 1e3;
+// Up to this weight the rounding of fluxes, even among some as much smaller, keeps errors below kEnergyError.
+constexpr double kStiff = 1e4;
 constexpr int kMostSteps = 10;
 // A step that leaves more than this part of the error was the last.
 constexpr double kLeastGain = 0.5;
