@@ -19,8 +19,9 @@ inline constexpr double kMostUncertain = 0.5;
 std::vector<Eigen::MatrixXd> certain_gram(const std::vector<Eigen::MatrixXd>& gram,
                                           const std::vector<Eigen::MatrixXd>& errors);
 
+/// @param allowed part of the upper bound by which they may cross
 /// @throws SolverError where bounds are not finite or cross: lower <= upper as quadratic forms
-void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper);
+void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper, double allowed = kCertain);
 
 /// That invariants are finite, that the linear systems were solved to what is promised, and that bounds do not cross.
 /// @throws SolverError
