@@ -1,5 +1,7 @@
 """Triangles of aspects up to 1e12: forms to what is promised, or an error, and bounds that hold."""
 
+import re
+
 import equivalence
 import families
 import numpy as np
@@ -143,3 +145,31 @@ def test_a_square_torus_with_a_thin_row(thinnest, solver):
     lower, upper = (bound[0, 0] for bound in torus.period_bounds)
     assert lower - ROUNDING <= imaginary <= upper + ROUNDING
     assert upper - lower < max(ROUNDING, 1e-15 / thinnest)
+
+
+def test_bounds_of_forms_in_blocks():
+    """Flat triangles of relative height 1e-5 to 1e-8 on a surface of genus 2, whose forms are not all there at once."""
+    mesh = families.block_with_holes(2, refine=2, jitter=0.1)
+    vertices, quads = mesh.vertices, mesh.corners.reshape(-1, 4)
+    faces = families.cut_quads(quads)
+    cut = np.arange(0, len(faces), 7)
+    a, b, c = faces[cut].T
+    height = np.logspace(-5, -8, len(cut))[:, None]
+    middle = (1 - height) * (vertices[a] + vertices[b]) / 2 + height * vertices[c]
+    new = len(vertices) + np.arange(len(cut))
+    split = [
+        np.delete(faces, cut, axis=0),
+        np.stack([a, new, c], 1),
+        np.stack([new, b, c], 1),
+        np.stack([a, b, new], 1),
+    ]
+    surface = Surface(np.vstack([vertices, middle]), np.vstack(split))
+    with pytest.raises(SolverError) as refusal:
+        conformal_structure(surface, memory_limit=1)
+    least = int(re.search(r"at least (\d+) bytes", str(refusal.value))[1])
+    blocks, kept = (conformal_structure(surface, memory_limit=limit) for limit in (least, None))
+    assert not blocks.memory.keeps_forms and kept.memory.keeps_forms
+    for structure in (blocks, kept):
+        lower, upper = structure.period_bounds
+        assert np.linalg.eigvalsh(structure.period_matrix.imag - lower).min() > 0
+        assert np.linalg.eigvalsh(upper - structure.period_matrix.imag).min() > 0
