@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "base/chunks.h"
-#include "mesh/thin_triangles.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
@@ -109,16 +108,19 @@ class Flipper {
 
   void flip(int e) {
     const HalfedgeHandle a(2 * e), b(2 * e + 1);
-    const bool has_errors = has_metric_error(t_, a);
-    const std::array<MetricError, 2> errors =
-        has_errors ? std::array{face_error(t_, a), face_error(t_, b)} : std::array<MetricError, 2>();
+    const bool has_errors = has_error(t_.metric(), a);
+    const auto errors = has_errors ? errors_beside(t_.metric(), a) : std::array<MetricError, 2>();
     const double flipped_length = new_length(a, b);
     const HalfedgeHandle a1 = next(mesh_, a), a2 = next(mesh_, a1), b1 = next(mesh_, b), b2 = next(mesh_, b1);
     flip_links(mesh_, EdgeHandle(e));
     t_.lengths[e] = flipped_length;
     set_cotangents(t_, a);
     set_cotangents(t_, b);
-    if (has_errors) mix_metric_errors(t_, a, errors);
+    if (has_errors) {
+      const auto [error_a, error_b] = mixed_errors(t_.metric(), a, errors);
+      t_.metric_errors[mesh_.face_handle(a).idx()] = error_a;
+      t_.metric_errors[mesh_.face_handle(b).idx()] = error_b;
+    }
     flips.push_back({e, a2, b1});
     for (const HalfedgeHandle h : {a1, a2, b1, b2}) {
       const int rim = edge_of(h);

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/chunks.h"
-#include "mesh/thin_triangles.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::mesh {
@@ -50,7 +49,7 @@ bool set_all_cotangents(IntrinsicTriangulation& t, Workers& workers) {
       sum.degenerate += has_degenerate_face(t, h);
     }
   });
-  if (count.thin > 0) set_metric_errors(t, workers);
+  t.metric_errors = count.thin > 0 && t.mollification == 0 ? metric_errors(t.metric(), workers) : Array<double>();
   return count.degenerate > 0;
 }
 
@@ -184,7 +183,7 @@ Array<double> cotangent_weights(const IntrinsicTriangulation& t, Execution& exec
   weights.resize(t.lengths.size());
   for_rows(execution.workers(), static_cast<int>(weights.size()),
            [&](int e) { weights[e] = 0.5 * t.cotangents[2 * e] + 0.5 * t.cotangents[2 * e + 1]; });
-  if (!t.metric_errors.empty()) sharpen_weights(t, weights, execution.workers());
+  if (!t.metric_errors.empty()) sharpen_weights(t.metric(), weights, execution.workers());
   execution.report(1.0);
   return weights;
 }

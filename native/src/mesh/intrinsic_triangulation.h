@@ -5,6 +5,7 @@
 
 #include "base/execution.h"
 #include "mesh/half_edges.h"
+#include "mesh/thin_triangles.h"
 
 namespace holomorph::mesh {
 
@@ -23,9 +24,11 @@ struct IntrinsicTriangulation {
   double mollification = 0;  ///< added to some lengths, in their unit; with 0 the metric is that of the surface
   bool degenerate = false;   ///< whether some triangle of the surface is, and none has been mollified
 
-  /// #F where some triangle of the surface is thin, else none: by how much rounding may change energies on each, 0
-  /// where that is negligible.
+  /// #F where some triangle of the surface is thin and none is mollified, else none: by how much rounding may change
+  /// energies on each, 0 where that is negligible.
   Array<double> metric_errors;
+
+  Metric metric() const { return {half_edges, lengths, cotangents, metric_errors}; }
 
   /// Frees what only the weights need.
   void forget_metric() {

@@ -15,17 +15,17 @@ namespace {
 constexpr double kRounding = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kOfLength = 2.5 * kRounding, kOfTerm = 4 * kRounding;
 
-std::array<double, 3> sides_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+std::array<double, 3> sides_at(const Metric& t, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
   return {t.lengths[edge_of(h)], t.lengths[edge_of(h1)], t.lengths[edge_of(h2)]};
 }
 
-double error_at(const IntrinsicTriangulation& t, HalfedgeHandle h) {
-  return t.half_edges.is_boundary(h) ? 0.0 : t.metric_errors[t.half_edges.face_handle(h).idx()];
+double error_at(const Metric& t, HalfedgeHandle h) {
+  return t.half_edges.is_boundary(h) ? 0.0 : t.errors[t.half_edges.face_handle(h).idx()];
 }
 
 // The cotangent opposite h; in a triangle with an error to all digits, of the lengths as they are.
-DoubleDouble sharp_cotangent(const IntrinsicTriangulation& t, HalfedgeHandle h) {
+DoubleDouble sharp_cotangent(const Metric& t, HalfedgeHandle h) {
   if (!(error_at(t, h) > 0)) return {t.cotangents[h.idx()]};
   const auto [a, b, c] = sides_at(t, h);
   const DoubleDouble others = exact_sum(b, c), apart = exact_sum(b, -c), whole{a};
@@ -45,42 +45,46 @@ MetricError metric_error(const std::array<double, 3>& sides) {
   return bound < area * area ? MetricError{bound / (area * area), area} : MetricError{1, std::sqrt(bound)};
 }
 
-void set_metric_errors(IntrinsicTriangulation& t, Workers& workers) {
-  t.metric_errors.resize(t.half_edges.n_faces());
-  for_rows(workers, static_cast<int>(t.metric_errors.size()), [&t](int f) {
+Array<double> metric_errors(const Metric& t, Workers& workers) {
+  Array<double> errors(t.half_edges.n_faces());
+  for_rows(workers, static_cast<int>(errors.size()), [&](int f) {
     const HalfedgeHandle h = t.half_edges.halfedge_handle(FaceHandle(f)), h1 = next(t.half_edges, h),
                          h2 = next(t.half_edges, h1);
     const bool thin = is_thin(t.cotangents[h.idx()], t.cotangents[h1.idx()], t.cotangents[h2.idx()]);
-    t.metric_errors[f] = thin ? metric_error(sides_at(t, h)).relative : 0.0;
+    errors[f] = thin ? metric_error(sides_at(t, h)).relative : 0.0;
   });
+  return errors;
 }
 
-bool has_metric_error(const IntrinsicTriangulation& t, HalfedgeHandle h) {
-  return !t.metric_errors.empty() && (error_at(t, h) > 0 || error_at(t, opposite(h)) > 0);
+bool has_error(const Metric& t, HalfedgeHandle h) {
+  return !t.errors.empty() && (error_at(t, h) > 0 || error_at(t, opposite(h)) > 0);
 }
 
-MetricError face_error(const IntrinsicTriangulation& t, HalfedgeHandle h) {
-  return {error_at(t, h), metric_error(sides_at(t, h)).area};
+std::array<MetricError, 2> errors_beside(const Metric& t, HalfedgeHandle h) {
+  const auto at = [&t](HalfedgeHandle side) {
+    return MetricError{error_at(t, side), metric_error(sides_at(t, side)).area};
+  };
+  return {at(h), at(opposite(h))};
 }
 
-void mix_metric_errors(IntrinsicTriangulation& t, HalfedgeHandle h, const std::array<MetricError, 2>& before) {
+std::array<double, 2> mixed_errors(const Metric& t, HalfedgeHandle h, const std::array<MetricError, 2>& before) {
   const auto& [first, second] = before;
   const double mean = (first.relative * first.area + second.relative * second.area) / (first.area + second.area);
-  for (const HalfedgeHandle side : {h, opposite(h)}) {
-    const double own = metric_error(sides_at(t, side)).relative;
-    t.metric_errors[t.half_edges.face_handle(side).idx()] = std::min(1.0, mean + own);
-  }
+  const auto mixed = [&](HalfedgeHandle side) {
+    return std::min(1.0, mean + metric_error(sides_at(t, side)).relative);
+  };
+  return {mixed(h), mixed(opposite(h))};
 }
 
-void sharpen_weights(const IntrinsicTriangulation& t, Array<double>& weights, Workers& workers) {
+void sharpen_weights(const Metric& t, Array<double>& weights, Workers& workers) {
   for_rows(workers, static_cast<int>(weights.size()), [&](int e) {
     const HalfedgeHandle h(2 * e);
-    if (has_metric_error(t, h)) weights[e] = 0.5 * (sharp_cotangent(t, h) + sharp_cotangent(t, opposite(h))).value();
+    if (has_error(t, h)) weights[e] = 0.5 * (sharp_cotangent(t, h) + sharp_cotangent(t, opposite(h))).value();
   });
 }
 
-Array<double> energy_errors(const IntrinsicTriangulation& t, const Array<double>& weights, Workers& workers) {
-  if (t.metric_errors.empty() || t.mollification > 0) return {};
+Array<double> energy_errors(const Metric& t, const Array<double>& weights, Workers& workers) {
+  if (t.errors.empty()) return {};
   Array<double> errors(weights.size());
   for_rows(workers, static_cast<int>(errors.size()), [&](int e) {
     errors[e] = 0;

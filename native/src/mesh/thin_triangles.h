@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <span>
 
-#include "mesh/intrinsic_triangulation.h"
+#include "base/workers.h"
+#include "mesh/half_edges.h"
 
 namespace holomorph::mesh {
 
@@ -16,27 +18,32 @@ struct MetricError {
 };
 MetricError metric_error(const std::array<double, 3>& sides);
 
-/// Sets metric_errors: one for each face, 0 where it is not thin.
-void set_metric_errors(IntrinsicTriangulation& triangulation, Workers& workers);
+/// A triangulation by its lengths, #E, with its cotangents, #half-edges, and the relative errors of its faces, none
+/// where all are 0.
+struct Metric {
+  const HalfEdges& half_edges;
+  std::span<const double> lengths, cotangents, errors;
+};
 
-/// Whether a face at the edge of `h` has a metric error.
-bool has_metric_error(const IntrinsicTriangulation& triangulation, HalfedgeHandle h);
+/// One for each face, 0 where it is not thin.
+Array<double> metric_errors(const Metric& metric, Workers& workers);
 
-/// That of the face of `h` as it is, with the area that it stands for.
-MetricError face_error(const IntrinsicTriangulation& triangulation, HalfedgeHandle h);
+/// Whether a face at the edge of `h` has an error.
+bool has_error(const Metric& metric, HalfedgeHandle h);
 
-/// After the flip of the edge of `h`: each of its two faces has the mean of the errors of the two before, by area, and
-/// that of the new length.
-void mix_metric_errors(IntrinsicTriangulation& triangulation, HalfedgeHandle h,
-                       const std::array<MetricError, 2>& before);
+/// The errors of the face of `h` and of its neighbour across h, with the areas that they stand for.
+std::array<MetricError, 2> errors_beside(const Metric& metric, HalfedgeHandle h);
 
-/// The weights of the edges of triangles with a metric error, anew: opposite obtuse angles, what cot + cot leaves has
-/// as many digits less as the cotangents are larger.
-void sharpen_weights(const IntrinsicTriangulation& triangulation, Array<double>& weights, Workers& workers);
+/// After the flip of the edge of `h`, the errors of the same two faces: the mean of those before, by area, and that of
+/// the new length.
+std::array<double, 2> mixed_errors(const Metric& metric, HalfedgeHandle h, const std::array<MetricError, 2>& before);
 
-/// #E numbers u: sum_e u_e h(e)^2 bounds by how much rounding changes the energy of a form h; none where no triangle of
-/// the surface is thin, and none where some were mollified: there are no bounds then. @param weights cotangent_weights
-Array<double> energy_errors(const IntrinsicTriangulation& triangulation, const Array<double>& weights,
-                            Workers& workers);
+/// The weights of the edges of triangles with an error, anew: opposite obtuse angles, what cot + cot leaves has as many
+/// digits less as the cotangents are larger.
+void sharpen_weights(const Metric& metric, Array<double>& weights, Workers& workers);
+
+/// #E numbers u: sum_e u_e h(e)^2 bounds by how much rounding changes the energy of a form h; none where there are no
+/// errors. @param weights cotangent_weights
+Array<double> energy_errors(const Metric& metric, const Array<double>& weights, Workers& workers);
 
 }  // namespace holomorph::mesh

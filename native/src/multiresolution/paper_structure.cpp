@@ -45,7 +45,7 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   const auto triangulation = mesh::intrinsic_triangulation(*result.surface, std::move(half_edges), execution.workers());
   result.mollification = triangulation.mollification;
   const auto weights = mesh::cotangent_weights(triangulation, execution);
-  const auto errors = mesh::energy_errors(triangulation, weights, execution.workers());
+  const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
   const auto laplacian = forms::laplacian(triangulation.half_edges, weights, execution);
 
   execution.stage("harmonic forms", 0.3, 0.85);

@@ -35,7 +35,7 @@ Coordinates coordinates(const mesh::IntrinsicTriangulation& triangulation, const
   Coordinates result{one(3, 1), {}, {}, {}};
   execution.stage("height", (from + to) / 2, to);
   result.v = one(0, 2);
-  const auto errors = mesh::energy_errors(triangulation, weights, execution.workers());
+  const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
   for (const DirichletSolution* f : {&result.u, &result.v}) {
     result.energies.emplace_back(f->energies);
     if (!errors.empty()) result.errors.emplace_back(energies(triangulation.half_edges, errors, f->functions));

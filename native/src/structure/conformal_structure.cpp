@@ -54,7 +54,7 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   const std::vector<int> fixed = mesh::boundary_vertices(triangulation.half_edges);
   mesh::make_delaunay(triangulation, execution);
   const auto weights = mesh::cotangent_weights(triangulation, execution);
-  const auto errors = mesh::energy_errors(triangulation, weights, execution.workers());
+  const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
   triangulation.forget_metric();
   result.mollification = triangulation.mollification;
   result.flip_count = static_cast<int>(triangulation.flips.size());

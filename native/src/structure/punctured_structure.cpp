@@ -163,7 +163,7 @@ PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> given, P
 
   execution.stage("solver", 0.25, 0.4);
   made.weights = mesh::cotangent_weights(triangulation, execution);
-  made.errors = mesh::energy_errors(triangulation, made.weights, execution.workers());
+  made.errors = mesh::energy_errors(triangulation.metric(), made.weights, execution.workers());
   made.poles = poles_of(result, made.half_edges, triangulation.lengths, made.weights);
   return made;
 }
