@@ -1,6 +1,7 @@
 """minimise.py TARGET FILE: makes an input that breaks something smaller, as long as it breaks in the same way."""
 
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -13,13 +14,13 @@ HERE = Path(__file__).resolve().parent
 PATIENCE = 120  # seconds for one input
 
 REPLAY = """
-import faulthandler, sys
+import sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 import worker
-faulthandler.dump_traceback_later(worker.LIMIT, exit=True)
 import oracle
 target = worker.target_named(sys.argv[2])
+worker.begin_watch()
 print(oracle.answer(target.execute, target.load(Path(sys.argv[3]))))
 """
 
@@ -34,6 +35,8 @@ def signature(ended):
     """What a process died of, without the numbers; "" if it did not."""
     if not ended.returncode:
         return ""
+    if ended.returncode == -signal.SIGPROF:
+        return "Timeout"
     for pattern in (r"ERROR: AddressSanitizer: ([\w-]+)", r"(runtime error: .*)", r"(Timeout) \("):
         if match := re.search(pattern, ended.stderr):
             return re.sub(r"[\d.]+", "#", match[1])

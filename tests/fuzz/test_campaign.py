@@ -27,6 +27,7 @@ ENDS = {
     5: lambda: {}["foreign"],
     7: lambda: np.linalg.inv(np.zeros((2, 2))),
     8: lambda: holomorph.Surface([], []),
+    9: lambda: all(True for _ in iter(int, 1)),
 }
 made = iter(range(10**9))
 
@@ -44,14 +45,16 @@ def execute(case):
 def planted(tmp_path, monkeypatch):
     (tmp_path / "target_planted.py").write_text(PLANTED)
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", ""), *sys.path]))
+    monkeypatch.setenv("HOLOMORPH_FUZZ_LIMIT", "1")
 
 
 def test_whatever_breaks_is_found_and_the_rest_goes_on(planted, capsys):
     tally = campaign.Tally(0)
-    for _ in range(4):
+    for _ in range(5):
         campaign.turn("planted", tally, 0.5)
     kinds = tally.findings
-    assert sorted(kinds.values()) == [[3], [5], [7]]
+    assert sorted(kinds.values()) == [[3], [5], [7], [9]]
+    assert tally.findings["Timeout"] == [9]
     assert any("LinAlgError" in kind for kind in kinds) and any("KeyError" in kind for kind in kinds)
     assert tally.tried == tally.next and tally.tried > 20
     assert tally.answers["InvalidMesh"] == 1
