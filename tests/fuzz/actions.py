@@ -7,20 +7,20 @@ from holomorph import ProgressiveMesh, Tiler, TopologyError
 from holomorph.disk import DiskMap
 
 
-def first_map(structure):
+def first_map(structure, _):
     """Of the first form alone, which costs no search."""
     kind = getattr(structure, "coefficient_type", np.float64)
     count = structure.holomorphic_forms.shape[0]
     return oracle.check_map(structure, np.eye(1, count, dtype=kind)[0] if count else ())
 
 
-def balanced(structure):
+def balanced(structure, _):
     coefficients = structure.balanced_coefficients()
     oracle.check_finite("coefficients", coefficients)
     oracle.check_map(structure, coefficients)
 
 
-def forms(structure):
+def forms(structure, _):
     """NaN is said of edges at a puncture alone."""
     values = structure.holomorphic_forms
     edges = structure.edges
@@ -32,7 +32,7 @@ def forms(structure):
     assert len(structure.seams) == 0 or structure.seams.max() < len(edges)
 
 
-def plane(structure):
+def plane(structure, _):
     """Maps to the disk and the sphere stay there."""
     if isinstance(structure, DiskMap):
         used = structure._component.vertex_index if structure._component is not structure.surface else slice(None)
@@ -47,24 +47,19 @@ def plane(structure):
     assert np.abs(np.linalg.norm(points, axis=1) - 1).max() < 1e-9, "the sphere map leaves the sphere"
 
 
-def tiling(structure):
-    made = structure.tile(tiles=60)
-    oracle.check_finite("the uv of a tiling", made.uv)
-    oracle.check_finite("residues", made.residues)
-    assert not np.isnan([made.added_distortion, made.left_over, made.tiles, made.density_ratio]).any()
+def tiling(structure, options):
+    """With `options` of `Tiler` and of `tile`, and a pole elsewhere."""
+    made = Tiler(structure.surface, threads=1, **options.get("tiler", {}))
+    tilings = [made.tile(**options.get("tile", {"tiles": 60}))]
+    if len(tilings[0].poles):
+        tilings.append(made.with_poles_moved({0: int(tilings[0].poles[-1])}))
+    for result in tilings:
+        oracle.check_finite("the uv of a tiling", result.uv)
+        oracle.check_finite("residues", result.residues)
+        assert not np.isnan([result.added_distortion, result.left_over, result.tiles, result.density_ratio]).any()
 
 
-def odd_tilings(structure):
-    """Few poles, odd lattices and directions."""
-    tiler = Tiler(structure.surface, 2, boundary="free", threads=1)
-    made = tiler.tile(1e4, lattice=[[1, 0.5], [0, 1e-3]], direction=(0, 0, 1), turn=0.3)
-    oracle.check_finite("the uv of a tiling", made.uv)
-    if len(made.poles):
-        moved = tiler.with_poles_moved({0: int(made.poles[-1])})
-        oracle.check_finite("the uv of a moved tiling", moved.uv)
-
-
-def levels(structure):
+def levels(structure, _):
     mesh = ProgressiveMesh(structure.surface, order="independent")
     uv = structure.uv(structure.balanced_coefficients()) if structure.surface.face_offsets[-1] < 60 else None
     if uv is None:
@@ -74,18 +69,18 @@ def levels(structure):
         oracle.check_finite("the uv of a level", level.uv)
 
 
-def level_structure(structure):
+def level_structure(structure, _):
     mesh = ProgressiveMesh(structure.surface)
     oracle.check_surface(mesh.restore())
     oracle.check_invariants(mesh.conformal_structure(16, threads=1))
 
 
-def report(structure):
+def report(structure, _):
     made = holomorph.report.component_report(structure._component, structure)
     assert made["done"]
 
 
-def double(structure):
+def double(structure, _):
     """The double is closed, of genus 2g + b - 1."""
     surface = structure._component
     doubled = holomorph.double_cover(surface)
@@ -100,7 +95,6 @@ ACTIONS = {
     "forms": forms,
     "plane": plane,
     "tiling": tiling,
-    "odd tilings": odd_tilings,
     "levels": levels,
     "level structure": level_structure,
     "report": report,
@@ -112,8 +106,7 @@ SHARES = {
     "balanced": 0.04,
     "forms": 0.2,
     "plane": 0.3,
-    "tiling": 0.01,
-    "odd tilings": 0.01,
+    "tiling": 0.02,
     "levels": 0.03,
     "level structure": 0.05,
     "report": 0.02,
@@ -121,5 +114,23 @@ SHARES = {
 }
 
 
-def chosen(random):
-    return [name for name, share in SHARES.items() if random.random() < share]
+def chosen(random, count):
+    """The names of some, and options of tilings on a mesh of `count` vertices."""
+    names = [name for name, share in SHARES.items() if random.random() < share]
+    return {"actions": names, "tiling": tiling_options(random, count) if "tiling" in names else {}}
+
+
+def tiling_options(random, count):
+    """Of `tiling`, on a mesh of `count` vertices; a few of them wrong."""
+    drawn = {
+        "poles": (0, 1, 2, 3, [random.randrange(count) for _ in range(3)], "auto", "many", None),
+        "boundary": ("free", "straight", "round"),
+        "tiles": (60, 1e4, 1e-3, 1e300, -1, "many"),
+        "lattice": ("brick", "hex", [[1, 0.5], [0, 1e-3]], [[1e200, 0], [0, 1]], [[1, 2], [2, 4]], "round"),
+        "direction": ([0, 0, 1], [1e300, 1, -1e300], [1e-300, 0, 0], [0, 0, 0], "up"),
+        "turn": (0.3, 1e300, float("nan")),
+        "max_turn": (0.0, 1.0, -1.0, 1e300, float("nan")),
+    }
+    chosen = {name: random.choice(values) for name, values in drawn.items() if random.random() < 0.3}
+    own = {name: chosen.pop(name) for name in ("poles", "boundary") if name in chosen}
+    return {"tiler": own, "tile": chosen}

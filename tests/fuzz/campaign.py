@@ -18,7 +18,7 @@ import worker
 
 HERE = Path(__file__).resolve().parent
 ROUND = 30  # seconds that a target has before the next one's turn
-TOLD = 12  # lines of what a dying worker said
+TOLD = 20  # lines of what a dying worker said
 
 
 @dataclass
@@ -53,7 +53,7 @@ def found(name, tally, ended):
     """Counts a finding, and tells of the first of its kind."""
     kind = minimise.signature(ended)
     if kind not in tally.findings:
-        lines = [line for line in ended.stderr.splitlines() if line.strip()]
+        lines = [line for line in ended.stderr.splitlines() if line.strip() and "/python3" not in line]
         print(f"{name} {tally.next}: {kind}", *lines[-TOLD:], sep="\n    ", flush=True)
     tally.findings.setdefault(kind, []).append(tally.next)
 

@@ -28,7 +28,7 @@ def make(random):
     if random.random() < 0.1:
         case["names"] = None
     tau = None if case["names"] is None or tau is None else [tau.real, tau.imag]
-    return case | {"options": solver_options(random), "actions": actions.chosen(random), "tau": tau}
+    return case | {"options": solver_options(random), "tau": tau, **actions.chosen(random, len(faces))}
 
 
 def _flat(random):
@@ -69,7 +69,7 @@ def execute(case):
         if case["tau"] is not None:
             check_modulus(structure, complex(*case["tau"]))
         for name in case["actions"]:
-            oracle.answer(actions.ACTIONS[name], structure)
+            oracle.answer(actions.ACTIONS[name], structure, case["tiling"])
 
 
 def check_modulus(structure, tau):

@@ -1,7 +1,7 @@
 """Mutated meshes through the whole library, with options drawn at random, a few of them wrong.
 
-A case is plain data, which JSON keeps: vertices, faces, options of `conformal_structure`, names of `actions`, and the
-exact modulus of a surface that is flat.
+A case is plain data, which JSON keeps: vertices, faces, options of `conformal_structure`, names of `actions`,
+options of their tilings, and the exact modulus of a surface that is flat.
 """
 
 import json
@@ -42,7 +42,7 @@ def make(random):
         return _exact(random)
     start = random.choice(STARTS)
     vertices, faces = mesh_mutations.mutated(start.vertices, [face.tolist() for face in start.faces], random)
-    return _case(vertices, faces, options_for(faces, len(vertices), random), actions.chosen(random))
+    return _case(vertices, faces, options_for(faces, len(vertices), random), random)
 
 
 def _exact(random):
@@ -52,12 +52,12 @@ def _exact(random):
         (vertices, faces, modulus), corners = exact_meshes.tube(random), []
     vertices, faces, corners = exact_meshes.disguised(vertices, faces, corners, random)
     options = {"rectangle_corners": corners} if corners else {}
-    return _case(vertices, faces, options | solver_options(random), ["map"], modulus)
+    return _case(vertices, faces, options | solver_options(random), random, modulus)
 
 
-def _case(vertices, faces, options, names, modulus=None):
-    vertices = np.asarray(vertices).tolist()
-    return {"vertices": vertices, "faces": faces, "options": options, "actions": names, "modulus": modulus}
+def _case(vertices, faces, options, random, modulus=None):
+    mesh = {"vertices": vertices.tolist(), "faces": faces}
+    return mesh | {"options": options, "modulus": modulus, **actions.chosen(random, len(vertices))}
 
 
 def solver_options(random):
@@ -117,7 +117,7 @@ def execute_part(surface, options, case):
     if case["modulus"] is not None and structure.modulus_bounds is not None:
         oracle.check_contains("modulus_bounds", *structure.modulus_bounds, case["modulus"])
     for name in case["actions"]:
-        oracle.answer(actions.ACTIONS[name], structure)
+        oracle.answer(actions.ACTIONS[name], structure, case["tiling"])
 
 
 def save(case, stem):

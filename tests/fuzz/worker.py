@@ -18,9 +18,7 @@ from pathlib import Path
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "core")]
 
 TARGETS = ("readers", "progressive", "pipeline", "gluings")
-LIMIT = float(
-    os.environ.get("HOLOMORPH_FUZZ_LIMIT", 60)
-)  # seconds of the processor's time: a thousand times what an input takes
+LIMIT = float(os.environ.get("HOLOMORPH_FUZZ_LIMIT", 60))  # seconds of the processor: far more than any input takes
 WAIT = 900  # seconds: for threads that wait for each other, on a machine that does other things besides
 
 
