@@ -16,7 +16,6 @@ from pathlib import Path
 import minimise
 import worker
 
-HERE = Path(__file__).resolve().parent
 ROUND = 30  # seconds that a target has before the next one's turn
 TOLD = 20  # lines of what a dying worker said
 
@@ -35,8 +34,8 @@ class Tally:
 def turn(name, tally, seconds):
     """Lets one worker try inputs for some seconds, or until one of them breaks something."""
     with tempfile.NamedTemporaryFile() as state:
-        command = [sys.executable, HERE / "worker.py", name, str(tally.next), str(seconds), state.name]
-        ended = subprocess.run(list(map(str, command)), capture_output=True, text=True, errors="replace")
+        command = worker.command(name, "try", tally.next, seconds, state.name)
+        ended = subprocess.run(command, capture_output=True, text=True, errors="replace")
         seen = json.loads(state.read() or b'{"number": -1, "answers": {}}')
     if seen["number"] < tally.next:
         raise SystemExit(f"the worker of {name} did not begin:\n{ended.stderr}")
@@ -70,11 +69,7 @@ def run(names, minutes, first, keep):
         for kind, numbers in tallies[name].findings.items():
             print(f"{name}: {len(numbers)} times {kind}: {', '.join(map(str, numbers[:9]))}")
             if keep:
-                target = worker.target_named(name)
-                case = worker.numbered(target, numbers[0])
-                print(
-                    f"    kept as {minimise.minimised(name, target, case, keep / f'{name}-{numbers[0]}')}", flush=True
-                )
+                print(f"    kept as {minimise.kept(name, numbers[0], keep)}", flush=True)
     return tallies
 
 

@@ -10,25 +10,25 @@ from pathlib import Path
 
 import worker
 
-HERE = Path(__file__).resolve().parent
 PATIENCE = 120  # seconds for one input
-
-REPLAY = """
-import sys
-from pathlib import Path
-sys.path.insert(0, sys.argv[1])
-import worker
-import oracle
-target = worker.target_named(sys.argv[2])
-worker.begin_watch()
-print(oracle.answer(target.execute, target.load(Path(sys.argv[3]))))
-"""
 
 
 def replayed(name, path):
     """The ended process that tried one file."""
-    command = [sys.executable, "-c", REPLAY, str(HERE), name, str(path)]
+    command = worker.command(name, "replay", path)
     return subprocess.run(command, capture_output=True, text=True, errors="replace")
+
+
+def kept(name, number, folder):
+    """The file of a numbered input that breaks something, made small; one for Blender as it is."""
+    folder.mkdir(parents=True, exist_ok=True)
+    stem = folder / f"{name}-{number}"
+    subprocess.run(worker.command(name, "save", number, stem), check=True, capture_output=True)
+    (path,) = folder.glob(f"{stem.name}.*")
+    if name == "operator":
+        return path
+    target = worker.target_named(name)
+    return minimised(name, target, target.load(path), stem)
 
 
 def signature(ended):
@@ -40,13 +40,13 @@ def signature(ended):
     for pattern in (r"ERROR: AddressSanitizer: ([\w-]+)", r"(runtime error: .*)", r"(Timeout) \("):
         if match := re.search(pattern, ended.stderr):
             return re.sub(r"[\d.]+", "#", match[1])
-    last = (ended.stderr.strip().splitlines() or [""])[-1]
+    errors = re.findall(r"(?m)^[\w.]*(?:Error|Exception|Interrupt|Exit)\b.*", ended.stderr)
+    last = errors[-1] if errors else ""
     return re.sub(r"[-+]?[\d.]+(e[-+]?\d+)?", "#", last) or f"exit code {ended.returncode}"
 
 
 def minimised(name, target, case, stem):
     """The file of the smallest case found that breaks in the same way."""
-    stem.parent.mkdir(parents=True, exist_ok=True)
     kept = target.save(case, stem)
     wanted, end = signature(replayed(name, kept)), time.monotonic() + PATIENCE
     smaller = True

@@ -8,32 +8,12 @@ import json
 
 import actions
 import exact_meshes
-import families
 import mesh_mutations
 import numpy as np
 import oracle
 from holomorph import Surface, conformal_structure
+from starts import STARTS
 
-STARTS = (
-    families.tetrahedron(),
-    families.cube(),
-    families.geodesic_sphere(1),
-    families.spun(4, 3),
-    families.spun(3, 2, "fan"),
-    families.hemisphere(1),
-    families.hemisphere(2),
-    families.cylinder(5, 3),
-    families.cylinder(3, 2),
-    families.cube_corner(2),
-    families.torus(4, 3),
-    families.torus(5, 4, shape="triangles"),
-    families.square_ring(2),
-    families.washer(3),
-    families.punctured_torus(5, 4),
-    families.block_with_holes(2),
-    families.punched(families.block_with_holes(1), 2),
-    families.united(families.torus(4, 3), families.cube()),
-)
 PARTS = 3  # components of a mesh that are computed
 
 

@@ -33,7 +33,7 @@ made = iter(range(10**9))
 
 
 def make(random):
-    return int(sys.argv[2]) + next(made)
+    return int(sys.argv[3]) + next(made)
 
 
 def execute(case):
