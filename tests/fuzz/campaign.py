@@ -5,6 +5,7 @@ campaign.py [--minutes N] [--target NAME]... [--first N] [--keep FOLDER]
 
 import argparse
 import collections
+import contextlib
 import json
 import subprocess
 import sys
@@ -61,9 +62,10 @@ def run(names, minutes, first, keep):
     """The tallies of all targets, which take turns."""
     tallies = {name: Tally(first) for name in names}
     end = time.monotonic() + 60 * minutes
-    while (left := end - time.monotonic()) > 0:
-        for name in names:
-            turn(name, tallies[name], min(ROUND, max(left / len(names), 1)))
+    with contextlib.suppress(KeyboardInterrupt):  # counts what there is
+        while (left := end - time.monotonic()) > 0:
+            for name in names:
+                turn(name, tallies[name], min(ROUND, max(left / len(names), 1)))
     for name in names:
         print(f"{name}: {tallies[name].tried} inputs, {dict(tallies[name].answers)}")
         for kind, numbers in tallies[name].findings.items():

@@ -36,7 +36,7 @@ def _exact(random):
 
 
 def _case(vertices, faces, options, random, modulus=None):
-    mesh = {"vertices": vertices.tolist(), "faces": faces}
+    mesh = {"vertices": vertices.tolist(), "faces": faces, "strict": random.random() < 0.5}
     return mesh | {"options": options, "modulus": modulus, **actions.chosen(random, len(vertices))}
 
 
@@ -78,7 +78,7 @@ def options_for(faces, count, random):
 
 
 def execute(case):
-    surface = Surface(np.array(case["vertices"], float).reshape(-1, 3), case["faces"])
+    surface = Surface(np.array(case["vertices"], float).reshape(-1, 3), case["faces"], strict=case["strict"])
     oracle.check_surface(surface)
     options = dict(case["options"])
     if "residues" in options:

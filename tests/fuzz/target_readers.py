@@ -24,7 +24,13 @@ def execute(case):
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, name)
         path.write_bytes(content)
-        surface = Surface.read(path)
+        for options in ({"weld": True}, {"strict": True}):
+            oracle.answer(read, path, options)
+        read(path, {})
+
+
+def read(path, options):
+    surface = Surface.read(path, **options)
     oracle.check_surface(surface)
     for part in surface.components:
         assert part.euler_characteristic == 2 - 2 * part.genus - part.boundary_count
