@@ -63,16 +63,24 @@ def _direction(properties, obj):
         return None
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     if properties.direction in AXES:
-        return tuple(linear[:, AXES.index(properties.direction)].tolist())
+        axis = linear[:, AXES.index(properties.direction)]
+        if not _has_length(axis):
+            raise ValueError(f"{obj.name}: its scale leaves nothing of its {properties.direction} axis")
+        return tuple(axis.tolist())
     edges = mesh_edges.edge_vectors(obj.data, mesh_edges.marked_edges(obj.data, "select")) @ linear.T
-    if not edges.any():
+    if not _has_length(edges):
         raise ValueError(f"{obj.name}: select edges along which the rows are to run")
     return mean_direction(edges)
+
+
+def _has_length(vectors):
+    return vectors.any() and np.isfinite(vectors).all()
 
 
 def mean_direction(vectors):
     """The line that (n, 3) vectors lie along most, whichever way each points: the first axis of their moments; its
     largest coordinate is positive."""
+    vectors = vectors / np.abs(vectors).max()
     _, axes = np.linalg.eigh(vectors.T @ vectors)
     axis = axes[:, -1]
     return tuple((axis * np.sign(axis[np.argmax(np.abs(axis))])).tolist())

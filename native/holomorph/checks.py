@@ -1,5 +1,6 @@
 """Checks of what results are made from."""
 
+import math
 import numbers
 import os
 
@@ -34,6 +35,13 @@ def check_memory_limit(memory_limit):
     if not is_number or not 1 <= memory_limit < 2**63:
         raise ValueError(f"memory_limit is {memory_limit!r}; a positive number of bytes or None is needed")
     return int(memory_limit)
+
+
+def real_number(value, name, positive=False):
+    """`value` as a finite float. @throws ValueError"""
+    if not isinstance(value, numbers.Real) or not math.isfinite(value) or (positive and value <= 0):
+        raise ValueError(f"{name} is {value!r}; a {'positive' if positive else 'finite'} number is needed")
+    return float(value)
 
 
 def only_component(surface):

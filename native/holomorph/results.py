@@ -6,9 +6,10 @@ from functools import cached_property
 import numpy as np
 
 from . import _native, arrays
+from .checks import real_number
 from .quality import Quality
 from .surface import Surface
-from .tiling import Tiler
+from .tiling import Tiler, wished_poles
 
 
 @dataclass(frozen=True)
@@ -151,10 +152,11 @@ class Structure:
         Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
         """
         if density is not None:
-            if tiles is not None or not (np.isfinite(density) and density > 0):
-                raise ValueError("density must be a positive number, given without tiles")
-            tiles = density * self._component.area
-        key = (poles if isinstance(poles, str) else tuple(np.ravel(poles).tolist()), np.ndim(poles), boundary)
+            if tiles is not None:
+                raise ValueError("a density is given without tiles: either says how many there are")
+            tiles = real_number(density, "density", positive=True) * self._component.area
+        count, chosen = wished_poles(poles)
+        key = count, tuple(chosen), str(boundary)
         if key not in self._tilers:
             self._tilers.clear()
             self._tilers[key] = Tiler(

@@ -1,12 +1,14 @@
 """Seamless tilings: UV maps whose jumps all are translations of the texture, of even density."""
 
 import math
+import numbers
 from dataclasses import dataclass
 
 import numpy as np
 
 from . import _native, arrays
-from .checks import own_vertices
+from ._native import InvalidMesh
+from .checks import own_vertices, real_number
 from .quality import Quality
 
 LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
@@ -79,7 +81,7 @@ class Tiler:
             raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
         surface.require_connected()
         self._surface, self._component, self._basis = surface, surface.components[0], None
-        count, chosen = _wished(poles)
+        count, chosen = wished_poles(poles)
         vertices, labels = own_vertices(surface, self._component, chosen, "pole")
         self._native = _native.Tiler(self._component._native, boundary == "straight", labels, solver, threads or 0)
         self._native.place(count, vertices, _allowed(allowed, surface, self._component), progress)
@@ -92,12 +94,13 @@ class Tiler:
 
     def tile(self, tiles=None, *, lattice="square", direction=None, turn=None, max_turn=0.2, progress=None):
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
-        if tiles is not None and not (math.isfinite(tiles) and tiles > 0):
-            raise ValueError(f"tiles is {tiles!r}; a positive number or None is needed")
+        tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
+        turn = None if turn is None else real_number(turn, "turn")
+        max_turn = real_number(max_turn, "max_turn")
         a, b = _lattice(lattice)
-        along = None if direction is None else _direction(direction)
+        along = None if direction is None else _direction(direction, self._component)
         self._basis = np.array([[a.real, b.real], [a.imag, b.imag]])
-        return self._tiling(self._native.tile(float(tiles or 0), a, b, turn, along, max_turn, progress))
+        return self._tiling(self._native.tile(tiles, a, b, turn, along, max_turn, progress))
 
     def with_poles_moved(self, moves, *, progress=None):
         """The `Tiling` that `tile` gave last with some of its poles elsewhere; changes nothing of the tiler.
@@ -145,25 +148,27 @@ def place_poles(surface, count="auto", *, boundary="straight", allowed=None, thr
     return Tiler(surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress).poles
 
 
-def _wished(poles):
-    """(count or None, chosen vertices)"""
+def wished_poles(poles):
+    """(count or None, chosen vertices). @throws ValueError or InvalidMesh for anything else"""
     if isinstance(poles, str):
         if poles != "auto":
             raise ValueError(f'poles is {poles!r}; "auto", a number or a list of vertices is needed')
         return None, []
-    if np.ndim(poles) == 0:
-        if poles != int(poles) or not 0 <= poles <= 1000:
-            raise ValueError(f"poles is {poles!r}; a whole number from 0 on is needed")
+    if isinstance(poles, numbers.Real):
+        if not 0 <= poles <= 1000 or poles != int(poles):
+            raise ValueError(f"poles is {poles!r}; a whole number from 0 to 1000 is needed")
         return int(poles), []
-    return len(poles), poles
+    vertices = arrays.integer(poles, "poles")
+    return len(vertices), vertices
 
 
 def _allowed(allowed, surface, component):
     if allowed is None:
         return []
     allowed = np.asarray(allowed, bool)
-    if allowed.shape != (len(surface.vertices),):
-        raise ValueError(f"allowed has the shape {allowed.shape}; ({len(surface.vertices)},) is needed")
+    count = surface._native.vertex_count
+    if allowed.shape != (count,):
+        raise ValueError(f"allowed has the shape {allowed.shape}; ({count},) is needed")
     own = allowed if component is surface else allowed[component.vertex_index]
     if not own.any():
         raise ValueError("allowed leaves no vertex for a pole")
@@ -176,7 +181,7 @@ def _lattice(lattice):
         if lattice not in LATTICES:
             raise ValueError(f"lattice is {lattice!r}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
         return tuple(complex(z) for z in LATTICES[lattice])
-    matrix = np.asarray(lattice, float)
+    matrix = arrays.numbers(lattice, "lattice")
     if matrix.shape != (2, 2) or not np.isfinite(matrix).all():
         raise ValueError(f"lattice has the shape {matrix.shape}; a finite 2 x 2 matrix is needed")
     if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
@@ -184,8 +189,10 @@ def _lattice(lattice):
     return complex(*matrix[:, 0]), complex(*matrix[:, 1])
 
 
-def _direction(direction):
-    vector = np.asarray(direction, float)
+def _direction(direction, surface):
+    if surface.vertices is None:
+        raise InvalidMesh("an intrinsic surface, without positions, knows no direction in space; use turn")
+    vector = arrays.numbers(direction, "direction")
     if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
         raise ValueError(f"direction is {direction!r}; three numbers, not all 0, are needed")
     return vector.tolist()

@@ -125,6 +125,14 @@ def test_the_direction_of_selected_edges(calls):
     assert np.linalg.norm(asked) == pytest.approx(1)
 
 
+def test_a_direction_without_length_is_refused():
+    obj = torus()
+    obj.scale = (1, 1, 0)
+    bpy.context.view_layer.update()
+    with pytest.raises(RuntimeError, match="Torus: its scale leaves nothing of its Z axis"):
+        tile(direction="Z")
+
+
 def test_opposite_edges_have_one_direction():
     along = np.array([[1, 2, 0], [-1, -2, 0.1], [2, 4, -0.1]])
     found = module("tile_choices").mean_direction(along)

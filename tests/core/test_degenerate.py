@@ -39,6 +39,11 @@ def test_a_map_to_a_point_has_collapsed():
     assert quality.collapsed.all() and np.isinf([quality.mean_angle, quality.density_ratio]).all()
 
 
+def test_the_averaged_star_is_finite_where_triangles_have_no_area():
+    structure = conformal_structure(surface_of(families.spun(6, 4)))
+    assert np.isfinite(structure.averaged_star(np.arange(len(structure.edges)))).all()
+
+
 # ---- scale -------------------------------------------------------------------------------------------------
 
 

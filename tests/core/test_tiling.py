@@ -4,7 +4,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Cancelled, Tiler, TopologyError, conformal_structure, place_poles
+from holomorph import Cancelled, InvalidMesh, Tiler, TopologyError, conformal_structure, place_poles
 from solved import CLOSED, surface_of
 
 EXACT = 1e-12
@@ -193,7 +193,17 @@ REFUSED = [
     (SPHERE, {"lattice": [[1, 2], [2, 4]]}, ValueError, "singular"),
     (SPHERE, {"lattice": "round"}, ValueError, "lattice is 'round'"),
     (SPHERE, {"lattice": np.eye(3)}, ValueError, "2 x 2"),
+    (SPHERE, {"poles": np.nan}, ValueError, "whole number"),
+    (SPHERE, {"poles": None}, InvalidMesh, "poles"),
+    (SPHERE, {"poles": [[1], [2, 3]]}, InvalidMesh, "poles"),
     (SPHERE, {"tiles": -1}, ValueError, "positive"),
+    (SPHERE, {"tiles": "many"}, ValueError, "tiles is 'many'"),
+    (SPHERE, {"density": "high"}, ValueError, "density is 'high'"),
+    (SPHERE, {"turn": np.nan}, ValueError, "turn is nan"),
+    (SPHERE, {"max_turn": None}, ValueError, "max_turn is None"),
+    (SPHERE, {"direction": "up"}, ValueError, "direction is"),
+    (SPHERE, {"lattice": [["a", 1], [0, 1]]}, ValueError, "lattice is"),
+    (SPHERE, {"boundary": ["free"]}, ValueError, "boundary is"),
     (SPHERE, {"tiles": 3, "density": 1}, ValueError, "without tiles"),
     (SPHERE, {"boundary": "round"}, ValueError, "boundary is 'round'"),
     (DOUBLE, {"tiles": 0.01, "poles": 0}, TopologyError, "are enough"),
@@ -205,6 +215,14 @@ REFUSED = [
 def test_refused(mesh, options, error, message):
     with pytest.raises(error, match=message):
         conformal_structure(surface_of(mesh)).tile(**options)
+
+
+def test_an_intrinsic_surface_knows_no_direction():
+    torus = conformal_structure(surface_of(families.flat_torus(0.3 + 1.1j, 6)))
+    with pytest.raises(InvalidMesh, match="no direction in space"):
+        torus.tile(60, poles=0, direction=(0, 0, 1))
+    with pytest.raises(ValueError, match=r"\(36,\) is needed"):
+        Tiler(torus.surface, 2, allowed=[True])
 
 
 def test_cancelling():

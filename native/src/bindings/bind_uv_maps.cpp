@@ -68,7 +68,9 @@ py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& 
   if (form.size() != static_cast<py::ssize_t>(surface.edges.size()))
     throw py::value_error("a form has one value for each edge");
   Execution execution;
-  return copy(forms::averaged_star(mesh::half_edges(surface, execution), surface.edge_lengths, values(form)));
+  const auto triangulation =
+      mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  return copy(forms::averaged_star(triangulation, values(form)));
 }
 
 }  // namespace

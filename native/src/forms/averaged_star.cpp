@@ -1,7 +1,5 @@
 #include "forms/averaged_star.h"
 
-#include "mesh/triangle_geometry.h"
-
 namespace holomorph::forms {
 
 using mesh::edge_of;
@@ -9,8 +7,8 @@ using mesh::HalfedgeHandle;
 using mesh::next;
 using mesh::sign;
 
-std::vector<double> averaged_star(const mesh::HalfEdges& mesh, std::span<const double> lengths,
-                                  const std::vector<double>& form) {
+std::vector<double> averaged_star(const mesh::IntrinsicTriangulation& triangulation, const std::vector<double>& form) {
+  const mesh::HalfEdges& mesh = triangulation.half_edges;
   std::vector<double> star(form.size(), 0.0);
   for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
     HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(f));
@@ -18,9 +16,8 @@ std::vector<double> averaged_star(const mesh::HalfEdges& mesh, std::span<const d
       // Side h opposite corner 0, corners 1 and 2 its ends: (*w)(h) = cot_2 w(0 -> 1) + cot_1 w(0 -> 2), the flux
       // through h.
       const HalfedgeHandle to_apex = next(mesh, h), from_apex = next(mesh, to_apex);
-      const double a = lengths[edge_of(h)], b = lengths[edge_of(to_apex)], c = lengths[edge_of(from_apex)];
-      const double area = mesh::triangle_area(a, b, c);
-      const double at_start = mesh::cotangent(b, c, a, area), at_end = mesh::cotangent(c, a, b, area);
+      const double at_start = triangulation.cotangents[to_apex.idx()];
+      const double at_end = triangulation.cotangents[from_apex.idx()];
       const double to_start = sign(from_apex) * form[edge_of(from_apex)],
                    to_end = -sign(to_apex) * form[edge_of(to_apex)];
       star[edge_of(h)] += 0.5 * sign(h) * (at_end * to_start + at_start * to_end);

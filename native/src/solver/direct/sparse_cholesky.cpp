@@ -1,6 +1,7 @@
 #include "solver/direct/sparse_cholesky.h"
 
 #include <cmath>
+#include <new>
 
 #include "base/errors.h"
 #include "solver/direct/foreign_threads.h"
@@ -19,7 +20,7 @@ using Lower = Eigen::SparseMatrix<double>;
 void check(bool done, Eigen::Index unknowns) {
   if (done) return;
   throw SolverError("the factorisation of a system of " + std::to_string(unknowns) +
-                    " unknowns failed: not positive definite, or out of memory");
+                    " unknowns failed: not positive definite");
 }
 
 // The rows and columns of `places`, ascending.
@@ -46,6 +47,19 @@ Lower part(const Lower& lower, const std::vector<Eigen::Index>& places) {
 // Fixed unknowns become a dense block at the end of the factor where what is left of the surface connects them. Beyond
 // this many times n^1.5 operations two factorisations are faster than that one; AMD's own order takes 3 to 50.
 constexpr double kMostOperations = 300;
+
+struct Dense {
+  Dense(std::size_t rows, std::size_t columns, cholmod_common& common)
+      : matrix(cholmod_allocate_dense(rows, columns, rows, CHOLMOD_REAL, &common)), common(common) {
+    if (matrix == nullptr) throw std::bad_alloc();
+  }
+  ~Dense() { cholmod_free_dense(&matrix, &common); }
+  Dense(const Dense&) = delete;
+  Dense& operator=(const Dense&) = delete;
+
+  cholmod_dense* matrix;
+  cholmod_common& common;
+};
 
 struct SparseCholesky::Factor {
   Factor() {
@@ -82,6 +96,7 @@ struct SparseCholesky::Factor {
     if (cholmod_camd(&A, nullptr, 0, last.data(), order.data(), &common)) {
       L = cholmod_analyze_p(&A, order.data(), nullptr, 0, &common);
     }
+    check_memory();
     if (L == nullptr || common.fl > kMostOperations * std::pow(static_cast<double>(lower.rows()), 1.5)) return false;
     factorise(A);
     return true;
@@ -103,19 +118,25 @@ struct SparseCholesky::Factor {
  private:
   void factorise(cholmod_sparse& A) {
     const auto unknowns = static_cast<Eigen::Index>(A.nrow);
+    check_memory();
     check(L != nullptr, unknowns);
     cholmod_factorize(&A, L, &common);
+    check_memory();
     check(common.status == CHOLMOD_OK, unknowns);
   }
 
   // The solution of one of CHOLMOD's systems: A x = b, L x = b, L' x = b, and permutations.
   Eigen::MatrixXd apply(int system, const Eigen::MatrixXd& B) {
     cholmod_dense b = Eigen::viewAsCholmod(const_cast<Eigen::MatrixXd&>(B));  // CHOLMOD only reads it
-    cholmod_dense* x = cholmod_solve(system, L, &b, &common);
-    check(x != nullptr, B.rows());
-    Eigen::MatrixXd X = Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), B.rows(), B.cols());
-    cholmod_free_dense(&x, &common);
-    return X;
+    // The workspace too: CHOLMOD 3 looks at only one of its two parts, whether it got the memory.
+    Dense x(b.nrow, b.ncol, common), y(b.nrow, b.ncol, common), e(b.ncol, L->maxesize, common);
+    check(cholmod_solve2(system, L, &b, nullptr, &x.matrix, nullptr, &y.matrix, &e.matrix, &common) != 0, B.rows());
+    return Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x.matrix->x), B.rows(), B.cols());
+  }
+
+  // Memory that CHOLMOD did not get is no reason to go another way.
+  void check_memory() const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   }
 
   cholmod_common common;

@@ -1,0 +1,256 @@
+"""Faults: requests for memory and threads that are refused, interrupts at any time, cancelling at any call, processes.
+
+Each run ends in a result or an error, and the next one has the right bits. Child processes make the faults.
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import families
+import holomorph
+import numpy as np
+import pytest
+from holomorph import Cancelled, ProgressiveMesh, Surface, Tiler, conformal_structure
+from solved import surface_of
+from test_read import off
+
+LIBRARY = os.environ.get("HOLOMORPH_FAILING_REQUESTS")  # made by tests/native, named by scripts/test
+linux = pytest.mark.skipif(sys.platform != "linux", reason="signals, processes and the loader of Linux")
+needs_library = pytest.mark.skipif(not LIBRARY, reason="no library that lets requests fail")
+
+
+# ---- what is computed ------------------------------------------------------------------------------------------------
+
+
+def bits_of_structure(mesh, options, progress=None):
+    structure = conformal_structure(surface_of(mesh), **options, progress=progress)
+    uv = structure.uv(structure.balanced_coefficients())
+    return uv.tobytes() + np.array(structure.quality(uv).density_ratio).tobytes()
+
+
+def bits_of_tiling(mesh, options, progress=None):
+    return Tiler(surface_of(mesh), 2, **options, progress=progress).tile(60, progress=progress).uv.tobytes()
+
+
+def bits_of_levels(mesh, options, progress=None):
+    progressive = ProgressiveMesh(surface_of(mesh), progress=progress)
+    return progressive.splits.tobytes() + progressive.level(30).vertices.tobytes()
+
+
+def bits_of_file(mesh, options, progress=None):
+    path = Path(options["folder"], "mesh.off")
+    path.write_bytes(off(mesh))
+    return Surface.read(path).vertices.tobytes()
+
+
+TINY = {
+    "closed, direct": (bits_of_structure, families.torus(6, 5), {"solver": "direct", "threads": 1}),
+    "closed, multigrid": (bits_of_structure, families.torus(6, 5), {"solver": "multigrid", "threads": 2}),
+    "closed, paper": (bits_of_structure, families.torus(6, 5), {"solver": "paper", "threads": 2}),
+    "bounded": (bits_of_structure, families.punched(families.block_with_holes(0, refine=2), 3), {"threads": 2}),
+    "sphere": (bits_of_structure, families.geodesic_sphere(2), {"threads": 2}),
+    "disk": (bits_of_structure, families.hemisphere(3), {"threads": 2}),
+    "tiling": (bits_of_tiling, families.torus(6, 5), {"threads": 2}),
+    "levels": (bits_of_levels, families.torus(6, 5), {}),
+    "file": (bits_of_file, families.torus(6, 5), {}),
+}
+
+
+# ---- requests that are refused ---------------------------------------------------------------------------------------
+
+REFUSED = """
+import ctypes, sys
+sys.path.insert(0, sys.argv[1])
+import holomorph
+from test_faults import LIBRARY, TINY
+
+library = ctypes.CDLL(LIBRARY)
+compute, mesh, options = TINY[sys.argv[2]]
+options = {"folder": sys.argv[3]} if sys.argv[2] == "file" else options
+expected, refusals, granted, done = compute(mesh, options), 0, 0, False
+while not done:
+    library.fail_memory_after(granted)
+    try:
+        result = compute(mesh, options)
+    except (holomorph.Error, MemoryError):
+        refusals, result = refusals + 1, expected
+    done = library.memory_requests_left() >= 0
+    library.fail_memory_after(-1)
+    assert result == expected, f"after {granted} requests"
+    assert compute(mesh, options) == expected, f"after the failure of request {granted}"
+    granted += 1 + granted // 12
+print(refusals, granted)
+"""
+
+
+def ended(arguments, **variables):
+    """The words that a process of its own prints."""
+    packages = os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(Path(__file__).parent)])
+    command = [sys.executable, *map(str, arguments)]
+    environment = os.environ | {"PYTHONPATH": packages} | variables
+    child = subprocess.run(command, capture_output=True, text=True, timeout=600, env=environment)
+    assert child.returncode == 0, f"{child.returncode}: {child.stderr[-3000:]}"
+    return child.stdout.split()
+
+
+def run_child(program, *arguments, **variables):
+    return ended(["-c", program, Path(__file__).parent, *arguments], **variables)
+
+
+@linux
+@needs_library
+@pytest.mark.parametrize("name", TINY)
+def test_a_request_for_memory_fails(name, tmp_path):
+    """The first, the second, and so on up to the last: those of Python and NumPy too."""
+    refusals, granted = map(int, run_child(REFUSED, name, tmp_path, LD_PRELOAD=LIBRARY))
+    assert refusals > 20 and granted > 100
+
+
+NO_THREADS = """
+import ctypes, sys
+sys.path.insert(0, sys.argv[1])
+from test_faults import LIBRARY, TORUS, bits_of_structure
+
+library = ctypes.CDLL(LIBRARY)
+expected = bits_of_structure(TORUS, {"threads": 1})
+for granted in range(8):
+    library.fail_thread_after(granted)
+    assert bits_of_structure(TORUS, {"threads": 4}) == expected
+    library.fail_thread_after(-1)
+    assert bits_of_structure(TORUS, {"threads": 4}) == expected
+print("done")
+"""
+TORUS = families.torus(97, 85, shape="triangles", jitter=0.2)  # just large enough for its loops to be shared out
+
+
+@linux
+@needs_library
+def test_a_thread_that_cannot_be_started():
+    """Those that there are do the work."""
+    assert run_child(NO_THREADS, LD_PRELOAD=LIBRARY) == ["done"]
+
+
+# ---- interrupts ------------------------------------------------------------------------------------------------------
+
+INTERRUPTED = """
+import random, signal, sys, time
+sys.path.insert(0, sys.argv[1])
+from test_faults import TORUS, bits_of_structure
+
+options = {"threads": 2, "solver": sys.argv[2]}
+expected, start = bits_of_structure(TORUS, options), time.monotonic()
+bits_of_structure(TORUS, options)
+once, chance, interrupts = time.monotonic() - start, random.Random(7), 0
+signal.signal(signal.SIGALRM, signal.default_int_handler)
+for _ in range(20):
+    try:
+        signal.setitimer(signal.ITIMER_REAL, chance.uniform(1e-4, once))
+        bits_of_structure(TORUS, options)
+        signal.setitimer(signal.ITIMER_REAL, 0)
+    except KeyboardInterrupt:
+        interrupts += 1
+    assert bits_of_structure(TORUS, options) == expected
+print(interrupts)
+"""
+
+
+@linux
+@pytest.mark.parametrize("solver", ["direct", "multigrid", "paper"])
+def test_an_interrupt_at_any_time(solver):
+    (interrupts,) = map(int, run_child(INTERRUPTED, solver))
+    assert interrupts >= 5
+
+
+# ---- cancelling ------------------------------------------------------------------------------------------------------
+
+MEDIUM = {
+    "closed": (bits_of_structure, TORUS, {"solver": "multigrid", "threads": 2}),
+    "paper": (bits_of_structure, TORUS, {"solver": "paper", "threads": 2}),
+    "bounded": (bits_of_structure, families.punched(TORUS, 2), {"threads": 2}),
+    "tiling": (bits_of_tiling, families.torus(30, 20, shape="triangles", jitter=0.2), {"threads": 2}),
+    "levels": (bits_of_levels, TORUS, {}),
+}
+
+
+@pytest.mark.parametrize("name", MEDIUM)
+def test_cancelling_at_every_call(name):
+    """How many calls there are depends on the time that passes between them."""
+    compute, mesh, options = MEDIUM[name]
+    expected, last = compute(mesh, options), False
+    for call in range(1, 200):
+        calls = []
+
+        def stop(fraction, stage, calls=calls, call=call):
+            calls.append(stage)
+            return len(calls) < call
+
+        try:
+            assert compute(mesh, options, stop) == expected
+            last = True
+        except Cancelled:
+            assert len(calls) == call
+        if last:
+            break
+    assert last and call > 1
+    assert compute(mesh, options) == expected
+
+
+# ---- processes and interpreters --------------------------------------------------------------------------------------
+
+POOLED = """
+import multiprocessing, sys
+sys.path.insert(0, sys.argv[1])
+from test_faults import TORUS, bits_of_structure
+
+
+def compute(solver):
+    return bits_of_structure(TORUS, {"solver": solver, "threads": 2})
+
+
+if __name__ == "__main__":
+    solvers = ["direct", "multigrid", "direct", "multigrid"]
+    expected = [compute(solver) for solver in solvers]
+    with multiprocessing.get_context(sys.argv[2]).Pool(2) as pool:
+        assert pool.map_async(compute, solvers).get(timeout=300) == expected
+    assert [compute(solver) for solver in solvers] == expected
+    print("done")
+"""
+
+
+@linux
+@pytest.mark.parametrize("method", ["fork", "spawn", "forkserver"])
+def test_processes_of_a_pool(method, tmp_path):
+    """After their parent has had threads of its own."""
+    program = tmp_path / "pooled.py"  # a child that is not forked loads it again
+    program.write_text(POOLED)
+    assert ended([program, Path(__file__).parent, method]) == ["done"]
+
+
+SECOND = """
+import _xxsubinterpreters as interpreters
+import sys
+import holomorph
+
+second = interpreters.create()
+attempt = f'''
+import sys
+sys.path[:0] = {sys.path!r}
+try:
+    import holomorph
+    print("loaded")
+except ImportError:
+    print("refused")
+'''
+interpreters.run_string(second, attempt)
+interpreters.destroy(second)
+holomorph.Surface([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+print("done", flush=True)
+"""
+
+
+@pytest.mark.skipif(sys.version_info[:2] != (3, 11), reason="the module's name changes with every Python")
+def test_a_second_interpreter_in_the_process():
+    """NumPy refuses it, or both work."""
+    assert run_child(SECOND)[-1] == "done"
