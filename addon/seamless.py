@@ -14,8 +14,8 @@ from .mesh_io import MAIN_MAP
 
 EVEN = 2.0  # 95 : 5 % ratio of the density below which a balanced map stays: the squares' sizes hardly differ
 MORE_EVEN = 0.8  # the largest ratio, over that of the balanced map, with which a tiling takes its place
-MORE_SHEARED = 1.1  # likewise of the mean s1 / s2
-MOST_FLIPPED = 0.01  # of its triangles
+MORE_SHEARED = 1.1  # likewise of the mean s1 / s2, capped so that a few triangles at poles and zeros do not decide
+MOST_FLIPPED = 0.01  # of its area
 
 
 def tiled(solved, options, progress=None):
@@ -58,8 +58,9 @@ def _is_taken(part, options):
 
 def _is_better(found, balanced):
     """Whether a tiling is to take the place of the balanced map with this report, where None is infinite."""
-    ratio, angle = (math.inf if balanced[name] is None else balanced[name] for name in ("density_ratio", "mean_angle"))
-    is_fit = np.mean(found.quality.flipped) < MOST_FLIPPED and found.quality.mean_angle < MORE_SHEARED * angle
+    ratio = math.inf if balanced["density_ratio"] is None else balanced["density_ratio"]
+    quality, most_sheared = found.quality, MORE_SHEARED * balanced["capped_mean_angle"]
+    is_fit = quality.flipped_part < MOST_FLIPPED and quality.capped_mean_angle < most_sheared
     return is_fit and found.density_ratio < MORE_EVEN * ratio
 
 

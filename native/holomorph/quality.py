@@ -1,8 +1,13 @@
 """The distortion of UV maps."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
+
+from . import _native
+
+MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
 
 
 @dataclass(frozen=True, eq=False)
@@ -12,7 +17,8 @@ class Quality:
     angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed or a UV is not finite); area:
     (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the
     triangles that have not collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 %
-    quantile.
+    quantile; capped_mean_angle: mean of s1 / s2 over the area, 10 at most, so that no single triangle decides it;
+    flipped_part: part of the area.
     """
 
     angle: np.ndarray
@@ -21,8 +27,30 @@ class Quality:
     mean_angle: float
     density_ratio: float
     median_density: float
+    _triangulation: object = field(repr=False)
+
+    @classmethod
+    def of(cls, triangulation, uv, threads):
+        """That of (#C, 2) UVs on a native surface."""
+        return cls(*_native.quality(triangulation, uv, threads), triangulation)
 
     @property
     def collapsed(self):
         """(#T,) bool: the map leaves a triangle with area next to none."""
         return np.isinf(self.angle)
+
+    @cached_property
+    def capped_mean_angle(self):
+        return float(np.average(np.minimum(self.angle, MOST_SHEARED), weights=self._weights))
+
+    @cached_property
+    def flipped_part(self):
+        return float(np.average(self.flipped, weights=self._weights))
+
+    @cached_property
+    def _weights(self):
+        """(#T,) areas of the triangles, from their sides (Heron's formula, its factors kept from cancelling)."""
+        sides = np.sort(self._triangulation.edge_lengths[self._triangulation.triangle_edges], axis=1)
+        a, b, c = sides.T  # ascending
+        areas = np.sqrt(np.maximum((c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)), 0.0)) / 4
+        return areas if areas.any() else np.ones_like(areas)

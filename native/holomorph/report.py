@@ -77,7 +77,9 @@ def map_report(coefficients, quality):
         {
             "coefficients": coefficients,
             "mean_angle": quality.mean_angle,
+            "capped_mean_angle": quality.capped_mean_angle,
             "density_ratio": quality.density_ratio,
+            "flipped_part": quality.flipped_part,
             "flipped_triangles": np.count_nonzero(quality.flipped),
             "collapsed_triangles": np.count_nonzero(quality.collapsed),
         }

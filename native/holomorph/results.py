@@ -113,7 +113,7 @@ class Structure:
 
     def quality(self, uv):
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
-        return Quality(*_native.quality(self._triangulation, self._checked_uv(uv), self._threads))
+        return Quality.of(self._triangulation, self._checked_uv(uv), self._threads)
 
     def tile(
         self,

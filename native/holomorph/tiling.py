@@ -131,7 +131,7 @@ class Tiler:
             left_over=made.left_over,
             optimal_density_ratio=self.poles.density_ratio,
             tiles=made.tiles,
-            quality=Quality(*_native.quality(triangulation, uv, 0)),
+            quality=Quality.of(triangulation, uv, 0),
             seams=self._of_surface(triangulation.edges[made.seams()]),
         )
 
