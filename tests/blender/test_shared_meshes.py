@@ -42,6 +42,7 @@ SHARED = {
     "hand_closed.obj": (0, 0, 1),
     "hand_lowres_b1.obj": (0, 1, 1),
     "hemisphere_b1.obj": (0, 1, 1),
+    "hourglass_ico.obj": (0, 0, 2),
     "inverted_triangles_b6.obj": (0, 6, 1),
     "kitten_19k.obj": (1, 0, 1),
     "lionstatue_g3_b1.obj": (3, 1, 1),
@@ -71,7 +72,6 @@ SHARED = {
 REFUSED = {
     "bunny_nonmanifold.ply": "faces",
     "moebius_quads.obj": "orient",
-    "hourglass_ico.obj": "vertex",
     "triple_vierbein.obj": "faces",
 }
 
