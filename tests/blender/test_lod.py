@@ -298,7 +298,7 @@ def test_what_is_refused_is_left_as_it_is():
 def test_without_any_map_nothing_is_made(monkeypatch):
     solve = module("solve")
 
-    def skipped(_library, part, *_):
+    def skipped(_library, _make, part, *_):
         return solve.SolvedComponent(part, None, None, "the surface is strange")
 
     monkeypatch.setattr(solve, "_solve_component", skipped)
