@@ -10,7 +10,7 @@ namespace holomorph::mesh {
 /// The vertices keep their order, so the lower end of an edge remains the lower one.
 struct PolygonPart {
   Polygons polygons;                                        ///< without positions where the whole has none
-  std::vector<int> vertex_index, face_index, corner_index;  ///< of each element in the whole
+  std::vector<int> vertex_index, face_index, corner_index;  ///< each element's index in the whole
 };
 
 /// Takes parts out, one after the other, each in time linear in its own size.

@@ -37,8 +37,8 @@ DoubleDouble sharp_cotangent(const Metric& t, HalfedgeHandle h) {
 
 }  // namespace
 
-// A length l_i that is off by delta_i changes the metric by 2 l_i delta_i |grad lambda_j| |grad lambda_k|, the lengths
-// of these gradients l_k / 2A and l_j / 2A.
+// A length l_i that is off by delta_i changes the metric by 2 l_i delta_i |grad lambda_j| |grad lambda_k|; these
+// gradients are l_j / 2A and l_k / 2A long.
 MetricError metric_error(const std::array<double, 3>& sides) {
   const auto [a, b, c] = sides;
   const double bound = kOfLength * a * b * c * (a + b + c) / 2, area = triangle_area(a, b, c);
