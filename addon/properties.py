@@ -48,7 +48,7 @@ MAIN_MAPS = (
     (
         "AUTOMATIC",
         "Automatic",
-        "Seamless on each part where that is more even; balanced where something else is chosen for a part, or "
+        "Seamless on each part where that is no less even; balanced where something else is chosen for a part, or "
         "density, rotation or the forms' shares are set",
     ),
     ("SEAMLESS", "Seamless", "A texture that tiles shows no seam; density, rotation and forms' shares do not matter"),

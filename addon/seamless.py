@@ -13,8 +13,8 @@ from . import maps, tiling
 from .mesh_io import MAIN_MAP
 
 EVEN = 2.0  # 95 : 5 % ratio of the density below which a balanced map stays: the squares' sizes hardly differ
-MORE_EVEN = 0.8  # the largest ratio, over that of the balanced map, with which a tiling takes its place
-MORE_SHEARED = 1.1  # likewise of the mean s1 / s2, capped so that a few triangles at poles and zeros do not decide
+LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
+MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
 MOST_FLIPPED = 0.01  # of its area
 
 
@@ -57,11 +57,12 @@ def _is_taken(part, options):
 
 
 def _is_better(found, balanced):
-    """Whether a tiling is to take the place of the balanced map with this report, where None is infinite."""
+    """Whether a tiling is to take the place of the balanced map with this report, where None is infinite: it has no
+    visible seam, so that it is to be about as even, and hardly more sheared."""
     ratio = math.inf if balanced["density_ratio"] is None else balanced["density_ratio"]
     quality, most_sheared = found.quality, MORE_SHEARED * balanced["capped_mean_angle"]
     is_fit = quality.flipped_part < MOST_FLIPPED and quality.capped_mean_angle < most_sheared
-    return is_fit and found.density_ratio < MORE_EVEN * ratio
+    return is_fit and found.density_ratio < LESS_EVEN * ratio
 
 
 def map_values(solved, options, tiled):

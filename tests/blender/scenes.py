@@ -58,11 +58,11 @@ def tube_arrays(around=32, along=12):
     return vertices, np.stack([a[:, :-1], b[:, :-1], b[:, 1:], a[:, 1:]], -1).reshape(-1, 4)
 
 
-def torus_arrays(around=24, across=12, thickness=0.4):
-    """Quads of an uneven torus."""
+def torus_arrays(around=24, across=12, thickness=0.4, bulge=0.3):
+    """Quads of a torus, uneven where it bulges."""
     i, j = np.meshgrid(np.arange(around), np.arange(across), indexing="ij")
     u, v = 2 * np.pi * i / around, 2 * np.pi * j / across
-    r = thickness * (1 + 0.3 * np.sin(2 * u))
+    r = thickness * (1 + bulge * np.sin(2 * u))
     vertices = np.stack([(1 + r * np.cos(v)) * np.cos(u), (1 + r * np.cos(v)) * np.sin(u), r * np.sin(v)], -1)
     i2, j2 = (i + 1) % around, (j + 1) % across
     faces = np.stack([i * across + j, i2 * across + j, i2 * across + j2, i * across + j2], -1)

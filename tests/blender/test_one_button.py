@@ -60,11 +60,20 @@ def test_the_monkey_is_even():
 
 
 def test_an_even_part_stays_what_it_is():
-    obj = torus(thickness=0.1)
+    obj = torus(thickness=0.1, bulge=0)
     press(main="BALANCED")
     expected = uv(obj)
     press()
     assert np.array_equal(uv(obj), expected) and tilings(obj) == [None]
+
+
+def test_a_part_that_a_tiling_makes_no_less_even_becomes_seamless():
+    obj = torus(thickness=0.1)
+    press()
+    (found,) = tilings(obj)
+    assert found["poles"] == [] and found["density_ratio"] > 2
+    _, jumps = edge_jumps(obj)
+    assert np.array_equal(jumps, np.round(jumps)) and np.abs(jumps).max() >= 1
 
 
 def test_the_maps_of_the_forms_stay_what_they_are():
@@ -97,7 +106,7 @@ def test_punctures_are_followed_and_seamless_is_for_all():
 
 
 def test_parts_of_both_kinds_lie_side_by_side_at_one_density():
-    obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1))
+    obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1, bulge=0))
     assert press() == {"FINISHED"}
     first, second = tilings(obj)
     assert first is not None and second is None
@@ -121,7 +130,7 @@ def test_parts_share_the_density_of_the_largest():
 
 
 def test_a_checker_of_two_squares_in_each_tile_and_other_objects_keep_theirs():
-    seamless, other = limb(), torus(thickness=0.1)
+    seamless, other = limb(), torus(thickness=0.1, bulge=0)
     select(seamless, other)
     press()
     assert shown_scale(seamless) == 2 and shown_scale(other) > 2
@@ -204,7 +213,7 @@ def test_progress_grows_over_solve_and_tiling():
 
 
 def test_the_same_bits_twice():
-    obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1))
+    obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1, bulge=0))
     press()
     before = uv(obj)
     module("cache").clear()
