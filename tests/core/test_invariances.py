@@ -15,7 +15,9 @@ from hypothesis import strategies as st
 from solved import surface_of
 
 SOLVER = 1e-8  # relative: what the solver leaves over, times the condition of small matrices
-SEARCH = 0.1  # relative: the most even map of a coarse mesh is found by a search among many that are nearly as even
+# Relative: the most even map of a coarse mesh is found by a search among many that are nearly as even. Where it begins
+# depends on the axes, but not on numbers and units.
+SEARCH = {"numbers": 0.01, "size": 0.01, "place": 0.1}
 
 settings.register_profile(
     "same every time", derandomize=True, deadline=None, database=None, suppress_health_check=list(HealthCheck)
@@ -121,10 +123,11 @@ TWO_FORMS = st.builds(families.block_with_holes, st.just(2), st.integers(1, 2), 
 )
 
 
-@pytest.mark.parametrize(("drawn", "tolerance"), [(ONE_FORM, SOLVER), (TWO_FORMS, SEARCH)], ids=["one", "two"])
+@pytest.mark.parametrize("drawn", [ONE_FORM, TWO_FORMS], ids=["one", "two"])
 @pytest.mark.parametrize("change", CHANGES)
-def test_the_map_of_the_same_surface(change, drawn, tolerance):
+def test_the_map_of_the_same_surface(change, drawn):
     apply, parameter = CHANGES[change]
+    tolerance = SOLVER if drawn is ONE_FORM else SEARCH[change]
 
     @settings(few, max_examples=5)
     @given(drawn, parameter)
@@ -132,6 +135,27 @@ def test_the_map_of_the_same_surface(change, drawn, tolerance):
         assert abs(density_ratio(apply(mesh, value)) / density_ratio(mesh) - 1) < tolerance
 
     holds()
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        families.block_with_holes(2, 2, 0.2, 0),
+        families.block_with_holes(5, 1, 0.2, 1),
+        families.torus(24, 12, jitter=0.3, seed=1),
+        families.punched(families.block_with_holes(1, 3, 0.25, 1), 3, 1),
+    ],
+    ids=["genus 2", "genus 5", "torus", "three holes"],
+)
+def test_ten_numberings_have_the_same_maps(mesh):
+    mesh = families.triangles_of(mesh)
+    ratios, tilings = [], []
+    for seed in range(10):
+        structure = conformal_structure(surface_of(renumbered(mesh, seed)))
+        ratios.append(structure.quality(structure.uv(structure.balanced_coefficients())).density_ratio)
+        tilings.append(structure.tile())
+    assert np.ptp(ratios) < SEARCH["numbers"] * min(ratios)
+    assert len({len(found.poles) for found in tilings}) == 1
 
 
 @few

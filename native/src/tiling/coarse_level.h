@@ -16,9 +16,13 @@ struct CoarseLevel {
   std::shared_ptr<const mesh::Surface> surface;
   std::vector<int> vertex;     ///< #V of the level: the same vertex of the surface
   std::vector<int> collapsed;  ///< #V of the surface: the vertex of the level that it was collapsed into
+
+  /// Whether the level has all triangles of the surface.
+  bool is_whole(const mesh::Surface& all) const { return surface->triangles.size() == all.triangles.size(); }
 };
 
-/// The surface itself where it is small, intrinsic, or has no progressive mesh. @throws Cancelled
+/// Numbered by the positions of the vertices, so that the poles do not depend on how the surface numbers them. All its
+/// triangles where it is small; the surface itself where it is intrinsic or has no progressive mesh. @throws Cancelled
 CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution);
 
 }  // namespace holomorph::tiling

@@ -1,7 +1,6 @@
 #include "tiling/flow.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -12,21 +11,6 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
-
-MatrixXcd tangent_frames(const mesh::Surface& surface, const std::vector<int>& triangles) {
-  MatrixXcd result(3, static_cast<Index>(triangles.size()));
-  for (Index s = 0; s < result.cols(); ++s) {
-    const auto corner = [&](int i) {
-      const auto& position = surface.polygons.vertices[surface.triangles[triangles[s]][i]];
-      return Eigen::Vector3d(position[0], position[1], position[2]);
-    };
-    const Eigen::Vector3d x = (corner(1) - corner(0)).stableNormalized();
-    const Eigen::Vector3d along2 = corner(2) - corner(0);
-    const Eigen::Vector3d y = (along2 - along2.dot(x) * x).stableNormalized();
-    result.col(s) = x.cast<Complex>() + Complex(0, 1) * y.cast<Complex>();
-  }
-  return result;
-}
 
 double phase_along(const std::array<double, 3>& axis, const MatrixXcd& frames, const VectorXcd& A) {
   const Eigen::RowVector3cd direction = Eigen::RowVector3d(axis[0], axis[1], axis[2]).cast<Complex>();

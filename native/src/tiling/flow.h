@@ -3,15 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <vector>
-
-#include "mesh/surface.h"
-
 namespace holomorph::tiling {
-
-/// 3 x #triangles: e_x + i e_y of the plane of each triangle, x along side 0. The form A dz is the field A (e_x + i
-/// e_y), gradient of u plus i times gradient of v. @pre the surface has positions
-Eigen::MatrixXcd tangent_frames(const mesh::Surface& surface, const std::vector<int>& triangles);
 
 /// The phase by which A dz is to be rotated so that u runs along the axis as far as it can, up or down alike where both
 /// are as frequent.

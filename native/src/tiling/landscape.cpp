@@ -3,13 +3,31 @@
 #include <algorithm>
 
 #include "mesh/intrinsic_triangulation.h"
+#include "mesh/triangle_geometry.h"
 #include "structure/invariants.h"
 #include "tiling/flow.h"
+#include "uv/vector_fields.h"
 
 namespace holomorph::tiling {
 namespace {
 
 constexpr int kBlock = 32;  // poles solved for at a time
+
+// The largest triangle at each vertex.
+std::vector<int> largest_triangles(const mesh::Surface& surface) {
+  std::vector<int> result(surface.vertex_count, -1);
+  std::vector<double> area(surface.vertex_count, -1);
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    const auto& [a, b, c] = surface.triangle_edges[t];
+    const double own = mesh::triangle_area(surface.edge_lengths[a], surface.edge_lengths[b], surface.edge_lengths[c]);
+    for (const int v : surface.triangles[t]) {
+      if (own <= area[v]) continue;
+      area[v] = own;
+      result[v] = t;
+    }
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -24,15 +42,12 @@ Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structu
                      std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Execution& execution)
     : on_level_(std::move(on_level)), level_vertex_(level.collapsed) {
   structure_.surface = std::move(surface);
-  std::vector<int> triangle_at(structure_.surface->vertex_count, -1);
-  for (int t = 0; t < static_cast<int>(structure_.surface->triangles.size()); ++t) {
-    for (const int v : structure_.surface->triangles[t]) triangle_at[v] = t;
-  }
+  const std::vector<int> triangle_at = largest_triangles(this->surface());
   const mesh::Surface& coarse = on_level_->surface();
   for (const int t : on_level_->samples()) samples_.push_back(triangle_at[level.vertex[coarse.triangles[t][0]]]);
   // A (e_x + i e_y) there is the nearest to that here where A is multiplied by the product of the frames.
-  const Eigen::MatrixXcd there = tangent_frames(coarse, on_level_->samples()),
-                         here = tangent_frames(this->surface(), samples_);
+  const Eigen::MatrixXcd there = uv::tangent_frames(coarse, on_level_->samples()),
+                         here = uv::tangent_frames(this->surface(), samples_);
   from_level_ = (here.conjugate().cwiseProduct(there)).colwise().sum().transpose() / 2;
   solve(options, execution);
 }

@@ -56,9 +56,10 @@ class Search {
     if (landscape_.closed() && k > 0) poles.residues[k - 1] = -static_cast<double>(k - 1);
     poles.coefficients = VectorXcd::Zero(landscape_.form_count());
     if (landscape_.form_count() > 0 && k == 0) {
-      const uv::SampledParts& parts = landscape_.holomorphic();
-      poles.coefficients = landscape_.form_count() == 1 ? VectorXcd::Ones(1)
-                                                        : uv::lowest_variance(parts, rules_.kind, execution_.workers());
+      poles.coefficients = landscape_.form_count() == 1
+                               ? VectorXcd::Ones(1)
+                               : uv::lowest_variance(landscape_.surface(), landscape_.samples(),
+                                                     landscape_.holomorphic(), rules_.kind, execution_.workers());
     }
     objective_.prepare(poles.vertices, execution_);
     objective_.optimise(poles, kFromAfar, execution_);

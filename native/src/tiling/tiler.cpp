@@ -11,6 +11,7 @@
 #include "tiling/pole_placement.h"
 #include "tiling/seamless_map.h"
 #include "tiling/tiling_problem.h"
+#include "uv/vector_fields.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -99,13 +100,15 @@ void Tiler::adopt(std::unique_ptr<Landscape> landscape, Poles poles, Execution& 
 void Tiler::transfer(std::unique_ptr<Landscape> on_level, const CoarseLevel& level, Poles poles, Execution& execution) {
   const VectorXcd wanted =
       on_level->holomorphic().M * poles.coefficients + on_level->poles(poles.vertices, execution) * poles.residues;
-  const MatrixXcd frames = tangent_frames(on_level->surface(), on_level->samples());
+  const MatrixXcd frames = uv::tangent_frames(on_level->surface(), on_level->samples());
   for (int& v : poles.vertices) v = level.vertex[v];
-  auto landscape = std::make_unique<Landscape>(surface_, options_, std::move(on_level), level, execution);
+  auto landscape = level.is_whole(*surface_)
+                       ? std::make_unique<Landscape>(surface_, options_, execution)
+                       : std::make_unique<Landscape>(surface_, options_, std::move(on_level), level, execution);
   if (landscape->form_count() > 0) {
     poles.coefficients = fitted_coefficients(
         wanted, frames, landscape->holomorphic().M, landscape->poles(poles.vertices, execution) * poles.residues,
-        tangent_frames(*surface_, landscape->samples()), kind_ == uv::Coefficients::real);
+        uv::tangent_frames(*surface_, landscape->samples()), kind_ == uv::Coefficients::real);
   }
   poles = optimised(*landscape, {kind_, {}, {}}, std::move(poles), execution);
   adopt(std::move(landscape), std::move(poles), execution);
@@ -153,8 +156,8 @@ RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& exe
   if (wishes.direction) {
     const VectorXcd A = landscape_->holomorphic().M * poles_.coefficients +
                         landscape_->poles(poles_.vertices, execution) * poles_.residues;
-    result.phase =
-        wishes.turn.value_or(0) + phase_along(*wishes.direction, tangent_frames(*surface_, landscape_->samples()), A);
+    result.phase = wishes.turn.value_or(0) +
+                   phase_along(*wishes.direction, uv::tangent_frames(*surface_, landscape_->samples()), A);
   }
   return result;
 }

@@ -1,71 +1,127 @@
 #include "uv/balance.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <random>
 
 #include "base/chunks.h"
+#include "uv/vector_fields.h"
 
 namespace holomorph::uv {
 namespace {
 
 using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-// The floor under the density is lowered step by step, first from fixed pseudo-random starts on every kThinning-th
-// sample, then from the best of their ends on all samples.
+// The floor under the density is lowered step by step, first from fixed starts on every kThinning-th sample, then from
+// the best of their ends on all samples.
 constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSteps = 100;
 // From this many forms on, the number of starts falls in inverse proportion, as the cost of each grows faster.
 constexpr int kManyForms = 64;
+// Against the logarithm of the 95 % over 5 % quantile: the mean of s1 / s2, cut off, and a price of flipped triangles.
+constexpr double kMostSheared = 20, kFlipped = 20;
+constexpr double kSame = 1e-3;  // relative difference of the ends of two descents that are one
 const std::vector<double> kRoughFloors = {1.0, 0.1}, kFineFloors = {0.01, 1e-3, kDensityFloor};
 
 struct Candidate {
-  double variance;
+  double value;
   VectorXd x;
 };
 
-// The candidate at the end of the descent from x.
-Candidate lowered(const SampledParts& parts, Coefficients kind, VectorXd x, const std::vector<double>& floors,
-                  int most_steps) {
-  const double variance = descend(parts, kind, x, floors, most_steps);
-  return {variance, std::move(x)};
+bool lower(const Candidate& a, const Candidate& b) { return a.value < b.value; }
+
+// Columns orthonormal in the mean over the samples: the descent then does not depend on the basis that the forms were
+// given in. @return #coefficients x #coefficients, real for real ones
+MatrixXcd orthonormal(const MatrixXcd& M, Coefficients kind) {
+  const Index n = M.cols();
+  MatrixXcd gram = M.adjoint() * M / static_cast<double>(M.rows());
+  if (kind == Coefficients::real) gram = gram.real().cast<Complex>().eval();
+  gram += 1e-14 * gram.diagonal().real().maxCoeff() * MatrixXcd::Identity(n, n);
+  const Eigen::LLT<MatrixXcd> factor(gram);
+  return factor.matrixU().solve(MatrixXcd::Identity(n, n));
+}
+
+// What a finished map is judged by, the less the better: the variance may be small and the map flipped.
+double judgement(const SampledParts& parts, const VectorXcd& c) {
+  Eigen::ArrayXd q = (parts.M * c).cwiseAbs2().array();
+  double price = 0;
+  if (parts.N.rows() > 0) {
+    const Eigen::ArrayXd a = q.sqrt(), b = (parts.N * c).cwiseAbs().array();
+    const double tiny = std::numeric_limits<double>::min();
+    price = ((a + b) / ((a - b).abs() + tiny)).min(kMostSheared).mean() + kFlipped * (b >= a).cast<double>().mean();
+    q = (q - b.square()).abs() + kDensityFloor * q.mean() + tiny;
+  }
+  std::sort(q.begin(), q.end());
+  return price + std::log(q[q.size() * 19 / 20] / q[q.size() / 20]);
+}
+
+// The best of the ends of the descents with each floor, the first from x.
+Candidate finished(const SampledParts& parts, Coefficients kind, VectorXd x) {
+  Candidate best{INFINITY, {}};
+  for (const double floor : kFineFloors) {
+    descend(parts, kind, x, {floor}, kFineSteps);
+    const double value = judgement(parts, as_complex(x, kind));
+    if (value < best.value) best = {value, x};
+  }
+  return best;
+}
+
+// The nearest forms to fields; beyond these, as on intrinsic surfaces, fixed pseudo-random ones.
+std::vector<Candidate> starts(const MatrixXcd& M, const MatrixXcd& fields, Coefficients kind, int count) {
+  const auto unknowns = (kind == Coefficients::real ? 1 : 2) * M.cols();
+  std::vector<Candidate> list(count, {INFINITY, VectorXd(unknowns)});
+  std::mt19937_64 numbers(1);  // fixed: the same surface gives the same coefficients
+  for (int i = 0; i < count; ++i) {
+    if (i < fields.cols()) {
+      list[i].x = as_unknowns(M.adjoint() * fields.col(i) / static_cast<double>(M.rows()), kind);
+    } else {
+      for (auto& value : list[i].x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
+    }
+  }
+  return list;
 }
 
 }  // namespace
 
-VectorXcd lowest_variance(const SampledParts& parts, Coefficients kind, Workers& workers) {
-  const auto lower = [](const Candidate& a, const Candidate& b) { return a.variance < b.variance; };
+VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& triangles, const SampledParts& given,
+                          Coefficients kind, Workers& workers) {
+  const MatrixXcd basis = orthonormal(given.M, kind);
+  const SampledParts parts{given.M * basis, given.N.rows() > 0 ? MatrixXcd(given.N * basis) : MatrixXcd()};
   const auto every = Eigen::seq(0, Eigen::last, kThinning);
-  const SampledParts thinned{parts.M(every, Eigen::all), parts.N(every, Eigen::all)};
-  std::mt19937_64 numbers(1);  // fixed: the same surface gives the same coefficients
-  const auto unknowns = (kind == Coefficients::real ? 1 : 2) * parts.M.cols();
+  const SampledParts thinned{parts.M(every, Eigen::all),
+                             parts.N.rows() > 0 ? MatrixXcd(parts.N(every, Eigen::all)) : MatrixXcd()};
   const auto fewer = [&](int count, int least) {
-    return std::max(least, count * kManyForms / std::max(kManyForms, static_cast<int>(parts.M.cols())));
+    return std::max(least, count * kManyForms / std::max(kManyForms, static_cast<int>(basis.cols())));
   };
-  const int starts = fewer(kStarts, 2), kept = fewer(kKept, 1);
-  std::vector<Candidate> candidates(starts, {INFINITY, VectorXd(unknowns)});
-  for (auto& candidate : candidates) {
-    // One number in [-1, 1) from each draw: the standard's distributions differ between libraries.
-    for (auto& value : candidate.x) value = static_cast<double>(numbers() >> 11) * 0x1p-52 - 1.0;
-  }
+  const int count = fewer(kStarts, 2);
+  const MatrixXcd fields = surface.intrinsic() ? MatrixXcd() : even_fields(surface, triangles, count);
+  std::vector<Candidate> candidates = starts(parts.M, fields, kind, count);
   // Descents are independent, so the result does not depend on the number of threads.
-  run_throwing(workers, starts, [&](int i) {
-    candidates[i] = lowered(thinned, kind, std::move(candidates[i].x), kRoughFloors, kRoughSteps);
+  run_throwing(workers, static_cast<int>(candidates.size()), [&](int i) {
+    descend(thinned, kind, candidates[i].x, kRoughFloors, kRoughSteps);
+    candidates[i].value = judgement(thinned, as_complex(candidates[i].x, kind));
   });
   std::stable_sort(candidates.begin(), candidates.end(), lower);
-  candidates.resize(kept);
-  run_throwing(workers, kept, [&](int i) {
-    candidates[i] = lowered(parts, kind, std::move(candidates[i].x), kFineFloors, kFineSteps);
-  });
-  return as_complex(std::min_element(candidates.begin(), candidates.end(), lower)->x, kind);
+  const auto same = [](const Candidate& a, const Candidate& b) {
+    return b.value - a.value <= kSame * std::abs(a.value);
+  };
+  candidates.erase(std::unique(candidates.begin(), candidates.end(), same), candidates.end());
+  if (const auto most = static_cast<std::size_t>(fewer(kKept, 1)); candidates.size() > most) candidates.resize(most);
+  run_throwing(workers, static_cast<int>(candidates.size()),
+               [&](int i) { candidates[i] = finished(parts, kind, std::move(candidates[i].x)); });
+  return basis * as_complex(std::min_element(candidates.begin(), candidates.end(), lower)->x, kind);
 }
 
 VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis,
                                 Coefficients kind, Workers& workers) {
   if (basis.cols() == 1) return VectorXcd::Ones(1);
-  VectorXcd c = lowest_variance(sampled_parts(surface, samples, basis), kind, workers);
+  VectorXcd c = lowest_variance(surface, samples.triangles, sampled_parts(surface, samples, basis), kind, workers);
   Eigen::Index largest;
   c.cwiseAbs().maxCoeff(&largest);
   const Complex phase = std::conj(c[largest]) / std::abs(c[largest]);

@@ -19,7 +19,11 @@ namespace holomorph::uv {
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples,
                                        const Eigen::MatrixXcd& basis, Coefficients kind, Workers& workers);
 
-/// The search for them on the samples alone, without the shortcut for one form and the choice of the phase.
-Eigen::VectorXcd lowest_variance(const SampledParts& parts, Coefficients kind, Workers& workers);
+/// The search for them on the samples alone, without the shortcut for one form and the choice of the phase. It depends
+/// on the space of the forms, not on their basis; of the ends of the descents the one is taken whose map is even
+/// (95 % over 5 % quantile of the density), little sheared and not flipped.
+/// @param triangles where the samples are
+Eigen::VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& triangles,
+                                 const SampledParts& parts, Coefficients kind, Workers& workers);
 
 }  // namespace holomorph::uv

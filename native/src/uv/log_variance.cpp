@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <complex>
+#include <numeric>
 
+#include "mesh/spatial_order.h"
 #include "mesh/triangle_geometry.h"
 #include "uv/minimise.h"
 
@@ -37,23 +39,40 @@ struct Placed {
   }
 };
 
+// The triangles in an order that the numbering does not decide, where there are positions.
+std::vector<int> in_order(const mesh::Surface& surface) {
+  if (surface.intrinsic()) {
+    std::vector<int> order(surface.triangles.size());
+    std::iota(order.begin(), order.end(), 0);
+    return order;
+  }
+  std::vector<std::array<double, 3>> centres(surface.triangles.size(), {0, 0, 0});
+  for (std::size_t t = 0; t < centres.size(); ++t) {
+    for (const int v : surface.triangles[t]) {
+      for (int i = 0; i < 3; ++i) centres[t][i] += surface.polygons.vertices[v][i] / 3;
+    }
+  }
+  return mesh::spatial_order(centres);
+}
+
 }  // namespace
 
-// Triangles at kSamples equal steps through the total area.
+// Triangles at kSamples equal steps through the total area, along a curve through space where there are positions.
 std::vector<int> sample_triangles(const mesh::Surface& surface) {
-  const std::size_t count = surface.triangles.size();
-  std::vector<double> until(count);
+  const std::vector<int> order = in_order(surface);
+  std::vector<double> until;
+  until.reserve(order.size());
   double total = 0;
-  for (std::size_t t = 0; t < count; ++t) {
+  for (const int t : order) {
     const auto& s = surface.triangle_edges[t];
     total += mesh::triangle_area(surface.edge_lengths[s[0]], surface.edge_lengths[s[1]], surface.edge_lengths[s[2]]);
-    until[t] = total;
+    until.push_back(total);
   }
   std::vector<int> samples;
   for (int i = 0; i < kSamples; ++i) {
     const double at = total * (i + 0.5) / kSamples;
-    samples.push_back(static_cast<int>(std::min<std::ptrdiff_t>(
-        std::lower_bound(until.begin(), until.end(), at) - until.begin(), static_cast<std::ptrdiff_t>(count) - 1)));
+    const auto found = std::lower_bound(until.begin(), until.end() - 1, at);
+    samples.push_back(order[found - until.begin()]);
   }
   return samples;
 }
