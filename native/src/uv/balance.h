@@ -11,8 +11,8 @@ namespace holomorph::uv {
 
 /// Coefficients c, g numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most
 /// even: least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against distortion
-/// (balance.cpp); the scale is free. The minimum is local, the best from several fixed starts; the same
-/// input gives the same bits.
+/// (balance.cpp); the scale is free. The minimum is local, the best from several starts that are fixed in space; the
+/// same input gives the same bits.
 /// @param samples not used where g = 1
 /// @param basis #forms x g, the theta_j in the forms
 /// @param kind real on bounded surfaces, so that boundaries remain straight
