@@ -127,6 +127,12 @@ def _problems(obj, solved, tiled):
     yield from surface_problems(obj, solved.surface)
 
 
+def judge(outcome, obj, entry):
+    """Adds the verdict on an object's map: among the problems where no texture can be put on."""
+    found = report.verdict(entry)
+    (outcome.notes if found.is_fit else outcome.problems).append(f"{obj.name}: {found.text}")
+
+
 def surface_problems(obj, surface):
     """The parts that are no surface."""
     for refused in surface.refused:
@@ -178,7 +184,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     outcome.done.append(obj.name)
     outcome.forms = max(outcome.forms, solved.form_count)
     outcome.problems += _problems(obj, solved, tiled)
-    outcome.notes += tile_report.notes(obj, entry)
+    judge(outcome, obj, entry)
     outcome.notes += _modifier_notes(obj, solved)
     extra = sum(w.kind == "attribute" for w in written)
     if extra:

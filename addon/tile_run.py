@@ -61,7 +61,7 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
         empties.write(context, obj, *tile_report.marks(obj[report.PROPERTY]))
     outcome.entries.append(entry)
     outcome.done.append(obj.name)
-    outcome.notes += tile_report.notes(obj, entry)
+    run.judge(outcome, obj, entry)
 
 
 def _entry(obj, tiled, written, new_seams, options):
