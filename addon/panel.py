@@ -46,6 +46,41 @@ class HOLOMORPH_PT_image(_HolomorphPanel, bpy.types.Panel):
     bl_space_type = "IMAGE_EDITOR"
 
 
+class _DetailsPanel:
+    """The mathematics of the last result."""
+
+    bl_label = "Details"
+    bl_category = "Holomorph"
+    bl_region_type = "UI"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        if native.problem() or context.active_object is None:
+            return False
+        from . import report
+
+        return report.PROPERTY in context.active_object
+
+    def draw(self, context):
+        from . import report
+
+        column = self.layout.column(align=True)
+        for line in report.summary(context.active_object[report.PROPERTY]):
+            for piece in textwrap.wrap(line, LINE_WIDTH, subsequent_indent="        "):
+                column.label(text=piece)
+
+
+class HOLOMORPH_PT_view3d_details(_DetailsPanel, bpy.types.Panel):
+    bl_space_type = "VIEW_3D"
+    bl_parent_id = "HOLOMORPH_PT_view3d"
+
+
+class HOLOMORPH_PT_image_details(_DetailsPanel, bpy.types.Panel):
+    bl_space_type = "IMAGE_EDITOR"
+    bl_parent_id = "HOLOMORPH_PT_image"
+
+
 def _draw_choices(layout):
     """The button again, for what the selected vertices are to be."""
     column = layout.column(align=True)
@@ -72,16 +107,12 @@ def _draw_sentence(layout, sentence):
 
 
 def _draw_result(layout, obj):
-    from . import material, report
+    from . import material, report, verdict_view
 
     if material.is_covered(obj):
         layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
-    stored = obj.get(report.PROPERTY)
-    if stored:
-        column = layout.column(align=True)
-        for line in report.summary(stored):
-            for piece in textwrap.wrap(line, LINE_WIDTH, subsequent_indent="        "):
-                column.label(text=piece)
+    if obj.get(report.PROPERTY):
+        verdict_view.draw(layout, obj[report.PROPERTY], LINE_WIDTH, HOLOMORPH_OT_tile.bl_idname)
 
 
 def _draw_menu_entry(self, _context):
@@ -91,7 +122,7 @@ def _draw_menu_entry(self, _context):
     self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
 
 
-CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image)
+CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image, HOLOMORPH_PT_view3d_details, HOLOMORPH_PT_image_details)
 MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 
 

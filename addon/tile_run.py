@@ -54,7 +54,7 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
         _show(outcome, obj, tiled, written, options)
     heat.refresh(obj)
     mesh.update()
-    entry = _entry(obj, tiled, [written], new_seams, options)
+    entry = run.with_coarse_places(obj, polygons, _entry(obj, tiled, [written], new_seams, options))
     report.store_on_object(obj, entry)
     empties.remove(obj)
     if options.empties:

@@ -29,7 +29,7 @@ from .results import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure
 from .surface import Surface
 from .tiling import PlacedPoles, Tiler, Tiling, place_poles
-from .verdicts import Verdict, overall, verdict
+from .verdicts import UNEVEN, Verdict, overall, verdict
 
 __all__ = [
     "BoundedStructure",
@@ -58,6 +58,7 @@ __all__ = [
     "Tiling",
     "TopologyError",
     "TriangleMap",
+    "UNEVEN",
     "Verdict",
     "__version__",
     "conformal_structure",
