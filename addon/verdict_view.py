@@ -2,28 +2,27 @@
 """The verdict on an object's map in a panel: words, what would help, plain numbers."""
 
 import math
-import textwrap
 
-from . import coarse, report
+from . import coarse, lines, report
 
 ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
 
 
-def draw(layout, stored, width, tile_operator):
-    """Out of a stored report; `width` in characters, `tile_operator` is offered where poles would help."""
+def draw(layout, context, stored, tile_operator):
+    """Out of a stored report; `tile_operator` is offered where poles would help."""
     entry = report.parsed(stored)
     found = report.verdict(entry)
     if not found:
         return
     box = layout.box().column(align=True)
-    _draw_wrapped(box, found.sentence, width, ICONS[found.level])
+    lines.draw(box, context, found.sentence, ICONS[found.level])
     if entry.get("coarse_places"):
-        _draw_wrapped(box, coarse.sentence(entry["coarse_places"]), width)
+        lines.draw(box, context, coarse.sentence(entry["coarse_places"]))
         box.operator(tile_operator, text="Add Poles There").poles = "COARSE"
     elif found.advice and not found.is_fit:
-        _draw_wrapped(box, f"Try: {found.advice}", width)
+        lines.draw(box, context, f"Try: {found.advice}")
     for name, value in numbers(entry):
-        row = box.split(factor=0.7)
+        row = box.split(factor=0.65)
         row.label(text=name)
         row.label(text=value)
 
@@ -35,15 +34,10 @@ def numbers(entry):
         return []
     ratio = max(math.inf if one["density_ratio"] is None else one["density_ratio"] for one in measured)
     shear = max(one["capped_mean_angle"] for one in measured)
+    size = math.sqrt(ratio)
     return [
-        ("Largest : smallest square", f"{math.sqrt(ratio):.1f}" if ratio < 1e6 else "over 1000"),
-        ("Long : wide of squares", f"{shear:.2f}"),
+        ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000 : 1"),
+        ("Stretch", f"{shear:.2f} : 1"),
         ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
         ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
     ]
-
-
-def _draw_wrapped(layout, text, width, icon="NONE"):
-    for line in textwrap.wrap(text, width):
-        layout.label(text=line, icon=icon)
-        icon = "BLANK1" if icon != "NONE" else icon

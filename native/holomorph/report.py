@@ -91,7 +91,8 @@ def map_report(coefficients, quality, found=None):
 
 def overall_report(parts, is_unwelded=False):
     """The `overall` verdict on a mesh out of its components' reports; None where none is done."""
-    found = [Verdict(**part["main_map"]["verdict"]) for part in parts if part["done"]]
+    done = sorted((part for part in parts if part["done"]), key=lambda part: -part["faces"])
+    found = [Verdict(**part["main_map"]["verdict"]) for part in done]
     return vars(overall(found, is_unwelded)) if found else None
 
 

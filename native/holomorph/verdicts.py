@@ -67,7 +67,7 @@ def verdict(quality, poles=None, added_distortion=1.0):
 
 
 def overall(verdicts, is_unwelded=False):
-    """The `Verdict` on a mesh: that of its worst part, and how many parts are on its level.
+    """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level.
 
     is_unwelded : every face is apart, as `Surface.is_unwelded` says
     """
@@ -89,7 +89,7 @@ def _sentence(quality, poles, ranks):
     uneven, sheared, lost = ranks
     words = [EVENNESS[uneven], None if poles is None else "seamless", SHEAR[sheared]]
     if uneven > 1:
-        words[0] += f" ({_times(math.sqrt(quality.density_ratio))} coarser in places)"
+        words[0] += f" (squares of 1 to {_factor(math.sqrt(quality.density_ratio))})"
     if lost:
         words.append(f"{_percent(quality.lost_part)} of it flipped or collapsed")
     if poles is not None:
@@ -102,11 +102,9 @@ def _lower(sentence):
     return sentence[0].lower() + sentence[1:]
 
 
-def _times(factor):
+def _factor(value):
     """Few digits, for a person."""
-    if factor >= 1000:
-        return "over 1000 times"
-    return f"{float(f'{factor:.2g}'):g} times"
+    return "over 1000" if value > 1000 else f"{float(f'{value:.2g}'):g}"
 
 
 def _percent(part):

@@ -1,12 +1,14 @@
 """What is seen after the button: the viewport, the verdict in words, coarse places and the button for poles there."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
 from conftest import module
 from scenes import mesh_object, run, select, sphere_arrays, stored_report, torus, uv
 
-coarse, verdict_view, viewport = (module(name) for name in ("coarse", "verdict_view", "viewport"))
+coarse, lines, verdict_view, viewport = (module(name) for name in ("coarse", "lines", "verdict_view", "viewport"))
 
 
 class Drawn:
@@ -28,9 +30,12 @@ class Drawn:
     row = column = split = box
 
 
-def drawn(obj, width=36):
-    layout = Drawn()
-    verdict_view.draw(layout, obj["holomorph_report"], width, "uv.holomorphic_tile")
+def drawn(obj, width=220):
+    """Drawn in a region of so many pixels."""
+    style = SimpleNamespace(widget=SimpleNamespace(points=11))
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
+    layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
+    verdict_view.draw(layout, context, obj["holomorph_report"], "uv.holomorphic_tile")
     return layout
 
 
@@ -129,11 +134,24 @@ def test_an_even_map_is_called_so_in_a_line():
     assert layout.texts[layout.texts.index("Flipped triangles") + 1] == str(flipped)
 
 
-def test_no_line_is_longer_than_the_panel():
+def test_lines_are_broken_where_they_do_not_fit():
+    def is_fit(text):
+        return len(text) <= 12
+
+    assert list(lines.broken("Even, seamless, 8 poles", is_fit)) == ["Even,", "seamless, 8", "poles"]
+    assert list(lines.broken("    modulus indescribable 2", is_fit, indent=2)) == [
+        "    modulus",
+        "  indescribable",
+        "  2",
+    ]
+    assert list(lines.broken("", is_fit)) == [""]
+
+
+def test_a_narrow_panel_has_more_lines_of_the_same_words():
     obj = spikes()
     run()
-    lines = drawn(obj, 36).texts
-    assert max(map(len, lines)) <= 36 and len(lines) > 8
+    narrow, wide = drawn(obj, 180).texts, drawn(obj, 1000).texts
+    assert len(narrow) > len(wide) and " ".join(narrow).split() == " ".join(wide).split()
 
 
 def test_a_report_of_an_earlier_version_is_no_error():

@@ -63,9 +63,9 @@ ISLANDS = "or unwrap it in islands along its hard edges"
         ({}, {"poles": 8}, "Even, seamless, 8 poles", ""),
         ({}, {"poles": 0}, "Even, seamless, no poles", ""),
         ({"density_ratio": 25}, {}, "Fairly even", "make a seamless tiling, with poles where it is coarse"),
-        ({"density_ratio": 225}, {"poles": 1}, "Uneven (15 times coarser in places), seamless, 1 pole", "add poles"),
-        ({"density_ratio": 1600}, {}, "Very uneven (40 times coarser in places)", "make a seamless tiling"),
-        ({"density_ratio": np.inf}, {}, "Very uneven (over 1000 times coarser in places)", "make a seamless tiling"),
+        ({"density_ratio": 225}, {"poles": 1}, "Uneven (squares of 1 to 15), seamless, 1 pole", "add poles"),
+        ({"density_ratio": 1600}, {}, "Very uneven (squares of 1 to 40)", "make a seamless tiling"),
+        ({"density_ratio": np.inf}, {}, "Very uneven (squares of 1 to over 1000)", "make a seamless tiling"),
         ({"capped_mean_angle": 1.3}, {}, "Even, slightly sheared", "subdivide the mesh"),
         ({"capped_mean_angle": 1.3}, {"added_distortion": 1.2}, "Even, slightly sheared", "ask for more tiles"),
         ({"capped_mean_angle": 3}, {}, "Even, badly sheared", "subdivide the mesh, which is too coarse"),
@@ -139,7 +139,7 @@ def test_the_worst_part_decides():
     assert overall([good, good]) == good and overall([poor]) == poor
     found = overall([good, poor, good])
     assert found.level == "poor" and found.advice == poor.advice
-    assert found.sentence == "1 of 3 parts is poor: uneven (15 times coarser in places)"
+    assert found.sentence == "1 of 3 parts is poor: uneven (squares of 1 to 15)"
     assert overall([good, poor, poor]).sentence.startswith("2 of 3 parts are poor: uneven")
 
 
