@@ -13,9 +13,10 @@ bl_info = {
 
 
 def register():
-    from . import drag, lod, native, operators, overlay, panel, presets, tile
+    from . import drag, lod, native, operators, overlay, panel, preferences, presets, tile
 
     native.forget()
+    preferences.register()
     operators.register()
     tile.register()
     drag.register()
@@ -26,7 +27,7 @@ def register():
 
 
 def unregister():
-    from . import drag, lod, operators, overlay, panel, presets, tile
+    from . import drag, lod, operators, overlay, panel, preferences, presets, tile
 
     panel.unregister()
     presets.unregister()
@@ -35,3 +36,4 @@ def unregister():
     drag.unregister()
     tile.unregister()
     operators.unregister()
+    preferences.unregister()

@@ -3,7 +3,8 @@
 
 blender -b [file.blend] --python-exit-code 1 --python addon/headless.py -- [mesh file] --output out.blend ...
 
-Ends with 0 if some component got its maps, otherwise with 1 and one sentence on the error stream.
+Ends with 0 if some component got its maps, otherwise with 1 and one sentence on the error stream; with --strict also
+with 3 and one sentence, everything written, where a part was left out or the verdict on a map is poor or unusable.
 """
 
 import importlib.util
@@ -16,6 +17,7 @@ from pathlib import Path
 import bpy
 
 PACKAGE = "holomorph_headless"  # the name under which this script loads the add-on that it lies in
+EXIT_REFUSED, EXIT_STRICT = 1, 3
 SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
 Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own importers rotate OBJ files
 
@@ -34,6 +36,10 @@ def module(name):
 
 command_line = module("command_line")
 UsageError = command_line.UsageError
+
+
+class NotFit(Exception):
+    """What --strict does not let pass, though everything was written; the text is one sentence."""
 
 
 def import_mesh(options, holomorph):
@@ -166,7 +172,21 @@ def process(options):
         bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
     if options.render is not None:
         render(options, [bpy.data.objects[name] for name in outcome.done] + levels)
+    if options.strict:
+        check_strictly(outcome.entries)
     return outcome.problems + outcome.notes
+
+
+def check_strictly(entries):
+    """@throws NotFit"""
+    report = module("report")
+    for entry in entries:
+        skipped = [part["reason"] for part in entry.get("components", []) if not part["done"]]
+        for reason in [entry["refused"]] if "refused" in entry else skipped:
+            raise NotFit(f"{entry['object']}: a part has no map: {reason}")
+        found = report.verdict(entry)
+        if not found.is_fit:
+            raise NotFit(f"{entry['object']}: {found.text}")
 
 
 def main():
@@ -176,9 +196,15 @@ def main():
             print(f"Holomorph: {sentence}", file=sys.stderr)
     except (UsageError, OSError, RuntimeError) as error:
         # RuntimeError is how Blender's own operators report a file that cannot be written.
-        print(f"Holomorph: {' '.join(str(error).split())}", file=sys.stderr)
-        sys.stderr.flush()
-        sys.exit(1)
+        fail(EXIT_REFUSED, error)
+    except NotFit as error:
+        fail(EXIT_STRICT, error)
+
+
+def fail(status, error):
+    print(f"Holomorph: {' '.join(str(error).split())}", file=sys.stderr)
+    sys.stderr.flush()
+    sys.exit(status)
 
 
 if __name__ == "__main__":

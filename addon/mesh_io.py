@@ -162,6 +162,12 @@ def read_map(mesh, name):
     return read_values(_attribute_vectors(mesh.attributes[name], 2))
 
 
+def read_corners(mesh, polygons, name):
+    """(#C,2) float32 of a map, corners in the order of `polygons`."""
+    values = read_map(mesh, name)
+    return values if polygons.loops is None else values[polygons.loops]
+
+
 def overwrite_map(mesh, polygons, name, uv):
     """Writes (#C,2) float32 `uv` into a UV map or corner attribute that there is."""
     layer = mesh.uv_layers.get(name)

@@ -79,6 +79,13 @@ class WorkOperator:
         self._work.cancel()
         self._end_modal(context)
 
+    def show(self, context, outcome, has_texture):
+        """Switches the window's 3D views so that the texture of what was done is seen."""
+        from . import preferences, viewport
+
+        if outcome.done and has_texture and context.window is not None and preferences.shows_in_viewport(context):
+            viewport.show(context.window)
+
     def tell(self, outcome):
         """Reports a `run.Outcome`; what the operator returns."""
         if not outcome.done:

@@ -60,11 +60,12 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         results = targets.align(self._targets, work.results)
         outcome = run.write(context, self._targets, results, self.map_options(), self.write_options(), time_has_passed)
         self.form_count = outcome.forms
+        self.show(context, outcome, self.checker)
         return self.tell(outcome)
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
-    """Bring back the materials that the checker or a texture covers"""
+    """Bring back the materials that the checker or a texture covers, and the shading of the 3D views"""
 
     bl_idname = "uv.holomorphic_restore_materials"
     bl_label = "Restore Materials"
@@ -75,9 +76,12 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
     def execute(self, context):
-        from . import material, targets
+        from . import material, targets, viewport
 
         restored = [material.uncover(obj) for obj in targets.mesh_objects(context)]
+        meshes = [obj for obj in context.view_layer.objects if obj.type == "MESH"]
+        if context.window is not None and not any(material.is_covered(obj) for obj in meshes):
+            viewport.restore(context.window)
         return {"FINISHED"} if any(restored) else {"CANCELLED"}
 
 

@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sidebar tab "Holomorph" of the 3D view and the UV editor, and the entries in both UV menus."""
 
-import textwrap
-
 import bpy
 
-from . import native, overlay
+from . import lines, native, overlay
 from .drag import HOLOMORPH_OT_drag_poles
 from .lod import HOLOMORPH_OT_levels
 from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
 from .tile import HOLOMORPH_OT_tile
 
-LINE_WIDTH = 36  # characters that fit a sidebar of the default width
+INDENT = 8  # spaces before what is continued on a further line
 
 
 class _HolomorphPanel:
@@ -25,7 +23,7 @@ class _HolomorphPanel:
         column.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
         column.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
         if native.problem():
-            _draw_sentence(layout, native.problem())
+            lines.draw(layout.column(align=True), context, native.problem(), "ERROR")
             return
         if context.mode == "EDIT_MESH":
             _draw_choices(layout)
@@ -33,7 +31,7 @@ class _HolomorphPanel:
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
-            _draw_result(layout, obj)
+            _draw_result(layout, context, obj)
         if context.mode == "OBJECT":
             _draw_overlays(layout, context)
 
@@ -44,6 +42,40 @@ class HOLOMORPH_PT_view3d(_HolomorphPanel, bpy.types.Panel):
 
 class HOLOMORPH_PT_image(_HolomorphPanel, bpy.types.Panel):
     bl_space_type = "IMAGE_EDITOR"
+
+
+class _DetailsPanel:
+    """The mathematics of the last result."""
+
+    bl_label = "Details"
+    bl_category = "Holomorph"
+    bl_region_type = "UI"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        if native.problem() or context.active_object is None:
+            return False
+        from . import report
+
+        return report.PROPERTY in context.active_object
+
+    def draw(self, context):
+        from . import report
+
+        column = self.layout.column(align=True)
+        for line in report.summary(context.active_object[report.PROPERTY]):
+            lines.draw(column, context, line, indent=INDENT)
+
+
+class HOLOMORPH_PT_view3d_details(_DetailsPanel, bpy.types.Panel):
+    bl_space_type = "VIEW_3D"
+    bl_parent_id = "HOLOMORPH_PT_view3d"
+
+
+class HOLOMORPH_PT_image_details(_DetailsPanel, bpy.types.Panel):
+    bl_space_type = "IMAGE_EDITOR"
+    bl_parent_id = "HOLOMORPH_PT_image"
 
 
 def _draw_choices(layout):
@@ -64,24 +96,13 @@ def _draw_overlays(layout, context):
     row.operator(HOLOMORPH_OT_drag_poles.bl_idname)
 
 
-def _draw_sentence(layout, sentence):
-    column = layout.column(align=True)
-    lines = textwrap.wrap(sentence, LINE_WIDTH)
-    for index, line in enumerate(lines):
-        column.label(text=line, icon="ERROR" if index == 0 else "BLANK1")
-
-
-def _draw_result(layout, obj):
-    from . import material, report
+def _draw_result(layout, context, obj):
+    from . import material, report, verdict_view
 
     if material.is_covered(obj):
         layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
-    stored = obj.get(report.PROPERTY)
-    if stored:
-        column = layout.column(align=True)
-        for line in report.summary(stored):
-            for piece in textwrap.wrap(line, LINE_WIDTH, subsequent_indent="        "):
-                column.label(text=piece)
+    if obj.get(report.PROPERTY):
+        verdict_view.draw(layout, context, obj[report.PROPERTY], HOLOMORPH_OT_tile.bl_idname)
 
 
 def _draw_menu_entry(self, _context):
@@ -91,7 +112,7 @@ def _draw_menu_entry(self, _context):
     self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
 
 
-CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image)
+CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image, HOLOMORPH_PT_view3d_details, HOLOMORPH_PT_image_details)
 MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 
 

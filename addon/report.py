@@ -20,6 +20,7 @@ TEXT = "Holomorphic Report"
 def object_report(obj, solved, written, new_seams, options, components):
     """One object: its maps as written, the options with which they were, and the report of each component."""
     package = native.load().report
+    surface = solved.surface
     return {
         "object": obj.name,
         "mesh": obj.data.name,
@@ -29,9 +30,10 @@ def object_report(obj, solved, written, new_seams, options, components):
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": vars(options),
         "seams_added": new_seams,
-        "repairs": package.repairs_report(solved.surface.repairs),
+        "verdict": package.overall_report(components, surface.is_unwelded),
+        "repairs": package.repairs_report(surface.repairs),
         "seconds": solved.seconds,
-        "components": components + [package.refused_report(refused) for refused in solved.surface.refused],
+        "components": components + [package.refused_report(refused) for refused in surface.refused],
     }
 
 
@@ -122,9 +124,19 @@ def _topology(part):
     return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
 
 
+def verdict(entry):
+    """The package's `Verdict` on an object or a part in a report; None where there is none."""
+    found = entry.get("verdict")
+    return found and native.load().Verdict(**found)
+
+
+def sentence(part):
+    """The verdict on the main map of a part, in short."""
+    return part["main_map"]["verdict"]["sentence"]
+
+
 def tiling_lines(tiling):
-    """What the panels show of a part's tiling: words, then numbers."""
-    yield tiling["verdict"]
+    """The numbers that the panels show of a part's tiling."""
     yield f"added distortion {tiling['added_distortion']:.4f}"
     yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
     yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
@@ -134,6 +146,7 @@ def tiling_lines(tiling):
 
 
 def _result_lines(part):
+    yield sentence(part)
     yield from tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
     angle = part["main_map"]["mean_angle"]  # none where it is infinite
     collapsed = angle is None or angle > COLLAPSED

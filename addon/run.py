@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from . import (
+    coarse,
     compatibility,
     heat,
     maps,
@@ -127,6 +128,22 @@ def _problems(obj, solved, tiled):
     yield from surface_problems(obj, solved.surface)
 
 
+def with_coarse_places(obj, polygons, entry):
+    """The report's entry with the places that the main map leaves coarse, where it is uneven."""
+    ratios = [part["main_map"]["density_ratio"] for part in entry["components"] if part["done"]]
+    if all(ratio is not None and ratio <= native.load().UNEVEN[0] for ratio in ratios):
+        return entry | {"coarse_places": []}
+    name = entry["maps"][0]["name"]
+    found = coarse.places(obj, polygons, mesh_io.read_corners(obj.data, polygons, name))
+    return entry | {"coarse_places": [vars(place) for place in found]}
+
+
+def judge(outcome, obj, entry):
+    """Adds the verdict on an object's map: among the problems where no texture can be put on."""
+    found = report.verdict(entry)
+    (outcome.notes if found.is_fit else outcome.problems).append(f"{obj.name}: {found.text}")
+
+
 def surface_problems(obj, surface):
     """The parts that are no surface."""
     for refused in surface.refused:
@@ -172,13 +189,13 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
         material.cover(obj, material.showing(shown.name, shown.kind == "attribute", look))
     heat.refresh(obj)
     mesh.update()
-    entry = _entry(obj, solved, tiled, written, new_seams, map_options)
+    entry = with_coarse_places(obj, polygons, _entry(obj, solved, tiled, written, new_seams, map_options))
     report.store_on_object(obj, entry)
     outcome.entries.append(entry)
     outcome.done.append(obj.name)
     outcome.forms = max(outcome.forms, solved.form_count)
     outcome.problems += _problems(obj, solved, tiled)
-    outcome.notes += tile_report.notes(obj, entry)
+    judge(outcome, obj, entry)
     outcome.notes += _modifier_notes(obj, solved)
     extra = sum(w.kind == "attribute" for w in written)
     if extra:

@@ -61,6 +61,7 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
             self.pole_group,
         )
         outcome = tile_run.write(context, self._targets, results, options, time_has_passed)
+        self.show(context, outcome, self.checker)
         return self.tell(outcome)
 
 

@@ -30,6 +30,8 @@ def _poles(properties, obj):
         return tiling.AUTOMATIC
     if properties.poles == "KEPT":
         return _kept_poles(obj)
+    if properties.poles == "COARSE":
+        return _poles_where_coarse(obj)
     selected = tuple(sorted(mesh_io.selected_vertices(obj.data).tolist()))
     if not selected:
         raise ValueError(f"{obj.name}: select the vertices that are to be poles")
@@ -42,6 +44,16 @@ def _kept_poles(obj):
     if not len(kept):
         raise ValueError(f"{obj.name}: there are no poles of an earlier tiling")
     return tuple(sorted(kept.tolist()))
+
+
+def _poles_where_coarse(obj):
+    """Those of the last tiling, and the coarsest vertices of the places that its report names."""
+    vertices, is_pole = tile_report.marks(obj.get(report.PROPERTY))
+    if not is_pole.any():
+        return tiling.AUTOMATIC
+    found = [place["vertex"] for place in report.parsed(obj[report.PROPERTY]).get("coarse_places", [])]
+    poles = {*vertices[is_pole].tolist(), *found}
+    return tuple(sorted(vertex for vertex in poles if vertex < len(obj.data.vertices)))
 
 
 def allowed(name, obj):

@@ -12,6 +12,11 @@ POLES = (
     ("AUTOMATIC", "Automatic", "As many as the evenness of the texture asks for, where they are hardly seen"),
     ("COUNT", "Number", "So many on each part, placed by themselves"),
     ("KEPT", "As They Are", "Those of the object's last tiling, as they were placed or dragged"),
+    (
+        "COARSE",
+        "Where It Is Coarse",
+        "Those of the object's last tiling, and one on each place that it left coarse; automatic without a tiling",
+    ),
     ("SELECTED", "Selected Vertices", "The selected vertices; automatic on parts without any"),
 )
 LATTICES = (

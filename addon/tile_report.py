@@ -7,19 +7,7 @@ import numpy as np
 
 from . import native, report, tiling
 
-EVEN, FAIRLY_EVEN = 6.0, 20.0  # the largest 95 : 5 % ratios of the density that are called so
-SHEARED, SLIGHTLY_SHEARED = 1.05, 1.01  # likewise the smallest mean s1 / s2 that the rounding adds
 SHOWN_PARTS = 8  # of which the redo panel shows a line
-
-
-def verdict(made):
-    """A few words, such as "Even, seamless, 8 poles"."""
-    ratio, added, count = made.density_ratio, made.added_distortion, len(made.poles)
-    words = ["even" if ratio <= EVEN else "fairly even" if ratio <= FAIRLY_EVEN else "uneven", "seamless"]
-    if added >= SLIGHTLY_SHEARED:
-        words.append("sheared" if added >= SHEARED else "slightly sheared")
-    words.append("no poles" if count == 0 else "1 pole" if count == 1 else f"{count} poles")
-    return ", ".join(words).capitalize()
 
 
 def part_report(part):
@@ -28,7 +16,8 @@ def part_report(part):
     if part.tiling is None:
         return package.skipped_report(component.surface, part.reason)
     made = part.tiling
-    entry = package.component_report(component.surface, component.structure, package.map_report([], made.quality))
+    main_map = package.map_report([], made.quality, made.verdict)
+    entry = package.component_report(component.surface, component.structure, main_map)
     zeros, orders = made.zeros
     return (
         entry
@@ -37,7 +26,6 @@ def part_report(part):
             "forms": component.form_count,
             "tiling": package.plain(
                 {
-                    "verdict": verdict(made),
                     "added_distortion": float(made.added_distortion),
                     "density_ratio": float(made.density_ratio),
                     "left_over": float(made.left_over),
@@ -72,10 +60,10 @@ def _as_tuple(value):
 
 def read_out(stored):
     """Those of all parts in a stored report, for the redo panel; none if someone has edited it."""
-    parts = [part["tiling"] for part in report.parsed(stored).get("components", []) if "tiling" in part]
+    parts = [part for part in report.parsed(stored).get("components", []) if "tiling" in part]
     if len(parts) == 1:
-        return list(report.tiling_lines(parts[0]))
-    return [f"Part {index}: {part['verdict']}" for index, part in enumerate(parts[:SHOWN_PARTS], 1)]
+        return [report.sentence(parts[0]), *report.tiling_lines(parts[0]["tiling"])]
+    return [f"Part {index}: {report.sentence(part)}" for index, part in enumerate(parts[:SHOWN_PARTS], 1)]
 
 
 def draw_read_out(layout, obj):
@@ -85,12 +73,6 @@ def draw_read_out(layout, obj):
         column = layout.box().column(align=True)
         for line in lines:
             column.label(text=line)
-
-
-def notes(obj, entry):
-    """For the user: the verdicts of an object's parts in its report."""
-    verdicts = {part["tiling"]["verdict"] for part in entry["components"] if "tiling" in part}
-    return [f"{obj.name}: {'; '.join(sorted(verdicts))}"] if verdicts else []
 
 
 def marks(stored):

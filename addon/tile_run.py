@@ -54,14 +54,14 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
         _show(outcome, obj, tiled, written, options)
     heat.refresh(obj)
     mesh.update()
-    entry = _entry(obj, tiled, [written], new_seams, options)
+    entry = run.with_coarse_places(obj, polygons, _entry(obj, tiled, [written], new_seams, options))
     report.store_on_object(obj, entry)
     empties.remove(obj)
     if options.empties:
         empties.write(context, obj, *tile_report.marks(obj[report.PROPERTY]))
     outcome.entries.append(entry)
     outcome.done.append(obj.name)
-    outcome.notes += tile_report.notes(obj, entry)
+    run.judge(outcome, obj, entry)
 
 
 def _entry(obj, tiled, written, new_seams, options):

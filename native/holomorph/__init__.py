@@ -29,6 +29,7 @@ from .results import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure
 from .surface import Surface
 from .tiling import PlacedPoles, Tiler, Tiling, place_poles
+from .verdicts import UNEVEN, Verdict, overall, verdict
 
 __all__ = [
     "BoundedStructure",
@@ -57,11 +58,15 @@ __all__ = [
     "Tiling",
     "TopologyError",
     "TriangleMap",
+    "UNEVEN",
+    "Verdict",
     "__version__",
     "conformal_structure",
     "double_cover",
     "frame",
+    "overall",
     "place",
     "place_poles",
     "report",
+    "verdict",
 ]

@@ -4,18 +4,22 @@ import argparse
 import json
 import sys
 
-from . import Error, Surface, __version__, conformal_structure
+from . import Error, Surface, Verdict, __version__, conformal_structure
 from .checks import SOLVERS, check_options
-from .report import component_report, refused_report, repairs_report, skipped_report
+from .report import component_report, overall_report, refused_report, repairs_report, skipped_report
+
+EXIT_REFUSED, EXIT_STRICT = 1, 3
 
 
 def main(arguments=None):
-    """Computes every component; exit 0 if some component was done, else 1 with one sentence."""
+    """Computes every component; the exit status, other than 0 with one sentence: 1 if no component was done, 2 (of
+    argparse) for options that cannot be, 3 with --strict if some component was not done or its map is not fit."""
     parser = argparse.ArgumentParser(prog="python -m holomorph", description="Conformal structure of a mesh file.")
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
+    parser.add_argument("--strict", action="store_true", help="end with 3 unless every map is good or fair")
     parser.add_argument("--version", action="version", version=__version__)
     options = parser.parse_args(arguments)
     try:
@@ -27,12 +31,21 @@ def main(arguments=None):
         else:
             print(text)
     except (Error, OSError, ValueError) as error:
-        print(f"holomorph: {error}", file=sys.stderr)
-        return 1
-    if any(part["done"] for part in report["components"]):
-        return 0
-    print(f"holomorph: {report['components'][0]['reason']}", file=sys.stderr)
-    return 1
+        return failed(EXIT_REFUSED, error)
+    not_done = [part for part in report["components"] if not part["done"]]
+    if len(not_done) == len(report["components"]):
+        return failed(EXIT_REFUSED, not_done[0]["reason"])
+    found = Verdict(**report["verdict"])
+    if options.strict and not_done:
+        count = len(report["components"])
+        return failed(EXIT_STRICT, f"{len(not_done)} of {count} parts have no map: {not_done[0]['reason']}")
+    return failed(EXIT_STRICT, found.text) if options.strict and not found.is_fit else 0
+
+
+def failed(status, sentence):
+    """The exit status, after a sentence on the error stream."""
+    print(f"holomorph: {sentence}", file=sys.stderr)
+    return status
 
 
 def mesh_report(path, threads=None, solver="auto"):
@@ -49,6 +62,7 @@ def mesh_report(path, threads=None, solver="auto"):
         "holomorph": __version__,
         "mesh": str(path),
         "faces": len(surface.face_offsets) - 1,
+        "verdict": overall_report(parts, surface.is_unwelded),
         "repairs": repairs_report(surface.repairs),
         "components": parts + [refused_report(refused) for refused in surface.refused],
     }

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from . import _native
+from .verdicts import LONG, verdict
 
 MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
 
@@ -18,7 +19,8 @@ class Quality:
     (#T,) s1 s2, UV area per surface area; flipped: (#T,) bool; mean_angle: mean of s1 / s2 over the area of the
     triangles that have not collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 %
     quantile; capped_mean_angle: mean of s1 / s2 over the area, 10 at most, so that no single triangle decides it;
-    flipped_part: part of the area.
+    flipped_part, lost_part, long_part: parts of the area that are flipped, that are flipped or have collapsed, and that
+    lie in long thin triangles.
     """
 
     angle: np.ndarray
@@ -48,9 +50,27 @@ class Quality:
         return float(np.average(self.flipped, weights=self._weights))
 
     @cached_property
+    def lost_part(self):
+        return float(np.average(self.flipped | self.collapsed, weights=self._weights))
+
+    @cached_property
+    def long_part(self):
+        is_long = self._sides[:, 2] ** 2 > 2 * LONG * self._weights
+        return float(np.average(is_long, weights=self._weights))
+
+    @cached_property
+    def verdict(self):
+        """The `Verdict` on the map."""
+        return verdict(self)
+
+    @cached_property
+    def _sides(self):
+        """(#T, 3) lengths, ascending."""
+        return np.sort(self._triangulation.edge_lengths[self._triangulation.triangle_edges], axis=1)
+
+    @cached_property
     def _weights(self):
         """(#T,) areas of the triangles, from their sides (Heron's formula, its factors kept from cancelling)."""
-        sides = np.sort(self._triangulation.edge_lengths[self._triangulation.triangle_edges], axis=1)
-        a, b, c = sides.T  # ascending
+        a, b, c = self._sides.T
         areas = np.sqrt(np.maximum((c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)), 0.0)) / 4
         return areas if areas.any() else np.ones_like(areas)

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from .verdicts import Verdict, overall
+
 LISTED = 20  # elements of a repair that a report names
 
 
@@ -71,11 +73,12 @@ def refused_report(refused):
     return {"done": False, "faces": len(refused.faces), "reason": refused.reason}
 
 
-def map_report(coefficients, quality):
-    """A UV map: its coefficients and its `Quality`."""
+def map_report(coefficients, quality, found=None):
+    """A UV map: its coefficients, its `Quality` and the `Verdict` on it, by default that of the quality."""
     return plain(
         {
             "coefficients": coefficients,
+            "verdict": vars(found or quality.verdict),
             "mean_angle": quality.mean_angle,
             "capped_mean_angle": quality.capped_mean_angle,
             "density_ratio": quality.density_ratio,
@@ -84,6 +87,13 @@ def map_report(coefficients, quality):
             "collapsed_triangles": np.count_nonzero(quality.collapsed),
         }
     )
+
+
+def overall_report(parts, is_unwelded=False):
+    """The `overall` verdict on a mesh out of its components' reports; None where none is done."""
+    done = sorted((part for part in parts if part["done"]), key=lambda part: -part["faces"])
+    found = [Verdict(**part["main_map"]["verdict"]) for part in done]
+    return vars(overall(found, is_unwelded)) if found else None
 
 
 def repairs_report(repairs):

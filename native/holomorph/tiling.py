@@ -10,6 +10,7 @@ from . import _native, arrays
 from ._native import InvalidMesh
 from .checks import own_vertices, real_number
 from .quality import Quality
+from .verdicts import verdict
 
 LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
 BOUNDARIES = ("straight", "free")
@@ -50,6 +51,11 @@ class Tiling:
     def density_ratio(self):
         """95 % over 5 % quantile of s1 s2 by area."""
         return self.quality.density_ratio
+
+    @property
+    def verdict(self):
+        """The `Verdict` on the map."""
+        return verdict(self.quality, len(self.poles), self.added_distortion)
 
 
 @dataclass(frozen=True)

@@ -273,7 +273,7 @@ def test_selection_and_seams_of_a_blend_file(tmp_path):
 def test_the_main_map_and_the_tiling_of_the_command_line(tmp_path):
     path, report = write_obj(tmp_path / "limb.obj", *limb_arrays()), tmp_path / "report.json"
     assert headless(path, "--report", report).returncode == 0
-    assert "seamless" in reported(report)["tiling"]["verdict"]
+    assert "seamless" in reported(report)["main_map"]["verdict"]["sentence"]
     assert headless(path, "--report", report, "--main", "balanced").returncode == 0
     assert "tiling" not in reported(report)
     options = ("--seamless", "--tiles", 200, "--poles", 6, "--lattice", "hex", "--direction", "z", "--rotation", 30)

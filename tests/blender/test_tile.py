@@ -250,26 +250,13 @@ def test_report_and_panel_begin_with_words(calls):
     obj = torus()
     tile()
     part = stored_report(obj)["components"][0]
-    verdict, residues = part["tiling"]["verdict"], np.array(part["tiling"]["residues"])
+    verdict, residues = part["main_map"]["verdict"]["sentence"], np.array(part["tiling"]["residues"])
     assert verdict.startswith("Even, seamless") and f"{len(residues)} poles" in verdict
     assert np.array_equal(residues, np.round(residues)) and np.array_equal(residues.sum(axis=0), (0, 0))
     assert min(part["tiling"]["orders"]) > 0
     lines = [line.strip() for line in module("report").summary(obj["holomorph_report"])]
     assert lines[:3] == ["1 map", "Part 1: genus 1", verdict]
     assert json.loads(bpy.data.texts["Holomorphic Report"].as_string())["objects"] == [stored_report(obj)]
-
-
-@pytest.mark.parametrize(
-    ("ratio", "added", "poles", "words"),
-    [
-        (5.9, 1.0, 8, "Even, seamless, 8 poles"),
-        (19, 1.02, 0, "Fairly even, seamless, slightly sheared, no poles"),
-        (3e4, 1.3, 1, "Uneven, seamless, sheared, 1 pole"),
-    ],
-)
-def test_verdicts(ratio, added, poles, words):
-    found = SimpleNamespace(density_ratio=ratio, added_distortion=added, poles=[0] * poles)
-    assert tile_report.verdict(found) == words
 
 
 @pytest.mark.parametrize("stored", ["", "{", "[]", "null", '{"components": []}', '{"components": [{"genus": 1}]}'])

@@ -58,3 +58,15 @@ def add_object(name, vertices, corners):
     mesh_io = importlib.import_module("holomorph_addon.mesh_io")
     mesh = mesh_io.new_mesh(name, vertices, corners, np.arange(0, len(corners) + 1, 4))
     bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def spikes(name):
+    """A ball with three spikes; the log map has its punctures in two of them."""
+    edited = bmesh.new()
+    bmesh.ops.create_icosphere(edited, subdivisions=4, radius=0.5)
+    for vertex in edited.verts:
+        vertex.co *= 1 + 6 * np.exp(-24 * (0.5 - max(vertex.co)))
+    mesh = bpy.data.meshes.new(name)
+    edited.to_mesh(mesh)
+    edited.free()
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))

@@ -91,7 +91,7 @@ def tiling():
     yield from press_button("VIEW_3D", "tile")
     yield from wait_until(lambda: "holomorph_report" in obj())
     yield 1
-    seen["tiled"] = part_report(NAME)["tiling"]["verdict"]
+    seen["tiled"] = part_report(NAME)["main_map"]["verdict"]["sentence"]
     picture("tiled.png")
 
 

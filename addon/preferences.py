@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The add-on's preferences."""
+
+import bpy
+from bpy.props import BoolProperty
+
+
+class HOLOMORPH_preferences(bpy.types.AddonPreferences):
+    bl_idname = __package__
+
+    show_in_viewport: BoolProperty(
+        name="Show the Result in the 3D View",
+        description="After the button, 3D views of this window in solid or wireframe shading show the texture; Restore "
+        "Materials brings their shading back",
+        default=True,
+    )
+
+    def draw(self, _context):
+        self.layout.prop(self, "show_in_viewport")
+
+
+def shows_in_viewport(context):
+    """Whether views are switched so that the texture is seen."""
+    addon = context.preferences.addons.get(__package__)
+    return addon is None or addon.preferences is None or addon.preferences.show_in_viewport
+
+
+def register():
+    bpy.utils.register_class(HOLOMORPH_preferences)
+
+
+def unregister():
+    bpy.utils.unregister_class(HOLOMORPH_preferences)

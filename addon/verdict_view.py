@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The verdict on an object's map in a panel: words, what would help, plain numbers."""
+
+import math
+
+from . import coarse, lines, report
+
+ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
+
+
+def draw(layout, context, stored, tile_operator):
+    """Out of a stored report; `tile_operator` is offered where poles would help."""
+    entry = report.parsed(stored)
+    found = report.verdict(entry)
+    if not found:
+        return
+    box = layout.box().column(align=True)
+    lines.draw(box, context, found.sentence, ICONS[found.level])
+    if entry.get("coarse_places"):
+        lines.draw(box, context, coarse.sentence(entry["coarse_places"]))
+        box.operator(tile_operator, text="Add Poles There").poles = "COARSE"
+    elif found.advice and not found.is_fit:
+        lines.draw(box, context, f"Try: {found.advice}")
+    for name, value in numbers(entry):
+        row = box.split(factor=0.65)
+        row.label(text=name)
+        row.label(text=value)
+
+
+def numbers(entry):
+    """(name, value) of what is measured: the largest of the parts, or the sum of what is counted."""
+    measured = [part["main_map"] for part in entry["components"] if part["done"]]
+    if not measured:
+        return []
+    ratio = max(math.inf if one["density_ratio"] is None else one["density_ratio"] for one in measured)
+    shear = max(one["capped_mean_angle"] for one in measured)
+    size = math.sqrt(ratio)
+    return [
+        ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000 : 1"),
+        ("Stretch", f"{shear:.2f} : 1"),
+        ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
+        ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
+    ]

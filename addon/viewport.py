@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The 3D views of a window are switched so that a texture is seen, and back."""
+
+WITHOUT_TEXTURE = {"SOLID", "WIREFRAME"}  # kinds of shading
+SHOWN = ("SOLID", "TEXTURE")  # kind of shading, and what its colour is
+BEFORE = "holomorph_shading"  # custom property of a screen: index of an area -> kind and colour as they were
+
+
+def show(window):
+    """Textured solid shading in those views that would not show a texture; the others stay."""
+    before = dict(window.screen.get(BEFORE, {}))
+    for index, shading in _views(window):
+        kind = shading.type
+        if kind in WITHOUT_TEXTURE and (kind, shading.color_type) != SHOWN:
+            shading.type = SHOWN[0]  # first: the colours that there are depend on it
+            before[index] = [kind, shading.color_type]
+            shading.color_type = SHOWN[1]
+    if before:
+        window.screen[BEFORE] = before
+
+
+def restore(window):
+    """What `show` changed, but for views whose shading was chosen anew since."""
+    before = dict(window.screen.get(BEFORE, {}))
+    for index, shading in _views(window):
+        if index in before and (shading.type, shading.color_type) == SHOWN:
+            shading.color_type = before[index][1]
+            shading.type = before[index][0]
+    if before:
+        del window.screen[BEFORE]
+
+
+def _views(window):
+    """(index as text, shading) of each 3D view."""
+    areas = enumerate(window.screen.areas)
+    return [(str(index), area.spaces.active.shading) for index, area in areas if area.type == "VIEW_3D"]

@@ -1,0 +1,131 @@
+"""What a UV map is good for, in words: one judgement for the package, its command and Blender."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+LEVELS = ("good", "fair", "poor", "unusable")
+
+# The largest values of all levels but the last. They were chosen on pictures of 63 meshes, see docs/python.md.
+UNEVEN = (10.0, 40.0, 1000.0)  # 95 : 5 % ratio of the density, in area
+SHEARED = (1.15, 1.4, 2.5)  # mean s1 / s2, each at most `quality.MOST_SHEARED`
+LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
+
+EVENNESS = ("even", "fairly even", "uneven", "very uneven")
+SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
+LONG = 10.0  # square of the longest side over twice the area of a long thin triangle; 1.2 where it is equilateral
+MOSTLY = 0.5  # part of the area that is
+ADDED = 1.05  # mean s1 / s2 that a tiling's whole numbers add, from which on more tiles would show
+ISLANDS = "or unwrap it in islands along its hard edges"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """level: one of `LEVELS`; sentence: what is seen of a texture; advice: what would help, "" where nothing need."""
+
+    level: str
+    sentence: str
+    advice: str
+
+    @property
+    def is_fit(self):
+        """Whether a texture can be put on: the level is good or fair."""
+        return self.rank <= LEVELS.index("fair")
+
+    @property
+    def rank(self):
+        """The place of the level in `LEVELS`."""
+        return LEVELS.index(self.level)
+
+    @property
+    def text(self):
+        """Sentence and advice."""
+        return self.sentence + (f": {self.advice}" if self.advice else "")
+
+
+def verdict(quality, poles=None, added_distortion=1.0):
+    """The `Verdict` on a map with this `Quality`.
+
+    The worst of three counts: how uneven the density is, how far squares are sheared, and which part of the surface is
+    flipped or has collapsed. `UNEVEN`, `SHEARED` and `LOST` are the limits.
+
+    poles, added_distortion : of a seamless tiling, how many it has and `Tiling.added_distortion`; None for other maps
+    """
+    if math.isinf(quality.mean_angle):
+        return Verdict("unusable", "No texture is seen: the map has no area", "unwrap it again")
+    ranks = [
+        _rank(quality.density_ratio, UNEVEN),
+        _rank(quality.capped_mean_angle, SHEARED),
+        _rank(quality.lost_part, LOST),
+    ]
+    worst = max(ranks)
+    against_shear = _against_shear(quality, added_distortion, worst)
+    advice = (_against_unevenness(poles), against_shear, _against_losses(quality))
+    wanted = [text for text, rank in zip(advice, ranks) if rank == worst > 0]
+    return Verdict(LEVELS[worst], _sentence(quality, poles, ranks), "; ".join(wanted))
+
+
+def overall(verdicts, is_unwelded=False):
+    """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level.
+
+    is_unwelded : every face is apart, as `Surface.is_unwelded` says
+    """
+    worst = max(verdicts, key=lambda each: each.rank)
+    count = sum(each.rank == worst.rank for each in verdicts)
+    sentence = worst.sentence
+    if count < len(verdicts):
+        sentence = f"{count} of {len(verdicts)} parts {'is' if count == 1 else 'are'} {worst.level}: {_lower(sentence)}"
+    advice = "merge its vertices by distance, every face is apart" if is_unwelded else worst.advice
+    return Verdict(worst.level, sentence, advice)
+
+
+def _rank(value, limits):
+    """The first level whose limit is not exceeded; the last one for what is no number."""
+    return next((rank for rank, limit in enumerate(limits) if value <= limit), len(limits))
+
+
+def _sentence(quality, poles, ranks):
+    uneven, sheared, lost = ranks
+    words = [EVENNESS[uneven], None if poles is None else "seamless", SHEAR[sheared]]
+    if uneven > 1:
+        words[0] += f" (squares of 1 to {_factor(math.sqrt(quality.density_ratio))})"
+    if lost:
+        words.append(f"{_percent(quality.lost_part)} of it flipped or collapsed")
+    if poles is not None:
+        words.append({0: "no poles", 1: "1 pole"}.get(poles, f"{poles} poles"))
+    sentence = ", ".join(word for word in words if word)
+    return sentence[0].upper() + sentence[1:]
+
+
+def _lower(sentence):
+    return sentence[0].lower() + sentence[1:]
+
+
+def _factor(value):
+    """Few digits, for a person."""
+    return "over 1000" if value > 1000 else f"{float(f'{value:.2g}'):g}"
+
+
+def _percent(part):
+    return f"{100 * part:.2g} %"
+
+
+def _against_unevenness(poles):
+    return "add poles where it is coarse" if poles else "make a seamless tiling, with poles where it is coarse"
+
+
+def _against_shear(quality, added_distortion, rank):
+    if added_distortion > ADDED:
+        return "ask for more tiles"
+    if rank <= LEVELS.index("fair"):
+        return "subdivide the mesh"
+    if quality.long_part > MOSTLY:
+        return f"remesh its long thin faces, {ISLANDS}"
+    return f"subdivide the mesh, which is too coarse for a conformal map, {ISLANDS}"
+
+
+def _against_losses(quality):
+    if np.count_nonzero(quality.flipped) > np.count_nonzero(quality.collapsed):
+        return "subdivide the mesh where faces are flipped"
+    return "subdivide the mesh where faces have collapsed"

@@ -1,0 +1,211 @@
+"""What is seen after the button: the viewport, the verdict in words, coarse places and the button for poles there."""
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import mesh_object, run, select, sphere_arrays, stored_report, torus, uv
+
+coarse, lines, verdict_view, viewport = (module(name) for name in ("coarse", "lines", "verdict_view", "viewport"))
+
+
+class Drawn:
+    """A layout that notes what is drawn in it."""
+
+    def __init__(self):
+        self.texts, self.buttons = [], []
+
+    def label(self, text="", icon="NONE"):
+        self.texts.append(text)
+
+    def operator(self, name, text="", icon="NONE"):
+        self.buttons.append(text)
+        return type("Properties", (), {})()
+
+    def box(self, **_options):
+        return self
+
+    row = column = split = box
+
+
+def drawn(obj, width=220):
+    """Drawn in a region of so many pixels."""
+    style = SimpleNamespace(widget=SimpleNamespace(points=11))
+    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
+    layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
+    verdict_view.draw(layout, context, obj["holomorph_report"], "uv.holomorphic_tile")
+    return layout
+
+
+def spikes():
+    """A ball with three spikes; the log map has its punctures in two of them."""
+    vertices, faces = sphere_arrays(4)
+    vertices = np.array(vertices)
+    factor = 1 + 6 * np.exp(-24 * (0.5 - vertices.max(axis=1)))
+    return mesh_object("Spikes", vertices * factor[:, None], faces)
+
+
+# ---- the viewport -------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def views():
+    """A window, and the shading of its 3D views; as they were before afterwards."""
+    window = bpy.context.window_manager.windows[0]
+    shadings = [a.spaces.active.shading for a in window.screen.areas if a.type == "VIEW_3D"]
+    before = [(shading.type, shading.color_type) for shading in shadings]
+    yield window, shadings
+    for shading, (kind, colour) in zip(shadings, before):
+        shading.type = "SOLID"
+        shading.color_type = colour
+        shading.type = kind
+    window.screen.pop(viewport.BEFORE, None)
+
+
+@pytest.mark.parametrize("kind", ["SOLID", "WIREFRAME"])
+@pytest.mark.parametrize("colour", ["MATERIAL", "OBJECT"])
+def test_a_view_without_textures_shows_them_and_goes_back(views, kind, colour):
+    window, (shading, *_) = views
+    shading.type, shading.color_type = "SOLID", colour
+    shading.type = kind
+    viewport.show(window)
+    viewport.show(window)
+    assert (shading.type, shading.color_type) == ("SOLID", "TEXTURE")
+    viewport.restore(window)
+    kept, shading.type = shading.type, "SOLID"
+    assert (kept, shading.color_type) == (kind, colour)
+    assert viewport.BEFORE not in window.screen
+
+
+@pytest.mark.parametrize(("kind", "colour"), [("MATERIAL", "MATERIAL"), ("SOLID", "TEXTURE")])
+def test_a_view_that_shows_textures_stays(views, kind, colour):
+    window, (shading, *_) = views
+    shading.type, shading.color_type = kind, colour
+    viewport.show(window)
+    assert shading.type == kind and viewport.BEFORE not in window.screen
+
+
+def test_shading_that_was_chosen_since_is_kept(views):
+    window, (shading, *_) = views
+    shading.type, shading.color_type = "SOLID", "MATERIAL"
+    viewport.show(window)
+    shading.type = "MATERIAL"
+    viewport.restore(window)
+    assert shading.type == "MATERIAL" and viewport.BEFORE not in window.screen
+
+
+def test_the_operator_shows_and_restoring_materials_restores(views):
+    window, (shading, *_) = views
+    shading.type, shading.color_type = "SOLID", "MATERIAL"
+    first, second = torus("First"), torus("Second")
+    select(first, second)
+    with bpy.context.temp_override(window=window):
+        run()
+        assert shading.color_type == "TEXTURE"
+        select(first)
+        bpy.ops.uv.holomorphic_restore_materials()
+        assert shading.color_type == "TEXTURE"  # the other object still has its checker
+        select(second)
+        bpy.ops.uv.holomorphic_restore_materials()
+    assert shading.color_type == "MATERIAL"
+
+
+def test_without_a_texture_the_view_stays(views):
+    window, (shading, *_) = views
+    shading.type, shading.color_type = "SOLID", "MATERIAL"
+    torus()
+    with bpy.context.temp_override(window=window):
+        run(checker=False)
+    assert shading.color_type == "MATERIAL"
+
+
+# ---- words and numbers --------------------------------------------------------------------------------------------
+
+
+def test_an_even_map_is_called_so_in_a_line():
+    obj = torus()
+    run(main="SEAMLESS")
+    layout = drawn(obj)
+    assert layout.texts[0].startswith("Even, seamless") and not layout.buttons
+    assert stored_report(obj)["verdict"]["level"] in ("good", "fair")
+    flipped = stored_report(obj)["components"][0]["main_map"]["flipped_triangles"]
+    assert layout.texts[layout.texts.index("Flipped triangles") + 1] == str(flipped)
+
+
+def test_lines_are_broken_where_they_do_not_fit():
+    def is_fit(text):
+        return len(text) <= 12
+
+    assert list(lines.broken("Even, seamless, 8 poles", is_fit)) == ["Even,", "seamless, 8", "poles"]
+    assert list(lines.broken("    modulus indescribable 2", is_fit, indent=2)) == [
+        "    modulus",
+        "  indescribable",
+        "  2",
+    ]
+    assert list(lines.broken("", is_fit)) == [""]
+
+
+def test_a_narrow_panel_has_more_lines_of_the_same_words():
+    obj = spikes()
+    run()
+    narrow, wide = drawn(obj, 180).texts, drawn(obj, 1000).texts
+    assert len(narrow) > len(wide) and " ".join(narrow).split() == " ".join(wide).split()
+
+
+def test_a_report_of_an_earlier_version_is_no_error():
+    obj = torus()
+    for stored in ("", "{", "[]", "{}", '{"components": []}'):
+        obj["holomorph_report"] = stored
+        assert drawn(obj).texts == []
+
+
+def spiked(obj, place):
+    """(which of the axes a place's vertex is on, its distance from the centre) of the ball with spikes."""
+    point = np.array(obj.data.vertices[place["vertex"]].co)
+    return int(np.argmax(point)), np.linalg.norm(point)
+
+
+def test_a_spike_without_a_puncture_is_coarse_and_named():
+    obj = spikes()
+    run()
+    entry = stored_report(obj)
+    assert entry["verdict"]["level"] in ("poor", "unusable")
+    (place,) = entry["coarse_places"]
+    axis, distance = spiked(obj, place)
+    assert place["name"] == ("the +X side", "the back", "the top")[axis] and distance > 3 and place["times"] > 4
+
+
+def test_a_place_has_the_name_of_its_vertex_group():
+    obj = spikes()
+    for axis, name in enumerate("XYZ"):
+        group = obj.vertex_groups.new(name=f"arm.{name}")
+        group.add([v.index for v in obj.data.vertices if v.co[axis] > 1], 1.0, "ADD")
+    run()
+    (place,) = stored_report(obj)["coarse_places"]
+    assert place["name"] == f"arm.{'XYZ'[spiked(obj, place)[0]]}"
+    place["name"] = "arm.L"
+    assert coarse.sentence([place | {"times": 40.2}]) == "Arm.L is 40 times coarser than the rest"
+    assert coarse.sentence([place | {"times": 999}] * 3).startswith("Arm.L and 2 more places are over 200 times")
+
+
+def test_the_button_puts_poles_where_it_is_coarse():
+    obj = spikes()
+    run()
+    assert "Add Poles There" in drawn(obj).buttons
+    bpy.ops.uv.holomorphic_tile(poles="COUNT", pole_count=2)
+    before = stored_report(obj)
+    places, poles = before["coarse_places"], before["components"][0]["tiling"]["poles"]
+    bpy.ops.uv.holomorphic_tile(poles="COARSE")
+    after = stored_report(obj)["components"][0]
+    made = set(after["tiling"]["poles"])  # a pole whose residue is rounded to 0 is none
+    assert len(places) > 0 and len(made) > 2 and made <= {*poles, *(place["vertex"] for place in places)}
+    assert after["main_map"]["density_ratio"] < before["components"][0]["main_map"]["density_ratio"]
+
+
+def test_a_map_without_a_tiling_gets_its_poles_by_itself():
+    obj = spikes()
+    run()
+    bpy.ops.uv.holomorphic_tile(poles="COARSE")
+    assert stored_report(obj)["verdict"]["level"] == "good" and np.isfinite(uv(obj)).all()

@@ -1,0 +1,192 @@
+"""The verdict on UV maps: thresholds one by one, words, the report and the exit status of the command."""
+
+import json
+from dataclasses import dataclass, replace
+
+import families
+import numpy as np
+import pytest
+from holomorph import Surface, conformal_structure, overall, verdict
+from holomorph.__main__ import main
+from holomorph.verdicts import LEVELS, LOST, SHEARED, UNEVEN
+from solved import solved
+from test_read import obj
+
+POINTS, TRIANGLES = families.hexagonal_disk(6)
+FLAT_PIECE = np.pad(POINTS, ((0, 0), (0, 1)))
+
+
+@dataclass
+class Measured:
+    """What a verdict reads of a `Quality`; by default of a map without any distortion."""
+
+    density_ratio: float = 1.0
+    capped_mean_angle: float = 1.0
+    lost_part: float = 0.0
+    long_part: float = 0.0
+    mean_angle: float = 1.0
+    flipped: tuple = (False,)
+    collapsed: tuple = (False,)
+
+
+def disk():
+    """(structure, UVs) of a flat disk: conformal and even."""
+    return conformal_structure(Surface(FLAT_PIECE, TRIANGLES)), POINTS[TRIANGLES.ravel()]
+
+
+# ---- levels -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("field", "limits"), [("density_ratio", UNEVEN), ("capped_mean_angle", SHEARED), ("lost_part", LOST)]
+)
+def test_each_quantity_alone_decides_the_level(field, limits):
+    """Up to its limits, which belong to the better level; without a number it is the last one."""
+    for rank, limit in enumerate(limits):
+        assert verdict(Measured(**{field: limit})).level == LEVELS[rank]
+        assert verdict(Measured(**{field: np.nextafter(limit, np.inf)})).level == LEVELS[rank + 1]
+    assert {verdict(Measured(**{field: value})).level for value in (np.inf, np.nan)} == {"unusable"}
+
+
+def test_a_map_without_distortion_is_good_and_needs_no_advice():
+    structure, uv = disk()
+    assert structure.quality(uv).verdict == verdict(Measured())
+    assert verdict(Measured()).text == "Even"
+
+
+ISLANDS = "or unwrap it in islands along its hard edges"
+
+
+@pytest.mark.parametrize(
+    ("measured", "tiling", "sentence", "advice"),
+    [
+        ({}, {"poles": 8}, "Even, seamless, 8 poles", ""),
+        ({}, {"poles": 0}, "Even, seamless, no poles", ""),
+        ({"density_ratio": 25}, {}, "Fairly even", "make a seamless tiling, with poles where it is coarse"),
+        ({"density_ratio": 225}, {"poles": 1}, "Uneven (squares of 1 to 15), seamless, 1 pole", "add poles"),
+        ({"density_ratio": 1600}, {}, "Very uneven (squares of 1 to 40)", "make a seamless tiling"),
+        ({"density_ratio": np.inf}, {}, "Very uneven (squares of 1 to over 1000)", "make a seamless tiling"),
+        ({"capped_mean_angle": 1.3}, {}, "Even, slightly sheared", "subdivide the mesh"),
+        ({"capped_mean_angle": 1.3}, {"added_distortion": 1.2}, "Even, slightly sheared", "ask for more tiles"),
+        ({"capped_mean_angle": 3}, {}, "Even, badly sheared", "subdivide the mesh, which is too coarse"),
+        ({"capped_mean_angle": 2, "long_part": 0.9}, {}, "Even, sheared", f"remesh its long thin faces, {ISLANDS}"),
+        (
+            {"lost_part": 0.03, "flipped": (True,)},
+            {},
+            "Even, 3 % of it flipped or collapsed",
+            "subdivide the mesh where",
+        ),
+        (
+            {"lost_part": 0.005},
+            {},
+            "Even, 0.5 % of it flipped or collapsed",
+            "subdivide the mesh where faces have coll",
+        ),
+    ],
+)
+def test_words(measured, tiling, sentence, advice):
+    found = verdict(Measured(**measured), **tiling)
+    assert found.sentence == sentence and found.advice.startswith(advice) and bool(found.advice) == bool(advice)
+    assert found.text == (f"{sentence}: {found.advice}" if advice else sentence)
+
+
+# ---- of real maps -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("factor", [np.nan, 0.0, np.inf])
+def test_a_map_that_is_nothing_is_never_called_good(factor):
+    """No number of it is that of a map without distortion."""
+    structure, uv = disk()
+    with np.errstate(invalid="ignore"):
+        quality = structure.quality(uv * factor)
+    assert quality.verdict.level == "unusable" and quality.verdict.sentence == "No texture is seen: the map has no area"
+    assert quality.mean_angle == quality.density_ratio == np.inf and quality.capped_mean_angle == pytest.approx(10)
+    assert quality.collapsed.all() and quality.lost_part == pytest.approx(1) and quality.median_density == 0
+
+
+def test_half_a_map_that_is_nothing_is_unusable():
+    structure, uv = disk()
+    half = np.where(np.arange(len(uv))[:, None] < len(uv) // 2, 0.0, uv)
+    quality = structure.quality(half)
+    assert quality.verdict.level == "unusable" and "50 % of it flipped or collapsed" in quality.verdict.sentence
+
+
+def test_shear_of_a_stretched_map():
+    """s1 / s2 is the factor."""
+    structure, uv = disk()
+    levels = [structure.quality(uv * [factor, 1.0]).verdict.level for factor in (1.1, 1.3, 1.9, 3.0)]
+    assert levels == list(LEVELS)
+
+
+def test_long_faces_are_told_from_coarse_ones():
+    """The cells of a flat grid, stretched by ten."""
+    structure, uv = disk()
+    stretched = conformal_structure(Surface(FLAT_PIECE * [10.0, 1.0, 1.0], TRIANGLES))
+    assert structure.quality(uv).long_part == 0 and stretched.quality(uv).long_part > 0.5
+
+
+def test_a_tiling_is_called_seamless():
+    made = solved("torus of triangles").tile(tiles=64)
+    words = made.verdict.sentence.split(", ")
+    assert words[:2] == ["Even", "seamless"] and words[-1] == f"{len(made.poles)} poles" and made.verdict.is_fit
+
+
+# ---- of meshes of several parts -------------------------------------------------------------------------------------
+
+
+def test_the_worst_part_decides():
+    good, poor = verdict(Measured()), verdict(Measured(density_ratio=225))
+    assert overall([good, good]) == good and overall([poor]) == poor
+    found = overall([good, poor, good])
+    assert found.level == "poor" and found.advice == poor.advice
+    assert found.sentence == "1 of 3 parts is poor: uneven (squares of 1 to 15)"
+    assert overall([good, poor, poor]).sentence.startswith("2 of 3 parts are poor: uneven")
+
+
+def test_faces_that_are_all_apart_are_to_be_merged():
+    found = overall([verdict(Measured(lost_part=1.0))] * 2, is_unwelded=True)
+    assert "merge its vertices by distance" in found.advice
+
+
+# ---- the command ----------------------------------------------------------------------------------------------------
+
+
+def file_of(mesh, path):
+    path.write_bytes(obj(mesh))
+    return path
+
+
+def ball_with_spikes():
+    """Three of them, of which two have a puncture of the log map."""
+    ball = families.geodesic_sphere(12)
+    factor = 1 + 6 * np.exp(-12 * (1 - ball.vertices.max(axis=1)))
+    return replace(ball, vertices=ball.vertices * factor[:, None])
+
+
+def run(capsys, *arguments):
+    """(exit status, report, what is said on the error stream)."""
+    status = main([str(argument) for argument in arguments])
+    told = capsys.readouterr()
+    return status, json.loads(told.out), told.err
+
+
+@pytest.mark.parametrize(("strict", "status"), [((), 0), (("--strict",), 3)])
+def test_strict_ends_with_the_verdict(tmp_path, capsys, strict, status):
+    path = file_of(ball_with_spikes(), tmp_path / "spikes.obj")
+    ended, report, told = run(capsys, path, *strict)
+    found = report["verdict"]
+    assert (ended, found["level"]) == (status, "unusable") and found == report["components"][0]["main_map"]["verdict"]
+    assert told == (f"holomorph: {found['sentence']}: {found['advice']}\n" if strict else "")
+
+
+def test_strict_takes_what_is_good(tmp_path, capsys):
+    path = file_of(families.torus(24, 12), tmp_path / "torus.obj")
+    status, report, told = run(capsys, path, "--strict")
+    assert (status, report["verdict"]["level"], told) == (0, "good", "")
+
+
+def test_strict_wants_every_part(tmp_path, capsys):
+    path = file_of(families.united(families.torus(24, 12), families.klein_bottle()), tmp_path / "two.obj")
+    assert run(capsys, path)[0] == 0
+    status, _, told = run(capsys, path, "--strict")
+    assert status == 3 and told.startswith("holomorph: 1 of 2 parts have no map: ")
