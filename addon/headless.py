@@ -85,7 +85,9 @@ def request(options, holomorph):
         use, vertices = choices.PUNCTURES, tuple(options.puncture)
     elif options.rectangle:
         use, vertices = choices.RECTANGLE, tuple(options.rectangle)
-    return module("targets").Request(use, vertices, residues, options.cut_at_seams, options.boundary, options.solver)
+    faces = choices.use_of_faces(use) if use == choices.FACES else module("faces").WHOLE
+    how = options.cut_at_seams, options.boundary, options.solver, faces
+    return module("targets").Request(choices.use_of_vertices(use), vertices, residues, *how)
 
 
 def collect(options, holomorph):
@@ -96,7 +98,10 @@ def collect(options, holomorph):
         if asked.vertices is not None and len(objects) > 1:
             raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
-        return targets.collect(objects, asked)
+        try:
+            return targets.collect(objects, asked)
+        except module("faces").NoFaces as error:
+            raise UsageError(f"--selection faces: {error}") from error
     try:
         obj, positions = import_mesh(options, holomorph)
     except holomorph.Error as error:

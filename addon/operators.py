@@ -28,14 +28,17 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         return ""
 
     def prepare(self, context):
-        from . import targets
+        from . import faces, targets
 
         try:
             request = self.request()
+            self._targets = targets.collect(targets.mesh_objects(context), request)
         except ValueError as error:
             self.report({"ERROR"}, f"Residues: {error}")
             return False
-        self._targets = targets.collect(targets.mesh_objects(context), request)
+        except faces.NoFaces as error:
+            self.report({"ERROR"}, str(error))
+            return False
         return True
 
     def make_work(self, progress):

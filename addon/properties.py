@@ -13,9 +13,10 @@ SELECTION_USES = (
     (
         "AUTOMATIC",
         "Automatic",
-        "In edit mode: four selected boundary vertices of a disk become the corners of a rectangle, other single "
-        "vertices punctures. Selected edges and faces, and vertices that do not fit, are no choice",
+        "In edit mode: selected faces alone are mapped. Without any, four selected boundary vertices of a disk become "
+        "the corners of a rectangle, other single vertices punctures; edges and what does not fit are no choice",
     ),
+    ("FACES", "Faces", "The selected faces are mapped, as a surface with a boundary; the others keep their UVs"),
     (
         "PUNCTURES",
         "Punctures",
@@ -120,7 +121,7 @@ class MapProperties:
     # Not remembered for the next object, which has a selection of its own.
     use_selection: EnumProperty(
         name="Use Selection",
-        description="What the selected vertices are",
+        description="What the selection is. Hidden faces are not mapped in edit mode",
         items=SELECTION_USES,
         default="AUTOMATIC",
         options={"SKIP_SAVE"},
@@ -199,7 +200,8 @@ class MapProperties:
         from . import choices, targets
 
         return targets.Request(
-            use=self.use_selection,
+            use=choices.use_of_vertices(self.use_selection),
+            faces=choices.use_of_faces(self.use_selection),
             residues=choices.numbers(self.residues),
             cut_at_seams=self.cut_at_seams,
             boundary=self.boundary,

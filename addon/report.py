@@ -6,7 +6,7 @@ import json
 
 import bpy
 
-from . import maps, native
+from . import faces, maps, native
 
 PROPERTY = "holomorph_report"
 SUMMARISED = 8  # parts that the panel shows
@@ -25,11 +25,12 @@ def object_report(obj, solved, written, new_seams, options, components):
         "mesh": obj.data.name,
         "vertices": len(solved.polygons.vertices),
         "faces": len(solved.polygons.face_offsets) - 1,
+        "is_selection": solved.polygons.faces is not None,
         "done": bool(solved.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": vars(options),
         "seams_added": new_seams,
-        "repairs": package.repairs_report(solved.surface.repairs),
+        "repairs": package.repairs_report(faces.repairs(solved)),
         "seconds": solved.seconds,
         "components": components + [package.refused_report(refused) for refused in solved.surface.refused],
     }

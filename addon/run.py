@@ -156,7 +156,8 @@ def _entry(obj, solved, tiled, written, new_seams, options):
 def _write_object(outcome, obj, polygons, solved, map_options, options):
     mesh = obj.data
     tiled = seamless.tiled(solved, map_options)
-    mesh_io.remove_maps(mesh)
+    if polygons.faces is None:
+        mesh_io.remove_maps(mesh)
     values = seamless.map_values(solved, map_options, tiled)
     written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in values]
     shown = written[min(options.shown, len(written) - 1)]
@@ -179,7 +180,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     outcome.forms = max(outcome.forms, solved.form_count)
     outcome.problems += _problems(obj, solved, tiled)
     outcome.notes += tile_report.notes(obj, entry)
-    outcome.notes += _modifier_notes(obj, solved)
+    outcome.notes += _modifier_notes(obj, solved) if polygons.faces is None else []
     extra = sum(w.kind == "attribute" for w in written)
     if extra:
         maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"

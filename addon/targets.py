@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from . import choices, compatibility, mesh_edges, mesh_io, solve
+from . import choices, compatibility, faces, mesh_edges, mesh_io, solve
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
@@ -22,6 +22,7 @@ class Target:
     chosen: choices.Choices = choices.Choices()
     refused: str = ""
     note: str = ""
+    mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
 
     def find(self):
         return bpy.data.objects.get((self.name, self.library))
@@ -29,7 +30,11 @@ class Target:
     def has_changed(self, time_has_passed):
         """Whether the object is gone or, where Blender was alive meanwhile, its mesh is not what was read."""
         obj = self.find()
-        return obj is None or (time_has_passed and not read(obj).equals(self.polygons))
+        return obj is None or (time_has_passed and not self._is_what_was_read(obj))
+
+    def _is_what_was_read(self, obj):
+        has_faces = self.mask is None or len(obj.data.polygons) == len(self.mask)
+        return has_faces and read(obj, self.mask).equals(self.polygons)
 
 
 @dataclass(frozen=True)
@@ -42,6 +47,7 @@ class Request:
     cut_at_seams: bool = False
     boundary: str = "natural"
     solver: str = "auto"
+    faces: str = faces.WHOLE  # which ones are mapped
 
 
 def mesh_objects(context):
@@ -55,10 +61,17 @@ def mesh_objects(context):
 
 
 def collect(objects, request=Request()):
-    """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts."""
+    """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts.
+    @throws `faces.NoFaces`"""
     targets, first = [], {}
     for obj in objects:
+        if obj.mode == "EDIT":
+            obj.update_from_editmode()
+    masks = faces.masks(objects, request.faces)
+    for obj in objects:
         mesh = obj.data
+        if mesh not in masks:
+            continue
         library = obj.library.filepath if obj.library else None
         if mesh in first:
             index, other = first[mesh]
@@ -71,12 +84,13 @@ def collect(objects, request=Request()):
             refused = "its mesh is linked from another file; make it local first"
             targets.append(Target(obj.name, library, None, refused=refused))
             continue
-        targets.append(Target(obj.name, library, read(obj), _choices(obj, request)))
+        polygons = read(obj, masks[mesh])
+        targets.append(Target(obj.name, library, polygons, _choices(obj, request), mask=masks[mesh]))
     return targets
 
 
 def _choices(obj, request):
-    """What was chosen on this object; @pre `read(obj)` has written pending edits to the mesh."""
+    """What was chosen on this object; @pre pending edits are written to the mesh."""
     seams = mesh_edges.marked_edges(obj.data, "use_seam") if request.cut_at_seams else np.empty((0, 2), np.int64)
     selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
     return choices.Choices(request.use, tuple(selected), request.residues, seams, request.boundary, request.solver)
@@ -118,8 +132,6 @@ def align(targets, results):
     return [None if t.refused else next(solved) for t in targets]
 
 
-def read(obj):
-    """The polygons as they are seen: with the object's scale, with pending edits, without modifiers."""
-    if obj.mode == "EDIT":
-        obj.update_from_editmode()
-    return mesh_io.read_polygons(obj.data, _linear(obj))
+def read(obj, mask=None):
+    """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
+    return faces.part(mesh_io.read_polygons(obj.data, _linear(obj)), mask)

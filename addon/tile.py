@@ -23,9 +23,11 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
         return HOLOMORPH_OT_maps.why_not(context)
 
     def prepare(self, context):
-        from . import targets
+        from . import faces, targets
 
-        self._targets = targets.collect(targets.mesh_objects(context))
+        is_selection_taken = self.poles == "SELECTED" or self.direction == "EDGES"
+        request = targets.Request(faces=faces.WHOLE if is_selection_taken else faces.SELECTED)
+        self._targets = targets.collect(targets.mesh_objects(context), request)
         try:
             self._options = [self.tile_options(target) for target in self._targets if not target.refused]
         except ValueError as error:

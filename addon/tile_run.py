@@ -46,7 +46,8 @@ def _problems(outcome, obj, tiled):
 
 def _write_object(context, outcome, obj, polygons, tiled, options):
     mesh = obj.data
-    mesh_io.remove_maps(mesh)
+    if polygons.faces is None:
+        mesh_io.remove_maps(mesh)
     written = mesh_io.write_map(mesh, polygons, mesh_io.MAIN_MAP, tiling.placed(tiled, options.quarters))
     mesh_io.show_map(mesh, written.name)
     new_seams = mesh_edges.add_seams(mesh, _seam_pairs(tiled)) if options.seams else 0
