@@ -12,6 +12,7 @@ import numpy as np
 from . import faces
 
 AUTOMATIC, FACES, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "PUNCTURES", "RECTANGLE", "NONE"
+EXPLICIT = (PUNCTURES, RECTANGLE)
 CORNERS = 4
 
 
@@ -34,7 +35,7 @@ class Choices:
 
     @property
     def is_explicit(self):
-        return self.use in (PUNCTURES, RECTANGLE)
+        return self.use in EXPLICIT
 
 
 def use_of_vertices(selection):

@@ -59,6 +59,7 @@ def _add_choices(parser):
     group.add_argument("--residues", default="", metavar='"R R ..."', help="one for each puncture, may be complex")
     group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
     group.add_argument("--selection", choices=("automatic", "faces", "punctures", "rectangle", "none"), default="none")
+    group.add_argument("--modifiers", action="store_true", help="map what the modifiers make")
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
     group.add_argument(
         "--boundary",

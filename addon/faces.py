@@ -11,11 +11,8 @@ import numpy as np
 from . import mesh_io
 from .compatibility import Values
 
-WHOLE, SELECTED, ASKED = (
-    "WHOLE",
-    "SELECTED",
-    "ASKED",
-)  # no choice of faces, the selected ones if any, these or a refusal
+# All faces; the selected ones if there are any; these, or a refusal.
+WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
 
 
 class NoFaces(Exception):

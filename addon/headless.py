@@ -86,7 +86,7 @@ def request(options, holomorph):
     elif options.rectangle:
         use, vertices = choices.RECTANGLE, tuple(options.rectangle)
     faces = choices.use_of_faces(use) if use == choices.FACES else module("faces").WHOLE
-    how = options.cut_at_seams, options.boundary, options.solver, faces
+    how = options.cut_at_seams, options.boundary, options.solver, faces, options.modifiers
     return module("targets").Request(choices.use_of_vertices(use), vertices, residues, *how)
 
 

@@ -65,7 +65,7 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         return self._source.work(levels.LevelOptions(self.levels, self.ratio, self.coarsest), progress)
 
     def waiting_faces(self):
-        return len(self._source.target.polygons.face_offsets) - 1
+        return self._source.target.polygons.face_count
 
     def finish(self, context, work, time_has_passed):
         source, name = self._source, self._source.target.name

@@ -30,6 +30,10 @@ class Polygons:
     loops: np.ndarray | None
     faces: np.ndarray | None = None  # (#F,) which polygons of the mesh they are, None for all
 
+    @property
+    def face_count(self):
+        return len(self.face_offsets) - 1
+
     def share(self, surface):
         """Takes the arrays of the surface that was made of these, where they are equal: one copy of them is left."""
         if not surface.is_whole:

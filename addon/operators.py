@@ -52,7 +52,7 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
 
         tasks = targets.tasks(self._targets)
         waiting = [task.polygons for task in tasks if self.main != "BALANCED" or cache.find(task) is None]
-        return sum(len(p.face_offsets) - 1 for p in waiting)
+        return sum(p.face_count for p in waiting)
 
     def modal_faces(self):
         return MODAL_FACES if self.main == "BALANCED" else MODAL_TILED_FACES

@@ -5,7 +5,7 @@ import textwrap
 
 import bpy
 
-from . import native, overlay
+from . import native, overlay, tools_panel
 from .drag import HOLOMORPH_OT_drag_poles
 from .lod import HOLOMORPH_OT_levels
 from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
@@ -32,6 +32,7 @@ class _HolomorphPanel:
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
+                tools_panel.draw_modifiers(column, obj)
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, obj)
         if context.mode == "OBJECT":

@@ -8,6 +8,10 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 from . import native
 
 DIALS = 8
+MODIFIERS = (
+    "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result becomes an object of "
+    "its own and the object is hidden"
+)
 
 SELECTION_USES = (
     (
@@ -67,7 +71,7 @@ TEXTURES = (
 DRAWN = (  # in groups
     ("main", "density", "margin", "rotation", "forms", "shown"),
     ("checker", "texture", "checker_scale", "seams", "shape"),
-    ("use_selection", "residues", "cut_at_seams", "boundary", "solver"),
+    ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
 )
 
 
@@ -133,6 +137,7 @@ class MapProperties:
         default="",
         options={"SKIP_SAVE"},
     )
+    modifiers: BoolProperty(name="With Modifiers", description=MODIFIERS, default=False, options={"SKIP_SAVE"})
     cut_at_seams: BoolProperty(
         name="Use Seams as Cut",
         description="Cut the maps along your seams where these make each part a disk; else the report says why not",
@@ -206,6 +211,7 @@ class MapProperties:
             cut_at_seams=self.cut_at_seams,
             boundary=self.boundary,
             solver=self.solver,
+            modifiers=self.modifiers,
         )
 
     def map_options(self):

@@ -24,7 +24,7 @@ def object_report(obj, solved, written, new_seams, options, components):
         "object": obj.name,
         "mesh": obj.data.name,
         "vertices": len(solved.polygons.vertices),
-        "faces": len(solved.polygons.face_offsets) - 1,
+        "faces": solved.polygons.face_count,
         "is_selection": solved.polygons.faces is not None,
         "done": bool(solved.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],

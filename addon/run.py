@@ -105,6 +105,7 @@ def write_each(context, targets, results, write_object, time_has_passed=False):
             elif target.has_changed(time_has_passed):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")
             else:
+                obj = target.take(context) if result.done else obj
                 write_object(outcome, obj, target.polygons, result)
                 outcome.notes += [target.note] if target.note and result.done else []
         if outcome.done:
@@ -138,7 +139,7 @@ def surface_problems(obj, surface):
 def _modifier_notes(obj, solved):
     closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
     if closing and any(c.surface.boundary_count for c in solved.components):
-        yield f"{obj.name}: modifiers are ignored: apply {closing[0]!r} if it closes the surface"
+        yield f"{obj.name}: modifiers are ignored: take Map with Modifiers if {closing[0]!r} closes the surface"
 
 
 def _report_all_skipped(outcome, obj, solved, options):

@@ -26,7 +26,8 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
         from . import faces, targets
 
         is_selection_taken = self.poles == "SELECTED" or self.direction == "EDGES"
-        request = targets.Request(faces=faces.WHOLE if is_selection_taken else faces.SELECTED)
+        wanted = faces.WHOLE if is_selection_taken else faces.SELECTED
+        request = targets.Request(faces=wanted, modifiers=self.modifiers)
         self._targets = targets.collect(targets.mesh_objects(context), request)
         try:
             self._options = [self.tile_options(target) for target in self._targets if not target.refused]
@@ -44,7 +45,7 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
     def waiting_faces(self):
         from . import targets
 
-        return sum(len(task.polygons.face_offsets) - 1 for task in targets.tasks(self._targets))
+        return sum(task.polygons.face_count for task in targets.tasks(self._targets))
 
     def modal_faces(self):
         return MODAL_TILED_FACES

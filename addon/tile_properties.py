@@ -5,7 +5,7 @@ import math
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from .properties import TEXTURES
+from .properties import MODIFIERS, TEXTURES
 
 MOST_POLES = 16
 POLES = (
@@ -31,7 +31,7 @@ BOUNDARIES = (
     ("free", "Free", "Boundary loops cut through the texture: more even"),
 )
 DRAWN = (  # in groups
-    ("tiles", "poles", "pole_count", "pole_group"),
+    ("tiles", "modifiers", "poles", "pole_count", "pole_group"),
     ("lattice", "direction", "turn", "quarters", "boundary"),
     ("checker", "texture", "repeats", "seams", "empties"),
 )
@@ -62,6 +62,7 @@ class TileProperties:
         default="",
         options={"SKIP_SAVE"},
     )
+    modifiers: BoolProperty(name="With Modifiers", description=MODIFIERS, default=False, options={"SKIP_SAVE"})
     lattice: EnumProperty(name="Lattice", description="How the texture repeats", items=LATTICES, default="square")
     direction: EnumProperty(
         name="Direction", description="Where the rows of the texture run", items=DIRECTIONS, default="NONE"

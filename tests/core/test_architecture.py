@@ -35,6 +35,7 @@ ADDON_LEVEL = {
     "operators": 2,
     "tile": 2,
     "presets": 3,
+    "tools_panel": 3,
     "panel": 3,
     "__init__": 4,
     "headless": 5,
