@@ -13,24 +13,28 @@ bl_info = {
 
 
 def register():
-    from . import drag, lod, native, operators, overlay, panel, presets, tile
+    from . import drag, lod, native, operators, overlay, panel, presets, texel_operators, tile, tools_panel
 
     native.forget()
     operators.register()
     tile.register()
     drag.register()
     lod.register()
+    texel_operators.register()
     overlay.register()
     presets.register()
     panel.register()
+    tools_panel.register()
 
 
 def unregister():
-    from . import drag, lod, operators, overlay, panel, presets, tile
+    from . import drag, lod, operators, overlay, panel, presets, texel_operators, tile, tools_panel
 
+    tools_panel.unregister()
     panel.unregister()
     presets.unregister()
     overlay.unregister()
+    texel_operators.unregister()
     lod.unregister()
     drag.unregister()
     tile.unregister()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes as their objects' modifiers and shape keys make them, to be mapped where this is asked for.
 
-Where only vertices are moved, the maps go to the object's own mesh. Else the result of the modifiers becomes an object of
-its own in the object's place, and the object is hidden, so that nothing is lost.
+Where only vertices are moved, the maps go to the object's own mesh. Else the result of the modifiers becomes an object
+of its own in the object's place, and the object is hidden, so that nothing is lost.
 """
 
 import bpy

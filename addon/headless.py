@@ -10,7 +10,6 @@ import importlib.util
 import math
 import sys
 import time
-from functools import partial
 from pathlib import Path
 
 import bpy
@@ -124,9 +123,11 @@ def make_maps(options, found):
     rotation, main = math.radians(options.rotation), options.main.upper()
     asked = module("maps").MapOptions(options.forms, options.density, rotation, margin=options.margin, main=main)
     targets, tasks = module("targets"), module("targets").tasks(found)
-    job = module("jobs").Job(tasks, then=[partial(module("seamless").make, options=asked)] * len(tasks))
+    mapper = module("seamless").Mapper(asked, options.equal)
+    job = module("jobs").Job(tasks, then=[mapper] * len(tasks))
     job.run()
-    return module("run").write(bpy.context, found, targets.align(found, job.results), asked, write_options(options))
+    results = targets.align(found, job.results)
+    return module("run").write(bpy.context, found, results, mapper.options(results), write_options(options))
 
 
 def add_levels(options, outcome):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators: one computes the maps, one measures a map, one brings the object's own materials back."""
 
-from functools import partial
-
 import bpy
 
 from . import native
@@ -45,7 +43,8 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         from . import jobs, seamless, targets
 
         tasks = targets.tasks(self._targets)
-        return jobs.Job(tasks, progress, [partial(seamless.make, options=self.map_options())] * len(tasks))
+        self._mapper = seamless.Mapper(self.map_options(), self.equal)
+        return jobs.Job(tasks, progress, [self._mapper] * len(tasks))
 
     def waiting_faces(self):
         from . import cache, targets
@@ -61,7 +60,8 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         from . import run, targets
 
         results = targets.align(self._targets, work.results)
-        outcome = run.write(context, self._targets, results, self.map_options(), self.write_options(), time_has_passed)
+        options = self._mapper.options(results), self.write_options()
+        outcome = run.write(context, self._targets, results, *options, time_has_passed)
         self.form_count = outcome.forms
         return self.tell(outcome)
 

@@ -9,8 +9,8 @@ from . import native
 
 DIALS = 8
 MODIFIERS = (
-    "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result becomes an object of "
-    "its own and the object is hidden"
+    "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result becomes an object "
+    "of its own and the object is hidden"
 )
 
 SELECTION_USES = (
@@ -69,7 +69,7 @@ TEXTURES = (
     ("HEXAGONS", "Hexagons", "Glazed hexagonal tiles"),
 )
 DRAWN = (  # in groups
-    ("main", "density", "margin", "rotation", "forms", "shown"),
+    ("main", "density", "equal", "margin", "rotation", "forms", "shown"),
     ("checker", "texture", "checker_scale", "seams", "shape"),
     ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
 )
@@ -111,6 +111,12 @@ class MapProperties:
         min=1e-4,
         soft_min=0.1,
         soft_max=10.0,
+    )
+    equal: BoolProperty(
+        name="Equal Density",
+        description="Several objects get the same texels per metre, that of a tiling if there is one, else that of the "
+        "object with the largest map, which fills the UV square. Off: each object fills it",
+        default=True,
     )
     margin: FloatProperty(
         name="Margin",

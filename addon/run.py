@@ -77,13 +77,14 @@ class WriteOptions:
 
 
 def write(context, targets, results, map_options, write_options, time_has_passed=False):
-    """Writes the maps of every solved object and reports every other; an object that is refused is not touched."""
+    """Writes the maps of every `seamless.MappedObject` and reports every other; an object that is refused is not
+    touched."""
 
-    def write_object(outcome, obj, polygons, solved):
-        if solved.done:
-            _write_object(outcome, obj, polygons, solved, map_options, write_options)
+    def write_object(outcome, obj, polygons, mapped):
+        if mapped.done:
+            _write_object(outcome, obj, polygons, mapped, map_options, write_options)
         else:
-            _report_all_skipped(outcome, obj, solved, map_options)
+            _report_all_skipped(outcome, obj, mapped.solved, map_options)
 
     return write_each(context, targets, results, write_object, time_has_passed)
 
@@ -154,9 +155,8 @@ def _entry(obj, solved, tiled, written, new_seams, options):
     return report.object_report(obj, solved, written, new_seams, options, parts)
 
 
-def _write_object(outcome, obj, polygons, solved, map_options, options):
-    mesh = obj.data
-    tiled = seamless.tiled(solved, map_options)
+def _write_object(outcome, obj, polygons, mapped, map_options, options):
+    mesh, solved, tiled = obj.data, mapped.solved, mapped.tiled
     if polygons.faces is None:
         mesh_io.remove_maps(mesh)
     values = seamless.map_values(solved, map_options, tiled)

@@ -39,7 +39,8 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
     def make_work(self, progress):
         from . import jobs, targets, tiling
 
-        then = [partial(tiling.tile, options=options) for options in self._options]
+        tile = tiling.Evenly() if self.equal else tiling.tile
+        then = [partial(tile, options=options) for options in self._options]
         return jobs.Job(targets.tasks(self._targets), progress, then)
 
     def waiting_faces(self):

@@ -31,7 +31,7 @@ BOUNDARIES = (
     ("free", "Free", "Boundary loops cut through the texture: more even"),
 )
 DRAWN = (  # in groups
-    ("tiles", "modifiers", "poles", "pole_count", "pole_group"),
+    ("tiles", "equal", "modifiers", "poles", "pole_count", "pole_group"),
     ("lattice", "direction", "turn", "quarters", "boundary"),
     ("checker", "texture", "repeats", "seams", "empties"),
 )
@@ -61,6 +61,11 @@ class TileProperties:
         description="A vertex group: poles are placed only where its weight is above 0.5; empty for anywhere",
         default="",
         options={"SKIP_SAVE"},
+    )
+    equal: BoolProperty(
+        name="Equal Density",
+        description="Several objects get the same texels per metre: Tiles is for the active one. Off: for each",
+        default=True,
     )
     modifiers: BoolProperty(name="With Modifiers", description=MODIFIERS, default=False, options={"SKIP_SAVE"})
     lattice: EnumProperty(name="Lattice", description="How the texture repeats", items=LATTICES, default="square")

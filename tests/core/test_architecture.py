@@ -34,6 +34,7 @@ ADDON_LEVEL = {
     "native": 0,
     "operators": 2,
     "tile": 2,
+    "texel_operators": 2,
     "presets": 3,
     "tools_panel": 3,
     "panel": 3,
