@@ -109,6 +109,11 @@ def is_our_attribute(attribute):
     return attribute.domain == "CORNER" and attribute.data_type == "FLOAT2" and bool(OUR_MAP.match(attribute.name))
 
 
+def has_maps(mesh):
+    """Whether there are maps of an earlier run."""
+    return any(OUR_MAP.match(layer.name) for layer in mesh.uv_layers) or any(map(is_our_attribute, mesh.attributes))
+
+
 def remove_maps(mesh):
     """Removes the maps of an earlier run, and no other."""
     for name in [layer.name for layer in mesh.uv_layers if OUR_MAP.match(layer.name)]:

@@ -67,7 +67,8 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
-    """Bring back the materials that the checker or a texture covers"""
+    """Bring back what was shown before: the materials that the checker or a texture covers, on all objects with the
+    same mesh, and the UV maps that were active in the editors and for renders"""
 
     bl_idname = "uv.holomorphic_restore_materials"
     bl_label = "Restore Materials"
@@ -78,9 +79,10 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
     def execute(self, context):
-        from . import material, targets
+        from . import restore, targets
 
-        restored = [material.uncover(obj) for obj in targets.mesh_objects(context)]
+        own = [obj for obj in targets.mesh_objects(context) if obj.data.library is None]
+        restored = [restore.restore(obj) for obj in own]
         return {"FINISHED"} if any(restored) else {"CANCELLED"}
 
 

@@ -17,6 +17,7 @@ from . import (
     native,
     patterns,
     report,
+    restore,
     seamless,
     tile_report,
     tiling,
@@ -157,6 +158,7 @@ def _entry(obj, solved, tiled, written, new_seams, options):
 
 def _write_object(outcome, obj, polygons, mapped, map_options, options):
     mesh, solved, tiled = obj.data, mapped.solved, mapped.tiled
+    restore.remember(mesh)
     if polygons.faces is None:
         mesh_io.remove_maps(mesh)
     values = seamless.map_values(solved, map_options, tiled)
