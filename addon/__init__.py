@@ -13,7 +13,20 @@ bl_info = {
 
 
 def register():
-    from . import drag, lod, native, operators, overlay, panel, presets, texel_operators, tile, tools_panel
+    from . import (
+        drag,
+        lod,
+        native,
+        operators,
+        overlay,
+        panel,
+        presets,
+        shortcuts,
+        texel_operators,
+        tile,
+        tools,
+        tools_panel,
+    )
 
     native.forget()
     operators.register()
@@ -22,17 +35,21 @@ def register():
     lod.register()
     texel_operators.register()
     overlay.register()
+    tools.register()
     presets.register()
     panel.register()
     tools_panel.register()
+    shortcuts.register()
 
 
 def unregister():
-    from . import drag, lod, operators, overlay, panel, presets, texel_operators, tile, tools_panel
+    from . import drag, lod, operators, overlay, panel, presets, shortcuts, texel_operators, tile, tools, tools_panel
 
+    shortcuts.unregister()
     tools_panel.unregister()
     panel.unregister()
     presets.unregister()
+    tools.unregister()
     overlay.unregister()
     texel_operators.unregister()
     lod.unregister()

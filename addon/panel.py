@@ -73,9 +73,9 @@ def _draw_sentence(layout, sentence):
 
 
 def _draw_result(layout, obj):
-    from . import material, report
+    from . import report, restore
 
-    if material.is_covered(obj):
+    if restore.is_possible(obj):
         layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
     stored = obj.get(report.PROPERTY)
     if stored:

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from . import distortion, mesh_io, report, tiling
+from . import distortion, heat, mesh_io, report, tiling
 
 
 def why_not(target):
@@ -19,8 +19,8 @@ def why_not(target):
 
 
 def measured(target, image, metres):
-    """Texels per metre of an image `image` texels wide, the median by area, for poles have no end of them; of a mesh that
-    is not being edited. 0 where there is no area.
+    """Texels per metre of an image `image` texels wide, the median by area, for poles have no end of them; of a mesh
+    that is not being edited. 0 where there is no area.
 
     metres : of a unit of the scene
     """
@@ -48,10 +48,7 @@ def is_met(wanted, factor, before):
 
 
 def _uv(target):
-    """(#C, 2) float32, in the order of the polygons' corners."""
-    mesh, loops = target.find().data, target.polygons.loops
-    uv = mesh_io.read_map(mesh, mesh.uv_layers.active.name)
-    return uv if loops is None else uv[loops]
+    return heat.active_map(target.find().data, target.polygons)
 
 
 def _is_tiling(target):

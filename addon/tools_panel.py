@@ -5,6 +5,7 @@ import bpy
 
 from . import evaluated, texel_operators
 from .operators import HOLOMORPH_OT_maps
+from .tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad
 
 
 def draw_modifiers(layout, obj):
@@ -23,6 +24,9 @@ class _ToolsPanel:
 
     def draw(self, context):
         _draw_texels(self.layout, context.window_manager)
+        column = self.layout.column(align=True)
+        column.operator(HOLOMORPH_OT_select_bad.bl_idname)
+        column.operator(HOLOMORPH_OT_remove_maps.bl_idname)
 
 
 class HOLOMORPH_PT_view3d_tools(_ToolsPanel, bpy.types.Panel):

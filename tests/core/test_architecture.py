@@ -35,6 +35,8 @@ ADDON_LEVEL = {
     "operators": 2,
     "tile": 2,
     "texel_operators": 2,
+    "tools": 2,
+    "shortcuts": 3,
     "presets": 3,
     "tools_panel": 3,
     "panel": 3,
