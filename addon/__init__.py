@@ -13,7 +13,21 @@ bl_info = {
 
 
 def register():
-    from . import drag, lod, native, operators, overlay, panel, preferences, presets, tile
+    from . import (
+        drag,
+        lod,
+        native,
+        operators,
+        overlay,
+        panel,
+        preferences,
+        presets,
+        shortcuts,
+        texel_operators,
+        tile,
+        tools,
+        tools_panel,
+    )
 
     native.forget()
     preferences.register()
@@ -21,17 +35,38 @@ def register():
     tile.register()
     drag.register()
     lod.register()
+    texel_operators.register()
     overlay.register()
+    tools.register()
     presets.register()
     panel.register()
+    tools_panel.register()
+    shortcuts.register()
 
 
 def unregister():
-    from . import drag, lod, operators, overlay, panel, preferences, presets, tile
+    from . import (
+        drag,
+        lod,
+        operators,
+        overlay,
+        panel,
+        preferences,
+        presets,
+        shortcuts,
+        texel_operators,
+        tile,
+        tools,
+        tools_panel,
+    )
 
+    shortcuts.unregister()
+    tools_panel.unregister()
     panel.unregister()
     presets.unregister()
+    tools.unregister()
     overlay.unregister()
+    texel_operators.unregister()
     lod.unregister()
     drag.unregister()
     tile.unregister()

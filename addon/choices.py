@@ -9,7 +9,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-AUTOMATIC, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "PUNCTURES", "RECTANGLE", "NONE"
+from . import faces
+
+AUTOMATIC, FACES, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "PUNCTURES", "RECTANGLE", "NONE"
+EXPLICIT = (PUNCTURES, RECTANGLE)
 CORNERS = 4
 
 
@@ -32,7 +35,17 @@ class Choices:
 
     @property
     def is_explicit(self):
-        return self.use in (PUNCTURES, RECTANGLE)
+        return self.use in EXPLICIT
+
+
+def use_of_vertices(selection):
+    """What selected vertices are for a use of the selection."""
+    return NONE if selection == FACES else selection
+
+
+def use_of_faces(selection):
+    """Which faces are mapped for a use of the selection, one of those in `faces`."""
+    return {AUTOMATIC: faces.SELECTED, FACES: faces.ASKED}.get(selection, faces.WHOLE)
 
 
 def attempts(part, choices):

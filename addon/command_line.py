@@ -31,6 +31,8 @@ def parse(arguments):
     parser.add_argument("--forms", type=int, default=8, help="at most so many maps of single forms")
     parser.add_argument("--shown", type=int, default=0, help="the active map: 0 is the main one")
     parser.add_argument("--density", type=float, default=1.0, help="factor of all UV lengths")
+    text = "each object fills the UV square, instead of equal texels per metre"
+    parser.add_argument("--fill-each", dest="equal", action="store_false", help=text)
     parser.add_argument("--margin", type=float, default=0.02, help="between parts, as a share of the UV square")
     parser.add_argument("--rotation", type=float, default=0.0, help="rotation of all maps in degrees")
     parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
@@ -59,7 +61,8 @@ def _add_choices(parser):
     group.add_argument("--puncture", type=int, action="append", default=[], metavar="V", help="may be repeated")
     group.add_argument("--residues", default="", metavar='"R R ..."', help="one for each puncture, may be complex")
     group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
-    group.add_argument("--selection", choices=("automatic", "punctures", "rectangle", "none"), default="none")
+    group.add_argument("--selection", choices=("automatic", "faces", "punctures", "rectangle", "none"), default="none")
+    group.add_argument("--modifiers", action="store_true", help="map what the modifiers make")
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
     group.add_argument(
         "--boundary",

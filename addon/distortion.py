@@ -61,6 +61,17 @@ def measure(vertices, corner_vertices, face_offsets, uv):
     return Distortion(octaves, angle, float(high / low) if low > 0 else np.inf, float(mean))
 
 
+def length_ratio(vertices, corner_vertices, face_offsets, uv):
+    """UV length for a length on the surface, where the density is the median one by area; 0 where there is no area."""
+    corners, polygon = fans(face_offsets)
+    count = len(face_offsets) - 1
+    points = vertices[corner_vertices[corners]], uv.astype(np.float64)[corners]
+    area, uv_area = (np.bincount(polygon, _metric(of_kind)[-1], count) for of_kind in points)
+    has_area = area > 0
+    (median,) = _quantiles(uv_area[has_area] / area[has_area], area[has_area], (0.5,))
+    return float(np.sqrt(median))
+
+
 def _metric(points):
     """Inner products of two sides of (#T, 3, d) triangles, and the areas."""
     first, second = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]

@@ -17,6 +17,8 @@ class Session:
     def __init__(self, obj):
         """Takes up the tiling that the report tells of. @throws ValueError where there is none, or no longer"""
         stored = obj.get(report.PROPERTY)
+        if report.parsed(stored).get("is_selection"):
+            raise ValueError(f"{obj.name}: poles are dragged where a whole mesh was tiled, not selected faces")
         dials = report.parsed(stored).get("dials", {})
         self.target = targets.collect([obj])[0]
         self._options = tile_report.asked_again(stored, tile_choices.allowed(dials.get("pole_group", ""), obj))

@@ -11,7 +11,6 @@ import importlib.util
 import math
 import sys
 import time
-from functools import partial
 from pathlib import Path
 
 import bpy
@@ -91,7 +90,9 @@ def request(options, holomorph):
         use, vertices = choices.PUNCTURES, tuple(options.puncture)
     elif options.rectangle:
         use, vertices = choices.RECTANGLE, tuple(options.rectangle)
-    return module("targets").Request(use, vertices, residues, options.cut_at_seams, options.boundary, options.solver)
+    faces = choices.use_of_faces(use) if use == choices.FACES else module("faces").WHOLE
+    how = options.cut_at_seams, options.boundary, options.solver, faces, options.modifiers
+    return module("targets").Request(choices.use_of_vertices(use), vertices, residues, *how)
 
 
 def collect(options, holomorph):
@@ -102,7 +103,10 @@ def collect(options, holomorph):
         if asked.vertices is not None and len(objects) > 1:
             raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
-        return targets.collect(objects, asked)
+        try:
+            return targets.collect(objects, asked)
+        except module("faces").NoFaces as error:
+            raise UsageError(f"--selection faces: {error}") from error
     try:
         obj, positions = import_mesh(options, holomorph)
     except holomorph.Error as error:
@@ -125,9 +129,11 @@ def make_maps(options, found):
     rotation, main = math.radians(options.rotation), options.main.upper()
     asked = module("maps").MapOptions(options.forms, options.density, rotation, margin=options.margin, main=main)
     targets, tasks = module("targets"), module("targets").tasks(found)
-    job = module("jobs").Job(tasks, then=[partial(module("seamless").make, options=asked)] * len(tasks))
+    mapper = module("seamless").Mapper(asked, options.equal)
+    job = module("jobs").Job(tasks, then=[mapper] * len(tasks))
     job.run()
-    return module("run").write(bpy.context, found, targets.align(found, job.results), asked, write_options(options))
+    results = targets.align(found, job.results)
+    return module("run").write(bpy.context, found, results, mapper.options(results), write_options(options))
 
 
 def add_levels(options, outcome):

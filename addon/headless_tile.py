@@ -27,7 +27,8 @@ def make(context, options, found):
     followed"""
     asked = _properties(options)
     chosen = [tile_choices.options(asked, target) for target in found if not target.refused]
-    job = jobs.Job(targets.tasks(found), then=[partial(tiling.tile, options=one) for one in chosen])
+    tile = tiling.Evenly() if options.equal else tiling.tile
+    job = jobs.Job(targets.tasks(found), then=[partial(tile, options=one) for one in chosen])
     job.run()
     written = tile_run.TileWriteOptions(checker=options.checker, texture=options.texture.upper(), seams=options.seams)
     return tile_run.write(context, found, targets.align(found, job.results), written)

@@ -14,9 +14,14 @@ def measured(mesh, linear):
     """(polygons, the `distortion.Distortion` of their active UV map) of a mesh that is not being edited, its positions
     multiplied by the 3x3 matrix `linear`."""
     polygons = mesh_io.read_polygons(mesh, linear)
+    of_map = polygons.corner_vertices, polygons.face_offsets, active_map(mesh, polygons)
+    return polygons, distortion.measure(polygons.vertices, *of_map)
+
+
+def active_map(mesh, polygons):
+    """(#C,2) float32 of the active UV map, in the order of the polygons' corners."""
     uv = mesh_io.read_map(mesh, mesh.uv_layers.active.name)
-    uv = uv if polygons.loops is None else uv[polygons.loops]
-    return polygons, distortion.measure(polygons.vertices, polygons.corner_vertices, polygons.face_offsets, uv)
+    return uv if polygons.loops is None else uv[polygons.loops]
 
 
 def write(obj):

@@ -65,7 +65,7 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         return self._source.work(levels.LevelOptions(self.levels, self.ratio, self.coarsest), progress)
 
     def waiting_faces(self):
-        return len(self._source.target.polygons.face_offsets) - 1
+        return self._source.target.polygons.face_count
 
     def finish(self, context, work, time_has_passed):
         source, name = self._source, self._source.target.name
@@ -128,17 +128,13 @@ class Source:
 
     def write_map(self, context, work):
         """Writes the map that was made to the object itself; sentences about what was not done."""
-        from . import maps, run
+        from . import maps, run, seamless
 
         if work.solved is None:
             return []
-        outcome = run.write(
-            context,
-            [self.target],
-            [work.solved],
-            maps.MapOptions(forms=0, main=maps.BALANCED),
-            run.WriteOptions(checker=False),
-        )
+        options = maps.MapOptions(forms=0, main=maps.BALANCED)
+        mapped = seamless.Mapper(options)(work.solved)
+        outcome = run.write(context, [self.target], [mapped], options, run.WriteOptions(checker=False))
         return outcome.problems + outcome.notes
 
     def write_levels(self, context, work, side_by_side=False):

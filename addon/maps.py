@@ -31,6 +31,7 @@ class MapOptions:
     turns: tuple = ()  # radians, phase of each form's share in the main map
     margin: float = 0.02  # least distance between parts, in sides of the UV square
     main: str = AUTOMATIC  # AUTOMATIC, SEAMLESS or BALANCED: what the main map is
+    per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
 
     @property
     def are_plain(self):
@@ -139,10 +140,8 @@ def _frame(component, index, options, uv=None):
 def _places(parts, index, options, raw=None):
     """A `Place` for each part. Where a map has no area, as with all dials at zero, the part shrinks to a point."""
     frames = [_frame(part, index, options, uv) for part, uv in zip(parts, raw or [None] * len(parts))]
-    scales = [math.sqrt(part.area / frame.area) if frame.area > 0 else 0.0 for part, frame in zip(parts, frames)]
-    sizes = [[s * (f.high - f.low).real, s * (f.high - f.low).imag] for s, f in zip(scales, frames)]
-    corners, side = layout.pack(sizes, options.margin)
-    fit = options.density / side if side > 0 else 0.0
+    scales, sizes, corners, side = _packed(parts, frames, options)
+    fit = options.density * (options.per_length or 1 / side) if side > 0 else 0.0
     middle = complex(side, side) / 2
     return [
         Place(
@@ -152,6 +151,20 @@ def _places(parts, index, options, raw=None):
         )
         for scale, frame, corner, size in zip(scales, frames, corners, sizes)
     ]
+
+
+def _packed(parts, frames, options):
+    """(factors, sizes, lower left corners, side of the whole) of the parts with the areas that they have in space."""
+    scales = [math.sqrt(part.area / frame.area) if frame.area > 0 else 0.0 for part, frame in zip(parts, frames)]
+    sizes = [[s * (f.high - f.low).real, s * (f.high - f.low).imag] for s, f in zip(scales, frames)]
+    return scales, sizes, *layout.pack(sizes, options.margin)
+
+
+def filling(solved, options):
+    """`MapOptions.per_length` with which the main map fills the UV square; infinite for one without area."""
+    parts = _parts(solved, 0)
+    side = _packed(parts, [_frame(part, 0, options) for part in parts], options)[-1]
+    return 1 / side if side > 0 else math.inf
 
 
 @dataclass(frozen=True)

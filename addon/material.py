@@ -15,6 +15,7 @@ from .patterns import TEXTURES
 CHECKER = "CHECKER"
 CHECKER_CELLS = 2  # squares of the checker after which it repeats
 REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
+EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
 OURS = "holomorph_checker"  # custom property that tells our materials
 
 
@@ -63,8 +64,8 @@ def cover(obj, material):
         if _is_ours(slot.material):
             slot.material = material
             continue
-        if slot.link == "OBJECT" and slot.material is not None:
-            replaced[str(index)] = slot.material
+        if slot.link == "OBJECT":
+            replaced[str(index)] = slot.material or EMPTY
         slot.link = "OBJECT"
         slot.material = material
     if replaced:
@@ -79,9 +80,9 @@ def uncover(obj):
         if not _is_ours(slot.material):
             continue
         if slot.link == "OBJECT":
-            slot.material = replaced.get(str(index))
-            if slot.material is None:
-                slot.link = "DATA"
+            before = replaced.get(str(index))
+            slot.material = None if before == EMPTY else before
+            slot.link = "DATA" if before is None else "OBJECT"
     if len(obj.data.materials) == 1 and _is_ours(obj.data.materials[0]):
         obj.data.materials.clear()
     if REPLACED in obj:

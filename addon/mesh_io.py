@@ -22,12 +22,17 @@ OUR_MAP = re.compile(rf"^{MAIN_MAP}( [1-9][0-9]*)?$")
 
 @dataclass(eq=False)
 class Polygons:
-    """A mesh's polygons as arrays; `loops` gives the loop of each corner, or None where they agree."""
+    """A mesh's polygons as arrays, or some of them; `loops` gives the loop of each corner, or None where they agree."""
 
     vertices: np.ndarray  # (#V,3) float64, in the object's frame without its translation
     corner_vertices: np.ndarray  # (#C,) int32
     face_offsets: np.ndarray  # (#F+1,) int32
     loops: np.ndarray | None
+    faces: np.ndarray | None = None  # (#F,) which polygons of the mesh they are, None for all
+
+    @property
+    def face_count(self):
+        return len(self.face_offsets) - 1
 
     def share(self, surface):
         """Takes the arrays of the surface that was made of these, where they are equal: one copy of them is left."""
@@ -104,6 +109,11 @@ def is_our_attribute(attribute):
     return attribute.domain == "CORNER" and attribute.data_type == "FLOAT2" and bool(OUR_MAP.match(attribute.name))
 
 
+def has_maps(mesh):
+    """Whether there are maps of an earlier run."""
+    return any(OUR_MAP.match(layer.name) for layer in mesh.uv_layers) or any(map(is_our_attribute, mesh.attributes))
+
+
 def remove_maps(mesh):
     """Removes the maps of an earlier run, and no other."""
     for name in [layer.name for layer in mesh.uv_layers if OUR_MAP.match(layer.name)]:
@@ -112,18 +122,25 @@ def remove_maps(mesh):
         mesh.attributes.remove(mesh.attributes[name])
 
 
-def _of_loops(mesh, polygons, uv):
-    """(#C,2) in the order of the loops; without `polygons` it is."""
+def _of_loops(mesh, polygons, uv, before=""):
+    """(#C,2) in the order of the loops; without `polygons` it is. Loops of no corner have what the map `before` has."""
     if polygons is None or polygons.loops is None:
         return uv
-    scattered = np.zeros((len(mesh.loops), 2), np.float32)
+    scattered = read_map(mesh, before) if before else np.zeros((len(mesh.loops), 2), np.float32)
     scattered[polygons.loops] = uv
     return scattered
 
 
 def write_map(mesh, polygons, name, uv):
-    """Writes (#C,2) float32 `uv` as a new UV map, or as a corner attribute when all slots are taken."""
-    uv = _of_loops(mesh, polygons, uv)
+    """Writes (#C,2) float32 `uv` as a new UV map, or as a corner attribute when all slots are taken.
+
+    Where these are some of the mesh's polygons, the others keep the UVs that they have in a map of this name, or else
+    in the active one.
+    """
+    if polygons.faces is not None and _has_map(mesh, name):
+        overwrite_map(mesh, polygons, name, uv)
+        return WrittenMap(name, "uv_map" if name in mesh.uv_layers else "attribute")
+    uv = _of_loops(mesh, polygons, uv, "" if polygons.faces is None else getattr(mesh.uv_layers.active, "name", ""))
     # References to layers do not survive the next `new`: look up by name, keep nothing.
     if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:
         layer = mesh.uv_layers.new(name=name, do_init=False)
@@ -134,8 +151,14 @@ def write_map(mesh, polygons, name, uv):
     return WrittenMap(attribute.name, "attribute")
 
 
+def _has_map(mesh, name):
+    return name in mesh.uv_layers or name in mesh.attributes
+
+
 def write_shape(mesh, points):
     """Writes (#V,3) points as a vector attribute of the vertices."""
+    if SHAPE in mesh.attributes:
+        mesh.attributes.remove(mesh.attributes[SHAPE])
     attribute = mesh.attributes.new(SHAPE, "FLOAT_VECTOR", "POINT")
     write_values(_attribute_vectors(attribute, 3), points)
 
@@ -172,7 +195,8 @@ def overwrite_map(mesh, polygons, name, uv):
     """Writes (#C,2) float32 `uv` into a UV map or corner attribute that there is."""
     layer = mesh.uv_layers.get(name)
     values = _attribute_vectors(mesh.attributes[name], 2) if layer is None else compatibility.uv_values(layer)
-    write_values(values, _of_loops(mesh, polygons, uv))
+    is_part = polygons is not None and polygons.faces is not None
+    write_values(values, _of_loops(mesh, polygons, uv, name if is_part else ""))
     mesh.update()
 
 

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators: one computes the maps, one measures a map, one brings the object's own materials back."""
 
-from functools import partial
-
 import bpy
 
 from . import native
@@ -28,28 +26,32 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         return ""
 
     def prepare(self, context):
-        from . import targets
+        from . import faces, targets
 
         try:
             request = self.request()
+            self._targets = targets.collect(targets.mesh_objects(context), request)
         except ValueError as error:
             self.report({"ERROR"}, f"Residues: {error}")
             return False
-        self._targets = targets.collect(targets.mesh_objects(context), request)
+        except faces.NoFaces as error:
+            self.report({"ERROR"}, str(error))
+            return False
         return True
 
     def make_work(self, progress):
         from . import jobs, seamless, targets
 
         tasks = targets.tasks(self._targets)
-        return jobs.Job(tasks, progress, [partial(seamless.make, options=self.map_options())] * len(tasks))
+        self._mapper = seamless.Mapper(self.map_options(), self.equal)
+        return jobs.Job(tasks, progress, [self._mapper] * len(tasks))
 
     def waiting_faces(self):
         from . import cache, targets
 
         tasks = targets.tasks(self._targets)
         waiting = [task.polygons for task in tasks if self.main != "BALANCED" or cache.find(task) is None]
-        return sum(len(p.face_offsets) - 1 for p in waiting)
+        return sum(p.face_count for p in waiting)
 
     def modal_faces(self):
         return MODAL_FACES if self.main == "BALANCED" else MODAL_TILED_FACES
@@ -58,14 +60,16 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         from . import run, targets
 
         results = targets.align(self._targets, work.results)
-        outcome = run.write(context, self._targets, results, self.map_options(), self.write_options(), time_has_passed)
+        options = self._mapper.options(results), self.write_options()
+        outcome = run.write(context, self._targets, results, *options, time_has_passed)
         self.form_count = outcome.forms
         self.show(context, outcome, self.checker)
         return self.tell(outcome)
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
-    """Bring back the materials that the checker or a texture covers, and the shading of the 3D views"""
+    """Bring back what was shown before: the materials that the checker or a texture covers, on all objects with the
+    same mesh, the UV maps that were active in the editors and for renders, and the shading of the 3D views"""
 
     bl_idname = "uv.holomorphic_restore_materials"
     bl_label = "Restore Materials"
@@ -76,9 +80,10 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
     def execute(self, context):
-        from . import material, targets, viewport
+        from . import material, restore, targets, viewport
 
-        restored = [material.uncover(obj) for obj in targets.mesh_objects(context)]
+        own = [obj for obj in targets.mesh_objects(context) if obj.data.library is None]
+        restored = [restore.restore(obj) for obj in own]
         meshes = [obj for obj in context.view_layer.objects if obj.type == "MESH"]
         if context.window is not None and not any(material.is_covered(obj) for obj in meshes):
             viewport.restore(context.window)

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import lines, native, overlay
+from . import lines, native, overlay, tools_panel
 from .drag import HOLOMORPH_OT_drag_poles
 from .lod import HOLOMORPH_OT_levels
 from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
@@ -30,6 +30,7 @@ class _HolomorphPanel:
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
+                tools_panel.draw_modifiers(column, obj)
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, context, obj)
         if context.mode == "OBJECT":
@@ -97,9 +98,9 @@ def _draw_overlays(layout, context):
 
 
 def _draw_result(layout, context, obj):
-    from . import material, report, verdict_view
+    from . import report, restore, verdict_view
 
-    if material.is_covered(obj):
+    if restore.is_possible(obj):
         layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
     if obj.get(report.PROPERTY):
         verdict_view.draw(layout, context, obj[report.PROPERTY], HOLOMORPH_OT_tile.bl_idname)

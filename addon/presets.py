@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets of the tile operator that come with the add-on, in Blender's own menu of an operator's presets.
+"""Presets that come with the add-on, in Blender's own menu of an operator's presets.
 
 Blender looks for presets in folders of its own, whose list an add-on can extend in new versions only.
 """
@@ -8,19 +8,22 @@ from pathlib import Path
 
 import bpy
 
+from .operators import HOLOMORPH_OT_maps
 from .tile import HOLOMORPH_OT_tile
 
-FOLDER = Path(__file__).parent / "presets" / "operator" / HOLOMORPH_OT_tile.bl_idname
+FOLDER = Path(__file__).parent / "presets" / "operator"
+NAMES = HOLOMORPH_OT_maps.bl_idname, HOLOMORPH_OT_tile.bl_idname  # of the operators, and of their folders
 MENU = "WM_MT_operator_presets"
 
 
 def _draw(menu, context):
     operator = context.active_operator
-    if operator is None or operator.bl_idname != _class_name(HOLOMORPH_OT_tile.bl_idname):
+    name = next((n for n in NAMES if operator is not None and operator.bl_idname == _class_name(n)), None)
+    if name is None:
         return
     menu.layout.separator()
     menu.path_menu(
-        [str(FOLDER)],
+        [str(FOLDER / name)],
         menu.preset_operator,
         props_default={"menu_idname": MENU},
         filter_ext=lambda extension: extension == ".py",
@@ -34,11 +37,9 @@ def _class_name(idname):
 
 
 def register():
-    if (
-        not bpy.app.background
-    ):  # without a folder for the user's own presets, Blender's menu says that paths are missing
-        path = str(Path("presets", "operator", HOLOMORPH_OT_tile.bl_idname))
-        bpy.utils.user_resource("SCRIPTS", path=path, create=True)
+    if not bpy.app.background:
+        for name in NAMES:  # without a folder for the user's own presets, Blender's menu says that paths are missing
+            bpy.utils.user_resource("SCRIPTS", path=str(Path("presets", "operator", name)), create=True)
     getattr(bpy.types, MENU).append(_draw)
 
 

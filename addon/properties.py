@@ -8,14 +8,19 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProp
 from . import native
 
 DIALS = 8
+MODIFIERS = (
+    "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result becomes an object "
+    "of its own and the object is hidden"
+)
 
 SELECTION_USES = (
     (
         "AUTOMATIC",
         "Automatic",
-        "In edit mode: four selected boundary vertices of a disk become the corners of a rectangle, other single "
-        "vertices punctures. Selected edges and faces, and vertices that do not fit, are no choice",
+        "In edit mode: selected faces alone are mapped. Without any, four selected boundary vertices of a disk become "
+        "the corners of a rectangle, other single vertices punctures; edges and what does not fit are no choice",
     ),
+    ("FACES", "Faces", "The selected faces are mapped, as a surface with a boundary; the others keep their UVs"),
     (
         "PUNCTURES",
         "Punctures",
@@ -64,9 +69,9 @@ TEXTURES = (
     ("HEXAGONS", "Hexagons", "Glazed hexagonal tiles"),
 )
 DRAWN = (  # in groups
-    ("main", "density", "margin", "rotation", "forms", "shown"),
+    ("main", "density", "equal", "margin", "rotation", "forms", "shown"),
     ("checker", "texture", "checker_scale", "seams", "shape"),
-    ("use_selection", "residues", "cut_at_seams", "boundary", "solver"),
+    ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
 )
 
 
@@ -107,6 +112,12 @@ class MapProperties:
         soft_min=0.1,
         soft_max=10.0,
     )
+    equal: BoolProperty(
+        name="Equal Density",
+        description="Several objects get the same texels per metre, that of a tiling if there is one, else that of the "
+        "object with the largest map, which fills the UV square. Off: each object fills it",
+        default=True,
+    )
     margin: FloatProperty(
         name="Margin",
         description="Distance between connected parts, as a share of the UV square; less where there are many",
@@ -120,7 +131,7 @@ class MapProperties:
     # Not remembered for the next object, which has a selection of its own.
     use_selection: EnumProperty(
         name="Use Selection",
-        description="What the selected vertices are",
+        description="What the selection is. Hidden faces are not mapped in edit mode",
         items=SELECTION_USES,
         default="AUTOMATIC",
         options={"SKIP_SAVE"},
@@ -132,6 +143,7 @@ class MapProperties:
         default="",
         options={"SKIP_SAVE"},
     )
+    modifiers: BoolProperty(name="With Modifiers", description=MODIFIERS, default=False, options={"SKIP_SAVE"})
     cut_at_seams: BoolProperty(
         name="Use Seams as Cut",
         description="Cut the maps along your seams where these make each part a disk; else the report says why not",
@@ -199,11 +211,13 @@ class MapProperties:
         from . import choices, targets
 
         return targets.Request(
-            use=self.use_selection,
+            use=choices.use_of_vertices(self.use_selection),
+            faces=choices.use_of_faces(self.use_selection),
             residues=choices.numbers(self.residues),
             cut_at_seams=self.cut_at_seams,
             boundary=self.boundary,
             solver=self.solver,
+            modifiers=self.modifiers,
         )
 
     def map_options(self):

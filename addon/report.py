@@ -6,7 +6,7 @@ import json
 
 import bpy
 
-from . import maps, native
+from . import faces, maps, native
 
 PROPERTY = "holomorph_report"
 SUMMARISED = 8  # parts that the panel shows
@@ -25,13 +25,14 @@ def object_report(obj, solved, written, new_seams, options, components):
         "object": obj.name,
         "mesh": obj.data.name,
         "vertices": len(solved.polygons.vertices),
-        "faces": len(solved.polygons.face_offsets) - 1,
+        "faces": solved.polygons.face_count,
+        "is_selection": solved.polygons.faces is not None,
         "done": bool(solved.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": vars(options),
         "seams_added": new_seams,
         "verdict": package.overall_report(components, surface.is_unwelded),
-        "repairs": package.repairs_report(surface.repairs),
+        "repairs": package.repairs_report(faces.repairs(solved)),
         "seconds": solved.seconds,
         "components": components + [package.refused_report(refused) for refused in surface.refused],
     }

@@ -18,6 +18,7 @@ from . import (
     native,
     patterns,
     report,
+    restore,
     seamless,
     tile_report,
     tiling,
@@ -78,13 +79,14 @@ class WriteOptions:
 
 
 def write(context, targets, results, map_options, write_options, time_has_passed=False):
-    """Writes the maps of every solved object and reports every other; an object that is refused is not touched."""
+    """Writes the maps of every `seamless.MappedObject` and reports every other; an object that is refused is not
+    touched."""
 
-    def write_object(outcome, obj, polygons, solved):
-        if solved.done:
-            _write_object(outcome, obj, polygons, solved, map_options, write_options)
+    def write_object(outcome, obj, polygons, mapped):
+        if mapped.done:
+            _write_object(outcome, obj, polygons, mapped, map_options, write_options)
         else:
-            _report_all_skipped(outcome, obj, solved, map_options)
+            _report_all_skipped(outcome, obj, mapped.solved, map_options)
 
     return write_each(context, targets, results, write_object, time_has_passed)
 
@@ -106,6 +108,7 @@ def write_each(context, targets, results, write_object, time_has_passed=False):
             elif target.has_changed(time_has_passed):
                 outcome.refuse(target.name, "it was changed while it was solved; please run it again")
             else:
+                obj = target.take(context) if result.done else obj
                 write_object(outcome, obj, target.polygons, result)
                 outcome.notes += [target.note] if target.note and result.done else []
         if outcome.done:
@@ -155,7 +158,7 @@ def surface_problems(obj, surface):
 def _modifier_notes(obj, solved):
     closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
     if closing and any(c.surface.boundary_count for c in solved.components):
-        yield f"{obj.name}: modifiers are ignored: apply {closing[0]!r} if it closes the surface"
+        yield f"{obj.name}: modifiers are ignored: take Map with Modifiers if {closing[0]!r} closes the surface"
 
 
 def _report_all_skipped(outcome, obj, solved, options):
@@ -170,10 +173,11 @@ def _entry(obj, solved, tiled, written, new_seams, options):
     return report.object_report(obj, solved, written, new_seams, options, parts)
 
 
-def _write_object(outcome, obj, polygons, solved, map_options, options):
-    mesh = obj.data
-    tiled = seamless.tiled(solved, map_options)
-    mesh_io.remove_maps(mesh)
+def _write_object(outcome, obj, polygons, mapped, map_options, options):
+    mesh, solved, tiled = obj.data, mapped.solved, mapped.tiled
+    restore.remember(mesh)
+    if polygons.faces is None:
+        mesh_io.remove_maps(mesh)
     values = seamless.map_values(solved, map_options, tiled)
     written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in values]
     shown = written[min(options.shown, len(written) - 1)]
@@ -196,7 +200,7 @@ def _write_object(outcome, obj, polygons, solved, map_options, options):
     outcome.forms = max(outcome.forms, solved.form_count)
     outcome.problems += _problems(obj, solved, tiled)
     judge(outcome, obj, entry)
-    outcome.notes += _modifier_notes(obj, solved)
+    outcome.notes += _modifier_notes(obj, solved) if polygons.faces is None else []
     extra = sum(w.kind == "attribute" for w in written)
     if extra:
         maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"

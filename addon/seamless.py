@@ -5,7 +5,7 @@ All parts of an object have the same texel density: that of its largest tiling.
 """
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,11 +18,50 @@ MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balan
 MOST_FLIPPED = 0.01  # of its area
 
 
-def tiled(solved, options, progress=None):
+@dataclass(frozen=True)
+class MappedObject:
+    """A solve, and the tilings in its main map."""
+
+    solved: object  # `solve.SolvedObject`
+    tiled: object  # `tiling.TiledObject`
+
+    @property
+    def done(self):
+        """The parts that have maps."""
+        return self.solved.done
+
+
+class Mapper:
+    """Makes the `MappedObject` of one solve after the other; where they are to be equal, tilings have as many tiles for
+    their area as the first one."""
+
+    def __init__(self, options, is_equal=True):
+        self._options, self._is_equal, self._density = options, is_equal, 0.0
+
+    def __call__(self, solved, progress=None):
+        made = tiled(solved, self._options, progress, self._density)
+        if self._is_equal:
+            self._density = self._density or made.density
+        return MappedObject(solved, made)
+
+    def options(self, results):
+        """The options with which the maps of these results have one texel density."""
+        mapped = [made for made in results if isinstance(made, MappedObject) and made.done]
+        if not self._is_equal or len(mapped) < 2:
+            return self._options
+        fitting = min(maps.filling(made.solved, self._options) for made in mapped)
+        per_length = math.sqrt(self._density) or (fitting if math.isfinite(fitting) else 0.0)
+        return replace(self._options, per_length=per_length)
+
+
+def tiled(solved, options, progress=None, density=0.0):
     """The `tiling.TiledObject` of the parts whose main map is a tiling, all of them made, or refused, for the parts
-    that ask for one. What was made is kept with the parts: a second call is quick."""
+    that ask for one. What was made is kept with the parts: a second call is quick.
+
+    density : tiles for an area; 0 lets the library choose for the largest part, and the others follow
+    """
     asked = sorted((c for c in solved.done if _asks_for_one(c, options)), key=lambda c: -c.area)
-    total, done, density, made = sum(c.area for c in asked), 0.0, 0.0, {}
+    total, done, made = sum(c.area for c in asked), 0.0, {}
     for component in asked:
         share = component.area / total
         wanted = tiling.TileOptions(tiles=density * component.area)
@@ -32,12 +71,6 @@ def tiled(solved, options, progress=None):
             made[id(component)] = part
             density = density or (part.tiling.tiles / component.area if part.tiling else 0.0)
     return tiling.TiledObject(solved, tuple(made[id(c)] for c in solved.components if id(c) in made))
-
-
-def make(solved, options, progress=None):
-    """The solve, with all tilings made that its main map needs."""
-    tiled(solved, options, progress)
-    return solved
 
 
 def _asks_for_one(component, options):
@@ -78,9 +111,9 @@ def _main_values(solved, options, tiled):
     rest = replace(solved, components=tuple(others(solved, tiled)))
     if not rest.done:
         return result
-    plain = replace(options, density=1.0)
+    plain = replace(options, density=1.0, per_length=0.0)
     density = maps.unit_length(rest, plain) / tiled.unit_length
-    values = maps.values(rest, 0, replace(options, density=density))
+    values = maps.values(rest, 0, replace(plain, density=density))
     corners = np.concatenate([part.surface.corner_index for part in rest.done])
     low, right = maps.CENTRE.real - density / 2, math.ceil(result[:, 0].max())
     result[corners] = values[corners] + np.float32([right + options.margin * density - low, -low])

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from . import choices, compatibility, mesh_edges, mesh_io, solve
+from . import choices, compatibility, evaluated, faces, mesh_edges, mesh_io, solve
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
@@ -22,6 +22,9 @@ class Target:
     chosen: choices.Choices = choices.Choices()
     refused: str = ""
     note: str = ""
+    mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
+    modifiers: bool = False  # whether the polygons are those that the modifiers make
+    makes_object: bool = False  # whether these become an object of their own
 
     def find(self):
         return bpy.data.objects.get((self.name, self.library))
@@ -29,7 +32,18 @@ class Target:
     def has_changed(self, time_has_passed):
         """Whether the object is gone or, where Blender was alive meanwhile, its mesh is not what was read."""
         obj = self.find()
-        return obj is None or (time_has_passed and not read(obj).equals(self.polygons))
+        return obj is None or (time_has_passed and not self._is_what_was_read(obj))
+
+    def take(self, context):
+        """The object that the maps are written to."""
+        obj = self.find()
+        return evaluated.as_object(context, obj) if self.makes_object else obj
+
+    def _is_what_was_read(self, obj):
+        if self.modifiers:
+            return evaluated.read(obj, _linear(obj))[0].equals(self.polygons)
+        has_faces = self.mask is None or len(obj.data.polygons) == len(self.mask)
+        return has_faces and read(obj, self.mask).equals(self.polygons)
 
 
 @dataclass(frozen=True)
@@ -42,6 +56,8 @@ class Request:
     cut_at_seams: bool = False
     boundary: str = "natural"
     solver: str = "auto"
+    faces: str = faces.WHOLE  # which ones are mapped
+    modifiers: bool = False  # whether they count, in object mode
 
 
 def mesh_objects(context):
@@ -55,28 +71,61 @@ def mesh_objects(context):
 
 
 def collect(objects, request=Request()):
-    """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts."""
+    """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts.
+    @throws `faces.NoFaces`"""
     targets, first = [], {}
     for obj in objects:
+        if obj.mode == "EDIT":
+            obj.update_from_editmode()
+    masks = faces.masks(objects, request.faces)
+    for obj in objects:
         mesh = obj.data
-        library = obj.library.filepath if obj.library else None
-        if mesh in first:
+        if mesh not in masks:
+            continue
+        target = _target(obj, masks[mesh], request) if mesh not in first or request.modifiers else None
+        if target is None or (mesh in first and not target.makes_object):
             index, other = first[mesh]
             if not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
                 note = f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts"
                 targets[index] = replace(targets[index], note=note)
             continue
-        first[mesh] = len(targets), obj
-        if mesh.library is not None:
-            refused = "its mesh is linked from another file; make it local first"
-            targets.append(Target(obj.name, library, None, refused=refused))
-            continue
-        targets.append(Target(obj.name, library, read(obj), _choices(obj, request)))
+        if not target.makes_object:
+            first[mesh] = len(targets), obj
+        targets.append(target)
     return targets
 
 
+def _target(obj, mask, request):
+    library = obj.library.filepath if obj.library else None
+    target = Target(obj.name, library, None, mask=mask)
+    if obj.data.library is not None:
+        return replace(target, refused="its mesh is linked from another file; make it local first")
+    own = read(obj, mask)
+    if request.modifiers and obj.mode != "EDIT":
+        return _with_modifiers(obj, replace(target, modifiers=True), own, request)
+    if not own.face_count and evaluated.first_of(obj) and evaluated.read(obj, _linear(obj))[0].face_count:
+        sentence = f"it has faces by its modifiers alone ({evaluated.first_of(obj)}): press Map with Modifiers"
+        return replace(target, refused=sentence)
+    return replace(target, polygons=own, chosen=_choices(obj, request))
+
+
+def _with_modifiers(obj, target, own, request):
+    """The target where the modifiers count: their polygons, for the object's own mesh if these are its own."""
+    shown, seams = evaluated.read(obj, _linear(obj))
+    if target.mask is None and evaluated.are_those_of(shown, own):
+        return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=_choices(obj, request))
+    if not shown.face_count:
+        return replace(target, refused=f"its modifiers leave no faces; the first is {evaluated.first_of(obj)}")
+    if target.mask is not None or request.use in choices.EXPLICIT:
+        return replace(target, refused="the selection is one of the mesh itself, not of what its modifiers make")
+    seams = seams if request.cut_at_seams else np.empty((0, 2), np.int64)
+    chosen = choices.Choices(seams=seams, boundary=request.boundary, solver=request.solver)
+    note = "what its modifiers make is an object now; the object itself is hidden"
+    return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=f"{obj.name}: {note}")
+
+
 def _choices(obj, request):
-    """What was chosen on this object; @pre `read(obj)` has written pending edits to the mesh."""
+    """What was chosen on this object; @pre pending edits are written to the mesh."""
     seams = mesh_edges.marked_edges(obj.data, "use_seam") if request.cut_at_seams else np.empty((0, 2), np.int64)
     selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
     return choices.Choices(request.use, tuple(selected), request.residues, seams, request.boundary, request.solver)
@@ -118,8 +167,6 @@ def align(targets, results):
     return [None if t.refused else next(solved) for t in targets]
 
 
-def read(obj):
-    """The polygons as they are seen: with the object's scale, with pending edits, without modifiers."""
-    if obj.mode == "EDIT":
-        obj.update_from_editmode()
-    return mesh_io.read_polygons(obj.data, _linear(obj))
+def read(obj, mask=None):
+    """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
+    return faces.part(mesh_io.read_polygons(obj.data, _linear(obj)), mask)

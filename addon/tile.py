@@ -23,9 +23,12 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
         return HOLOMORPH_OT_maps.why_not(context)
 
     def prepare(self, context):
-        from . import targets
+        from . import faces, targets
 
-        self._targets = targets.collect(targets.mesh_objects(context))
+        is_selection_taken = self.poles == "SELECTED" or self.direction == "EDGES"
+        wanted = faces.WHOLE if is_selection_taken else faces.SELECTED
+        request = targets.Request(faces=wanted, modifiers=self.modifiers)
+        self._targets = targets.collect(targets.mesh_objects(context), request)
         try:
             self._options = [self.tile_options(target) for target in self._targets if not target.refused]
         except ValueError as error:
@@ -36,13 +39,14 @@ class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
     def make_work(self, progress):
         from . import jobs, targets, tiling
 
-        then = [partial(tiling.tile, options=options) for options in self._options]
+        tile = tiling.Evenly() if self.equal else tiling.tile
+        then = [partial(tile, options=options) for options in self._options]
         return jobs.Job(targets.tasks(self._targets), progress, then)
 
     def waiting_faces(self):
         from . import targets
 
-        return sum(len(task.polygons.face_offsets) - 1 for task in targets.tasks(self._targets))
+        return sum(task.polygons.face_count for task in targets.tasks(self._targets))
 
     def modal_faces(self):
         return MODAL_TILED_FACES

@@ -12,6 +12,8 @@ ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 def options(properties, target):
     """The `tiling.TileOptions` for a `targets.Target`. @throws ValueError there is nothing of what is asked for"""
     obj = target.find()
+    if target.makes_object and _are_on_the_mesh(properties):
+        raise ValueError(f"{obj.name}: poles and edges are chosen on the mesh itself, not on what its modifiers make")
     return tiling.TileOptions(
         float(properties.tiles),
         _poles(properties, obj),
@@ -21,6 +23,10 @@ def options(properties, target):
         properties.turn,
         allowed(properties.pole_group, obj),
     )
+
+
+def _are_on_the_mesh(properties):
+    return properties.poles in ("SELECTED", "KEPT") or properties.direction == "EDGES" or bool(properties.pole_group)
 
 
 def _poles(properties, obj):

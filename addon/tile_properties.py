@@ -5,7 +5,7 @@ import math
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
-from .properties import TEXTURES
+from .properties import MODIFIERS, TEXTURES
 
 MOST_POLES = 16
 POLES = (
@@ -36,7 +36,7 @@ BOUNDARIES = (
     ("free", "Free", "Boundary loops cut through the texture: more even"),
 )
 DRAWN = (  # in groups
-    ("tiles", "poles", "pole_count", "pole_group"),
+    ("tiles", "equal", "modifiers", "poles", "pole_count", "pole_group"),
     ("lattice", "direction", "turn", "quarters", "boundary"),
     ("checker", "texture", "repeats", "seams", "empties"),
 )
@@ -67,6 +67,12 @@ class TileProperties:
         default="",
         options={"SKIP_SAVE"},
     )
+    equal: BoolProperty(
+        name="Equal Density",
+        description="Several objects get the same texels per metre: Tiles is for the active one. Off: for each",
+        default=True,
+    )
+    modifiers: BoolProperty(name="With Modifiers", description=MODIFIERS, default=False, options={"SKIP_SAVE"})
     lattice: EnumProperty(name="Lattice", description="How the texture repeats", items=LATTICES, default="square")
     direction: EnumProperty(
         name="Direction", description="Where the rows of the texture run", items=DIRECTIONS, default="NONE"

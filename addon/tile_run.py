@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import empties, heat, material, mesh_edges, mesh_io, native, patterns, report, run, tile_report, tiling
+from . import empties, heat, material, mesh_edges, mesh_io, native, patterns, report, restore, run, tile_report, tiling
 
 CHECKER_CELLS = 4  # squares across an image of the checker
 
@@ -46,7 +46,9 @@ def _problems(outcome, obj, tiled):
 
 def _write_object(context, outcome, obj, polygons, tiled, options):
     mesh = obj.data
-    mesh_io.remove_maps(mesh)
+    restore.remember(mesh)
+    if polygons.faces is None:
+        mesh_io.remove_maps(mesh)
     written = mesh_io.write_map(mesh, polygons, mesh_io.MAIN_MAP, tiling.placed(tiled, options.quarters))
     mesh_io.show_map(mesh, written.name)
     new_seams = mesh_edges.add_seams(mesh, _seam_pairs(tiled)) if options.seams else 0

@@ -59,6 +59,12 @@ class TiledObject:
         return [part for part in self.parts if part.tiling is not None]
 
     @property
+    def density(self):
+        """Tiles for an area on the surface, where there is the median of them; 0 without a tiling."""
+        area = sum(part.component.area for part in self.done)
+        return sum(part.tiling.tiles for part in self.done) / area if area > 0 else 0.0
+
+    @property
     def unit_length(self):
         """The length on the surface of a UV unit, where the density is the median one; 0 for maps without area."""
         density = np.median([part.tiling.quality.median_density for part in self.done])
@@ -78,6 +84,21 @@ def tile(solved, options, progress=None):
         parts.append(tile_part(component, own, scaled(progress, done, share)))
         done += share
     return TiledObject(solved, tuple(parts), options)
+
+
+class Evenly:
+    """Makes the `TiledObject` of one solve after the other, all with as many tiles for their area as the first one."""
+
+    def __init__(self):
+        self._density = 0.0
+
+    def __call__(self, solved, options, progress=None):
+        area = sum(c.area for c in solved.done)
+        if self._density and area > 0:
+            options = replace(options, tiles=self._density * area)
+        made = tile(solved, options, progress)
+        self._density = self._density or made.density
+        return made
 
 
 def tile_part(component, options, progress=None):
@@ -150,4 +171,4 @@ def on_grid(uv):
     exact."""
     largest = np.abs(uv).max()
     step = 2.0 ** (math.frexp(max(largest, 1.0))[1] - MANTISSA)
-    return (np.round(uv / step) * step).astype(np.float32)
+    return (np.floor(uv / step + 0.5) * step).astype(np.float32)

@@ -191,7 +191,7 @@ def test_cancelling_in_a_tiling_leaves_no_result():
     tasks = targets.tasks(targets.collect([obj])) * 2
 
     def make(solved, progress):
-        return seamless.make(solved, module("maps").MapOptions(), progress)
+        return seamless.Mapper(module("maps").MapOptions())(solved, progress)
 
     job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, [make] * 2)
     job.start()
@@ -206,7 +206,7 @@ def test_progress_grows_over_solve_and_tiling():
     tasks = targets.tasks(targets.collect([obj]))
 
     def make(solved, progress):
-        return seamless.make(solved, module("maps").MapOptions(), progress)
+        return seamless.Mapper(module("maps").MapOptions())(solved, progress)
 
     module("jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), [make]).run()
     assert seen == sorted(seen) and seen[0] >= 0 and 0.5 < seen[-1] <= 1

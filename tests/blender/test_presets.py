@@ -1,14 +1,15 @@
-"""The presets of the tile operator: what they set, and where Blender shows them."""
+"""The presets of the operators: what they set, and where Blender shows them."""
 
 import ast
 
 import bpy
 import pytest
 from conftest import module
-from scenes import stored_report, torus
+from scenes import torus
 
 presets = module("presets")
-FILES = sorted(presets.FOLDER.glob("*.py"))
+FILES = {name: sorted((presets.FOLDER / name).glob("*.py")) for name in presets.NAMES}
+EACH = [pytest.param(name, path, id=path.stem) for name, paths in FILES.items() for path in paths]
 
 
 def values(path):
@@ -18,16 +19,21 @@ def values(path):
     return {node.targets[0].attr: ast.literal_eval(node.value) for node in assigned}
 
 
-def test_there_are_some_and_all_set_the_same():
-    assert {"Scales", "Cloth", "Bricks", "Wood", "Planks", "Hexagons", "Numbered_Check"} == {p.stem for p in FILES}
-    assert len({frozenset(values(path)) for path in FILES}) == 1
+def test_there_are_some_and_all_of_an_operator_set_the_same():
+    maps, tile = ({path.stem for path in FILES[name]} for name in presets.NAMES)
+    assert tile == {"Scales", "Cloth", "Bricks", "Wood", "Planks", "Hexagons", "Numbered_Check"}
+    assert maps == {"Numbered_Check", "Scales_All_Over", "Balanced_with_All_Forms", "Map_and_Seams_Alone"}
+    for paths in FILES.values():
+        assert len({frozenset(values(path)) for path in paths}) == 1
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_a_preset_is_accepted(path):
-    obj = torus()
-    assert bpy.ops.uv.holomorphic_tile(**values(path)) == {"FINISHED"}
-    assert stored_report(obj)["dials"]["texture"] == values(path)["texture"]
+@pytest.mark.parametrize(("name", "path"), EACH)
+def test_a_preset_is_accepted(name, path):
+    obj, wanted = torus(), values(path)
+    room, operator = name.split(".")
+    assert getattr(getattr(bpy.ops, room), operator)(**wanted) == {"FINISHED"}
+    shown = [slot.material.name for slot in obj.material_slots]
+    assert len(shown) == wanted["checker"] and all(wanted["texture"].title() in name for name in shown)
 
 
 def test_blenders_menu_has_ours_for_our_operator_alone():
@@ -49,6 +55,7 @@ def test_blenders_menu_has_ours_for_our_operator_alone():
     Context.active_operator = type("Operator", (), {"bl_idname": "UV_OT_unwrap"})
     presets._draw(Menu(), Context)
     assert drawn == []
-    Context.active_operator = type("Operator", (), {"bl_idname": "UV_OT_holomorphic_tile"})
-    presets._draw(Menu(), Context)
-    assert drawn == [(str(presets.FOLDER), "script.execute_preset")]
+    for name in ("maps", "tile"):
+        Context.active_operator = type("Operator", (), {"bl_idname": f"UV_OT_holomorphic_{name}"})
+        presets._draw(Menu(), Context)
+        assert drawn.pop() == (str(presets.FOLDER / f"uv.holomorphic_{name}"), "script.execute_preset")

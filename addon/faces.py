@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which faces of a mesh are mapped: in edit mode the selected ones, or without any those that are not hidden.
+
+The vertices stay those of the whole mesh: only faces and corners are counted anew.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from . import mesh_io
+from .compatibility import Values
+
+# All faces; the selected ones if there are any; these, or a refusal.
+WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
+
+
+class NoFaces(Exception):
+    """There are none of the faces that are asked for; the text is one sentence."""
+
+
+def masks(objects, wanted):
+    """{mesh: (#F,) bool, or None for all faces}; meshes of which nothing is selected are left out where something is
+    selected on others. @pre pending edits are written to the meshes. @throws NoFaces"""
+    meshes = list(dict.fromkeys(obj.data for obj in objects))
+    if wanted != WHOLE:
+        selected = {mesh: _flags(mesh, "select") for mesh in meshes if _is_chosen_on(mesh, wanted)}
+        selected = {mesh: flags & ~_flags(mesh, "hide") for mesh, flags in selected.items()}
+        if any(flags.any() for flags in selected.values()):
+            return {mesh: _or_all(flags) for mesh, flags in selected.items() if flags.any()}
+    if wanted == ASKED:
+        raise NoFaces("select the faces that are to be mapped")
+    return {mesh: _or_all(~_flags(mesh, "hide")) if mesh.is_editmode else None for mesh in meshes}
+
+
+def part(polygons, mask):
+    """The `mesh_io.Polygons` of some of the faces, or of all of them for None."""
+    if mask is None:
+        return polygons
+    faces = np.flatnonzero(mask).astype(np.int32)
+    sizes = np.diff(polygons.face_offsets)
+    offsets = np.zeros(len(faces) + 1, np.int32)
+    np.cumsum(sizes[faces], out=offsets[1:])
+    corners = np.flatnonzero(np.repeat(mask, sizes)).astype(np.int32)
+    loops = corners if polygons.loops is None else polygons.loops[corners]
+    chosen = polygons.corner_vertices[corners]
+    return replace(polygons, corner_vertices=chosen, face_offsets=offsets, loops=loops, faces=faces)
+
+
+def repairs(solved):
+    """The repairs of a `solve.SolvedObject`, with faces as the mesh counts them; vertices of other faces are not
+    isolated."""
+    found, faces = solved.surface.repairs, solved.polygons.faces
+    if faces is None:
+        return found
+    none = np.empty(0, np.int64)
+    of_mesh = {name: faces[getattr(found, name)] for name in ("reversed_faces", "zero_area_faces")}
+    return replace(found, isolated_vertices=none, **of_mesh)
+
+
+def _is_chosen_on(mesh, wanted):
+    return mesh.library is None and (mesh.is_editmode or wanted == ASKED)
+
+
+def _or_all(mask):
+    return None if mask.all() else mask
+
+
+def _flags(mesh, name):
+    return mesh_io.read_values(Values(mesh.polygons, name, bool))
