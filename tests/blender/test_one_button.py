@@ -132,9 +132,9 @@ def test_parts_share_the_density_of_the_largest():
 def test_a_checker_of_two_squares_in_each_tile_and_other_objects_keep_theirs():
     seamless, other = limb(), torus(thickness=0.1, bulge=0)
     select(seamless, other)
-    press()
+    press(equal=False)
     assert shown_scale(seamless) == 2 and shown_scale(other) > 2
-    press(checker_scale=7)
+    press(equal=False, checker_scale=7)
     assert shown_scale(seamless) == 8 and shown_scale(other) == 7
 
 
@@ -167,10 +167,10 @@ def written(obj, main):
     """The `run.Outcome`."""
     targets, run_module = module("targets"), module("run")
     found = targets.collect([obj])
-    job = module("jobs").Job(targets.tasks(found))
+    mapper = module("seamless").Mapper(module("maps").MapOptions(main=main), True)
+    job = module("jobs").Job(targets.tasks(found), None, [mapper])
     job.run()
-    options = module("maps").MapOptions(main=main)
-    return run_module.write(bpy.context, found, job.results, options, run_module.WriteOptions())
+    return run_module.write(bpy.context, found, job.results, mapper.options(job.results), run_module.WriteOptions())
 
 
 def test_the_redo_panel_makes_nothing_again(monkeypatch):
