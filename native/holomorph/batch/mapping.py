@@ -36,12 +36,14 @@ class Part:
 def map_parts(surface, recipe, cut_edges=None, threads=None):
     """A `Part` for each component, in the library's order. cut_edges : (#S, 2) vertices of the file.
 
-    Raises TopologyError for chosen vertices that lie on no part."""
+    Raises TopologyError for chosen vertices that lie on no part, MemoryError."""
     parts = [Part(component) for component in surface.components]
     _check_chosen(surface, recipe.maps)
     for part in parts:
         try:
             _solve(part, recipe, cut_edges, threads)
+        except MemoryError:  # of the asset, not of this part
+            raise
         except Error as error:
             part.reason = str(error)
     _tile(parts, recipe)
@@ -106,6 +108,8 @@ def _tile(parts, recipe):
         tiles = recipe.tiling.tiles * part.surface.area / total if total > 0 else 0.0
         try:
             made = _tiling(part, recipe.tiling, tiles or None, None if tiles else density)
+        except MemoryError:
+            raise
         except Error as error:
             if recipe.maps.main == "seamless":
                 part.structure, part.reason = None, str(error)

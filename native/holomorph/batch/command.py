@@ -1,0 +1,146 @@
+"""holomorph batch SOURCE... --out DIR: the command line, and the run from its options to its end."""
+
+import argparse
+import contextlib
+import os
+import re
+import signal
+import sys
+from pathlib import Path
+
+from . import blend, formats, progress, recipe, sources, workers
+from .errors import StorageError, UsageError
+from .journal import Journal, stored
+from .overview import Overview, counts
+from .plan import Plan
+from .status import DONE
+
+ALL_DONE, SOME_FAILED, USAGE, STORAGE, INTERRUPTED = 0, 1, 2, 3, 130  # exit codes; see docs/batch.md
+UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
+MEMORY_SHARE = 0.8  # of the machine's, for all workers together
+DEFAULT_SECONDS = 1800.0
+
+
+def main(arguments):
+    """The exit code; a sentence on the error stream where it is not 0."""
+    _hear_signals()
+    try:
+        options = _options(arguments)
+        return _run(options)
+    except UsageError as error:
+        return _end(USAGE, str(error))
+    except StorageError as error:
+        return _end(STORAGE, f"{error}; what is done stays done, and the same command goes on")
+    except KeyboardInterrupt:
+        return _end(INTERRUPTED, "interrupted; the same command goes on")
+
+
+def _end(code, sentence):
+    print(f"holomorph: {sentence}", file=sys.stderr)
+    return code
+
+
+def _hear_signals():
+    """The first Ctrl-C, or the end that a scheduler sends, interrupts; what is done then is not interrupted again."""
+
+    def interrupt(_number, _frame):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, interrupt)
+
+
+def _options(arguments):
+    parser = argparse.ArgumentParser(
+        prog="holomorph batch", description="Maps a library of meshes; a second run does only what is missing."
+    )
+    parser.add_argument("source", nargs="+", help=sources.KINDS)
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where results go")
+    parser.add_argument("--recipe", metavar="FILE", help="TOML: which maps, tilings, levels and files")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=_positive, metavar="N", help="processes here (default: one per core)")
+    where.add_argument("--dask", metavar="ADDRESS", help="of a Dask scheduler (tcp://...), or its scheduler file")
+    parser.add_argument("--memory", type=_bytes, metavar="SIZE", help="of each asset, such as 4G")
+    parser.add_argument("--time", type=_seconds, default=DEFAULT_SECONDS, metavar="S", help="of each asset, in seconds")
+    parser.add_argument("--blender", metavar="PROGRAM", help="for .blend files (default: blender)")
+    parser.add_argument("--retry", action="store_true", help="do again what was not done")
+    return parser.parse_args(arguments)
+
+
+def _run(options):
+    found = sources.find(options.source, options.out)
+    wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
+    formats.check(wanted.output.formats)
+    needs_blender = "blend" in wanted.output.formats or any(s.path.suffix.lower() == sources.BLEND for s in found)
+    program = blend.program(options.blender) if needs_blender else ""
+    journal = Journal(options.out)
+    execute, limits = _engine(options)
+    with journal.locked():
+        plan = Plan(found, journal, wanted, limits.threads, program)
+        try:
+            _do(plan.openings, execute, options.retry)
+            records = _do(plan.tasks(), execute, options.retry)
+        finally:
+            Overview(journal, plan.tasks() + plan.unopened()).write()
+    failed = [record for record in records if record["status"] != DONE]
+    unopened = [stored(opening) for opening in plan.unopened()]
+    return _summary(records + unopened, failed + unopened, options.out / "index.html")
+
+
+def _engine(options):
+    """(function from tasks to records, limits)"""
+    if options.dask:
+        from . import cluster
+
+        limits = workers.Limits(options.memory or 0, options.time)
+        return cluster.Cluster(options.dask, limits).run, limits
+    count = options.workers or os.cpu_count() or 1
+    total = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    memory = options.memory or int(MEMORY_SHARE * total / count)
+    limits = workers.Limits(memory, options.time, max(1, (os.cpu_count() or 1) // count))
+    return (lambda tasks: workers.run(tasks, limits, count)), limits
+
+
+def _do(tasks, execute, retries):
+    """The records of all tasks, of which those that have none yet are done."""
+    records = {task.name: stored(task) for task in tasks}
+    waiting = [task for task in tasks if (record := records[task.name]) is None or (retries and record["status"] != DONE)]
+    if waiting:
+        bar = progress.bar(len(waiting))
+        with contextlib.closing(bar), contextlib.closing(execute(waiting)) as results:
+            for record in results:
+                records[record["name"]] = record
+                bar.update()
+                if record["status"] != DONE:
+                    bar.write(f"{record['name']}: {record['status']}: {record['message']}", file=sys.stderr)
+    return list(records.values())
+
+
+def _summary(records, failed, page):
+    told = ", ".join(f"{count} {status}" for status, count in counts(records).items())
+    print(f"{len(records)} assets: {told}; see {page}")
+    return SOME_FAILED if failed else ALL_DONE
+
+
+def _positive(text):
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
+
+
+def _seconds(text):
+    seconds = float(text)
+    if not 0 < seconds < float("inf"):
+        raise ValueError
+    return seconds
+
+
+def _bytes(text):
+    match = re.fullmatch(r"(\d+(?:\.\d+)?)\s*([KMGT]?)i?B?", text, re.IGNORECASE)
+    size = int(float(match[1]) * UNITS[match[2].upper()]) if match else 0
+    if size < 1:
+        raise ValueError
+    return size
