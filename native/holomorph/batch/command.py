@@ -2,22 +2,23 @@
 
 import argparse
 import contextlib
+import importlib.util
 import os
 import re
 import signal
 import sys
+from functools import partial
 from pathlib import Path
 
 from . import blend, formats, progress, recipe, sources, workers
-from .errors import StorageError, UsageError
+from .errors import EngineError, StorageError, UsageError
 from .journal import Journal, stored
 from .overview import Overview, counts
 from .plan import Plan
 from .status import DONE
 
-ALL_DONE, SOME_FAILED, USAGE, STORAGE, INTERRUPTED = 0, 1, 2, 3, 130  # exit codes; see docs/batch.md
+ALL_DONE, SOME_FAILED, USAGE, STORAGE, ENGINE, INTERRUPTED = 0, 1, 2, 3, 4, 130  # exit codes; see docs/batch.md
 UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
-MEMORY_SHARE = 0.8  # of the machine's, for all workers together
 DEFAULT_SECONDS = 1800.0
 
 
@@ -31,6 +32,8 @@ def main(arguments):
         return _end(USAGE, str(error))
     except StorageError as error:
         return _end(STORAGE, f"{error}; what is done stays done, and the same command goes on")
+    except EngineError as error:
+        return _end(ENGINE, f"{error}; the same command goes on")
     except KeyboardInterrupt:
         return _end(INTERRUPTED, "interrupted; the same command goes on")
 
@@ -75,7 +78,7 @@ def _run(options):
     formats.check(wanted.output.formats)
     needs_blender = "blend" in wanted.output.formats or any(s.path.suffix.lower() == sources.BLEND for s in found)
     program = blend.program(options.blender) if needs_blender else ""
-    journal = Journal(options.out)
+    journal = Journal(options.out.resolve())
     execute, limits = _engine(options)
     with journal.locked():
         plan = Plan(found, journal, wanted, limits.threads, program)
@@ -90,17 +93,19 @@ def _run(options):
 
 
 def _engine(options):
-    """(function from tasks to records, limits)"""
+    """(function from tasks to records, limits). @throws UsageError"""
     if options.dask:
+        if importlib.util.find_spec("distributed") is None:
+            raise UsageError('--dask needs the library distributed: pip install "holomorph[dask]"')
         from . import cluster
 
         limits = workers.Limits(options.memory or 0, options.time)
         return cluster.Cluster(options.dask, limits).run, limits
-    count = options.workers or os.cpu_count() or 1
-    total = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    memory = options.memory or int(MEMORY_SHARE * total / count)
-    limits = workers.Limits(memory, options.time, max(1, (os.cpu_count() or 1) // count))
-    return (lambda tasks: workers.run(tasks, limits, count)), limits
+    cores = os.cpu_count() or 1
+    count = options.workers or cores
+    memory = options.memory or int(workers.MEMORY_SHARE * workers.machine_memory() / count)
+    limits = workers.Limits(memory, options.time, max(1, cores // count))
+    return partial(workers.run, limits=limits, count=count), limits
 
 
 def _do(tasks, execute, retries):

@@ -7,3 +7,7 @@ class UsageError(Exception):
 
 class StorageError(Exception):
     """Results cannot be written. What is done stays done; the same command goes on when there is space."""
+
+
+class EngineError(Exception):
+    """What does the work is gone. What is done stays done; the same command goes on when it is back."""

@@ -44,7 +44,10 @@ class Journal:
 
     def _empty_work(self):
         for entry in self.work.iterdir():
-            shutil.rmtree(entry, ignore_errors=True)
+            if entry.is_dir():
+                shutil.rmtree(entry, ignore_errors=True)
+            else:
+                entry.unlink()
 
     def asset_folder(self, name):
         """Of the asset `name`, whose parts between slashes are folders."""

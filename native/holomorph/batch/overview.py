@@ -76,7 +76,7 @@ def _worst(parts, name):
 
 def _description(part):
     poles = len(part["tiling"]["poles"]) if "tiling" in part else 0
-    return f"seamless tiling, {poles} poles" if "tiling" in part else part["description"]
+    return f"seamless tiling, {poles} pole{'s' * (poles != 1)}" if "tiling" in part else part["description"]
 
 
 def _data_address(picture):

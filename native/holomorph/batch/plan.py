@@ -29,7 +29,7 @@ class Plan:
 
     def _opening(self, source, digest):
         folder, work = self._journal.folder / ".blend" / safe(source.name), self._journal.work
-        return blend.Opening(source.name, digest, source.path, source.size, folder, work, self._blender)
+        return blend.Opening(source.name, digest, source.path.resolve(), source.size, folder, work, self._blender)
 
     def _objects(self, opening):
         return [
@@ -41,7 +41,7 @@ class Plan:
         return Task(
             name=name,
             key=key(digest, name, self._recipe),
-            path=path,
+            path=path.resolve(),
             size=size,
             folder=self._journal.asset_folder(name),
             work=self._journal.work,

@@ -11,6 +11,9 @@ import sys
 import threading
 from multiprocessing.connection import Connection
 
+import numpy as np
+
+from .. import Surface, conformal_structure
 from .errors import StorageError
 from .journal import publish
 from .status import MEMORY
@@ -19,6 +22,7 @@ from .status import MEMORY
 def main():
     connection, lifeline, memory = Connection(int(sys.argv[1])), int(sys.argv[2]), int(sys.argv[3])
     threading.Thread(target=_end_with_parent, args=[lifeline], daemon=True).start()
+    _warm_up()
     _limit(memory)
     while True:
         try:
@@ -41,6 +45,18 @@ def _done(task):
         return error
     except OSError as error:
         return StorageError(str(error))
+
+
+def _warm_up():
+    """OpenBLAS takes 128 MB for itself at its first use, of which it touches little, and waits without end where it does
+    not get them: before the limit it does. There are two of them, NumPy's and CHOLMOD's."""
+    grid = np.arange(9).reshape(3, 3)
+    faces = np.stack([np.roll(grid, shift, (0, 1)) for shift in ((0, 0), (1, 0), (1, 1), (0, 1))], axis=-1).reshape(-1, 4)
+    angles = 2 * np.pi / 3 * np.stack(np.divmod(np.arange(9), 3), axis=1)
+    radius = 2 + np.cos(angles[:, 1])
+    points = np.stack([radius * np.cos(angles[:, 0]), radius * np.sin(angles[:, 0]), np.sin(angles[:, 1])], axis=1)
+    conformal_structure(Surface(points, faces), solver="direct")
+    np.linalg.inv(np.eye(64) @ np.eye(64))
 
 
 def _limit(memory):

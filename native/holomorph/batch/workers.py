@@ -14,6 +14,7 @@ from multiprocessing import Pipe
 from .journal import publish
 from .status import CRASHED, MEMORY, TIME
 
+MEMORY_SHARE = 0.8  # of a machine's, for all its workers together
 ATTEMPTS = 2  # at an asset whose process ends: it may have been ended from outside
 
 
@@ -85,7 +86,7 @@ class Worker:
         self._connection, other = Pipe()
         lifeline, self._lifeline = os.pipe()
         arguments = [str(other.fileno()), str(lifeline), str(self._limits.memory)]
-        threads = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"), str(self._limits.threads))
+        threads = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": str(self._limits.threads)}
         self._process = subprocess.Popen(
             [sys.executable, "-m", "holomorph.batch.worker", *arguments],
             stdin=subprocess.DEVNULL,
@@ -115,6 +116,11 @@ class Worker:
         os.close(self._lifeline)
         self._process = None
         return f"was ended by {signal.Signals(-code).name}" if code < 0 else f"ended with {code}"
+
+
+def machine_memory():
+    """Bytes."""
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
 def run(tasks, limits, count):
