@@ -17,7 +17,8 @@ from .journal import publish, stored
 from .status import CRASHED
 from .workers import MEMORY_SHARE, Limits, Stopped, Worker, machine_memory
 
-CONNECT_SECONDS = 20.0
+CONNECT_SECONDS = 10.0
+CLOSE_SECONDS = 1.0
 RECONNECT_SECONDS = 600.0  # a scheduler that is gone may take so long to come back
 LOOK_SECONDS = 2.0  # how often it is looked whether the scheduler is there
 GONE = (OSError, distributed.client.FutureCancelledError, distributed.comm.CommClosedError)  # TimeoutError is an OSError
@@ -47,9 +48,9 @@ class Cluster:
                 except GONE:
                     self._reconnect()
         finally:
-            with contextlib.suppress(*GONE):
-                self._client.run(stop)
-            self._client.close(timeout=0)
+            if waiting:
+                with contextlib.suppress(*GONE):
+                    self._client.run(stop)
 
     def _connected(self):
         if Path(self._address).is_file():
@@ -57,7 +58,8 @@ class Cluster:
         return distributed.Client(self._address, timeout=CONNECT_SECONDS)
 
     def _reconnect(self):
-        self._client.close(timeout=0)
+        with contextlib.suppress(*GONE):
+            self._client.close(timeout=CLOSE_SECONDS)
         end = time.monotonic() + RECONNECT_SECONDS
         while True:
             try:
