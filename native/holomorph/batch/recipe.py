@@ -83,18 +83,18 @@ class Maps:
 class Tiles:
     """Options of `Structure.tile` and of the operator *Seamless Tiling*."""
 
-    tiles: float = _number(0.0, "a number of tiles, or 0", lambda value: value >= 0)
+    tiles: float = _number(0.0, "a number of tiles or 0", lambda value: value >= 0)
     density: float | None = _optional_number("a positive number of tiles per unit of area", lambda value: value > 0)
     poles: object = _option(
-        "auto", '"auto", a number, or a list of vertices', lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count)
+        "auto", '"auto", a number or a list of vertices', lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count)
     )
     lattice: str = _one_of(tuple(tiling.LATTICES), "square")
     direction: tuple | None = _option(
-        None, "a list of three numbers, not all 0", lambda v: _is_list(v, _is_number) and len(v) == 3 and any(v)
+        None, "a list of three numbers that are not all 0", lambda v: _is_list(v, _is_number) and len(v) == 3 and any(v)
     )
     boundary: str = _one_of(tiling.BOUNDARIES, "straight")
     turn: float | None = _optional_number("an angle in radians", lambda value: True)
-    max_turn: float = _number(0.2, "an angle in radians, from 0 on", lambda value: value >= 0)
+    max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
 
 
 @dataclass(frozen=True)
