@@ -58,7 +58,7 @@ def run(*arguments, marks=None, **options):
 
 def outputs(out):
     """{path: bytes} of the assets, without what differs from run to run."""
-    assert not list((out / ".work").iterdir())
+    assert not [path for path in (out / ".work").rglob("*") if path.parent != out / ".work"]
     found = {}
     for path in sorted((out / "assets").rglob("*")):
         if path.is_dir():

@@ -69,6 +69,8 @@ def _options(arguments):
     parser.add_argument("--time", type=_seconds, default=DEFAULT_SECONDS, metavar="S", help="of each asset, in seconds")
     parser.add_argument("--blender", metavar="PROGRAM", help="for .blend files (default: blender)")
     parser.add_argument("--retry", action="store_true", help="do again what was not done")
+    parser.add_argument("--share", type=_share, metavar="K/N", help="only the K-th of N shares; a run without it sums up")
+    parser.add_argument("--report-only", action="store_true", help="end with 0 where assets were not done, too")
     return parser.parse_args(arguments)
 
 
@@ -78,7 +80,10 @@ def _run(options):
     formats.check(wanted.output.formats)
     needs_blender = "blend" in wanted.output.formats or any(s.path.suffix.lower() == sources.BLEND for s in found)
     program = blend.program(options.blender) if needs_blender else ""
-    journal = Journal(options.out.resolve())
+    if options.share:
+        number, count = options.share
+        found = found[number - 1 :: count]
+    journal = Journal(options.out.resolve(), "{}-of-{}".format(*options.share) if options.share else "")
     execute, limits = _engine(options)
     with journal.locked():
         plan = Plan(found, journal, wanted, limits.threads, program)
@@ -86,10 +91,13 @@ def _run(options):
             _do(plan.openings, execute, options.retry)
             records = _do(plan.tasks(), execute, options.retry)
         finally:
-            Overview(journal, plan.tasks() + plan.unopened()).write()
+            if not options.share:
+                Overview(journal, plan.tasks() + plan.unopened()).write()
     failed = [record for record in records if record["status"] != DONE]
     unopened = [stored(opening) for opening in plan.unopened()]
-    return _summary(records + unopened, failed + unopened, options.out / "index.html")
+    told = ", ".join(f"{count} {status}" for status, count in counts(records + unopened).items())
+    print(f"{len(records + unopened)} assets: {told or 'none'}; see {options.out / 'index.html'}")
+    return SOME_FAILED if failed + unopened and not options.report_only else ALL_DONE
 
 
 def _engine(options):
@@ -123,17 +131,18 @@ def _do(tasks, execute, retries):
     return list(records.values())
 
 
-def _summary(records, failed, page):
-    told = ", ".join(f"{count} {status}" for status, count in counts(records).items())
-    print(f"{len(records)} assets: {told}; see {page}")
-    return SOME_FAILED if failed else ALL_DONE
-
-
 def _positive(text):
     number = int(text)
     if number < 1:
         raise ValueError
     return number
+
+
+def _share(text):
+    number, count = map(int, text.split("/"))
+    if not 1 <= number <= count:
+        raise ValueError
+    return number, count
 
 
 def _seconds(text):

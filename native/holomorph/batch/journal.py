@@ -21,19 +21,22 @@ RECORD = "record.json"
 class Journal:
     """What is done in an output folder."""
 
-    def __init__(self, folder):
-        self.folder = Path(folder)
-        self.work = self.folder / ".work"
+    def __init__(self, folder, share=""):
+        """share : a name for one of several runs, each of which does a share of the work; none for a run alone"""
+        self.folder, self._share = Path(folder), share
+        self.work = self.folder / ".work" / (share or "all")
 
     @contextlib.contextmanager
     def locked(self):
-        """Makes the folder, and keeps other runs out of it. @throws UsageError, StorageError"""
-        with storing():
-            self.work.mkdir(parents=True, exist_ok=True)
-            lock = open(self.folder / ".lock", "w")  # noqa: SIM115 - kept open as long as it is locked
-        with lock:
+        """Makes the folder, and keeps other runs out of it, but those of other shares. @throws UsageError, StorageError"""
+        with contextlib.ExitStack() as locks:
+            with storing():
+                self.work.mkdir(parents=True, exist_ok=True)
+                names = [".lock", f".lock-{self._share}"] if self._share else [".lock"]
+                files = [locks.enter_context(open(self.folder / name, "a")) for name in names]
             try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                fcntl.flock(files[0], (fcntl.LOCK_SH if self._share else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+                fcntl.flock(files[-1], fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError as error:
                 raise UsageError(f"{self.folder}: another batch is writing here") from error
             self._empty_work()
