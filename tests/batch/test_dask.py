@@ -8,7 +8,19 @@ import sys
 import time
 
 import pytest
-from conftest import SECONDS, children, command, compared, environment, outputs, run, slowed, started, statuses, torus_obj
+from conftest import (
+    SECONDS,
+    children,
+    command,
+    compared,
+    environment,
+    outputs,
+    run,
+    slowed,
+    started,
+    statuses,
+    torus_obj,
+)
 
 pytest.importorskip("distributed")
 
@@ -28,8 +40,12 @@ class Cluster:
 
     def start(self, workers):
         options = ["--host", "127.0.0.1", "--port", str(self._port), "--no-dashboard"]
-        self.scheduler = self._start("dask_scheduler", *options, "--scheduler-file", str(self._folder / "scheduler.json"))
-        self.workers = [self._start("dask_worker", self.address, "--nthreads", "1", "--no-dashboard") for _ in range(workers)]
+        self.scheduler = self._start(
+            "dask_scheduler", *options, "--scheduler-file", str(self._folder / "scheduler.json")
+        )
+        self.workers = [
+            self._start("dask_worker", self.address, "--nthreads", "1", "--no-dashboard") for _ in range(workers)
+        ]
 
     def _start(self, program, *arguments):
         process = subprocess.Popen(

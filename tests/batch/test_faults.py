@@ -1,5 +1,5 @@
-"""Whatever happens to an asset, a worker or the run: every asset is done once or reported, nothing is half-written, and what
-comes out is, bit for bit, what comes out where nothing happens."""
+"""Whatever happens to an asset, a worker or the run: every asset is done once or reported, nothing is half-written, and
+what comes out is, bit for bit, what comes out where nothing happens."""
 
 import os
 import random

@@ -67,7 +67,21 @@ def test_shares_then_the_overview(manager):
         "name": "exec",
         "parameters": {
             "exe": "holomorph",
-            "args": "batch /library --out /maps --report-only --time 1800 --recipe /recipe.toml --memory 4G --share 2/3".split(),
+            "args": [
+                "batch",
+                "/library",
+                "--out",
+                "/maps",
+                "--report-only",
+                "--time",
+                "1800",
+                "--recipe",
+                "/recipe.toml",
+                "--memory",
+                "4G",
+                "--share",
+                "2/3",
+            ],
         },
     }
 

@@ -120,7 +120,11 @@ def decoded(content):
 
 def state(out):
     """Of all files of the assets: what they are and when they were written."""
-    return {path: (path.stat().st_ino, path.stat().st_mtime_ns) for path in sorted((out / "assets").rglob("*")) if path.is_file()}
+    return {
+        path: (path.stat().st_ino, path.stat().st_mtime_ns)
+        for path in sorted((out / "assets").rglob("*"))
+        if path.is_file()
+    }
 
 
 def test_a_second_run_does_nothing_and_a_change_is_done_alone(tmp_path):
@@ -172,8 +176,8 @@ def test_summaries(tmp_path):
 
 def shifted_faces(text):
     count = sum(line.startswith("v ") for line in text.splitlines())
-    faces = [[int(word) + count for word in line.split()[1:]] for line in text.splitlines() if line.startswith("f ")]
-    return "".join("f %d %d %d %d\n" % tuple(face) for face in faces)
+    faces = [line.split()[1:] for line in text.splitlines() if line.startswith("f ")]
+    return "".join("f " + " ".join(str(int(word) + count) for word in face) + "\n" for face in faces)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a lock of the system")

@@ -1,7 +1,7 @@
 """The same tasks on a Dask cluster, whose workers see the sources and the output folder under the same paths.
 
-Each thread of a Dask worker has a process of its own that does the work, as it is done locally: a crash, a hang or a memory
-bomb costs its asset and no Dask worker. Dask does again what was on a worker that is lost.
+Each thread of a Dask worker has a process of its own that does the work, as it is done locally: a crash, a hang or a
+memory bomb costs its asset and no Dask worker. Dask does again what was on a worker that is lost.
 """
 
 import contextlib
@@ -21,7 +21,11 @@ CONNECT_SECONDS = 10.0
 CLOSE_SECONDS = 1.0
 RECONNECT_SECONDS = 600.0  # a scheduler that is gone may take so long to come back
 LOOK_SECONDS = 2.0  # how often it is looked whether the scheduler is there
-GONE = (OSError, distributed.client.FutureCancelledError, distributed.comm.CommClosedError)  # TimeoutError is an OSError
+GONE = (
+    OSError,
+    distributed.client.FutureCancelledError,
+    distributed.comm.CommClosedError,
+)  # TimeoutError is an OSError
 
 _own = threading.local()
 _started = []  # the workers of all threads of this process
@@ -38,8 +42,9 @@ class Cluster:
             raise UsageError(f"--dask: no scheduler answers at {address}: {error}") from error
 
     def run(self, tasks):
-        """Yields the record of each task as it is done, the largest first. Raises StorageError, and EngineError where the
-        scheduler stays away."""
+        """Yields the record of each task as it is done, the largest first.
+
+        Raises StorageError, and EngineError where the scheduler stays away."""
         waiting = {task.name: task for task in sorted(tasks, key=lambda task: (-task.size, task.name))}
         try:
             while waiting:

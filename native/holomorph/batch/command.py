@@ -69,7 +69,9 @@ def _options(arguments):
     parser.add_argument("--time", type=_seconds, default=DEFAULT_SECONDS, metavar="S", help="of each asset, in seconds")
     parser.add_argument("--blender", metavar="PROGRAM", help="for .blend files (default: blender)")
     parser.add_argument("--retry", action="store_true", help="do again what was not done")
-    parser.add_argument("--share", type=_share, metavar="K/N", help="only the K-th of N shares; a run without it sums up")
+    parser.add_argument(
+        "--share", type=_share, metavar="K/N", help="only the K-th of N shares; a run without it sums up"
+    )
     parser.add_argument("--report-only", action="store_true", help="end with 0 where assets were not done, too")
     return parser.parse_args(arguments)
 
@@ -119,7 +121,9 @@ def _engine(options):
 def _do(tasks, execute, retries):
     """The records of all tasks, of which those that have none yet are done."""
     records = {task.name: stored(task) for task in tasks}
-    waiting = [task for task in tasks if (record := records[task.name]) is None or (retries and record["status"] != DONE)]
+    waiting = [
+        task for task in tasks if (record := records[task.name]) is None or (retries and record["status"] != DONE)
+    ]
     if waiting:
         bar = progress.bar(len(waiting))
         with contextlib.closing(bar), contextlib.closing(execute(waiting)) as results:

@@ -1,5 +1,5 @@
-"""The results of a batch on disk: a folder for each asset, whole or not there. The folders are the journal, too: a record
-in each tells what it was made of, so that a second run, or one that goes on, does only what is missing.
+"""The results of a batch on disk: a folder for each asset, whole or not there. The folders are the journal, too: a
+record in each tells what it was made of, so that a second run, or one that goes on, does only what is missing.
 
 DIR/assets/NAME/record.json, report.json, picture.png, ...     DIR/.work/ : what is being written, emptied at each start
 """
@@ -28,7 +28,7 @@ class Journal:
 
     @contextlib.contextmanager
     def locked(self):
-        """Makes the folder, and keeps other runs out of it, but those of other shares. @throws UsageError, StorageError"""
+        """Makes the folder, and keeps other runs out, but those of other shares. @throws UsageError, StorageError"""
         with contextlib.ExitStack() as locks:
             with storing():
                 self.work.mkdir(parents=True, exist_ok=True)

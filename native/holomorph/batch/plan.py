@@ -33,7 +33,9 @@ class Plan:
 
     def _objects(self, opening):
         return [
-            self._task(f"{opening.name}/{name.replace('/', '%2F')}", path, corners, opening.key, (str(opening.path), name))
+            self._task(
+                f"{opening.name}/{name.replace('/', '%2F')}", path, corners, opening.key, (str(opening.path), name)
+            )
             for name, path, corners in opening.objects()
         ]
 

@@ -1,4 +1,4 @@
-"""How far a batch is, on the error stream: a bar with an estimate by tqdm, or a line now and then without it or a terminal."""
+"""How far a batch is, on the error stream: a bar with an estimate by tqdm; without it, or a terminal, a line at times."""
 
 import importlib.util
 import sys

@@ -4,8 +4,9 @@ import difflib
 import json
 import math
 import numbers
-import tomllib
 from dataclasses import asdict, dataclass, field, fields
+
+import tomllib
 
 from .. import tiling
 from ..checks import SOLVERS
@@ -86,7 +87,9 @@ class Tiles:
     tiles: float = _number(0.0, "a number of tiles or 0", lambda value: value >= 0)
     density: float | None = _optional_number("a positive number of tiles per unit of area", lambda value: value > 0)
     poles: object = _option(
-        "auto", '"auto", a number or a list of vertices', lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count)
+        "auto",
+        '"auto", a number or a list of vertices',
+        lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count),
     )
     lattice: str = _one_of(tuple(tiling.LATTICES), "square")
     direction: tuple | None = _option(

@@ -1,7 +1,7 @@
 """The process that does the work on assets, one after the other, and may fail at any of them.
 
-python -m holomorph.batch.worker CONNECTION LIFELINE MEMORY: file descriptors of the connection to the process that started
-it, and of a pipe that ends when that one does; bytes that each asset may take.
+python -m holomorph.batch.worker CONNECTION LIFELINE MEMORY: file descriptors of the connection to the process that
+started it, and of a pipe that ends when that one does; bytes that each asset may take.
 """
 
 import os
@@ -51,7 +51,10 @@ def _warm_up():
     """OpenBLAS takes 128 MB for itself at its first use, of which it touches little, and waits without end where it does
     not get them: before the limit it does. There are two of them, NumPy's and CHOLMOD's."""
     grid = np.arange(9).reshape(3, 3)
-    faces = np.stack([np.roll(grid, shift, (0, 1)) for shift in ((0, 0), (1, 0), (1, 1), (0, 1))], axis=-1).reshape(-1, 4)
+    shifted = [np.roll(grid, shift, (0, 1)) for shift in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    faces = np.stack(shifted, axis=-1).reshape(-1, 4)
+        -1, 4
+    )
     angles = 2 * np.pi / 3 * np.stack(np.divmod(np.arange(9), 3), axis=1)
     radius = 2 + np.cos(angles[:, 1])
     points = np.stack([radius * np.cos(angles[:, 0]), radius * np.sin(angles[:, 0]), np.sin(angles[:, 1])], axis=1)

@@ -40,15 +40,15 @@ class Worker:
 
     def do(self, task):
         """The record of the task, whose results are written then. @throws StorageError, Stopped"""
-        start = time.perf_counter()
-        for attempt in range(1, ATTEMPTS + 1):
+        start, status = time.perf_counter(), CRASHED
+        left = ATTEMPTS
+        while status == CRASHED and left > 0:
+            left -= 1
             status, answer = self._answer(task)
-            if status != CRASHED:
-                break
         if status is None:
             return answer
         seconds = time.perf_counter() - start
-        return publish(task, {"status": status, "message": answer, "seconds": seconds, "attempts": attempt}, {})
+        return publish(task, {"status": status, "message": answer, "seconds": seconds}, {})
 
     def stop(self):
         """Ends the process; a task in it is not done. From any thread."""

@@ -1,5 +1,5 @@
-"""Plants faults in the workers of a batch: the name of a mesh file says what happens while it is read. Python imports this
-at its start where the folder is on its path."""
+"""Plants faults in the workers of a batch: the name of a mesh file says what happens while it is read. Python imports
+this at its start where the folder is on its path."""
 
 import os
 import signal
