@@ -1,4 +1,4 @@
-"""What there is to see of a batch: index.html, which needs no other file, and every figure in summary.csv and .parquet."""
+"""What a batch shows: index.html, which needs no other file, and every figure in summary.csv and summary.parquet."""
 
 import base64
 import csv

@@ -1,4 +1,4 @@
-"""How far a batch is, on the error stream: a bar with an estimate by tqdm; without it, or a terminal, a line at times."""
+"""How far a batch is, on the error stream: a bar with an estimate by tqdm; a line at times without it or a terminal."""
 
 import importlib.util
 import sys

@@ -48,13 +48,11 @@ def _done(task):
 
 
 def _warm_up():
-    """OpenBLAS takes 128 MB for itself at its first use, of which it touches little, and waits without end where it does
-    not get them: before the limit it does. There are two of them, NumPy's and CHOLMOD's."""
+    """OpenBLAS takes 128 MB for itself at its first use, of which it touches little, and waits without end where it
+    does not get them: before the limit it does. There are two of them, NumPy's and CHOLMOD's."""
     grid = np.arange(9).reshape(3, 3)
     shifted = [np.roll(grid, shift, (0, 1)) for shift in ((0, 0), (1, 0), (1, 1), (0, 1))]
     faces = np.stack(shifted, axis=-1).reshape(-1, 4)
-        -1, 4
-    )
     angles = 2 * np.pi / 3 * np.stack(np.divmod(np.arange(9), 3), axis=1)
     radius = 2 + np.cos(angles[:, 1])
     points = np.stack([radius * np.cos(angles[:, 0]), radius * np.sin(angles[:, 0]), np.sin(angles[:, 1])], axis=1)
