@@ -75,7 +75,7 @@ def full_file_limit():
 def test_no_space_stops_the_run_and_the_same_command_goes_on(meshes, undisturbed, recipe, tmp_path):
     arguments = (meshes, "--out", tmp_path / "out", "--recipe", recipe, "--workers", 2)
     result = run(*arguments, preexec_fn=full_file_limit)
-    assert result.returncode == 3
+    assert result.returncode == 4
     assert len(result.stderr.splitlines()) == 1 and "the same command goes on" in result.stderr
     assert outputs(tmp_path / "out").items() <= undisturbed.items()
     assert run(*arguments).returncode == 0
@@ -96,7 +96,7 @@ def small_disk(tmp_path):
 
 def test_full_disk(meshes, undisturbed, recipe, small_disk):
     arguments = (meshes, "--out", small_disk / "out", "--recipe", recipe, "--workers", 2)
-    assert run(*arguments).returncode == 3
+    assert run(*arguments).returncode == 4
     kept = outputs(small_disk / "out")
     assert 0 < len(kept) < len(undisturbed) and kept.items() <= undisturbed.items()
     subprocess.run(["mount", "-o", "remount,size=20m", str(small_disk)], check=True)

@@ -10,6 +10,7 @@ import sys
 from functools import partial
 from pathlib import Path
 
+from ..verdicts import LEVELS
 from . import blend, formats, progress, recipe, sources, workers
 from .errors import EngineError, StorageError, UsageError
 from .journal import Journal, stored
@@ -17,9 +18,18 @@ from .overview import Overview, counts
 from .plan import Plan
 from .status import DONE
 
-ALL_DONE, SOME_FAILED, USAGE, STORAGE, ENGINE, INTERRUPTED = 0, 1, 2, 3, 4, 130  # exit codes; see docs/batch.md
+ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, INTERRUPTED = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    130,
+)  # exit codes; see docs/batch.md
 UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 DEFAULT_SECONDS = 1800.0
+UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
 
 
 def main(arguments):
@@ -73,6 +83,7 @@ def _options(arguments):
         "--share", type=_share, metavar="K/N", help="only the K-th of N shares; a run without it sums up"
     )
     parser.add_argument("--report-only", action="store_true", help="end with 0 where assets were not done, too")
+    parser.add_argument("--strict", action="store_true", help="end with 3 unless every map is good or fair")
     return parser.parse_args(arguments)
 
 
@@ -99,7 +110,12 @@ def _run(options):
     unopened = [stored(opening) for opening in plan.unopened()]
     told = ", ".join(f"{count} {status}" for status, count in counts(records + unopened).items())
     print(f"{len(records + unopened)} assets: {told or 'none'}; see {options.out / 'index.html'}")
-    return SOME_FAILED if failed + unopened and not options.report_only else ALL_DONE
+    if failed + unopened and not options.report_only:
+        return SOME_FAILED
+    unfit = [record["name"] for record in records if record.get("verdict") in UNFIT]
+    if options.strict and unfit:
+        return _end(STRICT, f"the maps of {len(unfit)} assets are poor or unusable, {unfit[0]} the first of them")
+    return ALL_DONE
 
 
 def _engine(options):

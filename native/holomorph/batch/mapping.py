@@ -148,7 +148,9 @@ def _tiling(part, wanted, tiles, density):
 def _report(part):
     if part.structure is None:
         return skipped_report(part.surface, part.reason)
-    entry = component_report(part.surface, part.structure, map_report(part.coefficients, part.quality))
+    entry = component_report(
+        part.surface, part.structure, map_report(part.coefficients, part.quality, part.tiling and part.tiling.verdict)
+    )
     return entry | {"tiling": _tiling_report(part)} if part.tiling else entry
 
 

@@ -8,6 +8,7 @@ import json
 from pathlib import Path
 from urllib.parse import quote
 
+from ..verdicts import LEVELS, Verdict
 from .journal import RECORD
 from .status import DONE
 
@@ -42,7 +43,7 @@ class Overview:
         return {
             "name": task.name,
             "status": record["status"],
-            "message": record["message"] or "; ".join(reasons),
+            "message": record["message"] or "; ".join([*_words(report), *reasons]),
             "seconds": record["seconds"],
             "faces": report.get("faces"),
             "parts": len(report.get("components", [])),
@@ -52,7 +53,8 @@ class Overview:
             "density": _worst(parts, "density_ratio"),
             "angle": _worst(parts, "mean_angle"),
             "map": "; ".join(dict.fromkeys(map(_description, parts))),
-            "verdict": "; ".join(dict.fromkeys(part["verdict"] for part in parts if "verdict" in part)),
+            "verdict": (report.get("verdict") or {}).get("level", ""),
+            "rank": LEVELS.index(report["verdict"]["level"]) if report.get("verdict") else None,
             "folder": quote(task.folder.relative_to(self._journal.folder).as_posix()) + "/",
             "picture": _data_address(picture) if "picture.png" in record["files"] else "",
         }
@@ -66,6 +68,11 @@ def _asset(task):
     except FileNotFoundError:
         return None
     return task, record, report
+
+
+def _words(report):
+    """The verdict: what is seen, and what would help."""
+    return [Verdict(**report["verdict"]).text] if report.get("verdict") else []
 
 
 def _worst(parts, name):

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__
 from .._native import Error
-from ..report import repairs_report
+from ..report import overall_report, repairs_report
 from . import arrangement, blend, formats, mapping, picture
 from .recipe import Recipe
 from .status import DONE, REFUSED
@@ -52,7 +52,9 @@ class Task:
             content, files = {"holomorph": __version__, "name": self.name, "components": []}, {}
         files["report.json"] = (json.dumps(content, indent=1, allow_nan=False) + "\n").encode()
         seconds = time.perf_counter() - start
-        return {"status": status, "message": message, "seconds": seconds, "timings": timings}, files
+        verdict = content.get("verdict")
+        record = {"status": status, "message": message, "verdict": verdict and verdict["level"], "seconds": seconds}
+        return record | {"timings": timings}, files
 
 
 def key(digest, name, recipe):
@@ -73,6 +75,7 @@ def _mapped(task):
         "holomorph": __version__,
         "name": task.name,
         "faces": len(surface.face_offsets) - 1,
+        "verdict": overall_report(reports, surface.is_unwelded),
         "repairs": repairs_report(surface.repairs),
         "components": reports + mapping.refused_reports(surface),
     }
