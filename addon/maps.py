@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import layout, native
+from . import native
 from .mesh_io import MAIN_MAP
 
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
@@ -157,7 +157,7 @@ def _packed(parts, frames, options):
     """(factors, sizes, lower left corners, side of the whole) of the parts with the areas that they have in space."""
     scales = [math.sqrt(part.area / frame.area) if frame.area > 0 else 0.0 for part, frame in zip(parts, frames)]
     sizes = [[s * (f.high - f.low).real, s * (f.high - f.low).imag] for s, f in zip(scales, frames)]
-    return scales, sizes, *layout.pack(sizes, options.margin)
+    return scales, sizes, *native.load().layout.pack(sizes, options.margin)
 
 
 def filling(solved, options):

@@ -9,13 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import maps, tiling
+from . import maps, native, tiling
 from .mesh_io import MAIN_MAP
-
-EVEN = 2.0  # 95 : 5 % ratio of the density below which a balanced map stays: the squares' sizes hardly differ
-LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
-MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
-MOST_FLIPPED = 0.01  # of its area
 
 
 @dataclass(frozen=True)
@@ -78,24 +73,17 @@ def _asks_for_one(component, options):
         return options.main == maps.SEAMLESS
     if not options.are_plain or component.is_chosen or component.area == 0:
         return False
-    ratio = maps.main_map(component, options).report["density_ratio"]
-    return ratio is None or ratio > EVEN
+    return native.load().choice.is_uneven(maps.main_map(component, options).report["density_ratio"])
 
 
 def _is_taken(part, options):
     """Whether the tiling of a part, or its refusal, takes the place of the balanced map."""
     if options.main == maps.SEAMLESS:
         return True
-    return part.tiling is not None and _is_better(part.tiling, maps.main_map(part.component, options).report)
-
-
-def _is_better(found, balanced):
-    """Whether a tiling is to take the place of the balanced map with this report, where None is infinite: it has no
-    visible seam, so that it is to be about as even, and hardly more sheared."""
-    ratio = math.inf if balanced["density_ratio"] is None else balanced["density_ratio"]
-    quality, most_sheared = found.quality, MORE_SHEARED * balanced["capped_mean_angle"]
-    is_fit = quality.flipped_part < MOST_FLIPPED and quality.capped_mean_angle < most_sheared
-    return is_fit and found.density_ratio < LESS_EVEN * ratio
+    if part.tiling is None:
+        return False
+    balanced = maps.main_map(part.component, options).report
+    return native.load().choice.is_better(part.tiling, balanced["density_ratio"], balanced["capped_mean_angle"])
 
 
 def map_values(solved, options, tiled):

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from . import layout, native
+from . import native
 
 AUTOMATIC = "auto"
 PLACING_SHARE = 0.6  # of the work on a tiling, for finding the poles
@@ -160,7 +160,7 @@ def placed(tiled, quarters=0):
     lows = [np.floor(values.min(axis=0)) for values in turned]
     sizes = np.array([np.ceil(values.max(axis=0)) - low for values, low in zip(turned, lows)])
     width = max(math.ceil(math.sqrt(np.prod(sizes, axis=1).sum())), sizes[:, 0].max())
-    corners, _ = layout.rows(sizes, width, 0.0)
+    corners, _ = native.load().layout.rows(sizes, width, 0.0)
     for part, values, low, corner in zip(tiled.done, turned, lows, corners):
         uv[part.component.surface.corner_index] = values + (corner - low)
     return on_grid(uv)

@@ -12,7 +12,7 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
-from . import report
+from . import choice, layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
 from .checks import SOLVERS
@@ -61,9 +61,11 @@ __all__ = [
     "UNEVEN",
     "Verdict",
     "__version__",
+    "choice",
     "conformal_structure",
     "double_cover",
     "frame",
+    "layout",
     "overall",
     "place",
     "place_poles",

@@ -1,4 +1,4 @@
-"""python -m holomorph MESHFILE --report report.json"""
+"""python -m holomorph MESHFILE --report report.json, and python -m holomorph batch SOURCE... --out DIR"""
 
 import argparse
 import json
@@ -14,7 +14,15 @@ EXIT_REFUSED, EXIT_STRICT = 1, 3
 def main(arguments=None):
     """Computes every component; the exit status, other than 0 with one sentence: 1 if no component was done, 2 (of
     argparse) for options that cannot be, 3 with --strict if some component was not done or its map is not fit."""
-    parser = argparse.ArgumentParser(prog="python -m holomorph", description="Conformal structure of a mesh file.")
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments[:1] == ["batch"]:
+        from .batch import command
+
+        return command.main(arguments[1:])
+    parser = argparse.ArgumentParser(
+        prog="python -m holomorph",
+        description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help",
+    )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")

@@ -5,7 +5,7 @@ import pytest
 from conftest import module
 from scenes import fills_the_square, run, select, torus, torus_arrays, two_parts, uv
 
-layout = module("layout")
+layout = module("native").load().layout
 
 
 def boxes(kind, count):

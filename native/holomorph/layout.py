@@ -1,5 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-"""The parts of an object side by side in the UV square: rectangles on shelves. Arrays only, no bpy.
+"""The parts of a mesh side by side in the UV square: rectangles on shelves.
 
 Shelf packing: rectangles by falling height, from left to right, a new row where the width is used up; the height of a
 row is that of its first. Of a fixed set of widths the one that fits the smallest square is taken. Nothing is rotated,

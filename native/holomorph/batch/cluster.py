@@ -1,0 +1,129 @@
+"""The same tasks on a Dask cluster, whose workers see the sources and the output folder under the same paths.
+
+Each thread of a Dask worker has a process of its own that does the work, as it is done locally: a crash, a hang or a
+memory bomb costs its asset and no Dask worker. Dask does again what was on a worker that is lost.
+"""
+
+import contextlib
+import queue
+import threading
+import time
+from pathlib import Path
+
+import distributed
+
+from .errors import EngineError, UsageError
+from .journal import publish, stored
+from .status import CRASHED
+from .workers import MEMORY_SHARE, Limits, Stopped, Worker, machine_memory
+
+CONNECT_SECONDS = 10.0
+CLOSE_SECONDS = 1.0
+RECONNECT_SECONDS = 600.0  # a scheduler that is gone may take so long to come back
+LOOK_SECONDS = 2.0  # how often it is looked whether the scheduler is there
+GONE = (
+    OSError,
+    distributed.client.FutureCancelledError,
+    distributed.comm.CommClosedError,
+)  # TimeoutError is an OSError
+
+_own = threading.local()
+_started = []  # the workers of all threads of this process
+
+
+class Cluster:
+    """A scheduler. @throws UsageError where it does not answer"""
+
+    def __init__(self, address, limits):
+        self._address, self._limits = address, limits
+        try:
+            self._client = self._connected()
+        except (*GONE, ValueError) as error:
+            raise UsageError(f"--dask: no scheduler answers at {address}: {error}") from error
+
+    def run(self, tasks):
+        """Yields the record of each task as it is done, the largest first.
+
+        Raises StorageError, and EngineError where the scheduler stays away."""
+        waiting = {task.name: task for task in sorted(tasks, key=lambda task: (-task.size, task.name))}
+        try:
+            while waiting:
+                try:
+                    yield from self._done(waiting)
+                except GONE:
+                    self._reconnect()
+        finally:
+            if waiting:
+                with contextlib.suppress(*GONE):
+                    self._client.run(stop)
+
+    def _connected(self):
+        if Path(self._address).is_file():
+            return distributed.Client(scheduler_file=self._address, timeout=CONNECT_SECONDS)
+        return distributed.Client(self._address, timeout=CONNECT_SECONDS)
+
+    def _reconnect(self):
+        with contextlib.suppress(*GONE):
+            self._client.close(timeout=CLOSE_SECONDS)
+        end = time.monotonic() + RECONNECT_SECONDS
+        while True:
+            try:
+                self._client = self._connected()
+                return
+            except (*GONE, ValueError) as error:
+                if time.monotonic() > end:
+                    raise EngineError(f"the scheduler at {self._address} does not come back") from error
+                time.sleep(LOOK_SECONDS)
+
+    def _done(self, waiting):
+        """Yields records and takes their tasks out of `waiting`. @throws GONE"""
+        ready, futures = queue.Queue(), []
+        for rank, task in enumerate(waiting.values()):
+            future = self._client.submit(work, task, self._limits, key=f"holomorph-{task.key}", priority=-rank)
+            future.add_done_callback(lambda future, task=task: ready.put((task, future)))
+            futures.append(future)  # forgotten futures are not computed
+        while waiting:
+            try:
+                task, future = ready.get(timeout=LOOK_SECONDS)
+            except queue.Empty:
+                self._check(futures)
+                continue
+            yield self._record(task, future)
+            del waiting[task.name]
+
+    def _check(self, futures):
+        if self._client.status != "running" or any(future.status == "lost" for future in futures):
+            raise distributed.comm.CommClosedError
+
+    @staticmethod
+    def _record(task, future):
+        try:
+            return future.result()
+        except distributed.KilledWorker as error:
+            message = f"several Dask workers ended while they had it: {error}"
+            return publish(task, {"status": CRASHED, "message": message, "seconds": 0.0}, {})
+
+
+def work(task, limits):
+    """On a Dask worker: the record of a task, which may have been done by one that was lost before it could tell."""
+    if not hasattr(_own, "worker"):
+        _own.worker = Worker(Limits(limits.memory or _share(), limits.seconds, limits.threads))
+        _started.append(_own.worker)
+    try:
+        return stored(task) or _own.worker.do(task)
+    except Stopped:
+        del _own.worker  # by a run that ended; this is another one
+        return work(task, limits)
+
+
+def stop():
+    """On a Dask worker: what it works on is not wanted any more."""
+    while _started:
+        _started.pop().stop()
+
+
+def _share():
+    """Bytes for each thread of this Dask worker."""
+    worker = distributed.get_worker()
+    memory = worker.memory_manager.memory_limit or machine_memory()
+    return int(MEMORY_SHARE * memory / worker.state.nthreads)

@@ -1,0 +1,180 @@
+"""holomorph batch SOURCE... --out DIR: the command line, and the run from its options to its end."""
+
+import argparse
+import contextlib
+import importlib.util
+import os
+import re
+import signal
+import sys
+from functools import partial
+from pathlib import Path
+
+from ..verdicts import LEVELS
+from . import blend, formats, progress, recipe, sources, workers
+from .errors import EngineError, StorageError, UsageError
+from .journal import Journal, stored
+from .overview import Overview, counts
+from .plan import Plan
+from .status import DONE
+
+ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, INTERRUPTED = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    130,
+)  # exit codes; see docs/batch.md
+UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
+DEFAULT_SECONDS = 1800.0
+UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
+
+
+def main(arguments):
+    """The exit code; a sentence on the error stream where it is not 0."""
+    _hear_signals()
+    try:
+        options = _options(arguments)
+        return _run(options)
+    except UsageError as error:
+        return _end(USAGE, str(error))
+    except StorageError as error:
+        return _end(STORAGE, f"{error}; what is done stays done, and the same command goes on")
+    except EngineError as error:
+        return _end(ENGINE, f"{error}; the same command goes on")
+    except KeyboardInterrupt:
+        return _end(INTERRUPTED, "interrupted; the same command goes on")
+
+
+def _end(code, sentence):
+    print(f"holomorph: {sentence}", file=sys.stderr)
+    return code
+
+
+def _hear_signals():
+    """The first Ctrl-C, or the end that a scheduler sends, interrupts; what is done then is not interrupted again."""
+
+    def interrupt(_number, _frame):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+        raise KeyboardInterrupt
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, interrupt)
+
+
+def _options(arguments):
+    parser = argparse.ArgumentParser(
+        prog="holomorph batch", description="Maps a library of meshes; a second run does only what is missing."
+    )
+    parser.add_argument("source", nargs="+", help=sources.KINDS)
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where results go")
+    parser.add_argument("--recipe", metavar="FILE", help="TOML: which maps, tilings, levels and files")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--workers", type=_positive, metavar="N", help="processes here (default: one per core)")
+    where.add_argument("--dask", metavar="ADDRESS", help="of a Dask scheduler (tcp://...), or its scheduler file")
+    parser.add_argument("--memory", type=_bytes, metavar="SIZE", help="of each asset, such as 4G")
+    parser.add_argument("--time", type=_seconds, default=DEFAULT_SECONDS, metavar="S", help="of each asset, in seconds")
+    parser.add_argument("--blender", metavar="PROGRAM", help="for .blend files (default: blender)")
+    parser.add_argument("--retry", action="store_true", help="do again what was not done")
+    parser.add_argument(
+        "--share", type=_share, metavar="K/N", help="only the K-th of N shares; a run without it sums up"
+    )
+    parser.add_argument("--report-only", action="store_true", help="end with 0 where assets were not done, too")
+    parser.add_argument("--strict", action="store_true", help="end with 3 unless every map is good or fair")
+    return parser.parse_args(arguments)
+
+
+def _run(options):
+    found = sources.find(options.source, options.out)
+    wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
+    formats.check(wanted.output.formats)
+    needs_blender = "blend" in wanted.output.formats or any(s.path.suffix.lower() == sources.BLEND for s in found)
+    program = blend.program(options.blender) if needs_blender else ""
+    if options.share:
+        number, count = options.share
+        found = found[number - 1 :: count]
+    journal = Journal(options.out.resolve(), "{}-of-{}".format(*options.share) if options.share else "")
+    execute, limits = _engine(options)
+    with journal.locked():
+        plan = Plan(found, journal, wanted, limits.threads, program)
+        try:
+            _do(plan.openings, execute, options.retry)
+            records = _do(plan.tasks(), execute, options.retry)
+        finally:
+            if not options.share:
+                Overview(journal, plan.tasks() + plan.unopened()).write()
+    failed = [record for record in records if record["status"] != DONE]
+    unopened = [stored(opening) for opening in plan.unopened()]
+    told = ", ".join(f"{count} {status}" for status, count in counts(records + unopened).items())
+    print(f"{len(records + unopened)} assets: {told or 'none'}; see {options.out / 'index.html'}")
+    if failed + unopened and not options.report_only:
+        return SOME_FAILED
+    unfit = [record["name"] for record in records if record.get("verdict") in UNFIT]
+    if options.strict and unfit:
+        return _end(STRICT, f"the maps of {len(unfit)} assets are poor or unusable, {unfit[0]} the first of them")
+    return ALL_DONE
+
+
+def _engine(options):
+    """(function from tasks to records, limits). @throws UsageError"""
+    if options.dask:
+        if importlib.util.find_spec("distributed") is None:
+            raise UsageError('--dask needs the library distributed: pip install "holomorph[dask]"')
+        from . import cluster
+
+        limits = workers.Limits(options.memory or 0, options.time)
+        return cluster.Cluster(options.dask, limits).run, limits
+    cores = os.cpu_count() or 1
+    count = options.workers or cores
+    memory = options.memory or int(workers.MEMORY_SHARE * workers.machine_memory() / count)
+    limits = workers.Limits(memory, options.time, max(1, cores // count))
+    return partial(workers.run, limits=limits, count=count), limits
+
+
+def _do(tasks, execute, retries):
+    """The records of all tasks, of which those that have none yet are done."""
+    records = {task.name: stored(task) for task in tasks}
+    waiting = [
+        task for task in tasks if (record := records[task.name]) is None or (retries and record["status"] != DONE)
+    ]
+    if waiting:
+        bar = progress.bar(len(waiting))
+        with contextlib.closing(bar), contextlib.closing(execute(waiting)) as results:
+            for record in results:
+                records[record["name"]] = record
+                bar.update()
+                if record["status"] != DONE:
+                    bar.write(f"{record['name']}: {record['status']}: {record['message']}", file=sys.stderr)
+    return list(records.values())
+
+
+def _positive(text):
+    number = int(text)
+    if number < 1:
+        raise ValueError
+    return number
+
+
+def _share(text):
+    number, count = map(int, text.split("/"))
+    if not 1 <= number <= count:
+        raise ValueError
+    return number, count
+
+
+def _seconds(text):
+    seconds = float(text)
+    if not 0 < seconds < float("inf"):
+        raise ValueError
+    return seconds
+
+
+def _bytes(text):
+    match = re.fullmatch(r"(\d+(?:\.\d+)?)\s*([KMGT]?)i?B?", text, re.IGNORECASE)
+    size = int(float(match[1]) * UNITS[match[2].upper()]) if match else 0
+    if size < 1:
+        raise ValueError
+    return size

@@ -1,0 +1,152 @@
+"""What a batch shows: index.html, which needs no other file, and every figure in summary.csv and summary.parquet."""
+
+import base64
+import csv
+import importlib.util
+import io
+import json
+from pathlib import Path
+from urllib.parse import quote
+
+from ..verdicts import LEVELS, Verdict
+from .journal import RECORD
+from .status import DONE
+
+TEMPLATE = Path(__file__).with_name("overview.html")
+PLACE = "/*ENTRIES*/"  # in the template
+ASSET_COLUMNS = ("name", "status", "message", "seconds", "part")
+
+
+class Overview:
+    """Of the results of tasks; those that are not done yet are left out."""
+
+    def __init__(self, journal, tasks):
+        self._journal = journal
+        self._assets = [found for found in map(_asset, sorted(tasks, key=lambda task: task.name)) if found]
+
+    def write(self):
+        """@throws StorageError"""
+        rows = [row for asset in self._assets for row in _rows(asset)]
+        columns = _columns(rows)
+        self._journal.write("summary.csv", _as_csv(rows, columns))
+        if importlib.util.find_spec("pyarrow") is not None:
+            self._journal.write("summary.parquet", _as_parquet(rows, columns))
+        entries = json.dumps([self._entry(asset) for asset in self._assets], allow_nan=False).replace("</", "<\\/")
+        self._journal.write("index.html", TEMPLATE.read_text(encoding="utf-8").replace(PLACE, entries).encode())
+
+    def _entry(self, asset):
+        """What the page shows of an asset: the worst of its parts."""
+        task, record, report = asset
+        parts = [part for part in report.get("components", []) if part["done"]]
+        reasons = [part["reason"] for part in report.get("components", []) if not part["done"]]
+        picture = task.folder / "picture.png"
+        return {
+            "name": task.name,
+            "status": record["status"],
+            "message": record["message"] or "; ".join([*_words(report), *reasons]),
+            "seconds": record["seconds"],
+            "faces": report.get("faces"),
+            "parts": len(report.get("components", [])),
+            "done": len(parts),
+            "genus": [part["genus"] for part in parts],
+            "loops": [part["boundary_count"] for part in parts],
+            "density": _worst(parts, "density_ratio"),
+            "angle": _worst(parts, "mean_angle"),
+            "map": "; ".join(dict.fromkeys(map(_description, parts))),
+            "verdict": (report.get("verdict") or {}).get("level", ""),
+            "rank": LEVELS.index(report["verdict"]["level"]) if report.get("verdict") else None,
+            "folder": quote(task.folder.relative_to(self._journal.folder).as_posix()) + "/",
+            "picture": _data_address(picture) if "picture.png" in record["files"] else "",
+        }
+
+
+def _asset(task):
+    """(task, record, report); None where nothing is there."""
+    try:
+        record = json.loads((task.folder / RECORD).read_bytes())
+        report = json.loads((task.folder / "report.json").read_bytes()) if "report.json" in record["files"] else {}
+    except FileNotFoundError:
+        return None
+    return task, record, report
+
+
+def _words(report):
+    """The verdict: what is seen, and what would help."""
+    return [Verdict(**report["verdict"]).text] if report.get("verdict") else []
+
+
+def _worst(parts, name):
+    """The largest of a figure of the parts; null, which stands for infinity, is larger."""
+    figures = [part["main_map"][name] for part in parts]
+    return None if None in figures else max(figures, default=None)
+
+
+def _description(part):
+    poles = len(part["tiling"]["poles"]) if "tiling" in part else 0
+    return f"seamless tiling, {poles} pole{'s' * (poles != 1)}" if "tiling" in part else part["description"]
+
+
+def _data_address(picture):
+    return "data:image/png;base64," + base64.b64encode(picture.read_bytes()).decode()
+
+
+def _rows(asset):
+    """A row for each part of an asset, one where it has none."""
+    task, record, report = asset
+    common = {"name": task.name, **{name: record[name] for name in ("status", "message", "seconds")}}
+    timings = record.get("timings", [])
+    rows = [
+        common | {"part": number} | _flat(part | {"timings": timings[number] if number < len(timings) else None})
+        for number, part in enumerate(report.get("components", []))
+    ]
+    return rows or [common | {"part": None}]
+
+
+def _flat(entry, prefix=""):
+    """Dictionaries in dictionaries as names with dots; lists as JSON."""
+    flat = {}
+    for name, value in entry.items():
+        if isinstance(value, dict):
+            flat |= _flat(value, f"{prefix}{name}.")
+        else:
+            flat[prefix + name] = json.dumps(value) if isinstance(value, list) else value
+    return flat
+
+
+def _columns(rows):
+    """Those of the asset, then those of the parts in the order in which they occur."""
+    return list(dict.fromkeys([*ASSET_COLUMNS, *(name for row in rows for name in row)]))
+
+
+def _as_csv(rows, columns):
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns, restval="")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue().encode()
+
+
+def _as_parquet(rows, columns):
+    import pyarrow
+    import pyarrow.parquet
+
+    table = {name: _one_kind([row.get(name) for row in rows]) for name in columns}
+    sink = pyarrow.BufferOutputStream()
+    pyarrow.parquet.write_table(pyarrow.table(table), sink)
+    return sink.getvalue().to_pybytes()
+
+
+def _one_kind(values):
+    """A column has one type: whole numbers among others become reals, and anything beside text becomes text."""
+    kinds = {type(value) for value in values if value is not None}
+    if str in kinds and len(kinds) > 1:
+        return [None if value is None else str(value) for value in values]
+    return [float(value) if type(value) is int else value for value in values] if float in kinds else values
+
+
+def counts(records):
+    """How many records there are of each status, done ones first."""
+    found = {}
+    for record in records:
+        found[record["status"]] = found.get(record["status"], 0) + 1
+    return dict(sorted(found.items(), key=lambda entry: (entry[0] != DONE, entry[0])))

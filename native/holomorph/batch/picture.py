@@ -1,0 +1,150 @@
+"""A small picture of a mesh with a checker, drawn by NumPy alone: a z-buffer filled span by span."""
+
+import struct
+import zlib
+
+import numpy as np
+
+SIZE = 192  # pixels of a side; pages show it smaller, which smooths it
+SQUARES = 32  # checker squares along the diagonal of the bounding box, about, at the median density
+MOST_SQUARES = 10_000  # per UV unit
+MARGIN = 6.0  # pixels
+VIEW = np.array([0.55, 0.35, 1.0])  # from where one looks, y up
+LIGHT = np.array([0.2, 0.45, 1.0])  # in the frame of the picture: right, up, towards the viewer
+SHADES = 64
+AMBIENT = 0.35  # the darkest shade
+COLOURS = np.array([[244, 240, 232], [214, 110, 50], [150, 150, 158]])  # the two squares; what has no map
+BACKGROUND = SHADES * len(COLOURS)  # in the palette, transparent
+DEPTHS = 2**30  # steps of the z-buffer
+
+
+def png(surface, uv, is_mapped, up):
+    """The picture as an indexed PNG file.
+
+    uv : (#C, 2); is_mapped : (#T,) bool, triangles that the checker covers; up : "Y" or "Z"
+    """
+    points, triangles = _projected(surface.vertices, up), surface.triangles
+    corners, texture = points[triangles], uv[surface.triangle_corners]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    seen = np.flatnonzero(normals[:, 2] != 0)
+    planes = _planes(corners[seen], texture[seen], normals[seen])
+    image = np.full(SIZE * SIZE, BACKGROUND, np.uint8)
+    pixels, winners = _visible(corners[seen], planes)
+    if len(pixels):
+        squares = _squares(surface, texture, is_mapped)
+        u, v = (_at(planes[winners, axis], pixels) for axis in (1, 2))
+        colour = ((np.floor(u * squares) + np.floor(v * squares)) % 2).astype(np.uint8)
+        colour[~is_mapped[seen[winners]]] = 2
+        image[pixels] = colour * SHADES + _shades(normals[seen[winners]])
+    return _encoded(image.reshape(SIZE, SIZE)[::-1])
+
+
+def _projected(vertices, up):
+    """(#V, 3): pixels to the right, pixels upwards, and towards the viewer, from 0 to SIZE."""
+    points = vertices if up == "Y" else vertices[:, [1, 2, 0]]
+    towards = VIEW / np.linalg.norm(VIEW)
+    right = np.cross([0.0, 1.0, 0.0], towards)
+    right /= np.linalg.norm(right)
+    seen = points @ np.array([right, np.cross(towards, right), towards]).T
+    low, high = seen.min(axis=0), seen.max(axis=0)
+    scale = (SIZE - 2 * MARGIN) / max((high - low)[:2].max(), np.finfo(float).tiny)
+    return (seen - (low + high) / 2) * scale + SIZE / 2
+
+
+def _planes(corners, texture, normals):
+    """(#T, 3, 3): depth, u and v of each triangle as a + b x + c y of the pixel."""
+    values = np.concatenate([corners[:, :, 2:], texture], axis=2)
+    first, second = values[:, 1] - values[:, 0], values[:, 2] - values[:, 0]
+    a, b = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
+    area = normals[:, 2:]
+    along_x = (first * b[:, 1:] - second * a[:, 1:]) / area
+    along_y = (second * a[:, :1] - first * b[:, :1]) / area
+    origin = values[:, 0] - along_x * corners[:, 0, :1] - along_y * corners[:, 0, 1:2]
+    return np.stack([origin, along_x, along_y], axis=2)
+
+
+def _at(plane, pixels):
+    """Values of planes, (n, 3), in the middle of pixels."""
+    x, y = pixels % SIZE + 0.5, pixels // SIZE + 0.5
+    return plane[:, 0] + plane[:, 1] * x + plane[:, 2] * y
+
+
+def _visible(corners, planes):
+    """The pixels that are covered, and the triangle that is seen in each."""
+    pixels, triangles = _spans(corners)
+    depth = _at(planes[triangles, 0], pixels)
+    steps = np.clip(depth * (DEPTHS / (2.0 * SIZE)) + DEPTHS / 2, 0, 2 * DEPTHS).astype(np.int64)
+    nearest = np.full(SIZE * SIZE, -1, np.int64)
+    np.maximum.at(nearest, pixels, steps << 31 | triangles)
+    covered = np.flatnonzero(nearest >= 0)
+    return covered, nearest[covered] & (2**31 - 1)
+
+
+def _spans(corners):
+    """(pixel, triangle) for each pixel whose middle a triangle covers."""
+    y = corners[:, :, 1]
+    row, triangle = _ranges(y.min(axis=1), y.max(axis=1))
+    start, end = corners[triangle][:, :, :2], corners[triangle][:, [1, 2, 0], :2]
+    height = row[:, None] + 0.5
+    rise = end[:, :, 1] - start[:, :, 1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = (height - start[:, :, 1]) / rise
+        crossing = start[:, :, 0] + share * (end[:, :, 0] - start[:, :, 0])
+    is_crossed = (share >= 0) & (share <= 1) & (rise != 0)
+    left = np.where(is_crossed, crossing, np.inf).min(axis=1)
+    right = np.where(is_crossed, crossing, -np.inf).max(axis=1)
+    column, span = _ranges(left, right)
+    return row[span] * SIZE + column, triangle[span]
+
+
+def _ranges(low, high):
+    """The pixels whose middles lie between bounds, and which bounds they are."""
+    first = np.ceil(np.clip(low, 0, SIZE) - 0.5).astype(np.int64)
+    last = np.floor(np.clip(high, 0, SIZE) - 0.5).astype(np.int64)
+    first, last = np.maximum(first, 0), np.minimum(last, SIZE - 1)
+    count = np.maximum(last - first + 1, 0)
+    owner = np.repeat(np.arange(len(count)), count)
+    within = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    return first[owner] + within, owner
+
+
+def _squares(surface, texture, is_mapped):
+    """Checker squares per UV unit, an even number, so that whole units change nothing."""
+    if not is_mapped.any():
+        return 2
+    corners = surface.vertices[surface.triangles[is_mapped]]
+    sides, sides_uv = np.diff(corners, axis=1), np.diff(texture[is_mapped], axis=1)
+    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    area_uv = np.abs(sides_uv[:, 0, 0] * sides_uv[:, 1, 1] - sides_uv[:, 0, 1] * sides_uv[:, 1, 0])
+    density = np.median(area_uv[area > 0] / area[area > 0]) if area.any() else 0.0
+    diagonal = np.linalg.norm(np.ptp(surface.vertices, axis=0))
+    if not (density > 0 and diagonal > 0):
+        return 2
+    return int(min(max(2 * round(SQUARES / (diagonal * np.sqrt(density)) / 2), 2), MOST_SQUARES))
+
+
+def _shades(normals):
+    """Both sides are lit alike."""
+    light = LIGHT / np.linalg.norm(LIGHT)
+    facing = normals * np.sign(normals[:, 2:])
+    lit = np.maximum(facing @ light, 0.0) / np.linalg.norm(normals, axis=1)
+    return (lit * (SHADES - 1)).astype(np.uint8)
+
+
+def _encoded(image):
+    shades = AMBIENT + (1 - AMBIENT) * np.arange(SHADES) / (SHADES - 1)
+    palette = (COLOURS[:, None, :] * shades[None, :, None]).astype(np.uint8).tobytes() + bytes(3)
+    rows = np.insert(image, 0, 0, axis=1).astype(np.uint8).tobytes()  # each row begins with its filter, 0 for none
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        [
+            _chunk(b"IHDR", struct.pack(">IIBBBBB", SIZE, SIZE, 8, 3, 0, 0, 0)),
+            _chunk(b"PLTE", palette),
+            _chunk(b"tRNS", b"\xff" * BACKGROUND + b"\x00"),
+            _chunk(b"IDAT", zlib.compress(rows, 6)),
+            _chunk(b"IEND", b""),
+        ]
+    )
+
+
+def _chunk(kind, content):
+    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))

@@ -1,0 +1,35 @@
+"""How far a batch is, on the error stream: a bar with an estimate by tqdm; a line at times without it or a terminal."""
+
+import importlib.util
+import sys
+import time
+
+EVERY = 10.0  # seconds between lines
+
+
+def bar(total):
+    """With `update()`, one more of `total` is done, `write(line, file)` beside it, and `close()`."""
+    if importlib.util.find_spec("tqdm") is None or not sys.stderr.isatty():
+        return Lines(total)
+    import tqdm
+
+    return tqdm.tqdm(total=total, unit="asset", smoothing=0.05)
+
+
+class Lines:
+    """What is used of tqdm."""
+
+    def __init__(self, total):
+        self._total, self._done, self._said = total, 0, time.monotonic()
+
+    def update(self):
+        self._done += 1
+        if time.monotonic() - self._said > EVERY:
+            self._said = time.monotonic()
+            sys.stderr.write(f"holomorph: {self._done} of {self._total} assets\n")
+
+    def write(self, line, file):
+        file.write(line + "\n")
+
+    def close(self):
+        pass

@@ -1,0 +1,186 @@
+"""What a batch makes of each asset: a TOML file whose names are those of the Python API and of the operators."""
+
+import difflib
+import json
+import math
+import numbers
+from dataclasses import asdict, dataclass, field, fields
+
+import tomllib
+
+from .. import tiling
+from ..checks import SOLVERS
+from ..structure import BOUNDARIES
+from .errors import UsageError
+
+FORMATS = ("npz", "obj", "ply", "glb", "blend")
+MAIN_MAPS = ("automatic", "seamless", "balanced")
+
+
+def _option(default, wanted, is_valid):
+    return field(default=default, metadata={"wanted": wanted, "is_valid": is_valid})
+
+
+def _one_of(names, default):
+    return _option(default, f"one of {', '.join(names)}", lambda value: isinstance(value, str) and value in names)
+
+
+def _number(default, wanted, is_valid=lambda value: True):
+    return _option(default, wanted, lambda value: _is_number(value) and is_valid(value))
+
+
+def _optional_number(wanted, is_valid):
+    return _option(None, wanted, lambda value: _is_number(value) and is_valid(value))
+
+
+def _count(default, wanted="a whole number from 0 on", least=0):
+    return _option(default, wanted, lambda value: _is_count(value) and value >= least)
+
+
+def _flag(default):
+    return _option(default, "true or false", lambda value: isinstance(value, bool))
+
+
+def _vertices(wanted, is_size=lambda size: True):
+    return _option((), wanted, lambda value: _is_list(value, _is_count) and is_size(len(value)))
+
+
+def _is_number(value):
+    return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _is_count(value):
+    return isinstance(value, int) and not isinstance(value, bool) and value >= 0
+
+
+def _is_list(value, is_entry):
+    return isinstance(value, list) and all(is_entry(entry) for entry in value)
+
+
+def _is_complex(value):
+    return _is_number(value) or (_is_list(value, _is_number) and len(value) == 2)
+
+
+@dataclass(frozen=True)
+class Maps:
+    """Options of `holomorph.conformal_structure` and of the operator *Holomorphic UV Maps*."""
+
+    main: str = _one_of(MAIN_MAPS, "automatic")
+    forms: int = _count(0)  # maps of single forms, at most
+    boundary: str = _one_of(BOUNDARIES, "natural")
+    solver: str = _one_of(SOLVERS, "auto")
+    punctures: tuple = _vertices("a list of vertices")
+    residues: tuple = _option((), "a list of numbers or of pairs [real, imaginary]", lambda v: _is_list(v, _is_complex))
+    rectangle_corners: tuple = _vertices("a list of four vertices", lambda size: size == 4)
+    cut_at_seams: bool = _flag(False)  # of .blend files
+    shape: bool = _flag(False)  # the maps to the sphere and the disk
+    density: float = _number(1.0, "a positive number", lambda value: value > 0)
+    margin: float = _number(0.02, "a number from 0 to 1", lambda value: 0 <= value < 1)
+    rotation: float = _number(0.0, "an angle in degrees")
+    memory_limit: int | None = _option(None, "a positive number of bytes", lambda v: _is_count(v) and v > 0)
+
+
+@dataclass(frozen=True)
+class Tiles:
+    """Options of `Structure.tile` and of the operator *Seamless Tiling*."""
+
+    tiles: float = _number(0.0, "a number of tiles or 0", lambda value: value >= 0)
+    density: float | None = _optional_number("a positive number of tiles per unit of area", lambda value: value > 0)
+    poles: object = _option(
+        "auto",
+        '"auto", a number or a list of vertices',
+        lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count),
+    )
+    lattice: str = _one_of(tuple(tiling.LATTICES), "square")
+    direction: tuple | None = _option(
+        None, "a list of three numbers that are not all 0", lambda v: _is_list(v, _is_number) and len(v) == 3 and any(v)
+    )
+    boundary: str = _one_of(tiling.BOUNDARIES, "straight")
+    turn: float | None = _optional_number("an angle in radians", lambda value: True)
+    max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Options of the operator *Levels of Detail*."""
+
+    levels: int = _count(0)
+    ratio: float = _number(0.25, "a number between 0 and 1", lambda value: 0 < value < 1)
+
+
+@dataclass(frozen=True)
+class Output:
+    """The files of each asset, besides its report and its picture."""
+
+    formats: tuple = _option(
+        ("npz",), f"a list of {', '.join(FORMATS)}", lambda value: _is_list(value, FORMATS.__contains__)
+    )
+    up: str | None = _option(None, '"Y" or "Z"', lambda value: value in ("Y", "Z"))  # of mesh files; OBJ Y, others Z
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """All options; a table of the TOML file for each field."""
+
+    maps: Maps = field(default_factory=Maps)
+    tiling: Tiles = field(default_factory=Tiles)
+    levels: Levels = field(default_factory=Levels)
+    output: Output = field(default_factory=Output)
+
+    @property
+    def canonical(self):
+        """The same text for the same options, whatever the file looks like."""
+        return json.dumps(asdict(self), sort_keys=True)
+
+
+def read(path):
+    """The `Recipe` of a TOML file. @throws UsageError"""
+    try:
+        with open(path, "rb") as file:
+            content = tomllib.load(file)
+    except OSError as error:
+        raise UsageError(f"{path}: the recipe cannot be read: {error.strerror}") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise UsageError(f"{path}: this is not TOML: {error}") from error
+    try:
+        return of(content)
+    except UsageError as error:
+        raise UsageError(f"{path}: {error}") from error
+
+
+def of(content):
+    """The `Recipe` of a dictionary of tables. @throws UsageError"""
+    kinds = {entry.name: entry.default_factory for entry in fields(Recipe)}
+    _check_names(content, kinds, "table")
+    tables = {name: _table(name, kinds[name], values) for name, values in content.items()}
+    recipe = Recipe(**tables)
+    _check_together(recipe)
+    return recipe
+
+
+def _table(name, kind, values):
+    if not isinstance(values, dict):
+        raise UsageError(f"{name} is {values!r}; a table [{name}] is needed")
+    known = {entry.name: entry for entry in fields(kind)}
+    _check_names(values, known, f"key of [{name}]")
+    for key, value in values.items():
+        if not known[key].metadata["is_valid"](value):
+            raise UsageError(f"{name}.{key} is {value!r}; {known[key].metadata['wanted']} is needed")
+    return kind(**{key: tuple(value) if isinstance(value, list) else value for key, value in values.items()})
+
+
+def _check_names(given, known, noun):
+    for name in given:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 1)
+            hint = f"; did you mean {near[0]}?" if near else f"; there are {', '.join(known)}"
+            raise UsageError(f"{name} is no {noun}{hint}")
+
+
+def _check_together(recipe):
+    if recipe.maps.punctures and recipe.maps.rectangle_corners:
+        raise UsageError("maps.punctures and maps.rectangle_corners exclude each other")
+    if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.punctures):
+        raise UsageError("maps.residues has not as many entries as maps.punctures")
+    if recipe.tiling.density is not None and recipe.tiling.tiles:
+        raise UsageError("tiling.density and tiling.tiles exclude each other")

@@ -1,0 +1,155 @@
+"""The work on one asset, in one process: from its file to the files of its maps."""
+
+import hashlib
+import json
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from .. import ProgressiveMesh, Surface, __version__
+from .._native import Error
+from ..report import overall_report, repairs_report
+from . import arrangement, blend, formats, mapping, picture
+from .recipe import Recipe
+from .status import DONE, REFUSED
+
+LEVEL_FORMATS = {"obj": formats.obj, "ply": formats.ply, "glb": formats.glb}
+
+
+@dataclass(frozen=True)
+class Task:
+    """An asset to be mapped.
+
+    path : a mesh file, or the arrays of an object (.npz, see `blend`); scene : the .blend file and the object's name
+    key : of the results, see `key`; folder : where they will be; work : where they are written first
+    """
+
+    name: str
+    key: str
+    path: Path
+    size: int
+    folder: Path
+    work: Path
+    recipe: Recipe
+    scene: tuple | None = None
+    blender: str = ""
+    threads: int = 1
+
+    def run(self):
+        """(record, files): what the journal notes, and the bytes of each file. Raises MemoryError, OSError"""
+        start = time.perf_counter()
+        try:
+            content, files, timings = _mapped(self)
+            status, message = DONE, ""
+            if not any(part["done"] for part in content["components"]):
+                status, message = REFUSED, content["components"][0]["reason"]
+        except MemoryError:
+            raise
+        except Error as error:
+            status, message, timings = REFUSED, str(error), []
+            content, files = {"holomorph": __version__, "name": self.name, "components": []}, {}
+        files["report.json"] = (json.dumps(content, indent=1, allow_nan=False) + "\n").encode()
+        seconds = time.perf_counter() - start
+        verdict = content.get("verdict")
+        record = {"status": status, "message": message, "verdict": verdict and verdict["level"], "seconds": seconds}
+        return record | {"timings": timings}, files
+
+
+def key(digest, name, recipe):
+    """The same for the same source, by the hash of its bytes, recipe and version."""
+    parts = (digest, name, recipe.canonical, __version__)
+    return hashlib.sha256(json.dumps(parts).encode()).hexdigest()
+
+
+def _mapped(task):
+    """The report, the files, and the timings of each part, which are no result: they differ from run to run."""
+    surface, seams = _read(task.path)
+    recipe = task.recipe
+    parts = mapping.map_parts(surface, recipe, seams, task.threads)
+    uv = arrangement.main_uv(surface, parts, recipe.maps)
+    reports = [part.report for part in parts]
+    timings = [report.pop("timings", None) for report in reports]
+    content = {
+        "holomorph": __version__,
+        "name": task.name,
+        "faces": len(surface.face_offsets) - 1,
+        "verdict": overall_report(reports, surface.is_unwelded),
+        "repairs": repairs_report(surface.repairs),
+        "components": reports + mapping.refused_reports(surface),
+    }
+    up = recipe.output.up or ("Y" if task.path.suffix.lower() == ".obj" else "Z")
+    files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), up)}
+    if any(part.structure for part in parts):
+        files |= _files(task, surface, uv, parts)
+    return content, files, timings
+
+
+def _read(path):
+    """The surface, and the (#S, 2) vertices of the edges that are marked as seams, None in mesh files."""
+    if path.suffix != blend.ARRAYS:
+        return Surface.read(path), None
+    with np.load(path) as arrays:
+        mesh = arrays["vertices"], arrays["corner_vertices"], arrays["face_offsets"]
+        return Surface.from_polygons(*mesh, strict=False), arrays["seams"]
+
+
+def _is_mapped(surface, parts):
+    """(#T,) bool: triangles of parts that have a map."""
+    faces = [part.surface.face_index for part in parts if part.structure]
+    if not faces:
+        return np.zeros(len(surface.triangles), bool)
+    return np.isin(surface.face_index[surface.triangle_faces], np.concatenate(faces))
+
+
+def _files(task, surface, uv, parts):
+    wanted, files = task.recipe.output.formats, {}
+    for name in LEVEL_FORMATS.keys() & set(wanted):
+        files[f"mesh.{name}"] = LEVEL_FORMATS[name](surface, uv)
+    for number, level in enumerate(_levels(task.recipe.levels, surface, uv), 1):
+        for name in LEVEL_FORMATS.keys() & set(wanted):
+            files[f"lod{number}.{name}"] = LEVEL_FORMATS[name](level.surface, level.uv)
+        if "npz" in wanted:
+            arrays = {"uv": level.uv, "corners": level.corners, "vertex_index": level.surface.vertex_index}
+            files[f"lod{number}.npz"] = formats.npz(level.surface, arrays)
+    if "npz" in wanted or "blend" in wanted:
+        files["mesh.npz"] = formats.npz(surface, _arrays(task.recipe.maps, surface, uv, parts))
+    if "blend" in wanted:
+        files["mesh.blend"] = blend.written(task, files["mesh.npz"])
+    return files
+
+
+def _levels(wanted, surface, uv):
+    """Each with `ratio` of the triangles of the one before, down to what the topology allows."""
+    counts = [max(1, round(len(surface.triangles) * wanted.ratio ** (k + 1))) for k in range(wanted.levels)]
+    return ProgressiveMesh(surface).levels_of_detail(uv, counts) if counts else ()
+
+
+def _arrays(maps, surface, uv, parts):
+    """What a .npz file holds besides the mesh; indices lead to the elements of the source."""
+    numbered = {f"uv_{n}": form for n, form in enumerate(arrangement.form_uvs(surface, parts, maps), 1)}
+    index = {name: getattr(surface, name) for name in ("vertex_index", "face_index", "corner_index")}
+    seams = [_seams(part) for part in parts if part.structure]
+    arrays = {"uv": uv, **numbered, **index, "seams": np.concatenate(seams)}
+    return arrays | {"shape": _shape(surface, parts)} if maps.shape else arrays
+
+
+def _seams(part):
+    """(#S, 2) vertices of the source at the edges where the main map jumps."""
+    own = part.tiling.seams if part.tiling else part.structure.edges[part.structure.seams]
+    return part.surface.vertex_index[own]
+
+
+def _shape(surface, parts):
+    """(#V, 3) conformal images: spheres on the unit sphere, disks in the unit disk with z = 0, NaN where neither is."""
+    points = np.full((len(surface.vertex_index), 3), np.nan)
+    for part in parts:
+        structure, rows = part.structure, np.searchsorted(surface.vertex_index, part.surface.vertex_index)
+        topology = (part.surface.genus, part.surface.boundary_count)
+        if structure and topology == (0, 0) and len(structure.punctures) == 2:
+            points[rows] = structure.sphere_map()
+        elif structure and topology == (0, 1) and hasattr(structure, "disk_map"):
+            disk = structure.disk_map()
+            points[rows] = np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
+    return points

@@ -1,0 +1,22 @@
+"""Which map of a part is shown first: the balanced one of its forms, or a seamless tiling where that is more even."""
+
+import math
+
+EVEN = 2.0  # 95 : 5 % ratio of the density below which a balanced map stays: the squares' sizes hardly differ
+LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
+MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
+MOST_FLIPPED = 0.01  # of its area
+
+
+def is_uneven(density_ratio):
+    """Whether a balanced map with this ratio, None where it is infinite, is worth a tiling to compare with."""
+    return density_ratio is None or density_ratio > EVEN
+
+
+def is_better(tiling, density_ratio, capped_mean_angle):
+    """Whether a `Tiling` takes the place of the balanced map with this ratio, None where it is infinite, and angle:
+    it has no visible seam, so that it is to be about as even, and hardly more sheared."""
+    ratio = math.inf if density_ratio is None else density_ratio
+    quality, most_sheared = tiling.quality, MORE_SHEARED * capped_mean_angle
+    is_fit = quality.flipped_part < MOST_FLIPPED and quality.capped_mean_angle < most_sheared
+    return is_fit and tiling.density_ratio < LESS_EVEN * ratio
