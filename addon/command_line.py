@@ -6,6 +6,8 @@ from pathlib import Path
 
 from . import headless_tile, properties
 
+SUFFIXES = {"output": ".blend", "render": ".png", "report": ".json"}  # of the files that are written
+
 
 class UsageError(Exception):
     """What the user asked for cannot be done; the text is one sentence."""
@@ -51,6 +53,7 @@ def parse(arguments):
     _add_choices(parser)
     headless_tile.add_options(parser)
     options = parser.parse_args(arguments)
+    _check_suffixes(options)
     _check_folders(options.output, options.render, options.report)
     _check_values(options)
     return options
@@ -71,6 +74,13 @@ def _add_choices(parser):
         help="how holes are solved; with --seamless straight (default) or free",
     )
     group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
+
+
+def _check_suffixes(options):
+    for name, suffix in SUFFIXES.items():
+        path = getattr(options, name)
+        wrong = path is not None and path.suffix.lower() != suffix
+        _refuse_if(wrong, f"--{name}: {path} must end with {suffix}, for that is what is written")
 
 
 def _check_folders(*files):

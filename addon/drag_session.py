@@ -22,7 +22,7 @@ class Session:
         dials = report.parsed(stored).get("dials", {})
         self.target = targets.collect([obj])[0]
         self._options = tile_report.asked_again(stored, tile_choices.allowed(dials.get("pole_group", ""), obj))
-        if self._options is None or self.target.refused or mesh_io.MAIN_MAP not in obj.data.uv_layers:
+        if self._options is None or self.target.refused or mesh_io.main_map(obj.data) not in obj.data.uv_layers:
             raise ValueError(f"{obj.name}: there is no tiling whose poles could be dragged; {AGAIN}")
         self.write_options = tile_run.TileWriteOptions(**dials)
         self._task = targets.tasks([self.target])[0]
@@ -31,7 +31,8 @@ class Session:
         vertices, is_pole = tile_report.marks(stored)
         if not np.array_equal(self.poles, vertices[is_pole]):
             raise ValueError(f"{obj.name}: its mesh is not the one that was tiled; {AGAIN}")
-        self._uv = mesh_io.read_map(obj.data, mesh_io.MAIN_MAP)
+        self._map = mesh_io.main_map(obj.data)
+        self._uv = mesh_io.read_map(obj.data, self._map)
         self._parts = [part.component.surface.vertex_index for part in self.tiled.done]
         self.allowed = None if self._options.allowed is None else np.frombuffer(self._options.allowed, bool)
 
@@ -95,11 +96,11 @@ class Session:
         """Writes the map alone."""
         self.tiled = tiled
         uv = tiling.placed(tiled, self.write_options.quarters)
-        mesh_io.overwrite_map(self.target.find().data, self.target.polygons, mesh_io.MAIN_MAP, uv)
+        mesh_io.overwrite_map(self.target.find().data, self.target.polygons, self._map, uv)
 
     def restore(self):
         """Every bit of the map as it was."""
-        mesh_io.overwrite_map(self.target.find().data, None, mesh_io.MAIN_MAP, self._uv)
+        mesh_io.overwrite_map(self.target.find().data, None, self._map, self._uv)
 
     def finish(self, context):
         """Writes all that belongs to a tiling; the `run.Outcome`."""

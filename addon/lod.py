@@ -107,10 +107,10 @@ class Source:
         self.data = None if self.target.refused else transfer.read(obj.data, self.target.polygons)
 
     def work(self, options, progress=None):
-        from . import levels, mesh_io, targets
+        from . import levels, targets
 
         (task,) = targets.tasks([self.target])
-        needs_map = mesh_io.MAIN_MAP not in self.data.maps
+        needs_map = not set(self.data.own_maps) & set(self.data.maps)
         return levels.LevelsWork(task, self.data.maps, self.data.uv, needs_map, options, progress)
 
     def problem(self, work, time_has_passed=False):

@@ -5,7 +5,6 @@ Positions and UVs are double precision on our side and float32 on Blender's. Cor
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
 """
 
-import re
 from dataclasses import dataclass
 
 import bmesh
@@ -17,7 +16,7 @@ from .compatibility import Values
 
 MAIN_MAP = "Holomorphic"
 SHAPE = "Holomorphic Shape"  # vector attribute of vertices
-OUR_MAP = re.compile(rf"^{MAIN_MAP}( [1-9][0-9]*)?$")
+OWN_MAPS = "holomorph_maps"  # custom property of a mesh: names of the maps that were made here, one in a line
 
 
 @dataclass(eq=False)
@@ -104,9 +103,26 @@ class WrittenMap:
     kind: str
 
 
-def is_our_attribute(attribute):
+def own_maps(mesh):
+    """Names of the maps that were made here, the main one first."""
+    return str(mesh.get(OWN_MAPS, "")).splitlines()
+
+
+def keep_own_maps(mesh, names):
+    """Notes which maps were made here: a name alone may be that of someone else's map."""
+    mesh[OWN_MAPS] = "\n".join(names)
+
+
+def main_map(mesh):
+    """The name of the main map, "" without one; another than `MAIN_MAP` where that is taken by someone else's map."""
+    there = [name for name in own_maps(mesh) if name in mesh.attributes or name in mesh.uv_layers]
+    return there[0] if there else ""
+
+
+def is_own_attribute(mesh, attribute):
     """Whether a corner attribute is a map of ours; from Blender 3.5 on, UV maps are such attributes too."""
-    return attribute.domain == "CORNER" and attribute.data_type == "FLOAT2" and bool(OUR_MAP.match(attribute.name))
+    is_map = attribute.domain == "CORNER" and attribute.data_type == "FLOAT2"
+    return is_map and attribute.name in own_maps(mesh)
 
 
 def has_maps(mesh):
@@ -116,10 +132,12 @@ def has_maps(mesh):
 
 def remove_maps(mesh):
     """Removes the maps of an earlier run, and no other."""
-    for name in [layer.name for layer in mesh.uv_layers if OUR_MAP.match(layer.name)]:
+    own = own_maps(mesh)
+    for name in [layer.name for layer in mesh.uv_layers if layer.name in own]:
         mesh.uv_layers.remove(mesh.uv_layers[name])
-    for name in [a.name for a in mesh.attributes if is_our_attribute(a) or a.name == SHAPE]:
+    for name in [a.name for a in mesh.attributes if is_own_attribute(mesh, a) or a.name == SHAPE]:
         mesh.attributes.remove(mesh.attributes[name])
+    keep_own_maps(mesh, [])
 
 
 def _of_loops(mesh, polygons, uv, before=""):

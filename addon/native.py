@@ -34,32 +34,44 @@ def _package_folders():
     return [here / "lib" / python_tag() / NAME, here.parent / "build" / "lib" / python_tag() / NAME]
 
 
+def _hidden_folders():
+    """Where the package would be found if something else of its name did not come first on ``sys.path``."""
+    return [Path(entry) / NAME for entry in sys.path]
+
+
 def _import_from(folder):
     """Imports the package in `folder` under its own name, leaving ``sys.path`` alone."""
     spec = importlib.util.spec_from_file_location(
         NAME, folder / "__init__.py", submodule_search_locations=[str(folder)]
     )
     module = importlib.util.module_from_spec(spec)
+    _drop_modules()
     sys.modules[NAME] = module
     try:
         spec.loader.exec_module(module)
     except ImportError:
-        for name in [n for n in sys.modules if n == NAME or n.startswith(NAME + ".")]:
-            del sys.modules[name]
+        _drop_modules()
         raise
     return module
+
+
+def _drop_modules():
+    for name in [n for n in sys.modules if n == NAME or n.startswith(NAME + ".")]:
+        del sys.modules[name]
 
 
 def _find():
     if __package__ == NAME:
         raise NativeMissing(f"The add-on's own folder must not be called {NAME!r}, the name of its native package")
     try:
-        return importlib.import_module(NAME)
+        found = importlib.import_module(NAME)
+        if hasattr(found, "conformal_structure"):
+            return found
     except ModuleNotFoundError as error:
-        if error.name != NAME:
+        if error.name not in (NAME, f"{NAME}._native"):
             raise
-    for folder in _package_folders():
-        if (folder / "__init__.py").is_file():
+    for folder in [*_package_folders(), *_hidden_folders()]:
+        if (folder / "__init__.py").is_file() and any(folder.glob("_native*")):
             return _import_from(folder)
     raise NativeMissing(f"Holomorph's native part for {_looked_for()} is not installed")
 

@@ -201,7 +201,7 @@ class MapProperties:
             column = layout.column()
             for name in group:
                 column.prop(self, name)
-        for index in range(min(self.form_count, DIALS)):
+        for index in range(min(self.form_count, DIALS) if self.form_count > 1 else 0):  # a single form has no share
             row = layout.row(align=True)
             row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
             row.prop(self, "turns", index=index, text="")

@@ -2,7 +2,7 @@
 """The end of a run, in Blender's main thread: what was solved is written to the objects and reported."""
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import bpy
 import numpy as np
@@ -180,6 +180,7 @@ def _write_object(outcome, obj, polygons, mapped, map_options, options):
         mesh_io.remove_maps(mesh)
     values = seamless.map_values(solved, map_options, tiled)
     written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in values]
+    mesh_io.keep_own_maps(mesh, [w.name for w in written])
     shown = written[min(options.shown, len(written) - 1)]
     mesh_io.show_map(mesh, shown.name)
     new_seams = mesh_edges.add_seams(mesh, _seam_pairs(solved, tiled)) if options.seams else 0
@@ -187,7 +188,7 @@ def _write_object(outcome, obj, polygons, mapped, map_options, options):
     if shape is not None:
         mesh_io.write_shape(mesh, shape)
     if options.checker:
-        is_tiling = bool(tiled.done) and shown.name == mesh_io.MAIN_MAP
+        is_tiling = bool(tiled.done) and shown is written[0]
         look = _tiling_look(tiled, options) if is_tiling else _look(solved, map_options, options)
         look = outcome.looks.setdefault(is_tiling, look)
         material.cover(obj, material.showing(shown.name, shown.kind == "attribute", look))
@@ -208,7 +209,8 @@ def _write_object(outcome, obj, polygons, mapped, map_options, options):
 
 
 def _look(solved, map_options, options):
-    cells = options.checker_scale or maps.squares_that_fit(solved, map_options)
+    # Density is to be seen: the squares are those of density 1, so that there are more of them where it is higher.
+    cells = options.checker_scale or maps.squares_that_fit(solved, replace(map_options, density=1.0))
     return material.Look(options.texture, cells, maps.unit_length(solved, map_options))
 
 

@@ -38,6 +38,7 @@ class MeshData:
 
     positions: np.ndarray  # (#V, 3) float32, in the object's own frame
     maps: list  # names
+    own_maps: list  # those that were made here
     uv: np.ndarray  # (#C, m, 2) float64
     active: str  # map in the editors, empty if there is none
     rendered: str
@@ -57,6 +58,7 @@ def read(mesh, polygons):
     return MeshData(
         positions=mesh_io.read_values(compatibility.position_values(mesh)),
         maps=maps,
+        own_maps=mesh_io.own_maps(mesh),
         uv=uv,
         active=getattr(mesh.uv_layers.active, "name", ""),
         rendered=next((layer.name for layer in mesh.uv_layers if layer.active_render), ""),
@@ -70,7 +72,7 @@ def read(mesh, polygons):
 
 def _map_names(mesh):
     layers = [layer.name for layer in mesh.uv_layers]
-    return layers + [a.name for a in mesh.attributes if mesh_io.is_our_attribute(a) and a.name not in layers]
+    return layers + [a.name for a in mesh.attributes if mesh_io.is_own_attribute(mesh, a) and a.name not in layers]
 
 
 def write(mesh, data, level, names):
@@ -79,6 +81,7 @@ def write(mesh, data, level, names):
     own = mesh_io.Polygons(data.positions, surface.corner_vertices, surface.face_offsets, None)
     for index, name in enumerate(names):
         mesh_io.write_map(mesh, own, name, level.uv[:, index])
+    mesh_io.keep_own_maps(mesh, data.own_maps + [name for name in names if name not in data.maps])
     _show(mesh, data, names)
     mesh_io.write_values(_material_indices(mesh), data.material[surface.face_index])
     mesh_io.write_values(_smooth_flags(mesh), data.smooth[surface.face_index])

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_object, run, select, sphere_arrays, stored_report, torus, uv
+from scenes import mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
 coarse, lines, verdict_view, viewport = (module(name) for name in ("coarse", "lines", "verdict_view", "viewport"))
 
@@ -209,3 +209,48 @@ def test_a_map_without_a_tiling_gets_its_poles_by_itself():
     run()
     bpy.ops.uv.holomorphic_tile(poles="COARSE")
     assert stored_report(obj)["verdict"]["level"] == "good" and np.isfinite(uv(obj)).all()
+
+
+# ---- dials that do something ----------------------------------------------------------------------------------------
+
+
+def test_a_higher_density_shows_more_squares_where_their_number_is_chosen():
+    obj = torus()
+    run()
+    squares, side = shown_scale(obj), np.ptp(uv(obj), axis=0)
+    run(density=2.0)
+    assert shown_scale(obj) == squares and np.allclose(np.ptp(uv(obj), axis=0), 2 * side, rtol=1e-5)
+
+
+@pytest.mark.parametrize(("forms", "dials"), [(0, 0), (1, 0), (3, 3), (20, 8)])
+def test_a_form_that_is_alone_has_no_share(forms, dials):
+    """Its amount would be a change of scale, which the density undoes."""
+    layout, properties = Drawn(), module("properties").MapProperties()
+    properties.form_count, layout.prop = forms, lambda _owner, name, **_options: layout.texts.append(name)
+    properties.draw_options(layout, None)
+    assert layout.texts.count("amounts") == dials
+
+
+# ---- maps of someone else -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("press", [run, bpy.ops.uv.holomorphic_tile])
+def test_maps_with_our_names_that_are_not_ours_are_kept(press):
+    obj = torus()
+    for name in ("Holomorphic 2", "Holomorphic"):
+        obj.data.uv_layers.new(name=name)
+    own = [uv(obj, name) for name in ("Holomorphic 2", "Holomorphic")]
+    for _ in range(2):
+        press()
+        names = [layer.name for layer in obj.data.uv_layers]
+        assert names[:2] == ["Holomorphic 2", "Holomorphic"] and names[2] == "Holomorphic.001"
+        assert len(names) == (4 if press is run else 3) and obj.data.uv_layers.active.name == "Holomorphic.001"
+    assert all(np.array_equal(uv(obj, name), values) for name, values in zip(names, own))
+
+
+def test_a_map_of_ours_that_was_renamed_is_kept():
+    obj = torus()
+    run()
+    obj.data.uv_layers["Holomorphic"].name = "Mine"
+    run()
+    assert [layer.name for layer in obj.data.uv_layers] == ["Mine", "Holomorphic", "Holomorphic 1"]

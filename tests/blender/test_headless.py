@@ -141,6 +141,9 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
         (["ring.obj", "--forms", "many"], "forms"),
         (["ring.obj", "--levels", "2", "--ratio", "1.5"], "ratio"),
         (["ring.obj", "--output", "nowhere/out.blend"], "folder"),
+        (["ring.obj", "--output", "foo.txt"], "must end with .blend"),
+        (["ring.obj", "--render", "picture.jpg"], "must end with .png"),
+        (["ring.obj", "--report", "report"], "must end with .json"),
     ],
 )
 def test_usage_errors_are_one_sentence(arguments, word, torus_file, tmp_path):
@@ -296,3 +299,20 @@ def test_options_of_a_tiling_that_cannot_be(options, word, torus_file):
     done = headless(torus_file, *options)
     assert done.returncode == 1 and len(our_lines(done)) == 1 and word in our_lines(done)[0], our_lines(done)
     assert "Traceback" not in done.stderr + done.stdout
+
+
+@pytest.mark.parametrize(("strict", "status"), [((), 0), (("--strict",), 3)])
+def test_strict_ends_with_the_verdict_and_everything_written(tmp_path, strict, status):
+    path, report = sphere_with_spikes(tmp_path / "spikes.obj"), tmp_path / "report.json"
+    done = headless(path, "--main", "balanced", "--report", report, *strict)
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert (done.returncode, entry["verdict"]["level"]) == (status, "unusable")
+    assert any(entry["verdict"]["sentence"] in line for line in our_lines(done))
+    assert not strict or len(our_lines(done)) == 1
+
+
+def sphere_with_spikes(path):
+    vertices, faces = sphere_arrays(4)
+    vertices = np.array(vertices)
+    factor = 1 + 6 * np.exp(-24 * (0.5 - vertices.max(axis=1)))
+    return write_obj(path, vertices * factor[:, None], faces)

@@ -449,3 +449,28 @@ def test_no_memory_is_an_error_of_ours():
 def test_attributes_that_a_surface_has_not_are_not_there():
     structure = conformal_structure(surface_of(families.punctured_torus()))
     assert not hasattr(structure, "modulus") and not hasattr(structure, "capacity_matrix")
+
+
+# ---- the package as the add-on finds it ---------------------------------------------------------------------------
+
+ADDON_FINDS = """
+import importlib.util
+spec = importlib.util.spec_from_file_location("finder", {path!r})
+finder = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(finder)
+print(finder.problem() or finder.load().conformal_structure.__name__)
+"""
+
+
+@pytest.mark.parametrize("text", [None, "", "from ._native import Error"])
+def test_a_folder_of_the_package_s_name_does_not_hide_it(tmp_path, text):
+    """Beside the add-on, which has the package's build: a folder, someone else's package, the sources alone."""
+    root = Path(__file__).resolve().parents[2]
+    (tmp_path / "holomorph").mkdir()
+    if text is not None:
+        (tmp_path / "holomorph" / "__init__.py").write_text(text)
+    program = ADDON_FINDS.format(path=str(root / "addon" / "native.py"))
+    paths = os.pathsep.join([str(tmp_path), str(Path(np.__file__).parents[1])])
+    command, environment = [sys.executable, "-c", program], os.environ | {"PYTHONPATH": paths}
+    run = subprocess.run(command, capture_output=True, text=True, timeout=120, env=environment, cwd=tmp_path)
+    assert run.stdout.strip() == "conformal_structure", run.stdout + run.stderr
