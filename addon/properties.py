@@ -91,22 +91,22 @@ class MapProperties:
     main: EnumProperty(name="Main Map", description="What the main map is", items=MAIN_MAPS, default="AUTOMATIC")
     forms: IntProperty(
         name="Form Maps",
-        description="At most so many maps of single forms, besides the main map; a closed surface of genus g has g, "
-        "one with b boundary loops 2 g + b - 1",
+        description="At most so many maps of single forms, besides the main one: one for each handle, more with holes",
         default=8,
         min=0,
         soft_max=32,
     )
     shown: IntProperty(
         name="Shown Map",
-        description="The map that becomes active: 0 is the main map, 1 the first form",
+        description="The map that the texture shows: 0 is the main one, 1 that of the first form",
         default=0,
         min=0,
         soft_max=8,
     )
     density: FloatProperty(
         name="Density",
-        description="Factor of all UV lengths; at 1 the parts fill the UV square together, with equal texel density",
+        description="How fine the texture is: at 2 squares are half as large. At 1 the parts fill the UV square "
+        "together, with equal texel density",
         default=1.0,
         min=1e-4,
         soft_min=0.1,
@@ -120,13 +120,17 @@ class MapProperties:
     )
     margin: FloatProperty(
         name="Margin",
-        description="Distance between connected parts, as a share of the UV square; less where there are many",
+        description="Empty space between connected parts in the UV editor, as a share of the UV square; less where "
+        "there are many",
         default=0.02,
         min=0.0,
         max=0.2,
     )
     rotation: FloatProperty(
-        name="Rotation", description="Rotates every part of all maps", subtype="ANGLE", unit="ROTATION"
+        name="Rotation",
+        description="Turns the squares on the surface, by turning every part of all maps",
+        subtype="ANGLE",
+        unit="ROTATION",
     )
     # Not remembered for the next object, which has a selection of its own.
     use_selection: EnumProperty(
@@ -155,7 +159,8 @@ class MapProperties:
     solver: EnumProperty(name="Solver", description="How the linear systems are solved", items=solver_items, default=0)
     amounts: FloatVectorProperty(
         name="Amount",
-        description="Factor of each form's share in the main map; at 1 the density is most even",
+        description="How much of each form is in the main map: it moves the places where squares are large and small. "
+        "At 1 their sizes are most even",
         size=DIALS,
         default=(1.0,) * DIALS,
         soft_min=0.0,
@@ -163,7 +168,8 @@ class MapProperties:
     )
     turns: FloatVectorProperty(
         name="Phase",
-        description="Phase of each form's share in the main map; not on parts with a boundary, which stays straight",
+        description="Turns each form's share in the main map: squares turn and change their size around its handle. "
+        "Not on parts with a boundary, which stays straight",
         size=DIALS,
         default=(0.0,) * DIALS,
         subtype="EULER",
@@ -177,8 +183,8 @@ class MapProperties:
     texture: EnumProperty(name="Texture", description="What the material shows", items=TEXTURES, default="CHECKER")
     checker_scale: FloatProperty(
         name="Squares",
-        description="Squares, bricks, scales ... per UV unit, rounded to whole images of a texture; 0 chooses a number "
-        "that suits the object's size",
+        description="Squares, bricks, scales ... per UV unit, rounded to whole images of a texture: more are smaller. "
+        "0 chooses a number that suits the object's size",
         default=0.0,
         min=0.0,
         soft_max=200.0,

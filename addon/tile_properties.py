@@ -47,7 +47,7 @@ class TileProperties:
 
     tiles: IntProperty(
         name="Tiles",
-        description="Tiles of the texture over each object, about; with more of them less is distorted. "
+        description="Tiles of the texture over each object, about: more are smaller, and less is distorted. "
         "0 chooses a number that suits the shape",
         default=0,
         min=0,
@@ -55,7 +55,8 @@ class TileProperties:
     )
     poles: EnumProperty(
         name="Poles",
-        description="Vertices around which the texture closes up by whole tiles; they make it even on ears and limbs",
+        description="Vertices around which the texture closes up: the more of them, the less squares differ in size "
+        "between the body and ears or limbs",
         items=POLES,
         default="AUTOMATIC",
     )

@@ -139,6 +139,19 @@ def test_jumps(name):
 
 
 @everywhere
+def test_only_at_spokes_of_punctures_a_side_is_turned_against_the_other(name):
+    """They end where the map is infinite: the corners there are finite ones in its place."""
+    structure = solved(name)
+    surface = structure.surface
+    uv = first(structure)
+    jump, keys = jumps(surface, np.stack([uv.real, uv.imag], axis=1))
+    turned = np.abs((jump[:, 0] - jump[:, 1]) @ [1, 1j])
+    ends = np.stack(np.divmod(keys, len(surface.vertices)), axis=1)
+    is_spoke = np.isin(ends, structure.punctures).any(axis=1)
+    assert turned[~is_spoke].max() < SOLVER * np.abs(uv).max() < 1e4 * SOLVER * turned[is_spoke].max()
+
+
+@everywhere
 def test_seams_are_input_edges_and_all_spokes(name):
     structure = solved(name)
     surface = structure.surface
