@@ -112,6 +112,17 @@ def test_the_operator_shows_and_restoring_materials_restores(views):
     assert shading.color_type == "MATERIAL"
 
 
+@pytest.mark.parametrize("is_on", [True, False])
+def test_the_preference_decides(views, is_on):
+    window, (shading, *_) = views
+    shading.type, shading.color_type = "SOLID", "MATERIAL"
+    package = module("preferences").__package__
+    stored = {package: SimpleNamespace(preferences=SimpleNamespace(show_in_viewport=is_on))}
+    context = SimpleNamespace(window=window, preferences=SimpleNamespace(addons=stored))
+    module("modal").WorkOperator().show(context, SimpleNamespace(done=["Ring"]), True)
+    assert shading.color_type == ("TEXTURE" if is_on else "MATERIAL")
+
+
 def test_without_a_texture_the_view_stays(views):
     window, (shading, *_) = views
     shading.type, shading.color_type = "SOLID", "MATERIAL"
@@ -145,6 +156,14 @@ def test_lines_are_broken_where_they_do_not_fit():
         "  2",
     ]
     assert list(lines.broken("", is_fit)) == [""]
+
+
+@pytest.mark.parametrize(("level", "told"), [("fair", ([], ["Ring: Even"])), ("poor", (["Ring: Even"], []))])
+def test_a_poor_map_is_a_warning(level, told):
+    outcome = module("run").Outcome()
+    entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}}
+    module("run").judge(outcome, SimpleNamespace(name="Ring"), entry)
+    assert (outcome.problems, outcome.notes) == told
 
 
 def test_a_narrow_panel_has_more_lines_of_the_same_words():
