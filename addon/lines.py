@@ -4,8 +4,8 @@
 import blf
 
 FONT = 0
-BESIDE = 58  # pixels of a sidebar's width that are not text, in a user interface of normal size: tabs, margins, box
-ICON = 22  # likewise, of an icon
+BESIDE = 66  # pixels of a sidebar's width that are not text, in a user interface of normal size: tabs, margins, box
+ICON = 26  # likewise, of an icon
 
 
 def draw(layout, context, text, icon="NONE", indent=0):

@@ -22,7 +22,7 @@ def draw(layout, context, stored, tile_operator):
     elif found.advice and not found.is_fit:
         lines.draw(box, context, f"Try: {found.advice}")
     for name, value in numbers(entry):
-        row = box.split(factor=0.65)
+        row = box.split(factor=0.72)
         row.label(text=name)
         row.label(text=value)
 
@@ -36,7 +36,7 @@ def numbers(entry):
     shear = max(one["capped_mean_angle"] for one in measured)
     size = math.sqrt(ratio)
     return [
-        ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000 : 1"),
+        ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000+"),
         ("Stretch", f"{shear:.2f} : 1"),
         ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
         ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
