@@ -91,7 +91,7 @@ def _sentence(quality, poles, ranks):
     if uneven > 1:
         words[0] += f" (squares of 1 to {_factor(math.sqrt(quality.density_ratio))})"
     if lost:
-        words.append(f"{_percent(quality.lost_part)} of it flipped or collapsed")
+        words.append(f"{_percent(quality.lost_part)} flipped or collapsed")
     if poles is not None:
         words.append({0: "no poles", 1: "1 pole"}.get(poles, f"{poles} poles"))
     sentence = ", ".join(word for word in words if word)

@@ -73,13 +73,13 @@ ISLANDS = "or unwrap it in islands along its hard edges"
         (
             {"lost_part": 0.03, "flipped": (True,)},
             {},
-            "Even, 3 % of it flipped or collapsed",
+            "Even, 3 % flipped or collapsed",
             "subdivide the mesh where",
         ),
         (
             {"lost_part": 0.005},
             {},
-            "Even, 0.5 % of it flipped or collapsed",
+            "Even, 0.5 % flipped or collapsed",
             "subdivide the mesh where faces have coll",
         ),
     ],
@@ -108,7 +108,7 @@ def test_half_a_map_that_is_nothing_is_unusable():
     structure, uv = disk()
     half = np.where(np.arange(len(uv))[:, None] < len(uv) // 2, 0.0, uv)
     quality = structure.quality(half)
-    assert quality.verdict.level == "unusable" and "50 % of it flipped or collapsed" in quality.verdict.sentence
+    assert quality.verdict.level == "unusable" and "50 % flipped or collapsed" in quality.verdict.sentence
 
 
 def test_shear_of_a_stretched_map():
