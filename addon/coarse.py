@@ -20,7 +20,7 @@ class Place:
 
     name: str
     times: float  # a length of the texture there, in its median length elsewhere
-    vertex: int  # of the coarsest face
+    vertex: int  # off the boundary, of the coarsest face that has one
 
 
 def places(obj, polygons, uv):
@@ -29,26 +29,47 @@ def places(obj, polygons, uv):
     faces = np.flatnonzero(octaves < OCTAVES)
     if not len(faces):
         return []
-    labels = _components(polygons, faces)
+    labels, is_inner = _components(polygons, faces), _inner(polygons)
     kinds, counts = np.unique(labels, return_counts=True)
     order = np.argsort(-counts, kind="stable")[:MOST_PLACES]
     kept = kinds[order][counts[order] > LEAST_PART * len(octaves)]
-    return [_place(obj, polygons, octaves, faces[labels == kind]) for kind in kept]
+    found = [_place(obj, polygons, octaves, faces[labels == kind], is_inner) for kind in kept]
+    return [place for place in found if place is not None]
 
 
-def _place(obj, polygons, octaves, faces):
-    corner = polygons.face_offsets[faces[np.argmin(octaves[faces])]]
-    vertex = int(polygons.corner_vertices[corner])
-    return Place(_name(obj, polygons, vertex), float(2 ** (-octaves[faces].mean() / 2)), vertex)
+def _place(obj, polygons, octaves, faces, is_inner):
+    """None where all vertices are on the boundary."""
+    vertices, _ = _vertices(polygons, faces[np.argsort(octaves[faces], kind="stable")])
+    inner = vertices[is_inner[vertices]]
+    if not len(inner):
+        return None
+    return Place(_name(obj, polygons, inner[0]), float(2 ** (-octaves[faces].mean() / 2)), int(inner[0]))
+
+
+def _vertices(polygons, faces):
+    """(vertices of the corners of faces, one face after the other; how many each has)."""
+    sizes = np.diff(polygons.face_offsets)[faces]
+    ends = np.cumsum(sizes)
+    starts = polygons.face_offsets[:-1][faces]
+    return polygons.corner_vertices[np.arange(ends[-1]) + np.repeat(starts - (ends - sizes), sizes)], sizes
+
+
+def _inner(polygons):
+    """(#V,) whether a vertex is on no edge of a single face."""
+    corners, count = polygons.corner_vertices.astype(np.int64), len(polygons.vertices)
+    following = np.arange(1, len(corners) + 1)
+    following[polygons.face_offsets[1:] - 1] = polygons.face_offsets[:-1]
+    ends = np.sort(np.stack([corners, corners[following]]), axis=0)
+    keys, faces = np.unique(ends[0] * count + ends[1], return_counts=True)
+    is_inner = np.ones(count, bool)
+    is_inner[np.concatenate(np.divmod(keys[faces == 1], count))] = False
+    return is_inner
 
 
 def _components(polygons, faces):
     """(n,) labels of faces, equal where they are joined by vertices that they share."""
-    sizes = np.diff(polygons.face_offsets)[faces]
-    ends = np.cumsum(sizes)
-    starts = ends - sizes
-    corners = np.arange(ends[-1]) + np.repeat(polygons.face_offsets[:-1][faces] - starts, sizes)
-    vertices = polygons.corner_vertices[corners]
+    vertices, sizes = _vertices(polygons, faces)
+    starts = np.cumsum(sizes) - sizes
     labels = np.arange(len(polygons.vertices))
     while True:  # labels only fall, and halve their distance to the lowest one in each round
         lowest = np.repeat(np.minimum.reduceat(labels[vertices], starts), sizes)

@@ -128,7 +128,7 @@ def _topology(part):
 def verdict(entry):
     """The package's `Verdict` on an object or a part in a report; None where there is none."""
     found = entry.get("verdict")
-    return found and native.load().Verdict(**found)
+    return native.load().Verdict(**found) if found else None
 
 
 def sentence(part):

@@ -2,11 +2,12 @@
 
 from types import SimpleNamespace
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
+from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
 coarse, lines, verdict_view, viewport = (module(name) for name in ("coarse", "lines", "verdict_view", "viewport"))
 
@@ -175,7 +176,8 @@ def test_a_narrow_panel_has_more_lines_of_the_same_words():
 
 def test_a_report_of_an_earlier_version_is_no_error():
     obj = torus()
-    for stored in ("", "{", "[]", "{}", '{"components": []}'):
+    edited = ('{"verdict": 1}', '{"verdict": {"level": "good", "sentence": "Even", "advice": ""}}')
+    for stored in ("", "{", "[]", "{}", '{"components": []}', *edited):
         obj["holomorph_report"] = stored
         assert drawn(obj).texts == []
 
@@ -221,6 +223,35 @@ def test_the_button_puts_poles_where_it_is_coarse():
     made = set(after["tiling"]["poles"])  # a pole whose residue is rounded to 0 is none
     assert len(places) > 0 and len(made) > 2 and made <= {*poles, *(place["vertex"] for place in places)}
     assert after["main_map"]["density_ratio"] < before["components"][0]["main_map"]["density_ratio"]
+
+
+def test_poles_are_off_the_boundary():
+    """A half of the ball with spikes, cut through the spike that is coarse."""
+    obj = spikes()
+    run()
+    (place,) = stored_report(obj)["coarse_places"]
+    axis, _ = spiked(obj, place)
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    plane = {"plane_co": (0.3,) * 3, "plane_no": np.eye(3)[axis - 1] - np.eye(3)[axis - 2]}
+    bmesh.ops.bisect_plane(bm, geom=[*bm.verts, *bm.edges, *bm.faces], clear_outer=True, **plane)
+    vertices = np.array([v.co for v in bm.verts])
+    polygons = mesh_io.read_polygons(as_mesh(bm), np.eye(3))
+    is_inner = coarse._inner(polygons)
+    on_plane = np.abs((vertices - 0.3) @ plane["plane_no"]) < 1e-5
+    assert np.array_equal(~is_inner, on_plane) and 0 < on_plane.sum() < len(vertices)
+    fine = np.zeros((len(polygons.corner_vertices), 2))
+    fine[:] = polygons.vertices[polygons.corner_vertices][:, [axis - 1, axis - 2]]
+    is_far = polygons.vertices[polygons.corner_vertices, axis] > 1.5
+    found = coarse.places(obj, polygons, np.where(is_far[:, None], 0.01 * fine, fine))
+    assert found and all(is_inner[place.vertex] for place in found)
+
+
+def as_mesh(bm):
+    mesh = bpy.data.meshes.new("Half")
+    bm.to_mesh(mesh)
+    bm.free()
+    return mesh
 
 
 def test_a_map_without_a_tiling_gets_its_poles_by_itself():
