@@ -63,7 +63,7 @@ class Quality:
         """The `Verdict` on the map."""
         return verdict(self)
 
-    @cached_property
+    @property
     def _sides(self):
         """(#T, 3) lengths, ascending."""
         return np.sort(self._triangulation.edge_lengths[self._triangulation.triangle_edges], axis=1)
