@@ -20,8 +20,7 @@ def measured(mesh, linear):
 
 def active_map(mesh, polygons):
     """(#C,2) float32 of the active UV map, in the order of the polygons' corners."""
-    uv = mesh_io.read_map(mesh, mesh.uv_layers.active.name)
-    return uv if polygons.loops is None else uv[polygons.loops]
+    return mesh_io.read_corners(mesh, polygons, mesh.uv_layers.active.name)
 
 
 def write(obj):

@@ -5,6 +5,7 @@ Positions and UVs are double precision on our side and float32 on Blender's. Cor
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
 """
 
+import re
 from dataclasses import dataclass
 
 import bmesh
@@ -108,15 +109,20 @@ def own_maps(mesh):
     return str(mesh.get(OWN_MAPS, "")).splitlines()
 
 
-def keep_own_maps(mesh, names):
+def add_own_maps(mesh, names):
     """Notes which maps were made here: a name alone may be that of someone else's map."""
-    mesh[OWN_MAPS] = "\n".join(names)
+    mesh[OWN_MAPS] = "\n".join(dict.fromkeys([*own_maps(mesh), *names]))
+
+
+def _own_map(mesh, name):
+    """The map of ours that was to have this name, "" without one; Blender numbers it where the name was taken."""
+    numbered = re.compile(rf"{re.escape(name)}(\.[0-9]+)?")
+    return next((own for own in own_maps(mesh) if numbered.fullmatch(own) and _has_map(mesh, own)), "")
 
 
 def main_map(mesh):
     """The name of the main map, "" without one; another than `MAIN_MAP` where that is taken by someone else's map."""
-    there = [name for name in own_maps(mesh) if name in mesh.attributes or name in mesh.uv_layers]
-    return there[0] if there else ""
+    return _own_map(mesh, MAIN_MAP)
 
 
 def is_own_attribute(mesh, attribute):
@@ -127,7 +133,7 @@ def is_own_attribute(mesh, attribute):
 
 def has_maps(mesh):
     """Whether there are maps of an earlier run."""
-    return any(OUR_MAP.match(layer.name) for layer in mesh.uv_layers) or any(map(is_our_attribute, mesh.attributes))
+    return any(_has_map(mesh, name) for name in own_maps(mesh))
 
 
 def remove_maps(mesh):
@@ -137,7 +143,8 @@ def remove_maps(mesh):
         mesh.uv_layers.remove(mesh.uv_layers[name])
     for name in [a.name for a in mesh.attributes if is_own_attribute(mesh, a) or a.name == SHAPE]:
         mesh.attributes.remove(mesh.attributes[name])
-    keep_own_maps(mesh, [])
+    if OWN_MAPS in mesh:
+        del mesh[OWN_MAPS]
 
 
 def _of_loops(mesh, polygons, uv, before=""):
@@ -152,12 +159,13 @@ def _of_loops(mesh, polygons, uv, before=""):
 def write_map(mesh, polygons, name, uv):
     """Writes (#C,2) float32 `uv` as a new UV map, or as a corner attribute when all slots are taken.
 
-    Where these are some of the mesh's polygons, the others keep the UVs that they have in a map of this name, or else
+    Where these are some of the mesh's polygons, the others keep the UVs that they have in our map of this name, or else
     in the active one.
     """
-    if polygons.faces is not None and _has_map(mesh, name):
-        overwrite_map(mesh, polygons, name, uv)
-        return WrittenMap(name, "uv_map" if name in mesh.uv_layers else "attribute")
+    own = "" if polygons.faces is None else _own_map(mesh, name)
+    if own:
+        overwrite_map(mesh, polygons, own, uv)
+        return WrittenMap(own, "uv_map" if own in mesh.uv_layers else "attribute")
     uv = _of_loops(mesh, polygons, uv, "" if polygons.faces is None else getattr(mesh.uv_layers.active, "name", ""))
     # References to layers do not survive the next `new`: look up by name, keep nothing.
     if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:

@@ -80,13 +80,11 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
         return context.mode in {"OBJECT", "EDIT_MESH"}
 
     def execute(self, context):
-        from . import material, restore, targets, viewport
+        from . import restore, targets, viewport
 
         own = [obj for obj in targets.mesh_objects(context) if obj.data.library is None]
         restored = [restore.restore(obj) for obj in own]
-        meshes = [obj for obj in context.view_layer.objects if obj.type == "MESH"]
-        if context.window is not None and not any(material.is_covered(obj) for obj in meshes):
-            viewport.restore(context.window)
+        viewport.restore_without_textures(context)
         return {"FINISHED"} if any(restored) else {"CANCELLED"}
 
 

@@ -13,7 +13,7 @@ def remember(mesh):
     before = dict(mesh.get(BEFORE, {}))
     active, rendered = mesh.uv_layers.active, next((layer for layer in mesh.uv_layers if layer.active_render), None)
     for use, layer in (("active", active), ("rendered", rendered)):
-        if layer is not None and not mesh_io.OUR_MAP.match(layer.name):
+        if layer is not None and layer.name not in mesh_io.own_maps(mesh):
             before[use] = layer.name
     if before:
         mesh[BEFORE] = before

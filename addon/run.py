@@ -180,7 +180,7 @@ def _write_object(outcome, obj, polygons, mapped, map_options, options):
         mesh_io.remove_maps(mesh)
     values = seamless.map_values(solved, map_options, tiled)
     written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in values]
-    mesh_io.keep_own_maps(mesh, [w.name for w in written])
+    mesh_io.add_own_maps(mesh, [w.name for w in written])
     shown = written[min(options.shown, len(written) - 1)]
     mesh_io.show_map(mesh, shown.name)
     new_seams = mesh_edges.add_seams(mesh, _seam_pairs(solved, tiled)) if options.seams else 0

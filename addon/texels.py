@@ -54,4 +54,4 @@ def _uv(target):
 def _is_tiling(target):
     obj = target.find()
     parts = report.parsed(obj.get(report.PROPERTY)).get("components", [])
-    return obj.data.uv_layers.active.name == mesh_io.MAIN_MAP and any("tiling" in part for part in parts)
+    return obj.data.uv_layers.active.name == mesh_io.main_map(obj.data) and any("tiling" in part for part in parts)

@@ -50,7 +50,7 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
     if polygons.faces is None:
         mesh_io.remove_maps(mesh)
     written = mesh_io.write_map(mesh, polygons, mesh_io.MAIN_MAP, tiling.placed(tiled, options.quarters))
-    mesh_io.keep_own_maps(mesh, [written.name])
+    mesh_io.add_own_maps(mesh, [written.name])
     mesh_io.show_map(mesh, written.name)
     new_seams = mesh_edges.add_seams(mesh, _seam_pairs(tiled)) if options.seams else 0
     if options.checker:

@@ -32,7 +32,7 @@ class HOLOMORPH_OT_remove_maps(bpy.types.Operator):
         return not sentence
 
     def execute(self, context):
-        from . import restore, run, targets
+        from . import restore, run, targets, viewport
 
         meshes = {obj.data: obj for obj in reversed(targets.mesh_objects(context))}
         removed = False
@@ -42,6 +42,7 @@ class HOLOMORPH_OT_remove_maps(bpy.types.Operator):
                     self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
                 else:
                     removed |= restore.remove_maps(obj)
+        viewport.restore_without_textures(context)
         return {"FINISHED"} if removed else {"CANCELLED"}
 
 

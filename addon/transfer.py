@@ -81,7 +81,7 @@ def write(mesh, data, level, names):
     own = mesh_io.Polygons(data.positions, surface.corner_vertices, surface.face_offsets, None)
     for index, name in enumerate(names):
         mesh_io.write_map(mesh, own, name, level.uv[:, index])
-    mesh_io.keep_own_maps(mesh, data.own_maps + [name for name in names if name not in data.maps])
+    mesh_io.add_own_maps(mesh, data.own_maps + [name for name in names if name not in data.maps])
     _show(mesh, data, names)
     mesh_io.write_values(_material_indices(mesh), data.material[surface.face_index])
     mesh_io.write_values(_smooth_flags(mesh), data.smooth[surface.face_index])

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The 3D views of a window are switched so that a texture is seen, and back."""
 
+from . import material
+
 WITHOUT_TEXTURE = {"SOLID", "WIREFRAME"}  # kinds of shading
 SHOWN = ("SOLID", "TEXTURE")  # kind of shading, and what its colour is
 BEFORE = "holomorph_shading"  # custom property of a screen: index of an area -> kind and colour as they were
@@ -28,6 +30,13 @@ def restore(window):
             shading.type = before[index][0]
     if before:
         del window.screen[BEFORE]
+
+
+def restore_without_textures(context):
+    """Restores the window's views once no mesh shows a texture of ours."""
+    meshes = [obj for obj in context.view_layer.objects if obj.type == "MESH"]
+    if context.window is not None and not any(material.is_covered(obj) for obj in meshes):
+        restore(context.window)
 
 
 def _views(window):

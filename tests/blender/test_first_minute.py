@@ -97,7 +97,8 @@ def test_shading_that_was_chosen_since_is_kept(views):
     assert shading.type == "MATERIAL" and viewport.BEFORE not in window.screen
 
 
-def test_the_operator_shows_and_restoring_materials_restores(views):
+@pytest.mark.parametrize("back", [bpy.ops.uv.holomorphic_restore_materials, bpy.ops.uv.holomorphic_remove_maps])
+def test_the_operator_shows_and_what_takes_the_texture_away_restores(views, back):
     window, (shading, *_) = views
     shading.type, shading.color_type = "SOLID", "MATERIAL"
     first, second = torus("First"), torus("Second")
@@ -106,10 +107,10 @@ def test_the_operator_shows_and_restoring_materials_restores(views):
         run()
         assert shading.color_type == "TEXTURE"
         select(first)
-        bpy.ops.uv.holomorphic_restore_materials()
+        back()
         assert shading.color_type == "TEXTURE"  # the other object still has its checker
         select(second)
-        bpy.ops.uv.holomorphic_restore_materials()
+        back()
     assert shading.color_type == "MATERIAL"
 
 
