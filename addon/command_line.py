@@ -47,6 +47,7 @@ def parse(arguments):
     parser.add_argument("--ratio", type=float, default=0.25, help="triangles of a level over those of the one before")
     parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
     parser.add_argument("--strict", action="store_true", help="end with 3 unless every part has a map that is fit")
+    parser.add_argument("--lod0", action="store_true", help="a copy of the object as the finest level")
     parser.add_argument("--main", choices=("automatic", "seamless", "balanced"), default="automatic", help="main map")
     _add_choices(parser)
     headless_tile.add_options(parser)

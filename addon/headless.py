@@ -145,7 +145,8 @@ def add_levels(options, outcome):
         if not entry["done"]:
             continue
         obj = bpy.data.objects[entry["object"]]
-        found, problem = module("lod").make_levels(bpy.context, obj, wanted, options.side_by_side)
+        arrangement = {"side_by_side": options.side_by_side, "finest": options.lod0}
+        found, problem = module("lod").make_levels(bpy.context, obj, wanted, **arrangement)
         entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
         outcome.problems += [f"{obj.name}: no levels of detail: {problem}"] if problem else []
         made += found
