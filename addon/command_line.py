@@ -23,8 +23,8 @@ def parse(arguments):
         prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
         description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
     )
-    parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY or STL; else the meshes of the .blend")
-    parser.add_argument("--output", type=Path, help="where to save the .blend with the maps")
+    parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY, STL, glTF, FBX or USD; else the .blend")
+    parser.add_argument("--output", type=Path, help="where to save the result: .blend, .glb, .gltf, .fbx, .usd, .obj")
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
