@@ -7,13 +7,14 @@ boundary.
 
 import bmesh
 import bpy
+import numpy as np
 
 from . import compatibility, material, mesh_io
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
 GLTF = (".glb", ".gltf")
 SUFFIXES = (*GLTF, ".fbx", *USD, ".obj")
-SAME_PLACE = 1e-12  # in units of the file: positions that are equal, for Blender joins nothing at 0
+SAME_PLACE = 1e-6  # of a mesh's largest extent: equal positions, for Blender joins nothing at a distance of 0
 KEPT_OF_OBJ = (b"vt ", b"usemtl ")  # lines of OBJ files for which Blender's importer is taken
 KINDS = {".obj": "OBJ", ".fbx": "FBX", **dict.fromkeys(GLTF, "glTF"), **dict.fromkeys(USD, "USD")}
 
@@ -98,10 +99,13 @@ def _call(path, verb, operator, **options):
 
 def _join(mesh):
     """Joins vertices in the very same place; normals of corners stay."""
+    if not len(mesh.vertices):
+        return
     normals = mesh_io.corner_normals(mesh)
+    extent = np.ptp(mesh_io.read_values(compatibility.position_values(mesh)), axis=0).max()
     edited = bmesh.new()
     edited.from_mesh(mesh)
-    bmesh.ops.remove_doubles(edited, verts=edited.verts, dist=SAME_PLACE)
+    bmesh.ops.remove_doubles(edited, verts=edited.verts, dist=SAME_PLACE * extent)
     edited.to_mesh(mesh)
     edited.free()
     if len(mesh.loops) == len(normals):
