@@ -25,8 +25,8 @@ def parse(arguments):
         prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
         description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
     )
-    parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY or STL; else the meshes of the .blend")
-    parser.add_argument("--output", type=Path, help="where to save the .blend with the maps")
+    parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY, STL, glTF, FBX or USD; else the .blend")
+    parser.add_argument("--output", type=Path, help="where to save the result: .blend, .glb, .gltf, .fbx, .usd, .obj")
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
@@ -49,6 +49,7 @@ def parse(arguments):
     parser.add_argument("--ratio", type=float, default=0.25, help="triangles of a level over those of the one before")
     parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
     parser.add_argument("--strict", action="store_true", help="end with 3 unless every part has a map that is fit")
+    parser.add_argument("--lod0", action="store_true", help="a copy of the object as the finest level")
     parser.add_argument("--main", choices=("automatic", "seamless", "balanced"), default="automatic", help="main map")
     _add_choices(parser)
     headless_tile.add_options(parser)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Every difference between the APIs of Blender 3.4 and 5.2 that this add-on meets."""
 
+from contextlib import contextmanager
 from typing import NamedTuple
 
 import bpy
@@ -101,3 +102,50 @@ def is_auto_smooth(modifier):
     """Whether it is the modifier that replaces a mesh's auto smooth from Blender 4.1 on."""
     group = modifier.node_group if modifier.type == "NODES" else None
     return group is not None and group.name.startswith(("Auto Smooth", "Smooth by Angle"))
+
+
+def corner_normal_values(mesh):
+    """The normals of corners; computed on demand until 4.0."""
+    if hasattr(mesh, "calc_normals_split"):
+        mesh.calc_normals_split()
+        return Values(mesh.loops, "normal", np.float32, 3)
+    return Values(mesh.corner_normals, "vector", np.float32, 3)
+
+
+def set_corner_normals(mesh, normals):
+    """Keeps (#C, 3) normals of corners as custom ones; until 4.0 they count where auto smooth is on."""
+    if hasattr(mesh, "use_auto_smooth"):
+        mesh.use_auto_smooth = True
+    mesh.normals_split_custom_set(normals)
+
+
+@contextmanager
+def old_numpy_names():
+    """Names that NumPy 1.24 no longer has and the glTF importer of Blender 3.4 uses: Debian ships the two together."""
+    if "bool" in vars(np) or bpy.app.version >= (3, 5, 0):
+        yield
+        return
+    np.bool = bool
+    try:
+        yield
+    finally:
+        del np.bool
+
+
+def fbx_importer():
+    """The importer of FBX files, a new one from 5.0 on."""
+    return bpy.ops.wm.fbx_import if is_there(bpy.ops.wm.fbx_import) else bpy.ops.import_scene.fbx
+
+
+def is_there(operator):
+    """Whether Blender has an operator: some are options of its build, or add-ons."""
+    try:
+        operator.get_rna_type()
+    except KeyError:
+        return False
+    return True
+
+
+def forward_axis(up):
+    """The forward axis of an OBJ file with this axis upwards, by the name that its importer takes."""
+    return "NEGATIVE_Z" if up == "Y" else "Y"

@@ -43,12 +43,8 @@ class NotFit(Exception):
 
 def import_mesh(options, holomorph):
     """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
-    if not options.mesh.is_file():
-        raise UsageError(f"{options.mesh}: no such file")
     surface = holomorph.Surface.read(str(options.mesh))
-    if not bpy.data.filepath:
-        for obj in list(bpy.data.objects):
-            bpy.data.objects.remove(obj)
+    empty_scene()
     mesh_io = module("mesh_io")
     mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
     mesh_io.shade_smooth(mesh, SHARP_ANGLE)
@@ -62,10 +58,31 @@ def import_mesh(options, holomorph):
     return obj, surface.vertices
 
 
+def empty_scene():
+    if not bpy.data.filepath:
+        for obj in list(bpy.data.objects):
+            bpy.data.objects.remove(obj)
+
+
+def import_objects(options):
+    """The objects of a file that Blender's importers read."""
+    empty_scene()
+    try:
+        return module("exchange").read(options.mesh, options.up or "Y")
+    except module("exchange").ExchangeError as error:
+        raise UsageError(str(error)) from error
+
+
 def objects_in_file(options):
+    if options.mesh is not None:
+        return named(options, import_objects(options))
     if not bpy.data.filepath:
         raise UsageError("name a mesh file after --, or a .blend file before --python")
-    meshes = [o for o in bpy.context.view_layer.objects if o.type == "MESH"]
+    return named(options, [o for o in bpy.context.view_layer.objects if o.type == "MESH"])
+
+
+def named(options, meshes):
+    """Those of the mesh objects that --object names, or all."""
     missing = set(options.object) - {o.name for o in meshes}
     if missing:
         raise UsageError(f"there is no mesh object named {sorted(missing)[0]!r} in the scene")
@@ -98,7 +115,9 @@ def request(options, holomorph):
 def collect(options, holomorph):
     """The targets: the mesh file, or the objects of the .blend."""
     asked, targets = request(options, holomorph), module("targets")
-    if options.mesh is None:
+    if options.mesh is not None and not options.mesh.is_file():
+        raise UsageError(f"{options.mesh}: no such file")
+    if options.mesh is None or module("exchange").is_read_here(options.mesh):
         objects = objects_in_file(options)
         if asked.vertices is not None and len(objects) > 1:
             raise UsageError("vertices are chosen on one object: name it with --object")
@@ -145,7 +164,8 @@ def add_levels(options, outcome):
         if not entry["done"]:
             continue
         obj = bpy.data.objects[entry["object"]]
-        found, problem = module("lod").make_levels(bpy.context, obj, wanted, options.side_by_side)
+        arrangement = {"side_by_side": options.side_by_side, "finest": options.lod0}
+        found, problem = module("lod").make_levels(bpy.context, obj, wanted, **arrangement)
         entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
         outcome.problems += [f"{obj.name}: no levels of detail: {problem}"] if problem else []
         made += found
@@ -158,26 +178,54 @@ def render(options, objects):
         raise UsageError(f"{options.render}: the picture could not be written")
 
 
+def write_files(options, objects):
+    """The scene, with its own materials in a format of exchange, and a picture of the objects."""
+    is_blend = options.output is not None and options.output.suffix.lower() == ".blend"
+    if is_blend:
+        path = str(options.output.resolve())
+        bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
+    own = set(bpy.data.objects)
+    if options.render is not None:
+        render(options, objects)
+    if options.output is not None and not is_blend:
+        for studio in set(bpy.data.objects) - own:
+            bpy.data.objects.remove(studio)
+        try:
+            module("exchange").write(options.output)
+        except module("exchange").ExchangeError as error:
+            raise UsageError(str(error)) from error
+
+
+def write_report(options, content):
+    if options.report is not None:
+        text = module("report").as_json(content, indent=1)
+        options.report.write_text(text + "\n", encoding="utf-8")
+
+
+def source_name(options):
+    """What is read, for the report of its refusal."""
+    return options.mesh.stem if options.mesh is not None else Path(bpy.data.filepath).stem
+
+
 def process(options):
     """Does the job; returns the sentences about what was not done."""
     native, report = module("native"), module("report")
     if native.problem():
         raise UsageError(native.problem())
     start = time.perf_counter()
-    outcome = make_maps(options, collect(options, native.load()))
+    try:
+        outcome = make_maps(options, collect(options, native.load()))
+    except UsageError as error:
+        write_report(options, report.run_report([report.refusal_report(source_name(options), str(error))]))
+        raise
     levels = add_levels(options, outcome)
     content = report.run_report(outcome.entries)
     content["seconds"] = time.perf_counter() - start
-    if options.report is not None:
-        options.report.write_text(report.as_json(content, indent=1) + "\n", encoding="utf-8")
+    write_report(options, content)
     if not outcome.done:
         raise UsageError("no maps were made: " + "; ".join(outcome.problems))
     print(f"Holomorph: maps written to {', '.join(outcome.done)} in {content['seconds']:.2f} s")
-    if options.output is not None:
-        path = str(options.output.resolve())
-        bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
-    if options.render is not None:
-        render(options, [bpy.data.objects[name] for name in outcome.done] + levels)
+    write_files(options, [bpy.data.objects[name] for name in outcome.done] + levels)
     if options.strict:
         check_strictly(outcome.entries)
     return outcome.problems + outcome.notes

@@ -1,32 +1,56 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Levels of detail as objects: copies of the object with the meshes of the levels, in a collection of their own."""
 
+from dataclasses import dataclass
+
 import bpy
 
 from . import compatibility, mesh_io, report, transfer
 
 OF = "holomorph_levels_of"  # custom property of levels and their collection: name of the object they are levels of
+FINEST = "_LOD0"  # end of the name of the finest level: engines know levels by such names
 GAP = 1.2  # distance of levels side by side, in widths of the object
 
 
-def write(context, obj, data, work, side_by_side=False):
+@dataclass(frozen=True)
+class Arrangement:
+    """How levels come into the scene."""
+
+    side_by_side: bool = False  # in a row along X, not in the object's place
+    hidden: bool = False  # in the view layer and for renders
+    finest: bool = False  # whether there is a copy of the object, too: its level 0
+
+
+def write(context, obj, data, work, arrangement=Arrangement()):
     """Replaces the levels of an earlier run; `data` is the object's `transfer.MeshData`, `work` a `LevelsWork`."""
     _remove_levels(obj.name)
-    collection = _collection(context, obj)
-    made = []
-    for index, level in enumerate(work.levels, 1):
-        made.append(_level_object(obj, data, level, work.names, f"{obj.name}_LOD{index}"))
-        collection.objects.link(made[-1])
+    collection, name = _collection(context, obj), obj.name.removesuffix(FINEST)
+    levels = [
+        _level_object(obj, data, level, work.names, f"{name}_LOD{number}")
+        for number, level in enumerate(work.levels, 1)
+    ]
+    # An object that is called so is level 0 itself.
+    copies = [_copy(obj, obj.data.copy(), name + FINEST)] if arrangement.finest and name == obj.name else []
+    made = copies + levels
+    for level_object in made:
+        collection.objects.link(level_object)
     context.view_layer.update()
-    step = GAP * _width(obj) if side_by_side else 0.0
+    step = GAP * _width(obj) if arrangement.side_by_side else 0.0
     for index, level_object in enumerate(made, 1):
-        if level_object.name in context.view_layer.objects:
-            level_object.select_set(False)  # the next operator is meant for the object alone
         matrix = obj.matrix_world.copy()
         matrix.translation.x += index * step
         level_object.matrix_world = matrix
-    _transfer_weights(context, obj, made)
+    _transfer_weights(context, obj, levels)
+    _put_away(context, made, arrangement.hidden)
     return made
+
+
+def _put_away(context, made, hidden):
+    for level_object in made:
+        level_object.hide_render = hidden
+        if level_object.name in context.view_layer.objects:
+            level_object.select_set(False)  # the next operator is meant for the object alone
+            level_object.hide_set(hidden)
 
 
 def _level_object(obj, data, level, names, name):
@@ -37,9 +61,13 @@ def _level_object(obj, data, level, names, name):
         mesh.materials.append(material)
     transfer.write(mesh, data, level, names)
     compatibility.copy_auto_smooth(obj.data, mesh)
+    return _copy(obj, mesh, name)
+
+
+def _copy(obj, mesh, name):
     copy = obj.copy()
     copy.data = mesh
-    copy.name = name
+    copy.name = mesh.name = name
     copy.pop(report.PROPERTY, None)
     copy[OF] = obj.name
     return copy

@@ -34,8 +34,18 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
     )
     side_by_side: BoolProperty(
         name="Side by Side",
-        description="Place the levels in a row along X beside the object instead of at its location",
-        default=False,
+        description="Place the levels in a row along X beside the object. Off: at its location, as engines want them",
+        default=True,
+    )
+    hidden: BoolProperty(
+        name="Hidden",
+        description="Hide the levels, in the view and in renders: the eyes in the Outliner show them",
+        default=True,
+    )
+    finest: BoolProperty(
+        name="Copy as LOD0",
+        description="A copy of the object becomes the finest level, Name_LOD0, unless the object itself is called so",
+        default=True,
     )
 
     @classmethod
@@ -51,7 +61,8 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         row.active = self.coarsest == 0
         row.prop(self, "ratio")
         layout.prop(self, "coarsest")
-        layout.prop(self, "side_by_side")
+        for name in ("side_by_side", "hidden", "finest"):
+            layout.prop(self, name)
 
     def prepare(self, context):
         self._source = Source(context.view_layer.objects.active)
@@ -68,23 +79,31 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         return self._source.target.polygons.face_count
 
     def finish(self, context, work, time_has_passed):
+        from . import level_objects
+
         source, name = self._source, self._source.target.name
         problem = source.problem(work, time_has_passed)
         if problem:
             self.report({"ERROR"}, f"{name}: {problem}")
             return {"CANCELLED"}
         notes = source.write_map(context, work)
-        made = source.write_levels(context, work, self.side_by_side)
+        arrangement = level_objects.Arrangement(self.side_by_side, self.hidden, self.finest)
+        source.write_levels(context, work, arrangement)
         for sentence in notes:
             self.report({"WARNING"}, sentence)
         counts = ", ".join(str(len(level.surface.triangles)) for level in work.levels)
-        kept = f"; {name} allows no coarser one" if len(made) < self.levels else ""
+        kept = f"; {name} allows no coarser one" if len(work.levels) < self.levels else ""
         self.report({"INFO"}, f"{name}: levels of {counts} triangles{kept}")
         return {"FINISHED"}
 
 
-def make_levels(context, obj, options, side_by_side=False):
-    """Here and now: the objects of the levels, and one sentence where there are none."""
+def make_levels(context, obj, options, **arrangement):
+    """Here and now: the objects of the levels, and one sentence where there are none.
+
+    arrangement : of `level_objects.Arrangement`
+    """
+    from . import level_objects
+
     source = Source(obj)
     if source.target.refused:
         return [], source.target.refused
@@ -94,7 +113,7 @@ def make_levels(context, obj, options, side_by_side=False):
     if problem:
         return [], problem
     source.write_map(context, work)
-    return source.write_levels(context, work, side_by_side), ""
+    return source.write_levels(context, work, level_objects.Arrangement(**arrangement)), ""
 
 
 class Source:
@@ -137,11 +156,11 @@ class Source:
         outcome = run.write(context, [self.target], [mapped], options, run.WriteOptions(checker=False))
         return outcome.problems + outcome.notes
 
-    def write_levels(self, context, work, side_by_side=False):
+    def write_levels(self, context, work, arrangement):
         """The levels as objects, in a collection of their own."""
         from . import level_objects
 
-        return level_objects.write(context, self.target.find(), self.data, work, side_by_side)
+        return level_objects.write(context, self.target.find(), self.data, work, arrangement)
 
 
 def register():

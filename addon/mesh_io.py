@@ -250,6 +250,11 @@ def weights(mesh, group):
     return np.fromiter(of_each, np.float64, len(mesh.vertices))
 
 
+def corner_normals(mesh):
+    """(#loops, 3)"""
+    return read_values(compatibility.corner_normal_values(mesh))
+
+
 def new_mesh(name, vertices, corner_vertices, face_offsets):
     """A Blender mesh of these polygons, vertices and corners in their order."""
     mesh = bpy.data.meshes.new(name)

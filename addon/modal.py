@@ -10,6 +10,13 @@ MODAL_TILED_FACES = 2_000  # likewise a tiling
 TIMER_SECONDS = 0.05
 
 
+def _redraw():
+    """Every area: sidebars do not see by themselves that there is a report, nor editors that there are UVs."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            area.tag_redraw()
+
+
 class WorkOperator:
     """A mixin for operators. One of them defines
 
@@ -88,6 +95,7 @@ class WorkOperator:
 
     def tell(self, outcome):
         """Reports a `run.Outcome`; what the operator returns."""
+        _redraw()
         if not outcome.done:
             self.report({"ERROR"}, "; ".join(outcome.problems) or "No mesh selected")
             return {"CANCELLED"}

@@ -30,7 +30,7 @@ class _HolomorphPanel:
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
-                tools_panel.draw_modifiers(column, obj)
+                tools_panel.draw_modifiers(column, context, obj)
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, context, obj)
         if context.mode == "OBJECT":

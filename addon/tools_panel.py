@@ -3,16 +3,16 @@
 
 import bpy
 
-from . import evaluated, texel_operators
+from . import evaluated, lines, texel_operators
 from .operators import HOLOMORPH_OT_maps
 from .tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad
 
 
-def draw_modifiers(layout, obj):
+def draw_modifiers(layout, context, obj):
     """The button again, for an object whose modifiers change its shape."""
     if evaluated.first_of(obj):
         if not len(obj.data.polygons):
-            layout.label(text="Only its modifiers make faces", icon="INFO")
+            lines.draw(layout, context, "Only its modifiers make faces", "INFO")
         layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Map with Modifiers", icon="MODIFIER").modifiers = True
 
 

@@ -25,7 +25,8 @@ FINE = {"around": 48, "across": 24}  # 2304 triangles
 
 
 def make(**options):
-    return bpy.ops.object.holomorphic_levels(**options)
+    """The levels alone, in the object's place and in sight."""
+    return bpy.ops.object.holomorphic_levels(**{"side_by_side": False, "hidden": False, "finest": False, **options})
 
 
 def levels_of(name):
@@ -353,3 +354,31 @@ def test_cancelling_ends_the_work_with_nothing_made():
     assert source.problem(work, time_has_passed=True) == ""
     obj.data.vertices[0].co.x += 1
     assert "it was changed" in source.problem(work, time_has_passed=True)
+
+
+def test_levels_come_hidden_and_beside_with_the_names_that_engines_know():
+    obj = torus(**FINE)
+    assert bpy.ops.object.holomorphic_levels(levels=2) == {"FINISHED"}
+    made = levels_of("Torus")
+    assert [o.name for o in made] == ["Torus_LOD0", "Torus_LOD1", "Torus_LOD2"]
+    assert all(o.hide_get() and o.hide_render for o in made) and not obj.hide_get() and not obj.hide_render
+    places = [o.matrix_world.translation.x for o in made]
+    width = np.ptp(positions(obj)[:, 0])
+    assert places[0] > width and np.diff(places).min() > width
+    assert made[0].data != obj.data and np.array_equal(uv(made[0]), uv(obj))
+    assert bpy.context.view_layer.objects.active == obj and obj.select_get()
+
+
+def test_an_object_that_is_level_0_itself_is_not_copied():
+    torus("Mug_LOD0", **FINE)
+    bpy.ops.object.holomorphic_levels(levels=2)
+    assert [o.name for o in levels_of("Mug_LOD0")] == ["Mug_LOD1", "Mug_LOD2"]
+    bpy.ops.object.holomorphic_levels(levels=1)
+    assert [o.name for o in levels_of("Mug_LOD0")] == ["Mug_LOD1"]
+
+
+def test_hidden_levels_are_replaced_and_leave_no_mesh():
+    torus(**FINE)
+    for _ in range(2):
+        bpy.ops.object.holomorphic_levels(levels=1)
+    assert sorted(bpy.data.meshes.keys()) == ["Torus", "Torus_LOD0", "Torus_LOD1"]

@@ -235,7 +235,7 @@ def levels_of_detail():
     yield 2
     seen["levels after ESC"] = level_names()
     with inside(view):
-        bpy.ops.object.holomorphic_levels("INVOKE_DEFAULT", levels=2, side_by_side=True)
+        bpy.ops.object.holomorphic_levels("INVOKE_DEFAULT", levels=2, hidden=False)
     start = time.monotonic()
     while not level_names() and time.monotonic() - start < PATIENCE:
         yield 0.1

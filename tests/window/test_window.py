@@ -57,7 +57,7 @@ def test_escape_answers_soon(seen):
 
 def test_levels_of_detail_are_made_in_the_background(seen):
     assert seen["levels begin"] == ["RUNNING_MODAL"]
-    assert seen["levels"] == ["Big_LOD1", "Big_LOD2"]
+    assert seen["levels"] == ["Big_LOD0", "Big_LOD1", "Big_LOD2"]
     assert seen["maps of a level"] == BOTH_MAPS
 
 

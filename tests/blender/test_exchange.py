@@ -1,0 +1,150 @@
+"""Files of other programs through the headless command: objects, materials and UV maps are kept."""
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import mesh_io, select, torus, torus_arrays
+from test_choices import grid_arrays
+from test_faces import add_own_map
+from test_headless import headless, our_lines, write_obj
+
+exchange = module("exchange")
+needs_usd = pytest.mark.skipif(not bpy.app.build_options.usd, reason="this Blender is built without USD")
+FORMATS = [".glb", ".gltf", ".fbx", ".obj", pytest.param(".usdc", marks=needs_usd)]
+NEAR = 1e-5
+
+
+def scene():
+    """A torus with two materials and an own map, and a sheet; in places of their own."""
+    ring = torus("Ring")
+    sheet_arrays = grid_arrays()
+    mesh = bpy.data.meshes.new("Sheet")
+    mesh.from_pydata([tuple(v) for v in sheet_arrays[0]], [], [tuple(f) for f in sheet_arrays[1]])
+    sheet = bpy.data.objects.new("Sheet", mesh)
+    bpy.context.scene.collection.objects.link(sheet)
+    sheet.location = (5, 0, 0)
+    for obj in (ring, sheet):
+        add_own_map(obj, "UVMap")
+    for name in ("Red", "Green"):
+        ring.data.materials.append(bpy.data.materials.new(name))
+    sheet.data.materials.append(bpy.data.materials["Red"])
+    mesh_io.write_values(
+        module("compatibility").Values(ring.data.polygons, "material_index", np.int32), np.arange(288) % 2
+    )
+    select(ring, sheet)
+    return ring, sheet
+
+
+def file_of(folder, suffix):
+    path = folder / f"scene{suffix}"
+    scene()
+    exchange.write(path)
+    return path
+
+
+def read_back(path):
+    """{name: object} of a written file."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    return {obj.name.split(".")[0]: obj for obj in exchange.read(path, "Y")}
+
+
+def map_values(mesh):
+    """The maps as sorted rows: importers number corners as they like."""
+    return [np.sort(mesh_io.read_map(mesh, layer.name).round(4), axis=0) for layer in mesh.uv_layers]
+
+
+@pytest.mark.parametrize("suffix", FORMATS)
+def test_through_the_command_and_back(suffix, tmp_path):
+    source, out, report = file_of(tmp_path, suffix), tmp_path / f"out{suffix}", tmp_path / "report.json"
+    before = {name: map_values(obj.data)[0] for name, obj in read_back(source).items()}
+    done = headless(source, "--output", out, "--report", report, "--main", "balanced", "--forms", 0)
+    assert done.returncode == 0, done.stderr
+    entries = {entry["object"].split(".")[0]: entry for entry in json.loads(report.read_text())["objects"]}
+    assert {name: entry["components"][0]["genus"] for name, entry in entries.items()} == {"Ring": 1, "Sheet": 0}
+    found = read_back(out)
+    assert set(found) == {"Ring", "Sheet"}
+    used = {
+        name: sorted(slot.material.name.split(".")[0] for slot in obj.material_slots) for name, obj in found.items()
+    }
+    assert used == {"Ring": ["Green", "Red"], "Sheet": ["Red"]}
+    for name, obj in found.items():
+        maps = map_values(obj.data)
+        if suffix == ".obj":  # which has one map: ours
+            assert len(maps) == 1 and not np.allclose(maps[0], before[name], atol=1e-3)
+        else:
+            assert len(maps) == 2 and np.allclose(maps[0], before[name], atol=1e-3)
+        assert np.ptp(maps[-1]) > 0.1 and maps[-1].min() > -NEAR and maps[-1].max() < 1 + NEAR
+    assert found["Sheet"].matrix_world.translation.x == pytest.approx(5 if suffix != ".obj" else 0, abs=1e-4)
+
+
+def test_a_gltf_file_has_its_vertices_joined_and_its_normals(tmp_path):
+    ring, _ = scene()
+    for polygon in ring.data.polygons:
+        polygon.use_smooth = True
+    exchange.write(tmp_path / "scene.glb")
+    found = read_back(tmp_path / "scene.glb")
+    assert len(found["Ring"].data.vertices) == len(torus_arrays()[0])
+    normals = mesh_io.corner_normals(found["Ring"].data)
+    corners = mesh_io.read_indices(module("compatibility").corner_vertex_values(found["Ring"].data))
+    spread = [np.ptp(normals[corners == vertex], axis=0).max() for vertex in range(0, 288, 17)]
+    assert max(spread) < 0.02  # smooth
+
+
+def test_a_bare_obj_is_read_with_double_precision_and_others_by_blender(tmp_path):
+    vertices, faces = torus_arrays()
+    path = write_obj(tmp_path / "ring.obj", vertices, faces)
+    assert not exchange.is_read_here(path)
+    path.write_text("o one\n" + path.read_text() + "o two\n")
+    assert exchange.is_read_here(path)
+    for line in ("vt 0 0\n", "usemtl Red\n"):
+        path.write_text(line)
+        assert exchange.is_read_here(path)
+    assert not exchange.is_read_here(tmp_path / "ring.ply")
+
+
+def test_one_object_of_a_file(tmp_path):
+    report = tmp_path / "report.json"
+    done = headless(file_of(tmp_path, ".glb"), "--object", "Sheet", "--report", report)
+    assert done.returncode == 0, done.stderr
+    assert [entry["object"] for entry in json.loads(report.read_text())["objects"]] == ["Sheet"]
+
+
+def test_the_picture_is_no_part_of_the_file(tmp_path):
+    out, picture = tmp_path / "out.glb", tmp_path / "picture.png"
+    small = ("--render", picture, "--resolution", 32, "--samples", 1)
+    assert headless(file_of(tmp_path, ".glb"), "--output", out, *small).returncode == 0
+    assert picture.is_file() and set(read_back(out)) == {"Ring", "Sheet"}
+
+
+@pytest.mark.parametrize("suffix", [".glb", ".fbx"])
+def test_a_broken_file_is_one_sentence_and_has_a_report(suffix, tmp_path):
+    path, report, out = tmp_path / f"broken{suffix}", tmp_path / "report.json", tmp_path / "out.blend"
+    path.write_bytes(b"nothing of the kind")
+    done = headless(path, "--report", report, "--output", out)
+    assert done.returncode == 1 and len(our_lines(done)) == 1 and "Traceback" not in our_lines(done)[0]
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert entry["object"] == "broken" and not entry["done"] and str(path) in entry["refused"]
+    assert not out.exists()
+
+
+def test_a_file_that_is_refused_has_a_report(tmp_path):
+    path, report = write_obj(tmp_path / "bad.obj", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 5)]), tmp_path / "r.json"
+    assert headless(path, "--report", report).returncode == 1
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert entry["object"] == "bad" and not entry["done"] and entry["refused"]
+
+
+def test_a_file_without_a_mesh(tmp_path):
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new("Nothing", None))
+    exchange.write(tmp_path / "empty.glb")
+    with pytest.raises(exchange.ExchangeError, match="no mesh"):
+        exchange.read(tmp_path / "empty.glb", "Y")
+
+
+def test_usd_where_there_is_none(tmp_path, monkeypatch):
+    monkeypatch.setattr(module("compatibility"), "is_there", lambda _operator: False)
+    with pytest.raises(exchange.ExchangeError, match="this Blender cannot write USD"):
+        exchange.write(tmp_path / "scene.usdc")

@@ -1,0 +1,117 @@
+"""Runs inside Blender with a window: the pie menu by its key, selected faces, the sub-panel Tools, a skin.
+
+Leaves FOLDER/habits_steps.json and pictures.
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import bmesh
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+from objects import maps, pick, sheet, torus
+from running import run
+from screen import area, click, hover, inside, move, picture, region, tap, window
+from sidebar import count_draws, open_tab
+
+TOOLS = 218  # pixels from the top of the sidebar to the header of Tools, before there is a result
+seen = {}
+
+
+def prepare():
+    bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.view.smooth_view = 0
+    bpy.context.preferences.view.pie_animation_timeout = 0
+    window().workspace = bpy.data.workspaces["UV Editing"]
+    yield 2
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
+    torus("Ring", 48, 24, 0)
+    sheet("Sheet", 8, -4)
+    pick("Ring")
+    with inside(area("VIEW_3D")):
+        bpy.ops.view3d.view_all()
+    for kind in ("VIEW_3D", "IMAGE_EDITOR"):
+        area(kind).spaces.active.show_region_ui = True
+    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
+    yield 1
+    yield from open_tab("VIEW_3D", seen)
+
+
+def pie():
+    """Shift U in object mode and in edit mode; its left entry makes the maps."""
+    view = area("VIEW_3D")
+    for mode in ("OBJECT", "EDIT"):
+        pick("Ring")
+        bpy.ops.object.mode_set(mode=mode)
+        yield 0.5
+        centre = view.x + view.width * 0.35, view.y + view.height * 0.5
+        move(*centre)
+        yield 0.3
+        tap("U", shift=True)
+        yield 1
+        picture(f"pie_{mode.lower()}.png")
+        yield 0.5
+        click(centre[0] - 150, centre[1])
+        yield 3
+        seen[f"pie in {mode}"] = maps("Ring")
+        picture(f"after_pie_{mode.lower()}.png")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.uv.holomorphic_remove_maps()
+        seen[f"removed in {mode}"] = maps("Ring")
+        yield 0.3
+
+
+def selected_faces():
+    pick("Ring")
+    bpy.ops.object.mode_set(mode="EDIT")
+    mesh = bpy.data.objects["Ring"].data
+    edited = bmesh.from_edit_mesh(mesh)
+    for face in edited.faces:
+        face.select_set(face.index < 24 * 24)
+    bmesh.update_edit_mesh(mesh)
+    hover(area("VIEW_3D"))
+    yield 0.3
+    tap("U", shift=True, ctrl=True)
+    yield 3
+    seen["faces"] = json.loads(bpy.data.objects["Ring"]["holomorph_report"])["faces"]
+    picture("faces.png")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    yield 1
+
+
+def tools():
+    """The sub-panel, opened by its header."""
+    sidebar = region(area("VIEW_3D"), "UI")
+    click(sidebar.x + sidebar.width * 0.3, sidebar.y + sidebar.height - TOOLS)
+    yield 1
+    picture("tools.png")
+    yield 0.5
+
+
+def skin():
+    sheet_object = bpy.data.objects["Sheet"]
+    pick("Sheet")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.delete(type="ONLY_FACE")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    sheet_object.modifiers.new("Skin", "SKIN")
+    yield 1
+    picture("skin.png")
+    with inside(area("VIEW_3D")):
+        seen["skin"] = list(bpy.ops.uv.holomorphic_maps("INVOKE_DEFAULT", modifiers=True))
+    yield 4
+    picture("skin_mapped.png")
+    seen["objects"] = sorted(bpy.data.objects.keys())
+
+
+def steps():
+    for part in (prepare, tools, pie, selected_faces, skin):
+        yield from part()
+
+
+run(steps(), seen)
