@@ -112,9 +112,9 @@ def _run(options):
     print(f"{len(records + unopened)} assets: {told or 'none'}; see {options.out / 'index.html'}")
     if failed + unopened and not options.report_only:
         return SOME_FAILED
-    unfit = [record["name"] for record in records if record.get("verdict") in UNFIT]
+    unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
     if options.strict and unfit:
-        return _end(STRICT, f"the maps of {len(unfit)} assets are poor or unusable, {unfit[0]} the first of them")
+        return _end(STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}")
     return ALL_DONE
 
 
