@@ -114,7 +114,9 @@ def _run(options):
         return SOME_FAILED
     unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
     if options.strict and unfit:
-        return _end(STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}")
+        return _end(
+            STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}"
+        )
     return ALL_DONE
 
 
