@@ -101,8 +101,8 @@ def _run(options):
     with journal.locked():
         plan = Plan(found, journal, wanted, limits.threads, program)
         try:
-            _do(plan.openings, execute, options.retry)
-            records = _do(plan.tasks(), execute, options.retry)
+            _do(plan.openings, "file", execute, options.retry)
+            records = _do(plan.tasks(), "asset", execute, options.retry)
         finally:
             if not options.share:
                 Overview(journal, plan.tasks() + plan.unopened()).write()
@@ -136,14 +136,14 @@ def _engine(options):
     return partial(workers.run, limits=limits, count=count), limits
 
 
-def _do(tasks, execute, retries):
+def _do(tasks, noun, execute, retries):
     """The records of all tasks, of which those that have none yet are done."""
     records = {task.name: stored(task) for task in tasks}
     waiting = [
         task for task in tasks if (record := records[task.name]) is None or (retries and record["status"] != DONE)
     ]
     if waiting:
-        bar = progress.bar(len(waiting))
+        bar = progress.bar(len(waiting), noun)
         with contextlib.closing(bar), contextlib.closing(execute(waiting)) as results:
             for record in results:
                 records[record["name"]] = record
