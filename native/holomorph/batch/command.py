@@ -106,18 +106,19 @@ def _run(options):
         finally:
             if not options.share:
                 Overview(journal, plan.tasks() + plan.unopened()).write()
-    failed = [record for record in records if record["status"] != DONE]
-    unopened = [stored(opening) for opening in plan.unopened()]
-    told = ", ".join(f"{count} {status}" for status, count in counts(records + unopened).items())
-    print(f"{len(records + unopened)} assets: {told or 'none'}; see {options.out / 'index.html'}")
-    if failed + unopened and not options.report_only:
+    return _exit_code(records + [stored(opening) for opening in plan.unopened()], options)
+
+
+def _exit_code(records, options):
+    """Says how many assets there are of each status."""
+    told = ", ".join(f"{count} {status}" for status, count in counts(records).items())
+    print(f"{len(records)} assets: {told or 'none'}; see {options.out / 'index.html'}")
+    if any(record["status"] != DONE for record in records) and not options.report_only:
         return SOME_FAILED
     unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
-    if options.strict and unfit:
-        return _end(
-            STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}"
-        )
-    return ALL_DONE
+    if not (options.strict and unfit):
+        return ALL_DONE
+    return _end(STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}")
 
 
 def _engine(options):
