@@ -23,6 +23,7 @@ def register():
         preferences,
         presets,
         shortcuts,
+        submit,
         texel_operators,
         tile,
         tools,
@@ -38,6 +39,7 @@ def register():
     texel_operators.register()
     overlay.register()
     tools.register()
+    submit.register()
     presets.register()
     panel.register()
     tools_panel.register()
@@ -54,6 +56,7 @@ def unregister():
         preferences,
         presets,
         shortcuts,
+        submit,
         texel_operators,
         tile,
         tools,
@@ -64,6 +67,7 @@ def unregister():
     tools_panel.unregister()
     panel.unregister()
     presets.unregister()
+    submit.unregister()
     tools.unregister()
     overlay.unregister()
     texel_operators.unregister()

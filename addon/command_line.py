@@ -4,9 +4,10 @@
 import argparse
 from pathlib import Path
 
-from . import headless_tile, properties
+from . import exchange, headless_tile, properties
 
-SUFFIXES = {"output": ".blend", "render": ".png", "report": ".json"}  # of the files that are written
+# Of the files that are written.
+SUFFIXES = {"output": (".blend", *exchange.SUFFIXES), "render": (".png",), "report": (".json",)}
 
 
 class UsageError(Exception):
@@ -78,10 +79,10 @@ def _add_choices(parser):
 
 
 def _check_suffixes(options):
-    for name, suffix in SUFFIXES.items():
+    for name, suffixes in SUFFIXES.items():
         path = getattr(options, name)
-        wrong = path is not None and path.suffix.lower() != suffix
-        _refuse_if(wrong, f"--{name}: {path} must end with {suffix}, for that is what is written")
+        wrong = path is not None and path.suffix.lower() not in suffixes
+        _refuse_if(wrong, f"--{name}: {path} must end with {' or '.join(suffixes)}, for that is what is written")
 
 
 def _check_folders(*files):

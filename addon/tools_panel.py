@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import evaluated, lines, texel_operators
+from . import evaluated, lines, submit, texel_operators
 from .operators import HOLOMORPH_OT_maps
 from .tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad
 
@@ -27,6 +27,7 @@ class _ToolsPanel:
         column = self.layout.column(align=True)
         column.operator(HOLOMORPH_OT_select_bad.bl_idname)
         column.operator(HOLOMORPH_OT_remove_maps.bl_idname)
+        submit.draw(column)
 
 
 class HOLOMORPH_PT_view3d_tools(_ToolsPanel, bpy.types.Panel):

@@ -37,6 +37,7 @@ ADDON_LEVEL = {
     "tile": 2,
     "texel_operators": 2,
     "tools": 2,
+    "submit": 2,
     "shortcuts": 3,
     "presets": 3,
     "tools_panel": 3,

@@ -101,21 +101,24 @@ def _run(options):
     with journal.locked():
         plan = Plan(found, journal, wanted, limits.threads, program)
         try:
-            _do(plan.openings, execute, options.retry)
-            records = _do(plan.tasks(), execute, options.retry)
+            _do(plan.openings, "file", execute, options.retry)
+            records = _do(plan.tasks(), "asset", execute, options.retry)
         finally:
             if not options.share:
                 Overview(journal, plan.tasks() + plan.unopened()).write()
-    failed = [record for record in records if record["status"] != DONE]
-    unopened = [stored(opening) for opening in plan.unopened()]
-    told = ", ".join(f"{count} {status}" for status, count in counts(records + unopened).items())
-    print(f"{len(records + unopened)} assets: {told or 'none'}; see {options.out / 'index.html'}")
-    if failed + unopened and not options.report_only:
+    return _exit_code(records + [stored(opening) for opening in plan.unopened()], options)
+
+
+def _exit_code(records, options):
+    """Says how many assets there are of each status."""
+    told = ", ".join(f"{count} {status}" for status, count in counts(records).items())
+    print(f"{len(records)} assets: {told or 'none'}; see {options.out / 'index.html'}")
+    if any(record["status"] != DONE for record in records) and not options.report_only:
         return SOME_FAILED
-    unfit = [record["name"] for record in records if record.get("verdict") in UNFIT]
-    if options.strict and unfit:
-        return _end(STRICT, f"the maps of {len(unfit)} assets are poor or unusable, {unfit[0]} the first of them")
-    return ALL_DONE
+    unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
+    if not (options.strict and unfit):
+        return ALL_DONE
+    return _end(STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}")
 
 
 def _engine(options):
@@ -134,14 +137,14 @@ def _engine(options):
     return partial(workers.run, limits=limits, count=count), limits
 
 
-def _do(tasks, execute, retries):
+def _do(tasks, noun, execute, retries):
     """The records of all tasks, of which those that have none yet are done."""
     records = {task.name: stored(task) for task in tasks}
     waiting = [
         task for task in tasks if (record := records[task.name]) is None or (retries and record["status"] != DONE)
     ]
     if waiting:
-        bar = progress.bar(len(waiting))
+        bar = progress.bar(len(waiting), noun)
         with contextlib.closing(bar), contextlib.closing(execute(waiting)) as results:
             for record in results:
                 records[record["name"]] = record

@@ -31,7 +31,7 @@ class Journal:
         """Makes the folder, and keeps other runs out, but those of other shares. @throws UsageError, StorageError"""
         with contextlib.ExitStack() as locks:
             with storing():
-                self.work.mkdir(parents=True, exist_ok=True)
+                self.folder.mkdir(parents=True, exist_ok=True)
                 names = [".lock", f".lock-{self._share}"] if self._share else [".lock"]
                 files = [locks.enter_context(open(self.folder / name, "a")) for name in names]
             try:
@@ -46,11 +46,10 @@ class Journal:
                 self._empty_work()
 
     def _empty_work(self):
-        for entry in self.work.iterdir():
-            if entry.is_dir():
-                shutil.rmtree(entry, ignore_errors=True)
-            else:
-                entry.unlink()
+        """Also of shares that were killed, when this run is alone."""
+        shutil.rmtree(self.work if self._share else self.work.parent, ignore_errors=True)
+        with storing():
+            self.work.mkdir(parents=True)
 
     def asset_folder(self, name):
         """Of the asset `name`, whose parts between slashes are folders."""

@@ -14,6 +14,7 @@ from .status import DONE
 
 TEMPLATE = Path(__file__).with_name("overview.html")
 PLACE = "/*ENTRIES*/"  # in the template
+SHOWN = 3  # descriptions and reasons of an asset's parts
 ASSET_COLUMNS = ("name", "status", "message", "seconds", "part")
 
 
@@ -43,7 +44,7 @@ class Overview:
         return {
             "name": task.name,
             "status": record["status"],
-            "message": record["message"] or "; ".join([*_words(report), *reasons]),
+            "message": record["message"] or "; ".join(filter(None, [*_words(report), _brief(reasons)])),
             "seconds": record["seconds"],
             "faces": report.get("faces"),
             "parts": len(report.get("components", [])),
@@ -52,7 +53,7 @@ class Overview:
             "loops": [part["boundary_count"] for part in parts],
             "density": _worst(parts, "density_ratio"),
             "angle": _worst(parts, "mean_angle"),
-            "map": "; ".join(dict.fromkeys(map(_description, parts))),
+            "map": _brief(map(_description, parts)),
             "verdict": (report.get("verdict") or {}).get("level", ""),
             "rank": LEVELS.index(report["verdict"]["level"]) if report.get("verdict") else None,
             "folder": quote(task.folder.relative_to(self._journal.folder).as_posix()) + "/",
@@ -73,6 +74,12 @@ def _asset(task):
 def _words(report):
     """The verdict: what is seen, and what would help."""
     return [Verdict(**report["verdict"]).text] if report.get("verdict") else []
+
+
+def _brief(texts):
+    """The first of what is told of several parts; report.json has all."""
+    told = list(dict.fromkeys(texts))
+    return "; ".join(told[:SHOWN]) + (f"; and {len(told) - SHOWN} more" if len(told) > SHOWN else "")
 
 
 def _worst(parts, name):

@@ -7,26 +7,26 @@ import time
 EVERY = 10.0  # seconds between lines
 
 
-def bar(total):
+def bar(total, noun):
     """With `update()`, one more of `total` is done, `write(line, file)` beside it, and `close()`."""
     if importlib.util.find_spec("tqdm") is None or not sys.stderr.isatty():
-        return Lines(total)
+        return Lines(total, noun)
     import tqdm
 
-    return tqdm.tqdm(total=total, unit="asset", smoothing=0.05)
+    return tqdm.tqdm(total=total, unit=noun, smoothing=0.05)
 
 
 class Lines:
     """What is used of tqdm."""
 
-    def __init__(self, total):
-        self._total, self._done, self._said = total, 0, time.monotonic()
+    def __init__(self, total, noun):
+        self._total, self._noun, self._done, self._said = total, noun, 0, time.monotonic()
 
     def update(self):
         self._done += 1
         if time.monotonic() - self._said > EVERY:
             self._said = time.monotonic()
-            sys.stderr.write(f"holomorph: {self._done} of {self._total} assets\n")
+            sys.stderr.write(f"holomorph: {self._done} of {self._total} {self._noun}s\n")
 
     def write(self, line, file):
         file.write(line + "\n")

@@ -53,8 +53,9 @@ class Task:
         files["report.json"] = (json.dumps(content, indent=1, allow_nan=False) + "\n").encode()
         seconds = time.perf_counter() - start
         verdict = content.get("verdict")
-        record = {"status": status, "message": message, "verdict": verdict and verdict["level"], "seconds": seconds}
-        return record | {"timings": timings}, files
+        skipped = sum(not part["done"] for part in content["components"])
+        record = {"status": status, "message": message, "verdict": verdict and verdict["level"], "skipped": skipped}
+        return record | {"seconds": seconds, "timings": timings}, files
 
 
 def key(digest, name, recipe):

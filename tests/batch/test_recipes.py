@@ -1,0 +1,152 @@
+"""What a recipe asks for is what an asset gets, as the package itself makes it."""
+
+import json
+
+import holomorph
+import numpy as np
+import pytest
+from conftest import run, torus_obj
+from holomorph.batch import arrangement, mapping, recipe
+
+
+@pytest.fixture(scope="module")
+def torus(tmp_path_factory):
+    return holomorph.Surface.read(torus_obj(tmp_path_factory.mktemp("torus") / "torus.obj"))
+
+
+def two_parts(surface, apart=10.0):
+    """The surface and a copy of it, as one."""
+    count, corners = len(surface.vertices), np.asarray(surface.corner_vertices)
+    vertices = np.concatenate([surface.vertices, surface.vertices + [apart, 0, 0]])
+    offsets = np.concatenate([surface.face_offsets, surface.face_offsets[1:] + len(corners)])
+    return holomorph.Surface.from_polygons(vertices, np.concatenate([corners, corners + count]), offsets)
+
+
+def mapped(surface, **tables):
+    wanted = recipe.of(tables)
+    parts = mapping.map_parts(surface, wanted)
+    return parts, arrangement.main_uv(surface, parts, wanted.maps)
+
+
+def jumps(surface, uv):
+    """(n, 2) differences of the UVs on both sides of the edges where they differ, at both ends."""
+    corners, offsets = np.asarray(surface.corner_vertices), np.asarray(surface.face_offsets)
+    following = np.arange(1, len(corners) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    edges = {(corners[c], corners[following[c]]): c for c in range(len(corners))}
+    sides = [(c, edges[end, start]) for (start, end), c in edges.items() if (end, start) in edges]
+    one, other = np.array(sides).T
+    found = np.concatenate([uv[one] - uv[following[other]], uv[following[one]] - uv[other]])
+    return found[np.abs(found).max(axis=1) > 1e-9]
+
+
+def test_seamless_parts_keep_whole_tiles_side_by_side(torus):
+    """Two parts, each moved by whole units, and apart from each other."""
+    surface = two_parts(torus)
+    parts, uv = mapped(surface, maps={"main": "seamless"}, tiling={"tiles": 64, "poles": 0})
+    assert all(part.tiling for part in parts)
+    found = jumps(surface, uv)
+    assert len(found) and np.abs(found - np.rint(found)).max() < 1e-9
+    boxes = [(uv[half].min(axis=0), uv[half].max(axis=0)) for half in np.split(np.arange(len(uv)), 2)]
+    (low, high), (other_low, other_high) = boxes
+    assert (high <= other_low + 1e-9).any() or (other_high <= low + 1e-9).any()
+
+
+def test_density_of_a_tiling(torus):
+    """Tiles per unit of area: the same for both parts."""
+    parts, _ = mapped(two_parts(torus), maps={"main": "seamless"}, tiling={"density": 2.0, "poles": 0})
+    for part in parts:
+        assert part.tiling.tiles == pytest.approx(2.0 * part.surface.area, rel=1e-9)
+
+
+def test_a_tiling_is_compared_where_the_map_is_uneven(torus):
+    """A slender torus is even by itself. A fat one gets whichever is better; either when the recipe says so."""
+    radius = np.linalg.norm(torus.vertices[:, [0, 2]], axis=1)
+    slender = torus.vertices * np.stack([1 + 18 / radius, np.ones_like(radius), 1 + 18 / radius], axis=1)
+    even = holomorph.Surface.from_polygons(slender, torus.corner_vertices, torus.face_offsets)
+    (part,), _ = mapped(even)
+    assert part.tiling is None and part.quality.density_ratio < holomorph.choice.EVEN
+    (balanced,), _ = mapped(torus, maps={"main": "balanced"})
+    (seamless,), _ = mapped(torus, maps={"main": "seamless"})
+    (chosen,), _ = mapped(torus)
+    assert balanced.quality.density_ratio > holomorph.choice.EVEN
+    ratio, angle = balanced.quality.density_ratio, balanced.quality.capped_mean_angle
+    assert bool(chosen.tiling) == holomorph.choice.is_better(seamless.tiling, ratio, angle)
+    assert balanced.tiling is None and seamless.tiling is not None
+
+
+def test_punctures_of_the_part_they_lie_on(torus):
+    surface = two_parts(torus)
+    count = len(torus.vertices)
+    parts, _ = mapped(surface, maps={"main": "balanced", "punctures": [count + 5, count + 150]})
+    assert not hasattr(parts[0].structure, "punctures")
+    assert parts[1].structure.punctures.tolist() == [5, 150]
+    with pytest.raises(holomorph.TopologyError, match=f"vertex {2 * count}, which the recipe chooses"):
+        mapped(surface, maps={"punctures": [2 * count]})
+
+
+def test_residues_in_the_order_of_the_punctures(torus):
+    maps = {"main": "balanced", "punctures": [150, 5], "residues": [[0, 1], [0, -1]]}
+    (part,), _ = mapped(torus, maps=maps)
+    assert part.structure.punctures.tolist() == [150, 5]
+    assert part.structure.residues.tolist() == [1j, -1j]
+
+
+def test_balanced_parts_have_one_density_in_the_square(torus):
+    surface = two_parts(torus)
+    parts, uv = mapped(surface, maps={"main": "balanced", "margin": 0.1})
+    assert uv.min() >= -1e-9 and uv.max() <= 1 + 1e-9
+    halves = np.split(uv, 2)
+    densities = [part.structure.quality(half).median_density for part, half in zip(parts, halves)]
+    assert densities[0] == pytest.approx(densities[1], rel=1e-9)
+    (low, high), (other_low, other_high) = [(half.min(axis=0), half.max(axis=0)) for half in halves]
+    gap = np.maximum(other_low - high, low - other_high).max()
+    assert gap == pytest.approx(0.1, rel=0.2)
+
+
+def test_a_turned_map_is_turned(torus):
+    """Angles stay, and so does the square."""
+    (part,), plain = mapped(torus, maps={"main": "balanced"})
+    _, turned = mapped(torus, maps={"main": "balanced", "rotation": 30.0})
+    z, w = (uv[:, 0] + 1j * uv[:, 1] for uv in (plain, turned))
+    apart = np.abs(z - z[0]) > 0.01
+    assert np.angle((w - w[0])[apart] / (z - z[0])[apart]) == pytest.approx(np.pi / 6, abs=1e-9)
+    assert turned.min() >= -1e-9 and turned.max() <= 1 + 1e-9
+    assert part.structure.quality(turned).mean_angle == pytest.approx(part.quality.mean_angle, rel=1e-9)
+
+
+def test_shape_of_a_sphere_and_of_a_disk(tmp_path):
+    """On the unit sphere and in the unit disk."""
+    (tmp_path / "cube.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+    )
+    u, v = np.meshgrid(np.arange(5), np.arange(5), indexing="ij")
+    faces = np.stack([u * 5 + v + 1, u * 5 + v + 2, u * 5 + v + 7, u * 5 + v + 6], axis=-1)[:-1, :-1].reshape(-1, 4)
+    points = "".join(f"v {x} {y} 0\n" for x in range(5) for y in range(5))
+    (tmp_path / "disk.obj").write_text(points + "f %d %d %d %d\n" * len(faces) % tuple(faces.ravel().tolist()))
+    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\npunctures = [12]\n")
+    (tmp_path / "plain.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\n")
+    for name, wanted, height in (("cube", "plain", 1.0), ("disk", "recipe", 0.0)):
+        out = tmp_path / name
+        result = run(tmp_path / f"{name}.obj", "--out", out, "--recipe", tmp_path / f"{wanted}.toml", "--workers", 1)
+        assert result.returncode == 0, result.stderr
+        shape = np.load(out / f"assets/{name}.obj/mesh.npz")["shape"]
+        length = np.linalg.norm(shape, axis=1)
+        assert length.max() == pytest.approx(1, rel=1e-9)
+        assert np.abs(shape[:, 2]).max() == pytest.approx(height, rel=1e-9, abs=1e-9)
+
+
+def test_strict(torus, tmp_path):
+    """A torus is fit, but not one that is so coarse that it is sheared."""
+    good, bad = torus_obj(tmp_path / "good.obj", 40, 20), torus_obj(tmp_path / "bad.obj", 3, 3)
+    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'balanced'\n")
+    arguments = ("--recipe", tmp_path / "recipe.toml", "--workers", 1, "--strict")
+    assert run(good, "--out", tmp_path / "out", *arguments).returncode == 0
+    result = run(good, bad, "--out", tmp_path / "out", *arguments)
+    levels = {
+        path.parent.name: json.loads(path.read_text())["verdict"]["level"]
+        for path in (tmp_path / "out/assets").rglob("report.json")
+    }
+    assert levels["good.obj"] == "good" and levels["bad.obj"] in ("poor", "unusable")
+    assert result.returncode == 3 and result.stderr.endswith("the first is bad.obj\n")
