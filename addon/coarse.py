@@ -23,9 +23,13 @@ class Place:
     vertex: int  # off the boundary, of the coarsest face that has one
 
 
-def places(obj, polygons, uv):
-    """The `Place`s of an object's polygons under (#C, 2) UVs, the largest first."""
-    octaves = distortion.measure(polygons.vertices, polygons.corner_vertices, polygons.face_offsets, uv).density
+def measured(polygons, uv):
+    """The `distortion.Distortion` of polygons under (#C, 2) UVs."""
+    return distortion.measure(polygons.vertices, polygons.corner_vertices, polygons.face_offsets, uv)
+
+
+def places(obj, polygons, octaves):
+    """The `Place`s of an object's polygons with this `Distortion.density`, the largest first."""
     faces = np.flatnonzero(octaves < OCTAVES)
     if not len(faces):
         return []

@@ -10,6 +10,7 @@ import numpy as np
 from . import (
     coarse,
     compatibility,
+    distortion,
     heat,
     maps,
     material,
@@ -132,19 +133,25 @@ def _problems(obj, solved, tiled):
 
 
 def with_coarse_places(obj, polygons, entry):
-    """The report's entry with the places that the main map leaves coarse, where it is uneven."""
+    """The report's entry with the places that the main map leaves coarse, where it is uneven, and how many faces are
+    too small in it for the single precision of Blender's UV maps."""
     ratios = [part["main_map"]["density_ratio"] for part in entry["components"] if part["done"]]
     if all(ratio is not None and ratio <= native.load().UNEVEN[0] for ratio in ratios):
-        return entry | {"coarse_places": []}
+        return entry | {"coarse_places": [], "faces_without_area": 0}
     name = entry["maps"][0]["name"]
-    found = coarse.places(obj, polygons, mesh_io.read_corners(obj.data, polygons, name))
-    return entry | {"coarse_places": [vars(place) for place in found]}
+    found = coarse.measured(polygons, mesh_io.read_corners(obj.data, polygons, name))
+    places = [vars(place) for place in coarse.places(obj, polygons, found.density)]
+    without_area = int(np.count_nonzero(found.angle >= distortion.MOST_ANGLE))
+    return entry | {"coarse_places": places, "faces_without_area": without_area}
 
 
 def judge(outcome, obj, entry):
     """Adds the verdict on an object's map: among the problems where no texture can be put on."""
     found = report.verdict(entry)
     (outcome.notes if found.is_fit else outcome.problems).append(f"{obj.name}: {found.text}")
+    count = entry.get("faces_without_area", 0)
+    if count:
+        outcome.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
 
 
 def surface_problems(obj, surface):

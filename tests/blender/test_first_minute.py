@@ -212,6 +212,17 @@ def test_a_place_has_the_name_of_its_vertex_group():
     assert coarse.sentence([place | {"times": 999}] * 3).startswith("Arm.L and 2 more places are over 200 times")
 
 
+def test_faces_that_single_precision_loses_are_told():
+    """The density falls along a spike by the power of its length."""
+    obj = spikes()
+    for vertex in obj.data.vertices:
+        vertex.co = [x + 6 * max(x - 1, 0) for x in vertex.co]
+    run()
+    entry = stored_report(obj)
+    lost, double = entry["faces_without_area"], entry["components"][0]["main_map"]["collapsed_triangles"]
+    assert lost > double == 0
+
+
 def test_the_button_puts_poles_where_it_is_coarse():
     obj = spikes()
     run()
@@ -244,7 +255,8 @@ def test_poles_are_off_the_boundary():
     fine = np.zeros((len(polygons.corner_vertices), 2))
     fine[:] = polygons.vertices[polygons.corner_vertices][:, [axis - 1, axis - 2]]
     is_far = polygons.vertices[polygons.corner_vertices, axis] > 1.5
-    found = coarse.places(obj, polygons, np.where(is_far[:, None], 0.01 * fine, fine))
+    octaves = coarse.measured(polygons, np.where(is_far[:, None], 0.01 * fine, fine)).density
+    found = coarse.places(obj, polygons, octaves)
     assert found and all(is_inner[place.vertex] for place in found)
 
 
