@@ -8,6 +8,7 @@ import numpy as np
 
 from . import distortion, mesh_edges, mesh_io, native
 from .compatibility import Values
+from .faces import edge_ends
 
 REFUSED, NO_AREA, TOUCHING, LOOSE, FLIPPED = "REFUSED", "NO_AREA", "TOUCHING", "LOOSE", "FLIPPED"
 NONE = np.empty(0, np.int64)
@@ -61,21 +62,13 @@ def _loose(polygons):
 
 def _refused(polygons, parts):
     """((n, 2) edges with more than two faces, faces of those of the refused `parts` that have no such edge)"""
-    ends = _edges(polygons)
+    ends = edge_ends(polygons)
     pairs, index, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
     is_bad = (count > 2)[index.ravel()]
     face_of_corner = np.repeat(np.arange(polygons.face_count), np.diff(polygons.face_offsets))
     with_bad_edges = face_of_corner[is_bad]
     others = [faces for faces in parts if not np.isin(faces, with_bad_edges).any()]
     return pairs[count > 2], np.concatenate([NONE, *others])
-
-
-def _edges(polygons):
-    """(#C, 2) vertices of the edge from each corner to the next one of its face, lower vertex first."""
-    following = np.arange(1, len(polygons.corner_vertices) + 1)
-    following[polygons.face_offsets[1:] - 1] = polygons.face_offsets[:-1]
-    corners = polygons.corner_vertices.astype(np.int64)
-    return np.sort(np.stack([corners, corners[following]], axis=1), axis=1)
 
 
 def _flipped(face_offsets, uv):

@@ -75,7 +75,7 @@ def write(path):
         form = "GLB" if kind == ".glb" else "GLTF_SEPARATE"
         _call(path, "write", bpy.ops.export_scene.gltf, export_format=form)
     elif kind in USD:
-        _call(path, "write", bpy.ops.wm.usd_export, export_uvmaps=True)
+        _call(path, "write", bpy.ops.wm.usd_export, export_uvmaps=True, rename_uvmaps=False)
     elif kind == ".obj":
         _call(path, "write", bpy.ops.wm.obj_export)
     else:
@@ -89,6 +89,8 @@ def _call(path, verb, operator, **options):
     kind = KINDS[path.suffix.lower()]
     if not compatibility.is_there(operator):
         raise ExchangeError(f"{path}: this Blender cannot {verb} {kind}")
+    known = operator.get_rna_type().properties.keys()
+    options = {name: value for name, value in options.items() if name in known}  # some are new in later versions
     try:
         operator(filepath=str(path.resolve()), **options)
     except RuntimeError as error:

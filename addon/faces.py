@@ -47,6 +47,26 @@ def part(polygons, mask):
     return replace(polygons, corner_vertices=chosen, face_offsets=offsets, loops=loops, faces=faces)
 
 
+def edge_ends(polygons):
+    """(#C, 2) vertices of the edge from each corner to the next one of its face, lower vertex first."""
+    following = np.arange(1, len(polygons.corner_vertices) + 1)
+    following[polygons.face_offsets[1:] - 1] = polygons.face_offsets[:-1]
+    corners = polygons.corner_vertices.astype(np.int64)
+    return np.sort(np.stack([corners, corners[following]], axis=1), axis=1)
+
+
+def border(mesh, polygons):
+    """(n, 2) vertices of the edges between these polygons and the others of the mesh."""
+    if polygons.faces is None:
+        return np.empty((0, 2), np.int64)
+    whole = mesh_io.read_polygons(mesh, np.eye(3))
+    ends, is_own = edge_ends(whole), np.zeros(whole.face_count, bool)
+    is_own[polygons.faces] = True
+    of_own = np.repeat(is_own, np.diff(whole.face_offsets))
+    key = ends[:, 0] * len(whole.vertices) + ends[:, 1]
+    return ends[of_own & np.isin(key, key[~of_own])]
+
+
 def repairs(solved):
     """The repairs of a `solve.SolvedObject`, with faces as the mesh counts them; vertices of other faces are not
     isolated."""

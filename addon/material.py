@@ -8,8 +8,10 @@ The material slots are linked to the object while it is shown, so the mesh keeps
 from dataclasses import dataclass
 
 import bpy
+import numpy as np
 
-from . import nodes, textures
+from . import mesh_io, nodes, textures
+from .compatibility import Values
 from .patterns import TEXTURES
 
 CHECKER = "CHECKER"
@@ -84,10 +86,18 @@ def uncover(obj):
             slot.material = None if before == EMPTY else before
             slot.link = "DATA" if before is None else "OBJECT"
     if len(obj.data.materials) == 1 and _is_ours(obj.data.materials[0]):
-        obj.data.materials.clear()
+        _clear(obj.data)
     if REPLACED in obj:
         del obj[REPLACED]
     return found
+
+
+def _clear(mesh):
+    """Takes all slots away; the faces keep their numbers of slots, which Blender sets to 0."""
+    numbers = Values(mesh.polygons, "material_index", np.int32)
+    before = mesh_io.read_values(numbers)
+    mesh.materials.clear()
+    mesh_io.write_values(numbers, before)
 
 
 def is_covered(obj):

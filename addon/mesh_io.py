@@ -165,7 +165,8 @@ def write_map(mesh, polygons, name, uv):
     own = "" if polygons.faces is None else _own_map(mesh, name)
     if own:
         overwrite_map(mesh, polygons, own, uv)
-        return WrittenMap(own, "uv_map" if own in mesh.uv_layers else "attribute")
+        is_uv_map = own in mesh.uv_layers.keys()[: compatibility.UV_MAP_LIMIT]  # further ones are attributes as well
+        return WrittenMap(own, "uv_map" if is_uv_map else "attribute")
     uv = _of_loops(mesh, polygons, uv, "" if polygons.faces is None else getattr(mesh.uv_layers.active, "name", ""))
     # References to layers do not survive the next `new`: look up by name, keep nothing.
     if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:

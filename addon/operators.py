@@ -9,7 +9,7 @@ from .properties import MapProperties
 
 
 class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
-    """Compute conformal UV maps for the selected meshes, whatever their shape.
+    """Compute conformal UV maps for the selected meshes, whatever their shape; in edit mode for the selected faces.
     Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
 
     bl_idname = "uv.holomorphic_maps"

@@ -11,6 +11,7 @@ from . import (
     coarse,
     compatibility,
     distortion,
+    faces,
     heat,
     maps,
     material,
@@ -190,7 +191,8 @@ def _write_object(outcome, obj, polygons, mapped, map_options, options):
     mesh_io.add_own_maps(mesh, [w.name for w in written])
     shown = written[min(options.shown, len(written) - 1)]
     mesh_io.show_map(mesh, shown.name)
-    new_seams = mesh_edges.add_seams(mesh, _seam_pairs(solved, tiled)) if options.seams else 0
+    cuts = [_seam_pairs(solved, tiled), faces.border(mesh, polygons)] if options.seams else []
+    new_seams = mesh_edges.add_seams(mesh, np.concatenate(cuts)) if cuts else 0
     shape = maps.shape_points(solved) if options.shape else None
     if shape is not None:
         mesh_io.write_shape(mesh, shape)

@@ -5,7 +5,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import empties, heat, material, mesh_edges, mesh_io, native, patterns, report, restore, run, tile_report, tiling
+from . import (
+    empties,
+    faces,
+    heat,
+    material,
+    mesh_edges,
+    mesh_io,
+    native,
+    patterns,
+    report,
+    restore,
+    run,
+    tile_report,
+    tiling,
+)
 
 CHECKER_CELLS = 4  # squares across an image of the checker
 
@@ -52,7 +66,8 @@ def _write_object(context, outcome, obj, polygons, tiled, options):
     written = mesh_io.write_map(mesh, polygons, mesh_io.MAIN_MAP, tiling.placed(tiled, options.quarters))
     mesh_io.add_own_maps(mesh, [written.name])
     mesh_io.show_map(mesh, written.name)
-    new_seams = mesh_edges.add_seams(mesh, _seam_pairs(tiled)) if options.seams else 0
+    cuts = [_seam_pairs(tiled), faces.border(mesh, polygons)] if options.seams else []
+    new_seams = mesh_edges.add_seams(mesh, np.concatenate(cuts)) if cuts else 0
     if options.checker:
         _show(outcome, obj, tiled, written, options)
     heat.refresh(obj)

@@ -7,6 +7,7 @@ import pytest
 from conftest import module
 from scenes import (
     everything,
+    mesh_edges,
     mesh_io,
     mesh_object,
     pick,
@@ -87,6 +88,17 @@ def test_selected_faces_get_what_they_get_as_a_mesh_of_their_own():
         assert np.array_equal(uv(obj, name)[corners_of(HALF)], uv(alone, name)), name
     rest = np.setdiff1d(np.arange(len(obj.data.loops)), corners_of(HALF))
     assert not uv(obj)[rest].any()
+
+
+def test_the_border_of_a_selection_is_marked_with_the_cuts():
+    obj = torus()
+    pick_faces(obj, HALF)
+    run(seams=True)
+    leave()
+    marked = {tuple(sorted(pair)) for pair in mesh_edges.marked_edges(obj.data, "use_seam").tolist()}
+    rings = [start + np.arange(ACROSS) for start in (0, 12 * ACROSS)]  # vertices at the two ends of the pipe
+    border = {tuple(sorted(pair)) for ring in rings for pair in np.stack([ring, np.roll(ring, -1)], 1).tolist()}
+    assert border < marked and len(marked) == len(border) + stored_report(obj)["components"][0]["seam_edges"]
 
 
 def test_a_second_selection_keeps_the_uvs_of_the_first():

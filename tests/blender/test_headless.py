@@ -14,13 +14,17 @@ from scenes import limb_arrays, mesh_edges, mesh_io, sphere_arrays, torus, torus
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
 SCRIPT = str(ROOT / "addon" / "headless.py")
 SECONDS = 300
-# What `blender -b FILE --python SCRIPT` does, where Blender is a Python module.
+# What `blender -b FILE --python SCRIPT` does, where Blender is a Python module. In 4.2 such a module crashes at the end
+# of the process where a class is still registered, as Blender's glTF exporter leaves some: it ends without.
 AS_MODULE = """
-import runpy, sys, bpy
+import os, runpy, sys, bpy
 blend, script = sys.argv[1:3]
 if blend:
     bpy.ops.wm.open_mainfile(filepath=blend)
 runpy.run_path(script, run_name="__main__")
+sys.stdout.flush()
+sys.stderr.flush()
+os._exit(0)
 """
 
 needs_program = pytest.mark.skipif(not BLENDER, reason="needs a Blender program: HOLOMORPH_BLENDER names it")

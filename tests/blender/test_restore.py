@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, run, select, torus, uv
+from scenes import everything, mesh_io, run, select, torus, uv
 from test_faces import add_own_map
 
 
@@ -90,6 +90,17 @@ def test_a_map_that_was_renamed_is_left_alone():
     obj.data.uv_layers["Second"].name = "Renamed"
     assert restore() == {"FINISHED"}
     assert shown(obj)[:2] == ("Holomorphic", "First")
+
+
+def test_faces_keep_their_numbers_of_slots_that_are_not_there():
+    obj = torus()
+    numbers = module("compatibility").Values(obj.data.polygons, "material_index", np.int32)
+    before = np.arange(288, dtype=np.int32) % 3
+    mesh_io.write_values(numbers, before)
+    run()
+    assert len(obj.material_slots) == 1 and restore() == {"FINISHED"}
+    numbers = numbers._replace(elements=obj.data.polygons)
+    assert not obj.material_slots and np.array_equal(mesh_io.read_values(numbers), before)
 
 
 def test_restoring_in_edit_mode():
