@@ -42,6 +42,7 @@ class HOLOMORPH_OT_remove_maps(bpy.types.Operator):
                     self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
                 else:
                     removed |= restore.remove_maps(obj)
+        context.view_layer.update()  # or it lists empties that are gone
         viewport.restore_without_textures(context)
         return {"FINISHED"} if removed else {"CANCELLED"}
 
