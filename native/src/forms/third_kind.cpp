@@ -52,6 +52,22 @@ Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Poles& poles, Work
   return B;
 }
 
+// Of what the right-hand sides are fluxes, m columns of u, then of v, each with the coefficients `of_u`, `of_v`.
+FluxTerms pole_terms(const HalfEdges& mesh, const Poles& poles, const Eigen::MatrixXd& of_u,
+                     const Eigen::MatrixXd& of_v) {
+  const Eigen::MatrixXd r_u = poles.residues * of_u, r_v = poles.residues * of_v;
+  FluxTerms terms = function_terms(mesh, poles.part.u * r_u + poles.part.v * r_v);
+  terms.outer_eta = [of_links = std::move(terms.eta), of_classes = class_terms(poles.classes, of_u).eta](
+                        HalfedgeHandle h, Eigen::VectorXd& values) {
+    of_links(h, values);
+    of_classes(h, values);
+  };
+  terms.eta = {};
+  terms.outer_weights = poles.outer_weights;
+  terms.sources = poles.part.b_u * r_u + poles.part.b_v * r_v;
+  return terms;
+}
+
 // Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at fixed vertices are no equations.
 double relative_residual(const HalfEdges& mesh, std::span<const double> weights, const Eigen::MatrixXd& B,
                          const RowMajorMatrix& X, const std::vector<int>& fixed) {
@@ -79,19 +95,21 @@ Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed) {
 }
 
 PoleFunctions pole_functions(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
-                             solver::LaplaceSolver& solver, const std::vector<int>& fixed, Execution& execution) {
+                             RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution) {
   const auto m = poles.residues.cols();
   const Eigen::MatrixXd B = right_hand_sides(mesh, poles, execution.workers());
   std::vector<solver::Condition> conditions(2 * m, solver::Condition::natural);
   if (!fixed.empty()) std::fill(conditions.begin() + m, conditions.end(), solver::Condition::dirichlet);
-  const RowMajorMatrix X = solver.solve(B, conditions, execution);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(2 * m, 2 * m);
+  const RowMajorMatrix X = solver.solve(
+      B, conditions, [&] { return pole_terms(mesh, poles, identity.topRows(m), identity.bottomRows(m)); }, execution);
   return {X.leftCols(m) + poles.part.u * poles.residues, X.rightCols(m) + poles.part.v * poles.residues,
           relative_residual(mesh, weights, B, X, fixed)};
 }
 
 RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
                                    const topology::IntegerForms& natural, const Eigen::VectorXcd& p,
-                                   const Eigen::VectorXcd& r, solver::LaplaceSolver& solver, Execution& execution) {
+                                   const Eigen::VectorXcd& r, RefinedSolver& solver, Execution& execution) {
   Eigen::MatrixXd periods(p.size(), 2), of_u(r.size(), 2), of_v(r.size(), 2);
   periods << p.real(), p.imag();
   of_u << r.real(), r.imag();
@@ -100,7 +118,12 @@ RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double
   const Eigen::MatrixXd all = right_hand_sides(mesh, poles, workers);
   Eigen::MatrixXd B = all.leftCols(r.size()) * of_u + all.rightCols(r.size()) * of_v;
   if (p.size() > 0) B += codifferentials(mesh, weights, natural, periods, workers);
-  const RowMajorMatrix X = solver.solve(B, solver::Condition::natural, execution);
+  const auto terms = [&] {
+    FluxTerms both = pole_terms(mesh, poles, of_u, of_v);
+    if (p.size() > 0) both.eta = class_terms(natural, periods).eta;
+    return both;
+  };
+  const RowMajorMatrix X = solver.solve(B, solver::Condition::natural, terms, execution);
   return X + poles.part.u * (poles.residues * of_u) + poles.part.v * (poles.residues * of_v);
 }
 

@@ -117,8 +117,9 @@ void Landscape::solve_for(const std::vector<int>& vertices, Execution& execution
   else
     B.setZero();
   for (Eigen::Index i = 0; i < B.cols(); ++i) B(vertices[i], i) += 1;
-  const auto v =
-      systems_->solver().solve(B, closed() ? solver::Condition::natural : solver::Condition::dirichlet, execution);
+  const auto v = systems_->solver().solve(
+      B, closed() ? solver::Condition::natural : solver::Condition::dirichlet,
+      [&] { return forms::FluxTerms{.sources = B}; }, execution);
   const Eigen::MatrixXcd parts = uv::parts_of_imaginary(*structure_.surface, samples_, v);
   for (Eigen::Index i = 0; i < parts.cols(); ++i) pole_parts_.emplace(vertices[i], parts.col(i));
 }

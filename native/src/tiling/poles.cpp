@@ -10,6 +10,18 @@ Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& exec
       .array();
 }
 
+double median(const Eigen::ArrayXd& density) {
+  std::vector<double> values(density.begin(), density.end());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double unevenness(const Eigen::ArrayXd& density) {
+  const Eigen::ArrayXd y = (density / median(density) + uv::kDensityFloor).log();
+  return (y - y.mean()).square().mean();
+}
+
 double density_ratio(const Eigen::ArrayXd& density) {
   std::vector<double> sorted(density.begin(), density.end());
   std::sort(sorted.begin(), sorted.end());
