@@ -4,6 +4,8 @@
 
 namespace holomorph::tiling {
 
+constexpr double kLeast = 1e-200;  // relative
+
 Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution) {
   return (landscape.holomorphic().M * poles.coefficients + landscape.poles(poles.vertices, execution) * poles.residues)
       .cwiseAbs2()
@@ -14,7 +16,7 @@ double median(const Eigen::ArrayXd& density) {
   std::vector<double> values(density.begin(), density.end());
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return std::max(*middle, kLeast * density.maxCoeff());
 }
 
 double unevenness(const Eigen::ArrayXd& density) {

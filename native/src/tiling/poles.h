@@ -18,6 +18,7 @@ struct Poles {
 /// |theta_0|^2 on the samples.
 Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution);
 
+/// The median; more than 0 even where the density falls below all numbers.
 double median(const Eigen::ArrayXd& density);
 
 /// Variance of log(q / median q + uv::kDensityFloor). Not of the mean: beside one high peak all else would be below the
