@@ -11,8 +11,6 @@
 namespace holomorph::forms {
 namespace {
 
-// Up to this weight the rounding of fluxes, even among some as much smaller, keeps errors below kEnergyError.
-constexpr double kStiff = 1e4;
 constexpr int kMostSteps = 10;
 // A step that leaves more than this part of the error was the last.
 constexpr double kLeastGain = 0.5;

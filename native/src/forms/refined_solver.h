@@ -17,6 +17,9 @@ namespace holomorph::forms {
 /// is promised. Energies, and with them Gram matrices and bounds, are off by the square.
 inline constexpr double kEnergyGoal = 1e-10, kEnergyError = 1e-6;
 
+/// Up to this weight the rounding of fluxes, even among some as much smaller, keeps errors below kEnergyError.
+inline constexpr double kStiff = 1e4;
+
 class RefinedSolver {
  public:
   /// @param weights #E. @param fixed vertices at which Dirichlet functions are 0
