@@ -4,7 +4,7 @@ solved to what is promised, or refused; what they give does not depend on the nu
 import families
 import numpy as np
 import pytest
-from holomorph import ProgressiveMesh, SolverError, Surface, Tiler, conformal_structure
+from holomorph import ProgressiveMesh, SolverError, Surface, conformal_structure
 from test_thin_triangles import glued, layout
 
 PROMISED = 1e-6  # relative error of a form in energy
@@ -81,9 +81,7 @@ def test_a_map_that_is_harmonic_stays(thinnest, solver):
     """On the level that is the whole surface. At 1e-12 it moved by 3e-5 of its size."""
     surface = thin_torus(thinnest)
     uv = conformal_structure(surface).uv([1])
-    (level,) = ProgressiveMesh(surface).levels_of_detail(
-        uv, [len(surface.triangles)], harmonic=True, solver=solver
-    )
+    (level,) = ProgressiveMesh(surface).levels_of_detail(uv, [len(surface.triangles)], harmonic=True, solver=solver)
     assert level.drift.max() < PROMISED * np.ptp(uv)
     assert level.solver.residual < PROMISED
 

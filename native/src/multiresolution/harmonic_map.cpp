@@ -113,10 +113,11 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
   forms::RefinedSolver solver(plain.half_edges, weights, fixed, choice, execution);
   HarmonicMap result;
-  result.moves = solver.solve(forms::codifferentials(surface, weights, edge_values, execution.workers()),
-                              conditions_of(edge_values.cols(), !fixed.empty()),
-                              [&] { return terms_of(edge_values); }, execution) -
-                 start;
+  result.moves =
+      solver.solve(
+          forms::codifferentials(surface, weights, edge_values, execution.workers()),
+          conditions_of(edge_values.cols(), !fixed.empty()), [&] { return terms_of(edge_values); }, execution) -
+      start;
   const auto weights_of_mean = mesh::vertex_areas(surface, plain.lengths);
   const Eigen::Map<const Eigen::VectorXd> areas(weights_of_mean.data(), surface.vertex_count);
   Eigen::RowVectorXd mean = areas.transpose() * result.moves / areas.sum();

@@ -78,8 +78,9 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   result.solver = std::move(solved.solver);
   forms::RefinedSolver refined(triangulation.half_edges, weights, {}, result.memory.choice,
                                std::make_unique<Gradients>(laplacian), execution.workers());
-  refined.refine(result.functions, std::vector<solver::Condition>(classes.form_count, solver::Condition::natural),
-                 [&] { return forms::class_terms(classes, 0, classes.form_count); }, execution);
+  refined.refine(
+      result.functions, std::vector<solver::Condition>(classes.form_count, solver::Condition::natural),
+      [&] { return forms::class_terms(classes, 0, classes.form_count); }, execution);
   if (refined.is_stiff()) result.solver.residual = refined.residual();
 
   execution.stage("certificates", 0.85, 1.0);

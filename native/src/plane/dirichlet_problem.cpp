@@ -24,13 +24,15 @@ DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<c
   const auto choice = solver::choose_method(options.solver, L.rows(), values.cols());
   forms::RefinedSolver solver(half_edges, weights, fixed, choice, execution);
   DirichletSolution result;
-  result.functions = values + solver.solve(-(L * values), solver::Condition::dirichlet,
-                                           [&] { return forms::function_terms(half_edges, values); }, execution);
+  result.functions = values + solver.solve(
+                                  -(L * values), solver::Condition::dirichlet,
+                                  [&] { return forms::function_terms(half_edges, values); }, execution);
   result.solver = structure::solver_report(solver);
   Eigen::MatrixXd flux = L * result.functions;
   const double largest = (L.cwiseAbs() * result.functions.cwiseAbs()).maxCoeff();
-  result.energies = solver.is_stiff() ? energies(half_edges, weights, result.functions)
-                          : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());
+  result.energies = solver.is_stiff()
+                        ? energies(half_edges, weights, result.functions)
+                        : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());
   for (const int v : fixed) flux.row(v).setZero();
   result.harmonicity = flux.cwiseAbs().maxCoeff() / largest;
   return result;

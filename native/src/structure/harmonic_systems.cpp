@@ -25,9 +25,7 @@ void HarmonicSystems::solve_in_blocks(const topology::IntegerForms& classes, int
   }
 }
 
-SolverReport HarmonicSystems::report() const {
-  return solver_report(solver_);
-}
+SolverReport HarmonicSystems::report() const { return solver_report(solver_); }
 
 HarmonicFunctions HarmonicSystems::solve(const topology::IntegerForms& classes, int natural, int block,
                                          Execution& execution) {

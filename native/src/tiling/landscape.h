@@ -50,8 +50,8 @@ class Landscape {
   /// What solves on the surface's own triangles; null where nothing had to be solved for.
   const std::shared_ptr<structure::HarmonicSystems>& systems() const { return systems_; }
 
-  /// Whether rounding is not seen in the fluxes beside a vertex: its neighbours have no large weights. Elsewhere no pole
-  /// is placed.
+  /// Whether rounding is not seen in the fluxes beside a vertex: its neighbours have no large weights. Elsewhere no
+  /// pole is placed.
   bool is_certain(int vertex) const { return uncertain_.empty() || !uncertain_[vertex]; }
 
   const mesh::Sides& sides() const { return *sides_; }

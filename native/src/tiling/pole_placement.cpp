@@ -176,8 +176,7 @@ class Search {
       std::vector<int> vertices = poles.vertices;
       vertices[i] = candidates[j];
       const Eigen::ArrayXd density = (without + poles.residues[i] * green.col(j)).cwiseAbs2().array();
-      scores[j] = {unevenness(density) + objective_.leverage_term(vertices, poles.residues, metric),
-                   candidates[j]};
+      scores[j] = {unevenness(density) + objective_.leverage_term(vertices, poles.residues, metric), candidates[j]};
     });
     std::sort(scores.begin(), scores.end());
     std::vector<Poles> tried;
