@@ -22,7 +22,10 @@ DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<c
   const auto laplacian = forms::laplacian(half_edges, weights, execution);
   const auto L = laplacian.matrix();
   const auto choice = solver::choose_method(options.solver, L.rows(), values.cols());
-  forms::RefinedSolver solver(half_edges, weights, fixed, choice, execution);
+  auto given = laplacian;
+  forms::RefinedSolver solver(half_edges, weights, fixed, choice,
+                              solver::make_solver(choice.method, std::move(given), fixed, execution),
+                              execution.workers());
   DirichletSolution result;
   result.functions = values + solver.solve(
                                   -(L * values), solver::Condition::dirichlet,

@@ -19,9 +19,10 @@ void HarmonicSystems::solve_in_blocks(const topology::IntegerForms& classes, int
     std::vector<solver::Condition> conditions(width, solver::Condition::natural);
     std::fill(conditions.begin() + std::clamp(natural - first, 0, width), conditions.end(),
               solver::Condition::dirichlet);
-    take(first, solver_.solve(
-                    forms::codifferentials(half_edges_, weights_, classes, first, width, execution.workers()),
-                    conditions, [&] { return forms::class_terms(classes, first, width); }, execution));
+    forms::RowMajorMatrix functions = solver_.solve(
+        forms::codifferentials(half_edges_, weights_, classes, first, width, execution.workers()), conditions,
+        [&] { return forms::class_terms(classes, first, width); }, execution);
+    take(first, std::move(functions));
   }
 }
 
