@@ -86,6 +86,23 @@ double relative_residual(const HalfEdges& mesh, std::span<const double> weights,
   return (rest.cwiseAbs().colwise().maxCoeff().array() / size.colwise().maxCoeff().array()).maxCoeff();
 }
 
+// n x 1: values of the first n forms.
+Eigen::VectorXd along(const HalfEdges& mesh, const ClosedForms& forms, Eigen::Index n, HalfedgeHandle h) {
+  const int e = edge_of(h);
+  return mesh::sign(h) * edge_values(mesh, forms, e, e + 1).row(0).head(n).transpose();
+}
+
+// n x m: b_u . (values of h_j measured from the puncture).
+Eigen::MatrixXd flux_products(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic, Eigen::Index n) {
+  const RowMajorMatrix b_u = poles.part.b_u * poles.residues;
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, b_u.cols());
+  for (const mesh::Star& star : poles.stars) {
+    for (const HalfedgeHandle h : star.link)
+      products += along(mesh, harmonic, n, opposite(next(mesh, h))) * b_u.row(to_vertex(mesh, h));
+  }
+  return products;
+}
+
 }  // namespace
 
 Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed) {
@@ -130,18 +147,29 @@ RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double
 Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix) {
   const auto n = gram_matrix.rows();
-  const auto along = [&](HalfedgeHandle h) -> Eigen::VectorXd {
-    const int e = edge_of(h);
-    return mesh::sign(h) * edge_values(mesh, harmonic, e, e + 1).row(0).head(n).transpose();
-  };
   Eigen::MatrixXd P = class_products(mesh, poles.outer_weights, poles.classes, harmonic).leftCols(n).transpose();
-  const RowMajorMatrix u = poles.part.u * poles.residues, b_u = poles.part.b_u * poles.residues;
-  leaving_links(mesh, poles.stars,
-                [&](int a, HalfedgeHandle h) { P -= poles.outer_weights[edge_of(h)] * along(h) * u.row(a); });
-  for (const mesh::Star& star : poles.stars) {
-    for (const HalfedgeHandle h : star.link) P -= along(opposite(next(mesh, h))) * b_u.row(to_vertex(mesh, h));
+  const RowMajorMatrix u = poles.part.u * poles.residues;
+  leaving_links(mesh, poles.stars, [&](int a, HalfedgeHandle h) {
+    P -= poles.outer_weights[edge_of(h)] * along(mesh, harmonic, n, h) * u.row(a);
+  });
+  return gram_matrix.llt().solve(P - flux_products(mesh, poles, harmonic, n));
+}
+
+Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
+                              const RowMajorMatrix& u, const ClosedForms& harmonic,
+                              const Eigen::MatrixXd& gram_matrix) {
+  const auto n = gram_matrix.rows();
+  const RowMajorMatrix f = u - poles.part.u * poles.residues;
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, u.cols());
+  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
+    const HalfedgeHandle h(2 * e);
+    const int head = to_vertex(mesh, h), tail = mesh::from_vertex(mesh, h);
+    const double outer = poles.outer_weights[e], inner = weights[e] - outer;
+    Eigen::RowVectorXd whole = u.row(head) - u.row(tail);
+    for (const auto& [i, value] : poles.classes.rows[e]) whole[i] += value;
+    P += along(mesh, harmonic, n, h) * (outer * whole + inner * (f.row(head) - f.row(tail)));
   }
-  return gram_matrix.llt().solve(P);
+  return gram_matrix.llt().solve(P - flux_products(mesh, poles, harmonic, n));
 }
 
 }  // namespace holomorph::forms

@@ -59,4 +59,9 @@ RowMajorMatrix function_with_poles(const mesh::HalfEdges& half_edges, std::span<
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const Poles& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);
 
+/// The same where weights are large, from the u that were solved for, #V x m. Outside the stars <u_s, h_j> is <u, h_j>,
+/// as <df, h_j> is 0: a sum over all edges, of products of which both factors are small where the weight is not.
+Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, std::span<const double> weights, const Poles& poles,
+                              const RowMajorMatrix& u, const ClosedForms& harmonic, const Eigen::MatrixXd& gram_matrix);
+
 }  // namespace holomorph::forms
