@@ -13,6 +13,8 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr int kBlock = 32;  // poles solved for at a time
+// Beyond this weight less than nine digits of a flux are certain.
+constexpr double kUncertain = 1e7;
 
 // The largest triangle at each vertex.
 std::vector<int> largest_triangles(const mesh::Surface& surface) {
@@ -34,7 +36,7 @@ std::vector<int> largest_triangles(const mesh::Surface& surface) {
 std::vector<char> uncertain_vertices(const mesh::Surface& surface, const Array<double>& weights) {
   std::vector<char> at_end, result;
   for (std::size_t e = 0; e < weights.size(); ++e) {
-    if (std::abs(weights[e]) <= forms::kStiff) continue;
+    if (std::abs(weights[e]) <= kUncertain) continue;
     at_end.resize(surface.vertex_count, 0);
     for (const int v : surface.edges[e]) at_end[v] = 1;
   }
