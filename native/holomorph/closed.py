@@ -35,6 +35,10 @@ class ConformalStructure(FormStructure):
     @property
     def harmonic_forms(self):
         """(2g, #E), dual to zeta: the integral of form i over zeta_j is delta_ij (paper § 6); see `prepare_uv`.
+
+        Harmonic on the triangles of the surface, where `gram_matrix` is of the intrinsic ones. If no form's energy
+        on the surface's triangles exceeds the one there by more than 1e-9 of it, the functions found there are taken:
+        then each form is the harmonic one to 3e-5 of its norm, and `uv_solver` is `solver`.
         Raises `SolverError` where they would take more than `memory_limit`, before they are made."""
         return self._harmonic_forms
 

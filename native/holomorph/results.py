@@ -54,7 +54,8 @@ class ClosedResiduals(Residuals):
 class MemoryPlan:
     """What `memory_limit` led to. keeps_forms: all harmonic functions are kept in memory, else each block of forms is
     freed once measured; block: right-hand sides solved for at a time; bytes: estimate of the most memory in use at
-    once, without the surface itself."""
+    once, without the surface itself; not less than what was measured, and up to 2.5 times that, 30 MB more of small
+    surfaces."""
 
     keeps_forms: bool
     block: int

@@ -1,7 +1,10 @@
 """memory_limit: forms in blocks give the same results as all forms at once, and what does not fit is refused."""
 
 import re
+import subprocess
+import sys
 from functools import cache
+from pathlib import Path
 
 import families
 import numpy as np
@@ -167,6 +170,44 @@ def test_all_forms_are_refused_before_they_are_made():
 def test_limits_that_are_none(limit):
     with pytest.raises(ValueError, match="memory_limit"):
         conformal_structure(surface_of(CLOSED["even torus"]), memory_limit=limit)
+
+
+# The peak of a computation in a process of its own, in bytes, and the plan's.
+PEAK = """
+import sys
+from pathlib import Path
+
+sys.path[:0] = {path!r}
+import families
+from holomorph import conformal_structure
+from solved import surface_of
+
+
+def status(name):
+    return next(1024 * int(line.split()[1]) for line in open("/proc/self/status") if line.startswith(name))
+
+
+surface = surface_of({mesh})
+conformal_structure(surface_of(families.torus(12, 8)), solver="{solver}")
+Path("/proc/self/clear_refs").write_text("5")
+before = status("VmRSS")
+plan = conformal_structure(surface, solver="{solver}", threads=2).memory
+print(status("VmHWM") - before, plan.bytes)
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the peak is Linux's to tell")
+@pytest.mark.parametrize("solver", ["direct", "multigrid"])
+@pytest.mark.parametrize(
+    "mesh", ["families.torus(200, 150)", "families.block_with_holes(8, refine=8)", "families.scaffold(3)"]
+)
+def test_the_estimate_and_the_peak(mesh, solver):
+    """2 MB are what the allocators keep."""
+    code = PEAK.format(path=sys.path, mesh=mesh, solver=solver)
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    peak, planned = map(int, ended.stdout.split())
+    assert peak <= planned + 2e6
+    assert planned <= 2.5 * peak + 30e6
 
 
 # ---- many handles -------------------------------------------------------------------------------------------------

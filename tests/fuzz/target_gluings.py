@@ -4,13 +4,12 @@ The torus C / (Z + tau Z) keeps its modulus tau however its vertices move in the
 over; a surface of squares is closed, of a genus that its vertices tell.
 """
 
-import json
-
 import actions
 import equivalence
 import families
 import numpy as np
 import oracle
+import plain_cases
 from holomorph import Surface, conformal_structure
 from target_pipeline import solver_options
 
@@ -81,22 +80,13 @@ def check_modulus(structure, tau):
         oracle.check_contains("period_bounds", *(float(b[0, 0]) for b in structure.period_bounds), computed.imag[0, 0])
 
 
-def save(case, stem):
-    path = stem.with_suffix(".json")
-    path.write_text(json.dumps(case) + "\n")
-    return path
-
-
-def load(path):
-    return json.loads(path.read_text())
+save, load = plain_cases.save, plain_cases.load
 
 
 def smaller(case):
     """Options, actions and triangles left out."""
-    for name in case["options"]:
-        yield case | {"options": {key: value for key, value in case["options"].items() if key != name}}
-    for name in case["actions"]:
-        yield case | {"actions": [other for other in case["actions"] if other != name]}
+    yield from plain_cases.with_fewer_options(case)
+    yield from plain_cases.with_fewer_actions(case)
     if case["tau"] is None:
         for k in range(len(case["faces"])):
             kept = {name: case[name] and case[name][:k] + case[name][k + 1 :] for name in ("faces", "lengths", "names")}

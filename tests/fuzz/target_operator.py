@@ -16,6 +16,7 @@ import bmesh
 import bpy
 import mesh_mutations
 import numpy as np
+import plain_cases
 from starts import STARTS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -163,21 +164,12 @@ def _object(case):
     return obj
 
 
-def save(case, stem):
-    path = stem.with_suffix(".json")
-    path.write_text(json.dumps(case) + "\n")
-    return path
-
-
-def load(path):
-    return json.loads(path.read_text())
+save, load = plain_cases.save, plain_cases.load
 
 
 def smaller(case):
-    for name in case["options"]:
-        yield case | {"options": {key: value for key, value in case["options"].items() if key != name}}
+    yield from plain_cases.with_fewer_options(case)
     for key, value in (("edits", []), ("scale", [1, 1, 1]), ("seams", []), ("picked", []), ("editing", False)):
         if case[key] != value:
             yield case | {key: value}
-    for vertices, faces in mesh_mutations.smaller(np.array(case["vertices"], float).reshape(-1, 3), case["faces"]):
-        yield case | {"vertices": vertices.tolist(), "faces": faces}
+    yield from plain_cases.with_fewer_faces(case)

@@ -4,13 +4,12 @@ A case is plain data, which JSON keeps: vertices, faces, options of `conformal_s
 options of their tilings, and the exact modulus of a surface that is flat.
 """
 
-import json
-
 import actions
 import exact_meshes
 import mesh_mutations
 import numpy as np
 import oracle
+import plain_cases
 from holomorph import Surface, conformal_structure
 from starts import STARTS
 
@@ -100,22 +99,12 @@ def execute_part(surface, options, case):
         oracle.answer(actions.ACTIONS[name], structure, case["tiling"])
 
 
-def save(case, stem):
-    path = stem.with_suffix(".json")
-    path.write_text(json.dumps(case) + "\n")
-    return path
-
-
-def load(path):
-    return json.loads(path.read_text())
+save, load = plain_cases.save, plain_cases.load
 
 
 def smaller(case):
     """Options and actions left out, then faces."""
-    for name in case["options"]:
-        yield case | {"options": {key: value for key, value in case["options"].items() if key != name}}
-    for name in case["actions"]:
-        yield case | {"actions": [other for other in case["actions"] if other != name]}
+    yield from plain_cases.with_fewer_options(case)
+    yield from plain_cases.with_fewer_actions(case)
     if case["modulus"] is None and not {"punctures", "rectangle_corners", "cut_edges"} & set(case["options"]):
-        for vertices, faces in mesh_mutations.smaller(np.array(case["vertices"], float).reshape(-1, 3), case["faces"]):
-            yield case | {"vertices": vertices.tolist(), "faces": faces}
+        yield from plain_cases.with_fewer_faces(case)

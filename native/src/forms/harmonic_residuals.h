@@ -1,7 +1,9 @@
-// By how much forms miss being harmonic, where weights are so large that rounding hides it.
+// By how much forms miss the fluxes that their linear systems ask for, where weights are so large that rounding hides
+// it.
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 
 #include "base/workers.h"
@@ -10,17 +12,37 @@
 
 namespace holomorph::forms {
 
-struct HarmonicResiduals {
-  Eigen::MatrixXd R;            ///< #V x #forms, -d* (eta + d f)
-  Eigen::RowVectorXd energies;  ///< #forms, <h, h>
+/// Adds the values of some forms along a half-edge. Several threads may call it at once.
+using AddValues = std::function<void(mesh::HalfedgeHandle, Eigen::VectorXd& values)>;
+
+/// The right-hand sides of systems L f_j = b_j in terms that stay small where weights are large: at each vertex the
+/// flux sum k (d f_j + eta_j) + k' eta'_j out of it, plus its source, is 0. What is left out is 0.
+struct FluxTerms {
+  AddValues eta = {};
+  AddValues outer_eta = {};
+  std::span<const double> outer_weights = {};  ///< k', #E
+  Eigen::MatrixXd sources = {};                ///< #V x #forms
 };
 
-/// Those of the classes first, first + 1, ... with these functions. The flux of each edge, k (f_i - f_j + eta),
-/// takes the differences first, and is summed in twice the working precision: with k = 1e8 fluxes of 1e-8
-/// remain, of which b - L f has no digit. At fixed vertices R is the flux through the boundary.
+/// eta_j of the classes first, first + 1, ... @pre the classes outlive it
+FluxTerms class_terms(const topology::IntegerForms& classes, int first, int count);
+
+/// The same of real combinations of the classes: column j is sum_i combinations(i, j) eta_i.
+FluxTerms class_terms(const topology::IntegerForms& classes, const Eigen::MatrixXd& combinations);
+
+/// eta_j = d g_j. @param functions #V x #forms @pre the mesh outlives it
+FluxTerms function_terms(const mesh::HalfEdges& half_edges, RowMajorMatrix functions);
+
+struct HarmonicResiduals {
+  Eigen::MatrixXd R;            ///< #V x #forms: the fluxes and sources, which are b - L f
+  Eigen::RowVectorXd energies;  ///< #forms, of d f + eta + eta'; of d f + eta where k' is not k
+};
+
+/// The flux of each edge, k (f_i - f_j + eta), takes the differences first, and is summed in twice the working
+/// precision: with k = 1e8 fluxes of 1e-8 remain, of which b - L f has no digit. At fixed vertices R is the flux
+/// through the boundary.
 /// Cost: about ten products with L, in parallel; the bits do not depend on the number of threads.
 HarmonicResiduals harmonic_residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                     const topology::IntegerForms& classes, int first, const RowMajorMatrix& functions,
-                                     Workers& workers);
+                                     const FluxTerms& terms, const RowMajorMatrix& functions, Workers& workers);
 
 }  // namespace holomorph::forms

@@ -52,6 +52,22 @@ Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Poles& poles, Work
   return B;
 }
 
+// Of what the right-hand sides are fluxes, m columns of u, then of v, each with the coefficients `of_u`, `of_v`.
+FluxTerms pole_terms(const HalfEdges& mesh, const Poles& poles, const Eigen::MatrixXd& of_u,
+                     const Eigen::MatrixXd& of_v) {
+  const Eigen::MatrixXd r_u = poles.residues * of_u, r_v = poles.residues * of_v;
+  FluxTerms terms = function_terms(mesh, poles.part.u * r_u + poles.part.v * r_v);
+  terms.outer_eta = [of_links = std::move(terms.eta), of_classes = class_terms(poles.classes, of_u).eta](
+                        HalfedgeHandle h, Eigen::VectorXd& values) {
+    of_links(h, values);
+    of_classes(h, values);
+  };
+  terms.eta = {};
+  terms.outer_weights = poles.outer_weights;
+  terms.sources = poles.part.b_u * r_u + poles.part.b_v * r_v;
+  return terms;
+}
+
 // Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at fixed vertices are no equations.
 double relative_residual(const HalfEdges& mesh, std::span<const double> weights, const Eigen::MatrixXd& B,
                          const RowMajorMatrix& X, const std::vector<int>& fixed) {
@@ -70,6 +86,23 @@ double relative_residual(const HalfEdges& mesh, std::span<const double> weights,
   return (rest.cwiseAbs().colwise().maxCoeff().array() / size.colwise().maxCoeff().array()).maxCoeff();
 }
 
+// n x 1: values of the first n forms.
+Eigen::VectorXd along(const HalfEdges& mesh, const ClosedForms& forms, Eigen::Index n, HalfedgeHandle h) {
+  const int e = edge_of(h);
+  return mesh::sign(h) * edge_values(mesh, forms, e, e + 1).row(0).head(n).transpose();
+}
+
+// n x m: b_u . (values of h_j measured from the puncture).
+Eigen::MatrixXd flux_products(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic, Eigen::Index n) {
+  const RowMajorMatrix b_u = poles.part.b_u * poles.residues;
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, b_u.cols());
+  for (const mesh::Star& star : poles.stars) {
+    for (const HalfedgeHandle h : star.link)
+      products += along(mesh, harmonic, n, opposite(next(mesh, h))) * b_u.row(to_vertex(mesh, h));
+  }
+  return products;
+}
+
 }  // namespace
 
 Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed) {
@@ -79,19 +112,21 @@ Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed) {
 }
 
 PoleFunctions pole_functions(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
-                             solver::LaplaceSolver& solver, const std::vector<int>& fixed, Execution& execution) {
+                             RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution) {
   const auto m = poles.residues.cols();
   const Eigen::MatrixXd B = right_hand_sides(mesh, poles, execution.workers());
   std::vector<solver::Condition> conditions(2 * m, solver::Condition::natural);
   if (!fixed.empty()) std::fill(conditions.begin() + m, conditions.end(), solver::Condition::dirichlet);
-  const RowMajorMatrix X = solver.solve(B, conditions, execution);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(2 * m, 2 * m);
+  const RowMajorMatrix X = solver.solve(
+      B, conditions, [&] { return pole_terms(mesh, poles, identity.topRows(m), identity.bottomRows(m)); }, execution);
   return {X.leftCols(m) + poles.part.u * poles.residues, X.rightCols(m) + poles.part.v * poles.residues,
           relative_residual(mesh, weights, B, X, fixed)};
 }
 
 RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
                                    const topology::IntegerForms& natural, const Eigen::VectorXcd& p,
-                                   const Eigen::VectorXcd& r, solver::LaplaceSolver& solver, Execution& execution) {
+                                   const Eigen::VectorXcd& r, RefinedSolver& solver, Execution& execution) {
   Eigen::MatrixXd periods(p.size(), 2), of_u(r.size(), 2), of_v(r.size(), 2);
   periods << p.real(), p.imag();
   of_u << r.real(), r.imag();
@@ -100,25 +135,41 @@ RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double
   const Eigen::MatrixXd all = right_hand_sides(mesh, poles, workers);
   Eigen::MatrixXd B = all.leftCols(r.size()) * of_u + all.rightCols(r.size()) * of_v;
   if (p.size() > 0) B += codifferentials(mesh, weights, natural, periods, workers);
-  const RowMajorMatrix X = solver.solve(B, solver::Condition::natural, execution);
+  const auto terms = [&] {
+    FluxTerms both = pole_terms(mesh, poles, of_u, of_v);
+    if (p.size() > 0) both.eta = class_terms(natural, periods).eta;
+    return both;
+  };
+  const RowMajorMatrix X = solver.solve(B, solver::Condition::natural, terms, execution);
   return X + poles.part.u * (poles.residues * of_u) + poles.part.v * (poles.residues * of_v);
 }
 
 Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix) {
   const auto n = gram_matrix.rows();
-  const auto along = [&](HalfedgeHandle h) -> Eigen::VectorXd {
-    const int e = edge_of(h);
-    return mesh::sign(h) * edge_values(mesh, harmonic, e, e + 1).row(0).head(n).transpose();
-  };
   Eigen::MatrixXd P = class_products(mesh, poles.outer_weights, poles.classes, harmonic).leftCols(n).transpose();
-  const RowMajorMatrix u = poles.part.u * poles.residues, b_u = poles.part.b_u * poles.residues;
-  leaving_links(mesh, poles.stars,
-                [&](int a, HalfedgeHandle h) { P -= poles.outer_weights[edge_of(h)] * along(h) * u.row(a); });
-  for (const mesh::Star& star : poles.stars) {
-    for (const HalfedgeHandle h : star.link) P -= along(opposite(next(mesh, h))) * b_u.row(to_vertex(mesh, h));
+  const RowMajorMatrix u = poles.part.u * poles.residues;
+  leaving_links(mesh, poles.stars, [&](int a, HalfedgeHandle h) {
+    P -= poles.outer_weights[edge_of(h)] * along(mesh, harmonic, n, h) * u.row(a);
+  });
+  return gram_matrix.llt().solve(P - flux_products(mesh, poles, harmonic, n));
+}
+
+Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
+                              const RowMajorMatrix& u, const ClosedForms& harmonic,
+                              const Eigen::MatrixXd& gram_matrix) {
+  const auto n = gram_matrix.rows();
+  const RowMajorMatrix f = u - poles.part.u * poles.residues;
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, u.cols());
+  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
+    const HalfedgeHandle h(2 * e);
+    const int head = to_vertex(mesh, h), tail = mesh::from_vertex(mesh, h);
+    const double outer = poles.outer_weights[e], inner = weights[e] - outer;
+    Eigen::RowVectorXd whole = u.row(head) - u.row(tail);
+    for (const auto& [i, value] : poles.classes.rows[e]) whole[i] += value;
+    P += along(mesh, harmonic, n, h) * (outer * whole + inner * (f.row(head) - f.row(tail)));
   }
-  return gram_matrix.llt().solve(P);
+  return gram_matrix.llt().solve(P - flux_products(mesh, poles, harmonic, n));
 }
 
 }  // namespace holomorph::forms

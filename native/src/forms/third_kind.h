@@ -11,8 +11,8 @@
 
 #include "base/execution.h"
 #include "forms/closed_forms.h"
+#include "forms/refined_solver.h"
 #include "forms/singular_part.h"
-#include "solver/laplace_solver.h"
 
 namespace holomorph::forms {
 
@@ -42,7 +42,7 @@ struct PoleFunctions {
 /// @return pairs whose u has the periods of the classes: where there are harmonic forms not yet conjugate, see
 /// harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
 PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const double> weights, const Poles& poles,
-                             solver::LaplaceSolver& solver, const std::vector<int>& fixed, Execution& execution);
+                             RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution);
 
 /// Of sum_j p_j h_j + sum_i r_i (u_i + i v_i) on a closed surface, the one form with these periods and residues alone:
 /// real and imaginary part of its function, #V x 2. The form is the differential of it + the same sum of the classes.
@@ -51,12 +51,17 @@ PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const 
 /// Cost: 2 solves. @throws SolverError, Cancelled
 RowMajorMatrix function_with_poles(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                    const Poles& poles, const topology::IntegerForms& natural, const Eigen::VectorXcd& p,
-                                   const Eigen::VectorXcd& r, solver::LaplaceSolver& solver, Execution& execution);
+                                   const Eigen::VectorXcd& r, RefinedSolver& solver, Execution& execution);
 
 /// C, #forms x m: u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v is.
 /// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the puncture).
 /// @param harmonic,gram_matrix on the same triangulation; with boundary the natural forms, the first of `harmonic`
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const Poles& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);
+
+/// The same where weights are large, from the u that were solved for, #V x m. Outside the stars <u_s, h_j> is <u, h_j>,
+/// as <df, h_j> is 0: a sum over all edges, of products of which both factors are small where the weight is not.
+Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, std::span<const double> weights, const Poles& poles,
+                              const RowMajorMatrix& u, const ClosedForms& harmonic, const Eigen::MatrixXd& gram_matrix);
 
 }  // namespace holomorph::forms

@@ -6,11 +6,10 @@
 
 #include "base/errors.h"
 #include "forms/codifferential.h"
-#include "forms/laplacian.h"
+#include "forms/refined_solver.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/components.h"
 #include "mesh/intrinsic_triangulation.h"
-#include "solver/solver_choice.h"
 
 namespace holomorph::multiresolution {
 namespace {
@@ -76,13 +75,16 @@ forms::RowMajorMatrix differences(const mesh::Surface& surface, const forms::Row
 }
 
 // All columns with the natural condition, or with a boundary those of v, the odd ones, with v fixed there.
-Eigen::MatrixXd solved(solver::LaplaceSolver& solver, const Eigen::MatrixXd& B, bool bounded, Execution& execution) {
-  if (!bounded) return solver.solve(B, solver::Condition::natural, execution);
-  Eigen::MatrixXd x(B.rows(), B.cols());
-  const auto u = Eigen::seq(0, Eigen::last, 2), v = Eigen::seq(1, Eigen::last, 2);
-  x(Eigen::all, u) = solver.solve(B(Eigen::all, u), solver::Condition::natural, execution);
-  x(Eigen::all, v) = solver.solve(B(Eigen::all, v), solver::Condition::dirichlet, execution);
-  return x;
+std::vector<solver::Condition> conditions_of(Eigen::Index columns, bool bounded) {
+  std::vector<solver::Condition> conditions(columns, solver::Condition::natural);
+  for (Eigen::Index v = 1; bounded && v < columns; v += 2) conditions[v] = solver::Condition::dirichlet;
+  return conditions;
+}
+
+forms::FluxTerms terms_of(const forms::RowMajorMatrix& edge_values) {
+  return {[&edge_values](mesh::HalfedgeHandle h, Eigen::VectorXd& values) {
+    values += mesh::sign(h) * edge_values.row(mesh::edge_of(h)).transpose();
+  }};
 }
 
 }  // namespace
@@ -109,18 +111,19 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
 
   execution.stage("harmonic map of the level", 0.2, 1.0);
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
-  const auto solver =
-      solver::make_solver(choice.method, forms::laplacian(plain.half_edges, weights, execution), fixed, execution);
+  forms::RefinedSolver solver(plain.half_edges, weights, fixed, choice, execution);
   HarmonicMap result;
-  result.moves = solved(*solver, forms::codifferentials(surface, weights, edge_values, execution.workers()),
-                        !fixed.empty(), execution) -
-                 start;
+  result.moves =
+      solver.solve(
+          forms::codifferentials(surface, weights, edge_values, execution.workers()),
+          conditions_of(edge_values.cols(), !fixed.empty()), [&] { return terms_of(edge_values); }, execution) -
+      start;
   const auto weights_of_mean = mesh::vertex_areas(surface, plain.lengths);
   const Eigen::Map<const Eigen::VectorXd> areas(weights_of_mean.data(), surface.vertex_count);
   Eigen::RowVectorXd mean = areas.transpose() * result.moves / areas.sum();
   if (!fixed.empty()) mean(Eigen::seq(1, Eigen::last, 2)).setZero();
   result.moves.rowwise() -= mean;
-  result.solver = structure::solver_report(*solver, choice);
+  result.solver = structure::solver_report(solver);
   execution.finish();
   return result;
 }

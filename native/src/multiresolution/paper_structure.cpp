@@ -26,6 +26,28 @@ structure::MemoryPlan planned(const mesh::Surface& surface, const structure::Opt
   return plan;
 }
 
+// Corrections by the paper's conjugate gradients.
+class Gradients final : public solver::LaplaceSolver {
+ public:
+  explicit Gradients(const solver::Laplacian& L) : L_(L) {}
+
+  solver::Solution solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>&,
+                         Execution& execution) override {
+    Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+    const auto report = solver::conjugate_gradients(L_, B, X, {}, execution);
+    if (!report.converged) {
+      throw SolverError("conjugate gradients do not refine the harmonic forms, on a system of " +
+                        std::to_string(B.rows()) + " unknowns; take one of auto, direct, multigrid");
+    }
+    return X;
+  }
+
+  std::string name() const override { return "conjugate gradients"; }
+
+ private:
+  const solver::Laplacian& L_;
+};
+
 }  // namespace
 
 structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
@@ -54,6 +76,12 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   auto solved = paper_forms(*levels, laplacian, B, {}, execution);
   result.functions.swap(solved.functions);
   result.solver = std::move(solved.solver);
+  forms::RefinedSolver refined(triangulation.half_edges, weights, {}, result.memory.choice,
+                               std::make_unique<Gradients>(laplacian), execution.workers());
+  refined.refine(
+      result.functions, std::vector<solver::Condition>(classes.form_count, solver::Condition::natural),
+      [&] { return forms::class_terms(classes, 0, classes.form_count); }, execution);
+  if (refined.is_stiff()) result.solver.residual = refined.residual();
 
   execution.stage("certificates", 0.85, 1.0);
   structure::complete(triangulation.half_edges, weights, errors, classes, result, execution);

@@ -1,8 +1,7 @@
 #include "plane/dirichlet_problem.h"
 
 #include "forms/laplacian.h"
-#include "solver/solver_choice.h"
-#include "structure/refinement.h"
+#include "forms/refined_solver.h"
 
 namespace holomorph::plane {
 
@@ -22,25 +21,21 @@ DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<c
                                   const structure::Options& options, Execution& execution) {
   const auto laplacian = forms::laplacian(half_edges, weights, execution);
   const auto L = laplacian.matrix();
-  auto given = laplacian;
   const auto choice = solver::choose_method(options.solver, L.rows(), values.cols());
-  const auto solver = solver::make_solver(choice.method, std::move(given), fixed, execution);
+  auto given = laplacian;
+  forms::RefinedSolver solver(half_edges, weights, fixed, choice,
+                              solver::make_solver(choice.method, std::move(given), fixed, execution),
+                              execution.workers());
   DirichletSolution result;
-  forms::RowMajorMatrix functions = values + solver->solve(-(L * values), solver::Condition::dirichlet, execution);
-  result.solver = structure::solver_report(*solver, choice);
-  const bool stiff = structure::is_stiff(weights, execution.workers());
-  if (stiff) {
-    topology::IntegerForms no_classes;
-    no_classes.rows.resize(weights.size());
-    const std::vector<solver::Condition> conditions(values.cols(), solver::Condition::dirichlet);
-    result.solver.residual =
-        structure::refine({half_edges, weights, fixed}, {no_classes, 0, conditions}, functions, *solver, execution);
-  }
-  result.functions = functions;
+  result.functions = values + solver.solve(
+                                  -(L * values), solver::Condition::dirichlet,
+                                  [&] { return forms::function_terms(half_edges, values); }, execution);
+  result.solver = structure::solver_report(solver);
   Eigen::MatrixXd flux = L * result.functions;
   const double largest = (L.cwiseAbs() * result.functions.cwiseAbs()).maxCoeff();
-  result.energies = stiff ? energies(half_edges, weights, result.functions)
-                          : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());
+  result.energies = solver.is_stiff()
+                        ? energies(half_edges, weights, result.functions)
+                        : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());
   for (const int v : fixed) flux.row(v).setZero();
   result.harmonicity = flux.cwiseAbs().maxCoeff() / largest;
   return result;

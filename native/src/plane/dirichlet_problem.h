@@ -24,7 +24,7 @@ Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const doub
                          const Eigen::MatrixXd& functions);
 
 /// L f = 0 at the free vertices; natural at those of the boundary.
-/// Refined where weights ask for it (structure/refinement.h).
+/// Refined where weights ask for it (forms/refined_solver.h).
 /// @param values #V x m, 0 at the free vertices
 /// @throws SolverError, Cancelled
 DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<const double> weights,

@@ -13,7 +13,7 @@ namespace holomorph::solver {
 
 /// A solver promises |L x - b| <= kResidual |b| for every right-hand side, in the Euclidean norm, or throws.
 /// The direct one also takes what rounding allows where weights are large, |L x - b| <= 1e-14 ||L| |x| + |b||: that may
-/// be all of b, and says little of x. Forms are refined then (structure/refinement.h).
+/// be all of b, and says little of x. Forms are refined then (forms/refined_solver.h).
 inline constexpr double kResidual = 1e-10;
 
 /// Relative residual that multigrid goes on to while that helps. At a single vertex of a fine mesh the form may be a

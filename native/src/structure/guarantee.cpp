@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "base/errors.h"
-#include "structure/refinement.h"
+#include "forms/refined_solver.h"
 
 namespace holomorph::structure {
 namespace {
@@ -44,7 +44,8 @@ void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper,
 
 void require_guaranteed(const Structure& s) {
   const double residual = s.solver.residual;
-  if (!(residual <= kEnergyError)) refuse("the linear systems have a relative residual of", residual, kEnergyError);
+  if (!(residual <= forms::kEnergyError))
+    refuse("the linear systems have a relative residual of", residual, forms::kEnergyError);
   if (!s.holomorphic.period_matrix.allFinite()) throw SolverError("the period matrix is not finite");
   const double allowed = kCertain + kOfAsymmetry * s.certificate.asymmetry;
   if (s.mollification == 0) require_ordered(s.holomorphic.bounds.lower, s.holomorphic.bounds.upper, allowed);

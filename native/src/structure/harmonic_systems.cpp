@@ -3,29 +3,12 @@
 #include <algorithm>
 
 #include "forms/codifferential.h"
-#include "forms/laplacian.h"
-#include "solver/solver_choice.h"
 
 namespace holomorph::structure {
-namespace {
-
-// Of the set-up, for the progress function.
-constexpr double kAssembly = 0.2;
-
-}  // namespace
 
 HarmonicSystems::HarmonicSystems(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                  const std::vector<int>& fixed, const solver::Choice& choice, Execution& execution)
-    : half_edges_(half_edges),
-      weights_(weights),
-      fixed_(fixed),
-      choice_(choice),
-      is_stiff_(is_stiff(weights, execution.workers())) {
-  execution.part(0, kAssembly);
-  auto laplacian = forms::laplacian(half_edges, weights, execution);
-  execution.part(kAssembly, 1);
-  solver_ = solver::make_solver(choice.method, std::move(laplacian), fixed, execution);
-}
+    : half_edges_(half_edges), weights_(weights), solver_(half_edges, weights, fixed, choice, execution) {}
 
 void HarmonicSystems::solve_in_blocks(const topology::IntegerForms& classes, int natural, int block,
                                       Execution& execution, const TakeFunctions& take) {
@@ -33,25 +16,17 @@ void HarmonicSystems::solve_in_blocks(const topology::IntegerForms& classes, int
   for (int first = 0; first < count; first += block) {
     const int width = std::min(block, count - first);
     execution.part(static_cast<double>(first) / count, static_cast<double>(first + width) / count);
-    FormBlock part{classes, first, std::vector<solver::Condition>(width, solver::Condition::natural)};
-    std::fill(part.conditions.begin() + std::clamp(natural - first, 0, width), part.conditions.end(),
+    std::vector<solver::Condition> conditions(width, solver::Condition::natural);
+    std::fill(conditions.begin() + std::clamp(natural - first, 0, width), conditions.end(),
               solver::Condition::dirichlet);
-    forms::RowMajorMatrix functions =
-        solver_->solve(forms::codifferentials(half_edges_, weights_, classes, first, width, execution.workers()),
-                       part.conditions, execution);
-    if (is_stiff_) {
-      const double error = refine({half_edges_, weights_, fixed_}, part, functions, *solver_, execution);
-      energy_error_ = std::max(energy_error_, error);
-    }
+    forms::RowMajorMatrix functions = solver_.solve(
+        forms::codifferentials(half_edges_, weights_, classes, first, width, execution.workers()), conditions,
+        [&] { return forms::class_terms(classes, first, width); }, execution);
     take(first, std::move(functions));
   }
 }
 
-SolverReport HarmonicSystems::report() const {
-  SolverReport result = solver_report(*solver_, choice_);
-  if (is_stiff_) result.residual = energy_error_;
-  return result;
-}
+SolverReport HarmonicSystems::report() const { return solver_report(solver_); }
 
 HarmonicFunctions HarmonicSystems::solve(const topology::IntegerForms& classes, int natural, int block,
                                          Execution& execution) {

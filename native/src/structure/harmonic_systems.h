@@ -2,15 +2,12 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/execution.h"
-#include "forms/closed_forms.h"
-#include "mesh/half_edges.h"
+#include "forms/refined_solver.h"
 #include "structure/memory_plan.h"
-#include "structure/refinement.h"
 #include "structure/solver_report.h"
 
 namespace holomorph::structure {
@@ -31,8 +28,7 @@ class HarmonicSystems {
   /// Is given the functions of the forms first, first + 1, ..., #V x #block.
   using TakeFunctions = std::function<void(int first, forms::RowMajorMatrix&& functions)>;
 
-  /// Solves for `block` forms at a time, in order, refines them where weights ask for it (refinement.h), and hands
-  /// each block on.
+  /// Solves for `block` forms at a time, in order, and hands each block on.
   /// @param classes on the triangulation. @param natural how many of them are; the others are Dirichlet
   /// @throws SolverError, Cancelled
   void solve_in_blocks(const topology::IntegerForms& classes, int natural, int block, Execution& execution,
@@ -40,17 +36,13 @@ class HarmonicSystems {
   /// The same, and all functions are kept.
   HarmonicFunctions solve(const topology::IntegerForms& classes, int natural, int block, Execution& execution);
 
-  solver::LaplaceSolver& solver() { return *solver_; }
+  forms::RefinedSolver& solver() { return solver_; }
   SolverReport report() const;
 
  private:
   const mesh::HalfEdges& half_edges_;
   std::span<const double> weights_;
-  std::vector<int> fixed_;
-  solver::Choice choice_;
-  bool is_stiff_;
-  double energy_error_ = 0;  // largest so far of refined forms
-  std::unique_ptr<solver::LaplaceSolver> solver_;
+  forms::RefinedSolver solver_;
 };
 
 }  // namespace holomorph::structure

@@ -51,7 +51,8 @@ forms::Poles poles_of(const Structure& s, const mesh::HalfEdges& half_edges, std
 
 // The harmonic functions, and how much of each form the differentials of the poles have.
 void add_harmonic(const mesh::HalfEdges& half_edges, const Array<double>& weights, const forms::Poles& poles,
-                  const Array<double>& errors, HarmonicSystems& systems, Structure& s, Execution& execution) {
+                  const forms::RowMajorMatrix& u, const Array<double>& errors, HarmonicSystems& systems, Structure& s,
+                  Execution& execution) {
   const int natural = s.topology.families.natural;
   s.functions.resize(s.surface->vertex_count, 0);
   s.pole_parts.resize(0, s.topology.families.poles);
@@ -62,7 +63,8 @@ void add_harmonic(const mesh::HalfEdges& half_edges, const Array<double>& weight
   complete(half_edges, weights, errors, classes, s, execution);
   forms::ClosedForms own{s.topology.classes, {}};
   own.functions.swap(s.functions);
-  s.pole_parts = forms::harmonic_part(half_edges, poles, own, s.gram[0]);
+  s.pole_parts = systems.solver().is_stiff() ? forms::harmonic_part(half_edges, weights, poles, u, own, s.gram[0])
+                                             : forms::harmonic_part(half_edges, poles, own, s.gram[0]);
   s.functions.swap(own.functions);
 }
 
@@ -183,7 +185,7 @@ Structure punctured_structure(std::shared_ptr<const mesh::Surface> given, Punctu
   const auto third = forms::pole_functions(half_edges, weights, poles, systems.solver(), fixed, execution);
 
   execution.stage("harmonic forms", 0.6, 0.9);
-  add_harmonic(half_edges, weights, poles, errors, systems, result, execution);
+  add_harmonic(half_edges, weights, poles, third.u, errors, systems, result, execution);
   result.solver = systems.report();
 
   execution.stage("certificates", 0.9, 1.0);

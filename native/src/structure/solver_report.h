@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/solver_choice.h"
+#include "forms/refined_solver.h"
 
 namespace holomorph::structure {
 
@@ -24,10 +24,10 @@ struct SolverReport {
 };
 
 /// What a solver reports after its last solve.
-inline SolverReport solver_report(const solver::LaplaceSolver& solver, const solver::Choice& choice) {
-  const std::string remark = solver.remark();
-  return {
-      solver.name(), choice.reason + (remark.empty() ? "" : "; " + remark), solver.iterations(), solver.residual(), {}};
+inline SolverReport solver_report(const forms::RefinedSolver& refined) {
+  const solver::LaplaceSolver& solver = refined.solver();
+  const std::string remark = solver.remark(), reason = refined.choice().reason;
+  return {solver.name(), reason + (remark.empty() ? "" : "; " + remark), solver.iterations(), refined.residual(), {}};
 }
 
 }  // namespace holomorph::structure

@@ -139,7 +139,9 @@ class StreamedForms final : public UvForms {
     execution.stage("harmonic forms of the map", 0.0, 1.0);
     const auto B = forms::codifferentials(*structure_.surface, own_->weights, structure_.topology.classes, parts,
                                           execution.workers());
-    uv::UvArray result = systems_->solver().solve(B, solver::Condition::natural, execution);
+    uv::UvArray result = systems_->solver().solve(
+        B, solver::Condition::natural, [&] { return forms::class_terms(structure_.topology.classes, parts); },
+        execution);
     report_ = systems_->report();
     execution.finish();
     return result;

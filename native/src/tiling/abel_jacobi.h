@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <vector>
 
 #include "tiling/landscape.h"
 
@@ -17,14 +18,18 @@ class AbelJacobi {
   AbelJacobi(const Landscape& landscape, Execution& execution);
 
   /// @param vertex whose star is free (mesh::has_free_star)
+  /// @throws SolverError where the rounding of fluxes may change it by more than forms::kEnergyError
   Eigen::VectorXd at(int vertex) const;
 
  private:
   Eigen::RowVectorXd along(mesh::HalfedgeHandle h) const;
+  double rounding_of(double weight) const;
 
   const Landscape& landscape_;
   Eigen::LLT<Eigen::MatrixXd> gram_;
-  forms::RowMajorMatrix dual_potentials_;  // #T x 2g: the fluxes of h_j along the dual path to triangle 0
+  forms::RowMajorMatrix dual_potentials_;  // #T x 2g: the fluxes of h_j along a dual path to triangle 0
+  std::vector<double> rounding_;           // #T: of these
+  double largest_ = 0, inverse_ = 0;       // values of functions; the norm of G^-1
 };
 
 /// `value` plus the integers that bring it nearest to `near`.

@@ -1,6 +1,7 @@
 #include "tiling/landscape.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mesh/intrinsic_triangulation.h"
 #include "mesh/triangle_geometry.h"
@@ -12,6 +13,8 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr int kBlock = 32;  // poles solved for at a time
+// Beyond this weight less than nine digits of a flux are certain.
+constexpr double kUncertain = 1e7;
 
 // The largest triangle at each vertex.
 std::vector<int> largest_triangles(const mesh::Surface& surface) {
@@ -25,6 +28,22 @@ std::vector<int> largest_triangles(const mesh::Surface& surface) {
       area[v] = own;
       result[v] = t;
     }
+  }
+  return result;
+}
+
+// The ends of edges of large weight, and their neighbours.
+std::vector<char> uncertain_vertices(const mesh::Surface& surface, const Array<double>& weights) {
+  std::vector<char> at_end, result;
+  for (std::size_t e = 0; e < weights.size(); ++e) {
+    if (std::abs(weights[e]) <= kUncertain) continue;
+    at_end.resize(surface.vertex_count, 0);
+    for (const int v : surface.edges[e]) at_end[v] = 1;
+  }
+  if (at_end.empty()) return {};
+  result = at_end;
+  for (const auto& [a, b] : surface.edges) {
+    if (at_end[a] || at_end[b]) result[a] = result[b] = 1;
   }
   return result;
 }
@@ -58,6 +77,7 @@ void Landscape::solve(const structure::Options& options, Execution& execution) {
       mesh::intrinsic_triangulation(surface(), half_edges_.copy(execution.workers()), execution.workers());
   weights_ = mesh::cotangent_weights(triangulation, execution);
   lengths_ = std::move(triangulation.lengths);
+  uncertain_ = uncertain_vertices(surface(), weights_);
   vertex_share_ = mesh::vertex_areas(surface(), lengths_);
   for (const double a : vertex_share_) area_ += a;
   for (double& a : vertex_share_) a /= area_;
@@ -117,8 +137,9 @@ void Landscape::solve_for(const std::vector<int>& vertices, Execution& execution
   else
     B.setZero();
   for (Eigen::Index i = 0; i < B.cols(); ++i) B(vertices[i], i) += 1;
-  const auto v =
-      systems_->solver().solve(B, closed() ? solver::Condition::natural : solver::Condition::dirichlet, execution);
+  const auto v = systems_->solver().solve(
+      B, closed() ? solver::Condition::natural : solver::Condition::dirichlet,
+      [&] { return forms::FluxTerms{.sources = B}; }, execution);
   const Eigen::MatrixXcd parts = uv::parts_of_imaginary(*structure_.surface, samples_, v);
   for (Eigen::Index i = 0; i < parts.cols(); ++i) pole_parts_.emplace(vertices[i], parts.col(i));
 }

@@ -50,6 +50,10 @@ class Landscape {
   /// What solves on the surface's own triangles; null where nothing had to be solved for.
   const std::shared_ptr<structure::HarmonicSystems>& systems() const { return systems_; }
 
+  /// Whether rounding is not seen in the fluxes beside a vertex: its neighbours have no large weights. Elsewhere no
+  /// pole is placed.
+  bool is_certain(int vertex) const { return uncertain_.empty() || !uncertain_[vertex]; }
+
   const mesh::Sides& sides() const { return *sides_; }
   /// #triangles x #harmonic forms: h_x - i h_y of the harmonic forms on triangles, x along side 0.
   Eigen::MatrixXcd derivatives(const std::vector<int>& triangles) const;
@@ -73,6 +77,8 @@ class Landscape {
   std::unique_ptr<Landscape> on_level_;  // where it serves for the poles
   std::vector<int> level_vertex_;        // #V there
   Eigen::VectorXcd from_level_;          // A in the frame of each sample of the level
+
+  std::vector<char> uncertain_;  // #V, or none
 };
 
 }  // namespace holomorph::tiling

@@ -54,12 +54,13 @@ std::vector<int> PoleCandidates::for_move(int vertex, const std::vector<int>& ot
   return free_ones(std::move(all), others);
 }
 
-// Corners of evenly spaced samples.
+// Corners of evenly spaced samples, inside where a triangle has one there.
 std::vector<int> PoleCandidates::spread() const {
+  const mesh::Surface& surface = landscape_.surface();
   std::vector<int> corners;
   for (const int t : evenly(landscape_.samples(), kSpread)) {
-    for (const int v : landscape_.surface().triangles[t]) {
-      if (!is_allowed(v)) continue;
+    for (const int v : surface.triangles[t]) {
+      if (!is_allowed(v) || !mesh::has_proper_star(surface, landscape_.half_edges(), v)) continue;
       corners.push_back(v);
       break;
     }

@@ -30,7 +30,7 @@ class PoleCandidates {
   std::vector<int> near(int vertex);
   std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);
   const std::vector<double>& distances(int vertex);
-  bool is_allowed(int vertex) const { return allowed_.empty() || allowed_[vertex]; }
+  bool is_allowed(int vertex) const { return (allowed_.empty() || allowed_[vertex]) && landscape_.is_certain(vertex); }
 
   const Landscape& landscape_;
   const std::vector<char>& allowed_;

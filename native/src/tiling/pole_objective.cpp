@@ -30,10 +30,14 @@ void PoleObjective::prepare(const std::vector<int>& vertices, Execution& executi
 void PoleObjective::optimise(Poles& poles, const std::vector<double>& floors, Execution& execution) const {
   const uv::SampledParts parts{columns(poles.vertices, execution), {}};
   Eigen::VectorXd x = uv::as_unknowns(unknowns(poles), kind_);
-  uv::descend(parts, kind_, x, floors, kSteps);
-  set(uv::as_complex(x, kind_), poles);
-  const Eigen::ArrayXd density = (parts.M * unknowns(poles)).cwiseAbs2().array();
-  poles.variance = uv::log_variance(density) + leverage_term(poles.vertices, poles.residues, leverage_metric(density));
+  Eigen::ArrayXd density;
+  for (const double floor : floors) {
+    density = (parts.M * unknowns(poles)).cwiseAbs2().array();
+    uv::descend(parts, kind_, x, {floor * median(density) / density.mean()}, kSteps);
+    set(uv::as_complex(x, kind_), poles);
+  }
+  density = (parts.M * unknowns(poles)).cwiseAbs2().array();
+  poles.variance = unevenness(density) + leverage_term(poles.vertices, poles.residues, leverage_metric(density));
 }
 
 VectorXcd PoleObjective::form(const Poles& poles, Execution& execution) const {

@@ -142,7 +142,7 @@ class Search {
     const int each = static_cast<int>(std::size(kTrialSizes)) * phases;
     run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int i) {
       for (int j = i * each; j < (i + 1) * each; ++j)
-        trials[j].value = uv::log_variance((A + trials[j].residue * green.col(i)).cwiseAbs2().array());
+        trials[j].value = unevenness((A + trials[j].residue * green.col(i)).cwiseAbs2().array());
     });
     std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.value < b.value; });
     return trials;
@@ -176,8 +176,7 @@ class Search {
       std::vector<int> vertices = poles.vertices;
       vertices[i] = candidates[j];
       const Eigen::ArrayXd density = (without + poles.residues[i] * green.col(j)).cwiseAbs2().array();
-      scores[j] = {uv::log_variance(density) + objective_.leverage_term(vertices, poles.residues, metric),
-                   candidates[j]};
+      scores[j] = {unevenness(density) + objective_.leverage_term(vertices, poles.residues, metric), candidates[j]};
     });
     std::sort(scores.begin(), scores.end());
     std::vector<Poles> tried;

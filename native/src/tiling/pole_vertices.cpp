@@ -8,7 +8,7 @@ PoleVertices::PoleVertices(const Landscape& landscape, const AbelJacobi& abel_ja
     : landscape_(landscape), abel_jacobi_(abel_jacobi), allowed_(allowed) {}
 
 bool PoleVertices::is_allowed(int vertex) const {
-  return (allowed_.empty() || allowed_[vertex]) &&
+  return (allowed_.empty() || allowed_[vertex]) && landscape_.is_certain(vertex) &&
          mesh::has_proper_star(landscape_.surface(), landscape_.half_edges(), vertex);
 }
 

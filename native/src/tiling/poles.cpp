@@ -4,10 +4,24 @@
 
 namespace holomorph::tiling {
 
+constexpr double kLeast = 1e-200;  // relative
+
 Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution) {
   return (landscape.holomorphic().M * poles.coefficients + landscape.poles(poles.vertices, execution) * poles.residues)
       .cwiseAbs2()
       .array();
+}
+
+double median(const Eigen::ArrayXd& density) {
+  std::vector<double> values(density.begin(), density.end());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return std::max(*middle, kLeast * density.maxCoeff());
+}
+
+double unevenness(const Eigen::ArrayXd& density) {
+  const Eigen::ArrayXd y = (density / median(density) + uv::kDensityFloor).log();
+  return (y - y.mean()).square().mean();
 }
 
 double density_ratio(const Eigen::ArrayXd& density) {

@@ -153,11 +153,6 @@ double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
   return value;
 }
 
-double log_variance(const Eigen::ArrayXd& q) {
-  const Eigen::ArrayXd y = (q / q.mean() + kDensityFloor).log();
-  return (y - y.mean()).square().mean();
-}
-
 double descend(const SampledParts& parts, Coefficients kind, VectorXd& x, const std::vector<double>& floors,
                int most_steps) {
   double variance = INFINITY;

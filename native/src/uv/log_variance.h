@@ -54,9 +54,6 @@ class LogVariance {
 /// The last floor under the density, relative to its mean.
 inline constexpr double kDensityFloor = 1e-4;
 
-/// log(q / mean q + kDensityFloor): its variance alone.
-double log_variance(const Eigen::ArrayXd& q);
-
 /// Minimises with one floor after the other, from `x`, whose scale is free. @return the last variance
 double descend(const SampledParts& parts, Coefficients kind, Eigen::VectorXd& x, const std::vector<double>& floors,
                int most_steps);

@@ -1,0 +1,71 @@
+// The linear systems on one triangulation, solved to what is promised of every form that is made of them: refined
+// where weights hide the residuals, and refused where that does not help.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/execution.h"
+#include "forms/harmonic_residuals.h"
+#include "solver/solver_choice.h"
+
+namespace holomorph::forms {
+
+/// Errors of forms in the energy norm, relative to the form's own: what refinement goes on to while it helps, and what
+/// is promised. Energies, and with them Gram matrices and bounds, are off by the square.
+inline constexpr double kEnergyGoal = 1e-10, kEnergyError = 1e-6;
+
+/// Up to this weight the rounding of fluxes, even among some as much smaller, keeps errors below kEnergyError.
+inline constexpr double kStiff = 1e4;
+
+class RefinedSolver {
+ public:
+  /// @param weights #E. @param fixed vertices at which Dirichlet functions are 0
+  /// @pre the triangulation and its weights outlive this. @throws SolverError, Cancelled
+  RefinedSolver(const mesh::HalfEdges& half_edges, std::span<const double> weights, std::vector<int> fixed,
+                const solver::Choice& choice, Execution& execution);
+
+  /// With a solver that is there already.
+  RefinedSolver(const mesh::HalfEdges& half_edges, std::span<const double> weights, std::vector<int> fixed,
+                const solver::Choice& choice, std::unique_ptr<solver::LaplaceSolver> solver, Workers& workers);
+
+  /// Asked for where there is something to refine.
+  using Terms = std::function<FluxTerms()>;
+
+  /// #V x #rhs, as solver::LaplaceSolver has it; refined where that is not enough.
+  /// @param terms of which B are the fluxes
+  /// @throws SolverError, Cancelled
+  RowMajorMatrix solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions, const Terms& terms,
+                       Execution& execution);
+  RowMajorMatrix solve(const Eigen::MatrixXd& B, solver::Condition condition, const Terms& terms,
+                       Execution& execution) {
+    return solve(B, std::vector<solver::Condition>(B.cols(), condition), terms, execution);
+  }
+
+  /// Where weights are so large that a residual of 1e-10 of the right-hand side, or what rounding allows, does not mean
+  /// small errors, L^-1 r is added, r of harmonic_residuals, until |h - h_exact|^2 = r . L^-1 r is small enough, or as
+  /// small as the rounding of the functions allows. Elsewhere nothing is done.
+  /// @throws SolverError where the error is not kEnergyError in the end; Cancelled
+  void refine(RowMajorMatrix& functions, const std::vector<solver::Condition>& conditions, const Terms& terms,
+              Execution& execution);
+
+  const solver::LaplaceSolver& solver() const { return *solver_; }
+  const solver::Choice& choice() const { return choice_; }
+  /// Whether weights are that large.
+  bool is_stiff() const { return is_stiff_; }
+  /// The largest so far: relative residual of the linear systems; of refined forms the error in energy.
+  double residual() const { return is_stiff_ ? energy_error_ : solver_->residual(); }
+
+ private:
+  const mesh::HalfEdges& half_edges_;
+  std::span<const double> weights_;
+  std::vector<int> fixed_;
+  solver::Choice choice_;
+  bool is_stiff_;
+  double energy_error_ = 0;
+  std::unique_ptr<solver::LaplaceSolver> solver_;
+};
+
+}  // namespace holomorph::forms
