@@ -14,6 +14,7 @@ bl_info = {
 
 def register():
     from . import (
+        compare,
         drag,
         lod,
         native,
@@ -37,6 +38,7 @@ def register():
     drag.register()
     lod.register()
     texel_operators.register()
+    compare.register()
     overlay.register()
     tools.register()
     submit.register()
@@ -48,6 +50,7 @@ def register():
 
 def unregister():
     from . import (
+        compare,
         drag,
         lod,
         operators,
@@ -70,6 +73,7 @@ def unregister():
     submit.unregister()
     tools.unregister()
     overlay.unregister()
+    compare.unregister()
     texel_operators.unregister()
     lod.unregister()
     drag.unregister()

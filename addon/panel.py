@@ -4,6 +4,7 @@
 import bpy
 
 from . import lines, native, overlay, tools_panel
+from .compare import HOLOMORPH_OT_compare
 from .drag import HOLOMORPH_OT_drag_poles
 from .lod import HOLOMORPH_OT_levels
 from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
@@ -34,6 +35,7 @@ class _HolomorphPanel:
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, context, obj)
         if context.mode == "OBJECT":
+            layout.operator(HOLOMORPH_OT_compare.bl_idname, icon="ARROW_LEFTRIGHT")
             _draw_overlays(layout, context)
 
 

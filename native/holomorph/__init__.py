@@ -19,6 +19,7 @@ from .checks import SOLVERS
 from .closed import ConformalStructure
 from .disk import DiskMap, RectangleMap, TriangleMap
 from .double import double_cover
+from .equivalence import Equivalence, conformally_equivalent
 from .levels import LevelOfDetail
 from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
@@ -26,18 +27,25 @@ from .punctured import PuncturedStructure
 from .quality import Quality
 from .repairs import Refused, Repairs
 from .results import MemoryPlan, Residuals, SolverReport
+from .siegel import SiegelReduction, siegel_reduction
 from .structure import conformal_structure
 from .surface import Surface
+from .symmetries import Automorphisms, automorphisms
+from .theta_constants import Hyperelliptic, hyperelliptic
 from .tiling import PlacedPoles, Tiler, Tiling, place_poles
 from .verdicts import UNEVEN, Verdict, overall, verdict
+from .zeros import Zeros
 
 __all__ = [
+    "Automorphisms",
     "BoundedStructure",
     "Cancelled",
     "ConformalStructure",
     "DiskMap",
+    "Equivalence",
     "Error",
     "Frame",
+    "Hyperelliptic",
     "InvalidMesh",
     "LevelOfDetail",
     "MemoryPlan",
@@ -51,6 +59,7 @@ __all__ = [
     "Repairs",
     "Residuals",
     "SOLVERS",
+    "SiegelReduction",
     "SolverError",
     "SolverReport",
     "Surface",
@@ -60,15 +69,20 @@ __all__ = [
     "TriangleMap",
     "UNEVEN",
     "Verdict",
+    "Zeros",
     "__version__",
+    "automorphisms",
     "choice",
     "conformal_structure",
+    "conformally_equivalent",
     "double_cover",
     "frame",
+    "hyperelliptic",
     "layout",
     "overall",
     "place",
     "place_poles",
     "report",
+    "siegel_reduction",
     "verdict",
 ]

@@ -1,4 +1,4 @@
-"""python -m holomorph MESHFILE --report report.json, and python -m holomorph batch SOURCE... --out DIR"""
+"""python -m holomorph MESHFILE --report report.json; ... batch SOURCE... --out DIR; ... compare A B"""
 
 import argparse
 import json
@@ -6,6 +6,7 @@ import sys
 
 from . import Error, Surface, Verdict, __version__, conformal_structure
 from .checks import SOLVERS, check_options
+from .compare_command import compare
 from .report import component_report, overall_report, refused_report, repairs_report, skipped_report
 
 EXIT_REFUSED, EXIT_STRICT = 1, 3
@@ -19,9 +20,11 @@ def main(arguments=None):
         from .batch import command
 
         return command.main(arguments[1:])
+    if arguments[:1] == ["compare"]:
+        return compare(arguments[1:])
     parser = argparse.ArgumentParser(
         prog="python -m holomorph",
-        description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help",
+        description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help; two surfaces are compared by: holomorph compare --help",
     )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")

@@ -5,9 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
-from . import arrays
+from . import _native, arrays
 from .checks import checked_coefficients
 from .results import MemoryPlan, SolverReport, Structure
+from .zeros import Zeros
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +98,14 @@ class FormStructure(Structure):
         corners, up to a period where a seam meets it; with punctures for real coefficients and residues."""
         c = checked_coefficients(coefficients, self._differentials.shape[1], self.coefficient_type)
         return self._native.uv(self._differentials @ c)
+
+    def zeros(self, coefficients):
+        """`Zeros` of the differential sum_j c_j theta_j, the coefficients as in `uv`. Its index at a vertex is the sum
+        of the signed angles of the image over 2 pi, minus 1; a flipped triangle counts 1."""
+        poles = self._native.punctures()
+        vertices, orders = _native.zeros(self._triangulation, self.uv(coefficients), poles)
+        positions = self._component.vertices
+        return Zeros(self._of_surface(vertices), orders, None if positions is None else positions[vertices])
 
     def balanced_coefficients(self):
         """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over

@@ -15,6 +15,7 @@ IN_BLENDER = FACADE / "batch" / "in_blender.py"
 # Each room of native/src, and the rooms that it may include directly or through them.
 ROOM_BELOW = {
     "base": [],
+    "lattice": ["base"],
     "mesh": ["base"],
     "progressive": ["mesh"],
     "openmesh": ["progressive"],
@@ -24,10 +25,11 @@ ROOM_BELOW = {
     "conformal": ["forms"],
     "uv": ["forms"],
     "structure": ["conformal", "uv"],
-    "tiling": ["structure"],
+    "tiling": ["structure", "lattice"],
+    "moduli": ["conformal", "lattice"],
     "plane": ["structure"],
     "multiresolution": ["structure"],
-    "bindings": ["tiling", "plane", "multiresolution"],
+    "bindings": ["tiling", "moduli", "plane", "multiresolution"],
 }
 # The add-on's bottom and top; every other module is between them.
 ADDON_LEVEL = {

@@ -1,4 +1,4 @@
-#include "tiling/lattice.h"
+#include "lattice/reduction.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "laplacians.h"
 #include "lattices.h"
 
-namespace holomorph::tiling {
+namespace holomorph::lattice {
 namespace {
 
 using Eigen::Index;
@@ -221,4 +221,4 @@ TEST(Lattice, APointThatIsNotFiniteIsRefused) {
 }
 
 }  // namespace
-}  // namespace holomorph::tiling
+}  // namespace holomorph::lattice

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "lattices.h"
-#include "tiling/lattice.h"
+#include "lattice/reduction.h"
 
-namespace holomorph::tiling {
+namespace holomorph::lattice {
 namespace {
 
 using Eigen::Index;
@@ -104,4 +104,4 @@ TEST_F(Fplll, TheNearestPlaneIsWithinItsBoundOfTheClosestVector) {
 }
 
 }  // namespace
-}  // namespace holomorph::tiling
+}  // namespace holomorph::lattice

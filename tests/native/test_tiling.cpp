@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "mesh/make_surface.h"
+#include "mesh/surface_walk.h"
 #include "structure/punctured_structure.h"
 #include "tiling/abel_jacobi.h"
 #include "tiling/closed_maps.h"
 #include "tiling/leverage.h"
 #include "tiling/rounding.h"
 #include "tiling/seamless_map.h"
-#include "tiling/surface_walk.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -67,7 +67,7 @@ TEST(AbelJacobi, FollowsItsDerivative) {
   const auto& mesh = landscape.half_edges();
   const mesh::HalfedgeHandle h = mesh.halfedge_handle(mesh::VertexHandle(from));
   const int triangle = mesh::face_of(mesh, h), to = mesh::to_vertex(mesh, h);
-  const SurfacePoint a = at_vertex(*surface, triangle, from), b = at_vertex(*surface, triangle, to);
+  const mesh::SurfacePoint a = mesh::at_vertex(*surface, triangle, from), b = mesh::at_vertex(*surface, triangle, to);
   const Eigen::VectorXd step = -(leverage.abel_jacobi_derivatives({triangle}).col(0) * (b.z - a.z)).real();
   const Eigen::VectorXd start = map.at(from), exact = nearest_representative(map.at(to), start) - start;
   EXPECT_LT((exact - step).norm(), 0.1 * step.norm());
@@ -96,17 +96,17 @@ TEST(SurfaceWalk, ComesBack) {
   Execution execution(1);
   const mesh::HalfEdges half_edges = mesh::half_edges(*surface, execution);
   const mesh::Sides sides(*surface);
-  const SurfacePoint start = at_vertex(*surface, 100, surface->triangles[100][1]);
+  const mesh::SurfacePoint start = mesh::at_vertex(*surface, 100, surface->triangles[100][1]);
   for (int i = 0; i < 12; ++i) {
-    SurfacePoint point = start;
+    mesh::SurfacePoint point = start;
     const Complex dz = std::polar(0.8, 0.5 * i);
-    const WalkSteps steps = walk(*surface, half_edges, sides, point, dz);
+    const mesh::WalkSteps steps = mesh::walk(*surface, half_edges, sides, point, dz);
     ASSERT_GT(steps.size(), 1u);
     double length = 0;
     for (const auto& [triangle, part] : steps) length += std::abs(part);
     EXPECT_NEAR(length, 0.8, 1e-12);
     const Complex last = steps.back().second;
-    walk(*surface, half_edges, sides, point, -0.8 * last / std::abs(last));
+    mesh::walk(*surface, half_edges, sides, point, -0.8 * last / std::abs(last));
     EXPECT_EQ(point.triangle, start.triangle);
     EXPECT_LT(std::abs(point.z - start.z), 1e-9);
   }
@@ -118,8 +118,8 @@ TEST(SurfaceWalk, EndsAtTheBoundary) {
   const mesh::HalfEdges half_edges = mesh::half_edges(*surface, execution);
   const mesh::Sides sides(*surface);
   for (int i = 0; i < 12; ++i) {
-    SurfacePoint point = at_vertex(*surface, 100, surface->triangles[100][0]);
-    walk(*surface, half_edges, sides, point, std::polar(100.0, 0.5 * i));
+    mesh::SurfacePoint point = mesh::at_vertex(*surface, 100, surface->triangles[100][0]);
+    mesh::walk(*surface, half_edges, sides, point, std::polar(100.0, 0.5 * i));
     EXPECT_TRUE(std::isfinite(std::abs(point.z)));
   }
 }

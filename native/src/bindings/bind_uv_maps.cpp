@@ -1,4 +1,5 @@
 #include <pybind11/complex.h>
+#include <pybind11/stl.h>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
@@ -8,6 +9,7 @@
 #include "multiresolution/harmonic_map.h"
 #include "uv/placement.h"
 #include "uv/quality.h"
+#include "uv/zeros.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -36,6 +38,16 @@ py::tuple frame(const mesh::Surface& surface, const Contiguous<double>& uv, doub
     found = uv::frame(surface, corners(uv), rotation, workers);
   }
   return py::make_tuple(found.low, found.high, found.area);
+}
+
+// Vertices and orders.
+py::tuple zeros(const mesh::Surface& surface, const Contiguous<double>& uv, const std::vector<int>& poles) {
+  std::vector<int> vertices, orders;
+  for (const auto& [vertex, order] : uv::zeros(surface, corners(uv), poles)) {
+    vertices.push_back(vertex);
+    orders.push_back(order);
+  }
+  return py::make_tuple(copy(vertices), copy(orders));
 }
 
 // The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
@@ -77,6 +89,7 @@ py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& 
 
 void bind_uv_maps(py::module_& m) {
   m.def("quality", &quality);
+  m.def("zeros", &zeros);
   m.def("frame", &frame);
   m.def("place", &place);
   m.def("harmonic_map", &harmonic_map);

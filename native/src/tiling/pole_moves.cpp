@@ -6,8 +6,8 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "mesh/surface_walk.h"
 #include "tiling/pole_vertices.h"
-#include "tiling/surface_walk.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -44,7 +44,7 @@ class Moving {
         gone_(poles_.vertices.size(), 0.0) {
     const std::vector<int> triangles = leverage.triangles_at(poles_.vertices);
     for (std::size_t i = 0; i < triangles.size(); ++i)
-      points_.push_back(at_vertex(landscape.surface(), triangles[i], poles_.vertices[i]));
+      points_.push_back(mesh::at_vertex(landscape.surface(), triangles[i], poles_.vertices[i]));
   }
 
   PlacedPoles run() {
@@ -128,7 +128,7 @@ class Moving {
     if (std::abs(dz) > left) dz *= left / std::abs(dz);
     gone_[i] += std::abs(dz);
     for (const auto& [triangle, part] :
-         walk(landscape_.surface(), landscape_.half_edges(), landscape_.sides(), points_[i], dz))
+         mesh::walk(landscape_.surface(), landscape_.half_edges(), landscape_.sides(), points_[i], dz))
       poles_.parts[i] -= (on_triangle(triangle).derivative * part).real();
   }
 
@@ -147,7 +147,7 @@ class Moving {
   // At the nearest vertex that can take it, else back where it was.
   void hold(std::size_t i) {
     const std::vector<int> others = corners_but(i, i);
-    for (const int v : nearest_corners(landscape_.surface(), points_[i])) {
+    for (const int v : mesh::nearest_corners(landscape_.surface(), points_[i])) {
       if (!vertices_.is_allowed(v) || !are_apart(vertices_.corners_around(v), others)) continue;
       poles_.vertices[i] = v;
       break;
@@ -224,7 +224,7 @@ class Moving {
   const MoveRules& rules_;
   PoleVertices vertices_;
   PlacedPoles poles_;
-  std::vector<SurfacePoint> points_;
+  std::vector<mesh::SurfacePoint> points_;
   std::vector<char> held_;
   std::vector<double> gone_;
   std::unordered_map<int, OnTriangle> on_triangle_;

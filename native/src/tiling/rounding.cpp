@@ -124,14 +124,14 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
     execution.report(static_cast<double>(d) / std::size(kDefects));
     if (d > 0 && p.defects.cols() == 0) break;
     const MatrixXcd rows = measure_rows(p, weights, kDefects[d]);
-    const ReducedBasis reduced = reduce(as_real(rows * p.Z));
-    std::vector<IntegerVector> nearest(phases.size() * kScales);
+    const lattice::ReducedBasis reduced = lattice::reduce(as_real(rows * p.Z));
+    std::vector<lattice::IntegerVector> nearest(phases.size() * kScales);
     run_throwing(execution.workers(), static_cast<int>(nearest.size()), [&](int i) {
       const double size = scale * (1 + kScaleRange * (2.0 * (i % kScales) / (kScales - 1) - 1));
       const VectorXcd y = p.target * std::polar(size, phases[i / kScales]);
-      nearest[i] = nearest_plane(reduced, as_real(rows * y));
+      nearest[i] = lattice::nearest_plane(reduced, as_real(rows * y));
     });
-    for (const IntegerVector& z : nearest) found.try_emplace({z.begin(), z.end()}, Rounding{z, {}});
+    for (const lattice::IntegerVector& z : nearest) found.try_emplace({z.begin(), z.end()}, Rounding{z, {}});
   }
   std::vector<Rounding> list;
   for (auto& [key, rounding] : found) list.push_back(std::move(rounding));

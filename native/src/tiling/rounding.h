@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/execution.h"
-#include "tiling/lattice.h"
+#include "lattice/reduction.h"
 #include "uv/log_variance.h"
 
 namespace holomorph::tiling {
@@ -49,7 +49,7 @@ struct RoundingWishes {
 };
 
 struct Rounding {
-  IntegerVector z;
+  lattice::IntegerVector z;
   Eigen::VectorXcd y;        ///< Z z
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace holomorph::tiling {
+namespace holomorph::lattice {
 
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic>;
 using IntegerVector = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 1>;
@@ -35,4 +35,4 @@ ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99);
 /// @throw SolverError the target is not finite @throw Error the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);
 
-}  // namespace holomorph::tiling
+}  // namespace holomorph::lattice

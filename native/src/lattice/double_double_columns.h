@@ -5,7 +5,7 @@
 
 #include "base/double_double.h"
 
-namespace holomorph::tiling {
+namespace holomorph::lattice {
 
 struct DoubleDoubleColumns {
   Eigen::MatrixXd high, low;
@@ -32,4 +32,4 @@ struct DoubleDoubleColumns {
   }
 };
 
-}  // namespace holomorph::tiling
+}  // namespace holomorph::lattice

@@ -1,4 +1,4 @@
-#include "tiling/lattice.h"
+#include "lattice/reduction.h"
 
 #include <Eigen/QR>
 #include <algorithm>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/errors.h"
-#include "tiling/double_double.h"
+#include "lattice/double_double_columns.h"
 
-namespace holomorph::tiling {
+namespace holomorph::lattice {
 namespace {
 
 using Eigen::Index;
@@ -214,4 +214,4 @@ IntegerVector nearest_plane(const ReducedBasis& reduced, const VectorXd& target)
   return original_integers(reduced, nearest_coefficients(reduced, target));
 }
 
-}  // namespace holomorph::tiling
+}  // namespace holomorph::lattice

@@ -1,13 +1,15 @@
 // Straight walks over a surface of triangles.
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <utility>
 #include <vector>
 
 #include "mesh/half_edges.h"
 
-namespace holomorph::tiling {
+namespace holomorph::mesh {
 
 /// A point in a triangle in the plane: corner 0 at 0, corner 1 on the positive real axis, counter-clockwise.
 struct SurfacePoint {
@@ -15,18 +17,24 @@ struct SurfacePoint {
   std::complex<double> z;
 };
 
+/// The corners of a triangle in that plane.
+std::array<std::complex<double>, 3> corners(const Surface& surface, int triangle);
+
+/// Of the point in its triangle, not below 0.
+Eigen::Vector3d barycentric(const Surface& surface, const SurfacePoint& point);
+
 /// Steps dz, each in the frame of its triangle.
 using WalkSteps = std::vector<std::pair<int, std::complex<double>>>;
 
 /// The corner of a vertex, moved inwards a little, so that a walk can begin there.
-SurfacePoint at_vertex(const mesh::Surface& surface, int triangle, int vertex);
+SurfacePoint at_vertex(const Surface& surface, int triangle, int vertex);
 
 /// Moves the point along a geodesic that leaves with `dz`, across edges by unfolding; it ends early at the boundary and
 /// after `most_triangles`. @return the steps made
-WalkSteps walk(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const mesh::Sides& sides,
+WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides& sides,
                SurfacePoint& point, std::complex<double> dz, int most_triangles = 1000);
 
 /// The corners' vertices of the point's triangle, the nearest first.
-std::array<int, 3> nearest_corners(const mesh::Surface& surface, const SurfacePoint& point);
+std::array<int, 3> nearest_corners(const Surface& surface, const SurfacePoint& point);
 
-}  // namespace holomorph::tiling
+}  // namespace holomorph::mesh

@@ -1,4 +1,4 @@
-#include "tiling/surface_walk.h"
+#include "mesh/surface_walk.h"
 
 #include <algorithm>
 #include <array>
@@ -6,18 +6,12 @@
 
 #include "mesh/triangle_geometry.h"
 
-namespace holomorph::tiling {
+namespace holomorph::mesh {
 namespace {
 
 using Complex = std::complex<double>;
 
 constexpr double kInwards = 1e-3;  // part of the way to the centre
-
-std::array<Complex, 3> corners(const mesh::Surface& surface, int triangle) {
-  const auto [e0, e1, e2] = surface.triangle_edges[triangle];
-  const double a = surface.edge_lengths[e0], b = surface.edge_lengths[e1], c = surface.edge_lengths[e2];
-  return {0, a, Complex((a * a + (c - b) * (c + b)) / (2 * a), 2 * mesh::triangle_area(a, b, c) / a)};
-}
 
 double cross(Complex a, Complex b) { return a.real() * b.imag() - a.imag() * b.real(); }
 
@@ -41,7 +35,21 @@ Exit exit_of(const std::array<Complex, 3>& corner, Complex z, Complex dz) {
 
 }  // namespace
 
-SurfacePoint at_vertex(const mesh::Surface& surface, int triangle, int vertex) {
+std::array<Complex, 3> corners(const Surface& surface, int triangle) {
+  const auto [e0, e1, e2] = surface.triangle_edges[triangle];
+  const double a = surface.edge_lengths[e0], b = surface.edge_lengths[e1], c = surface.edge_lengths[e2];
+  return {0, a, Complex((a * a + (c - b) * (c + b)) / (2 * a), 2 * triangle_area(a, b, c) / a)};
+}
+
+Eigen::Vector3d barycentric(const Surface& surface, const SurfacePoint& point) {
+  const auto corner = corners(surface, point.triangle);
+  const double area = cross(corner[1], corner[2]);
+  const double second = cross(point.z, corner[2]) / area, third = cross(corner[1], point.z) / area;
+  const Eigen::Vector3d clamped = Eigen::Vector3d(1 - second - third, second, third).cwiseMax(0);
+  return clamped / clamped.sum();
+}
+
+SurfacePoint at_vertex(const Surface& surface, int triangle, int vertex) {
   const auto corner = corners(surface, triangle);
   const auto& v = surface.triangles[triangle];
   const auto i = static_cast<std::size_t>(std::find(v.begin(), v.end(), vertex) - v.begin());
@@ -49,7 +57,7 @@ SurfacePoint at_vertex(const mesh::Surface& surface, int triangle, int vertex) {
   return {triangle, corner[i] + kInwards * (centre - corner[i])};
 }
 
-WalkSteps walk(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const mesh::Sides& sides,
+WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides& sides,
                SurfacePoint& point, Complex dz, int most_triangles) {
   WalkSteps steps;
   for (int n = 0; n < most_triangles; ++n) {
@@ -60,8 +68,8 @@ WalkSteps walk(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, 
     point.z += part * dz;
     if (exit.part >= 1) break;
     dz *= 1 - part;
-    const mesh::HalfedgeHandle across = mesh::opposite(sides(point.triangle, exit.side));
-    const int next = mesh::face_of(half_edges, across);
+    const HalfedgeHandle across = opposite(sides(point.triangle, exit.side));
+    const int next = face_of(half_edges, across);
     if (next < 0) break;
     int side = 0;
     while (sides(next, side) != across) ++side;
@@ -76,7 +84,7 @@ WalkSteps walk(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, 
   return steps;
 }
 
-std::array<int, 3> nearest_corners(const mesh::Surface& surface, const SurfacePoint& point) {
+std::array<int, 3> nearest_corners(const Surface& surface, const SurfacePoint& point) {
   const auto corner = corners(surface, point.triangle);
   std::array<int, 3> order{0, 1, 2};
   std::sort(order.begin(), order.end(),
@@ -85,4 +93,4 @@ std::array<int, 3> nearest_corners(const mesh::Surface& surface, const SurfacePo
   return order;
 }
 
-}  // namespace holomorph::tiling
+}  // namespace holomorph::mesh

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that says whether two objects are conformally equivalent."""
+
+import bpy
+
+from .modal import WorkOperator
+
+
+class HOLOMORPH_OT_compare(WorkOperator, bpy.types.Operator):
+    """Say whether there is a map between the two selected meshes that keeps all angles: whether they are the same
+    surface, mirror images, different, or cannot be told apart at this resolution"""
+
+    bl_idname = "object.holomorphic_compare"
+    bl_label = "Compare Conformally"
+    bl_options = {"REGISTER"}
+
+    @classmethod
+    def why_not(cls, context):
+        if context.mode != "OBJECT":
+            return "Go to Object Mode"
+        selected = context.view_layer.objects.selected
+        return "" if sum(o.type == "MESH" for o in selected) == 2 else "Select two meshes"
+
+    def draw_options(self, _layout, _obj):
+        """There are none."""
+
+    def prepare(self, context):
+        from . import comparison, targets
+
+        self._sides = [
+            comparison.Side(obj.name, targets.read(obj), obj.matrix_world.determinant() < 0)
+            for obj in targets.mesh_objects(context)
+        ]
+        return True
+
+    def make_work(self, progress):
+        from . import comparison
+
+        return comparison.Comparison(self._sides, progress)
+
+    def waiting_faces(self):
+        return sum(len(side.polygons.face_offsets) - 1 for side in self._sides)
+
+    def finish(self, _context, work, time_has_passed):
+        if work.error:
+            self.report({"ERROR"}, work.error)
+            return {"CANCELLED"}
+        first, second = self._sides
+        self.report({"INFO"}, f"{first.name}, {second.name}: {work.found.sentence}")
+        return {"FINISHED"}
+
+
+def register():
+    bpy.utils.register_class(HOLOMORPH_OT_compare)
+
+
+def unregister():
+    bpy.utils.unregister_class(HOLOMORPH_OT_compare)

@@ -1,0 +1,44 @@
+"""python -m holomorph compare A B"""
+
+import argparse
+import json
+import sys
+
+from . import Error, Surface
+from .equivalence import VERDICTS, conformally_equivalent
+from .report import plain
+
+EXIT_CODES = dict(zip(VERDICTS, (0, 3, 4, 5), strict=True))
+"""Of a verdict. 1: not compared, one sentence says why; 2: the command was misspelled."""
+
+
+def compare(arguments):
+    """Prints one sentence about two mesh files; the exit code is that of the verdict."""
+    codes = ", ".join(f"{code} {verdict}" for verdict, code in EXIT_CODES.items())
+    parser = argparse.ArgumentParser(
+        prog="python -m holomorph compare",
+        description="Whether there is a conformal map between two surfaces.",
+        epilog=f"Exit code: {codes}; 1 where a file cannot be compared.",
+    )
+    parser.add_argument("meshes", nargs=2, metavar="mesh", help="OBJ, OFF, PLY or STL file of one connected surface")
+    parser.add_argument("--report", metavar="FILE", help="write verdict, integer matrix and distances as JSON")
+    options = parser.parse_args(arguments)
+    try:
+        made = conformally_equivalent(*map(_surface, options.meshes))
+        if options.report:
+            with open(options.report, "w", encoding="utf-8") as file:
+                json.dump(plain(vars(made)), file, indent=1, allow_nan=False)
+    except (Error, OSError) as error:
+        print(f"holomorph: {error}", file=sys.stderr)
+        return 1
+    print(made.sentence)
+    return EXIT_CODES[made.verdict]
+
+
+def _surface(path):
+    surface = Surface.read(path, strict=True)
+    try:
+        surface.require_connected()
+    except Error as error:
+        raise type(error)(f"{path}: {error}") from error
+    return surface

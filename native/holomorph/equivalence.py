@@ -1,0 +1,161 @@
+"""Whether two surfaces are conformally equivalent (paper § 9, last sentence)."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _native
+from .bounded import BoundedStructure
+from .checks import only_component, real_number
+from .closed import ConformalStructure
+from .planar import LOOPS_OF_ACHIRAL_SURFACES, planar_verdict
+from .results import Structure
+from .structure import conformal_structure
+from .surface import Surface
+
+VERDICTS = ("equivalent", "mirror_image", "not_equivalent", "undecided")
+STEPS = _native.isometry_steps  # limit of one search among integer matrices
+
+
+@dataclass(frozen=True, eq=False)
+class Equivalence:
+    """What `conformally_equivalent` found.
+
+    verdict : "equivalent", "mirror_image", "not_equivalent" or "undecided"
+    sentence : the verdict and its reason, for people
+    matrix : (n, n) integers R, the certificate: row i is class i of b written in the classes of a, R W_a R^T = W_b, or
+        -W_b where it reverses the orientation. Closed, n = 2g: the classes dual to `homology_basis`, W their wedge
+        matrix; with boundary, n = 2g + b - 1: those of `dirichlet_forms`. The nearest where undecided; None for none
+    residual : distance of the two projected period matrices after R, max |log(E_b / E_a)| over the energies E of
+        corresponding classes: 0.01 for 1 %. For tori the hyperbolic distance of tau; infinite where there is no matrix
+    tolerance : certain bound of the distance of the exact periods: residual and both error bars
+    margin : not equivalent: every map between the surfaces, or to the mirror image, stretches some direction at least
+        exp(margin) times as much as another, somewhere. Equivalent, mirror image: by how much the residual is below
+        what is asked for. Else 0
+    """
+
+    verdict: str
+    sentence: str
+    matrix: np.ndarray | None = None
+    residual: float = math.inf
+    tolerance: float = math.inf
+    margin: float = 0.0
+
+
+def conformally_equivalent(a, b, *, tolerance=0.0, progress=None):
+    """An `Equivalence`: whether there is a conformal map between two connected surfaces.
+
+    By Torelli's theorem just if integers bring the periods of one to those of the other. "not_equivalent" is said where
+    the error bars of the periods exclude all integer matrices; "equivalent", or "mirror_image", where one brings the
+    projected periods as near as a quarter of the narrower error bar, and the result's `tolerance` says how near the
+    exact ones are for certain; "undecided" else. A surface with both is called what it is nearer to.
+
+    Parameters
+    ----------
+    a, b : Surface, or a structure that was computed of it
+    tolerance : `Equivalence.residual` that counts as none. Error bars are those of the polyhedral surfaces, and 0 tells
+        apart two meshes of one smooth surface where their discretisation does: 0.01 takes them for one within 1 %
+    progress : progress(fraction, stage), as in `conformal_structure`
+
+    Raises TopologyError for several components, and what `conformal_structure` raises; Cancelled.
+
+    Cost: that of both structures; the search takes seconds at most, and beyond a limit is "undecided".
+    Source: Plesken & Souvignier (1997), with lattice points near a point for its candidates.
+    """
+    if real_number(tolerance, "tolerance") < 0:
+        raise ValueError(f"tolerance is {tolerance!r}; it is not negative")
+    first, second = _connected(a), _connected(b)
+    topology = [(part.genus, part.boundary_count) for part in (first, second)]
+    if topology[0] != topology[1]:
+        texts = [_topology_text(*entry) for entry in topology]
+        return Equivalence("not_equivalent", f"Not equivalent: {texts[0]}, and {texts[1]}.", margin=math.inf)
+    genus, loops = topology[0]
+    if genus == 0 and loops <= 1:
+        kind = "disks" if loops else "spheres"
+        return Equivalence("equivalent", f"Equivalent: all {kind} are.", residual=0.0, tolerance=0.0)
+    structures = [
+        _structure(given, part, _scaled(progress, start, start + 0.4))
+        for given, part, start in ((a, first, 0.0), (b, second, 0.4))
+    ]
+    lattices = [period_lattice(structure) for structure in structures]
+    made = _native.compare(*lattices, float(tolerance), _scaled(progress, 0.8, 1.0))
+    verdict = VERDICTS[made[0]]
+    if verdict == "equivalent" and genus == 0 and loops > LOOPS_OF_ACHIRAL_SURFACES:
+        verdict = planar_verdict(*structures, made[1][0])
+    return _equivalence(verdict, made, all(structure.period_bounds is not None for structure in structures))
+
+
+def period_lattice(structure):
+    """The native lattice of integer classes with their energies of a closed structure or one with boundary."""
+    gram = structure._native.certain_gram_matrices()
+    if isinstance(structure, BoundedStructure):
+        return _native.PeriodLattice.bounded(*gram, structure.pairing, structure._component.genus)
+    wedge = -np.rint(np.linalg.inv(structure.intersection_matrix)).astype(np.int64)
+    return _native.PeriodLattice.closed(gram[0], wedge)
+
+
+def _connected(given):
+    if isinstance(given, Structure):
+        given = given.surface
+    if not isinstance(given, Surface):
+        raise TypeError(f"surfaces or structures are compared, not {type(given).__name__}")
+    return only_component(given)
+
+
+def _structure(given, component, progress):
+    if isinstance(given, (ConformalStructure, BoundedStructure)):
+        return given
+    return conformal_structure(component, progress=progress)
+
+
+def _scaled(progress, begin, end):
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
+
+
+def _topology_text(genus, loops):
+    return f"genus {genus} with {loops} boundary loop{'' if loops == 1 else 's'}"
+
+
+def _equivalence(verdict, made, is_exact):
+    _, isometry, _, tolerance, margin, is_complete = made
+    if verdict == "undecided" or (verdict == "not_equivalent" and not is_exact):
+        verdict, margin = "undecided", 0.0
+    matrix, residual, _ = isometry or (None, math.inf, math.inf)
+    sentence = _sentence(verdict, residual, tolerance, margin, is_complete, is_exact)
+    return Equivalence(verdict, sentence, matrix, residual, tolerance, margin)
+
+
+def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):
+    if verdict == "not_equivalent":
+        return f"Not equivalent: every map stretches some direction at least {_factor(margin)} times as much as another."
+    near = f"their periods differ by {_percent(residual)}, certainly by less than {_percent(tolerance)}"
+    if verdict in ("equivalent", "mirror_image"):
+        begin = "Equivalent" if verdict == "equivalent" else "Mirror images of each other"
+        return f"{begin}: {near}."
+    if not is_exact:
+        return "Undecided: a surface has degenerate triangles, and the bounds of its periods are those of another one."
+    if not is_complete:
+        return f"Undecided: the search among integer matrices reached its limit of {STEPS} steps."
+    if residual == math.inf:
+        return "Undecided: the bounds of the periods are too wide; finer meshes have narrower ones."
+    return f"Undecided: {near}; finer meshes have narrower bounds."
+
+
+def _percent(distance):
+    """Of a logarithm: rounded up to two digits."""
+    value = 100 * math.expm1(distance)
+    return f"{_rounded(value, math.ceil):.12g} %"
+
+
+def _factor(margin):
+    return f"{math.floor(math.exp(margin) * 1e4) / 1e4:.5g}"
+
+
+def _rounded(value, rounding):
+    if value == 0 or not math.isfinite(value):
+        return value
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return rounding(value / unit) * unit

@@ -1,0 +1,95 @@
+"""The symmetries of a surface, as far as its periods tell."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _native
+from ._native import Error
+from .checks import real_number
+from .closed import ConformalStructure
+from .equivalence import STEPS, period_lattice
+
+AGREEMENT = 0.25  # as native/src/moduli/equivalence.h
+ROUNDING = 1e-9  # of residuals
+GAP = 1e-6  # of what is allowed: residuals that differ by less belong to the same symmetry of the mesh
+
+
+@dataclass(frozen=True, eq=False)
+class Automorphisms:
+    """What `automorphisms` found.
+
+    order : number of integer matrices that keep the wedge product and the energies, for genus >= 2 the conformal maps
+        of the surface to itself where it is hyperelliptic, twice as many where it is not (Torelli: -1 comes from a map
+        on hyperelliptic surfaces alone); for genus 1 those that fix a point
+    generators : tuple of (2g, 2g) integers in the classes dual to `homology_basis`, as `Equivalence.matrix`
+    tolerance : the largest residual of the group's matrices, as `Equivalence.residual`: the surface is that near to one
+        with these symmetries
+    at_most : number of matrices that the bounds of the periods do not exclude: the order of the surface's own group is
+        certainly not larger. None where the search for them reached its limit
+    """
+
+    order: int
+    generators: tuple
+    tolerance: float
+    at_most: int | None
+
+
+def automorphisms(structure, *, tolerance=0.0, progress=None):
+    """The `Automorphisms` of a closed structure: the largest group of integer matrices that bring the projected periods
+    to themselves within a quarter of their bounds, or `tolerance` if that is larger.
+
+    tolerance : `Equivalence.residual` that counts as none: a mesh of a symmetric surface need not be symmetric itself
+
+    Raises TypeError for another kind of structure; Error where the search reaches its limit; Cancelled.
+
+    Cost: grows with the number of matrices that the bounds allow.
+    """
+    if not isinstance(structure, ConformalStructure):
+        raise TypeError(f"automorphisms belong to the structure of a closed surface, not to {type(structure).__name__}")
+    lattice = period_lattice(structure)
+    allowed = max(real_number(tolerance, "tolerance"), AGREEMENT * lattice.radius(), ROUNDING)
+    projected = lattice.projected()
+    found, is_complete = _native.isometries(projected, projected, 1, allowed, progress)
+    if not is_complete:
+        raise Error(f"the search among integer matrices reached its limit of {STEPS} steps")
+    found.sort(key=lambda isometry: isometry[1])
+    matrices, residuals = np.array([matrix for matrix, _, _ in found]), np.array([entry[1] for entry in found])
+    count = _largest_group(matrices, residuals, allowed)
+    group = matrices[:count]
+    others, is_complete = _native.isometries(lattice, lattice, 1, 0.0, progress)
+    at_most = len(others) if is_complete else None
+    return Automorphisms(count, tuple(group[_generators(_table(group))]), float(residuals[count - 1]), at_most)
+
+
+def _largest_group(matrices, residuals, allowed):
+    """The number of matrices, nearest first, in the largest group; residuals that are almost the same belong to the
+    same symmetries."""
+    ends = np.flatnonzero(np.diff(residuals, append=np.inf) > GAP * allowed) + 1
+    for count in ends[::-1]:
+        if _table(matrices[:count]) is not None:
+            return int(count)
+    raise Error("the symmetries of the periods are no group")
+
+
+def _table(matrices):
+    """(k, k) index of the product of each two matrices; None where one is none of them."""
+    count, n, _ = matrices.shape
+    keys = {matrix.tobytes(): i for i, matrix in enumerate(matrices)}
+    products = np.einsum("aij,bjk->abik", matrices, matrices).reshape(-1, n, n)
+    table = np.fromiter((keys.get(product.tobytes(), -1) for product in products), int, len(products))
+    return None if (table < 0).any() else table.reshape(count, count)
+
+
+def _generators(table):
+    """Few elements that generate the group with this table."""
+    identity = int(np.flatnonzero((table == np.arange(len(table))).all(axis=1))[0])
+    reached, chosen = np.array([identity]), []
+    while len(reached) < len(table):
+        chosen.append(int(np.setdiff1d(np.arange(len(table)), reached)[0]))
+        size = 0
+        reached = np.union1d(reached, chosen)
+        while len(reached) > size:
+            size = len(reached)
+            reached = np.unique(np.concatenate([reached, table[np.ix_(reached, chosen)].ravel()]))
+    return chosen

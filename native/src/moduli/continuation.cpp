@@ -1,0 +1,94 @@
+#include "moduli/continuation.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "base/chunks.h"
+
+namespace holomorph::moduli {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+constexpr int kSteps = 12;      // walks for one vertex, at most
+constexpr double kGain = 0.99;  // a walk that leaves more of the residual is the last
+
+}  // namespace
+
+MatrixXd slopes(const FormSurface& side, Execution& execution) {
+  const mesh::Surface& surface = side.surface;
+  const mesh::Sides sides(surface);
+  const auto count = static_cast<int>(surface.triangles.size());
+  MatrixXd result(side.forms.rows(), 2 * count);
+  for_rows(execution.workers(), count, [&](int t) {
+    const auto corner = mesh::corners(surface, t);
+    const auto along = [&](int i) -> VectorXd {
+      const auto h = sides(t, i);
+      return mesh::sign(h) * side.forms.col(mesh::edge_of(h));
+    };
+    Eigen::Matrix2d frame;
+    frame << corner[1].real(), corner[2].real(), corner[1].imag(), corner[2].imag();
+    auto slope = result.middleCols<2>(2 * t);
+    slope << along(0), -along(2);
+    slope = (slope * frame.inverse()).eval();
+  });
+  return result;
+}
+
+Continuation::Continuation(const FormSurface& from, const FormSurface& to, Execution& execution)
+    : from_(from),
+      to_(to),
+      from_links_(mesh::half_edges(from.surface, execution)),
+      to_links_(mesh::half_edges(to.surface, execution)),
+      to_sides_(to.surface),
+      slopes_(slopes(to, execution)) {}
+
+ConformalImages Continuation::run(const MapStart& start, std::size_t most_vertices, Execution& execution) const {
+  const auto count = static_cast<std::size_t>(from_.surface.vertex_count);
+  most_vertices = std::min(most_vertices, count);
+  ConformalImages images;
+  images.residuals.resize(start.residual.size(), static_cast<Index>(most_vertices));
+  std::vector<char> is_reached(count, 0);
+  const auto take = [&](int vertex, mesh::SurfacePoint point, const VectorXd& residual) {
+    is_reached[vertex] = 1;
+    const auto place = static_cast<Index>(images.vertices.size());
+    images.residuals.col(place) = residual;
+    follow(point, images.residuals.col(place));
+    images.vertices.push_back(vertex);
+    images.points.push_back(point);
+  };
+  take(start.vertex, start.image, start.residual);
+  for (std::size_t i = 0; i < images.vertices.size(); ++i) {
+    execution.step(i, most_vertices);
+    const auto first = from_links_.halfedge_handle(mesh::VertexHandle(images.vertices[i]));
+    auto h = first;
+    do {
+      const int vertex = mesh::to_vertex(from_links_, h);
+      if (!is_reached[vertex] && images.vertices.size() < most_vertices) {
+        const VectorXd step = mesh::sign(h) * from_.forms.col(mesh::edge_of(h));
+        take(vertex, images.points[i], images.residuals.col(static_cast<Index>(i)) + step);
+      }
+      h = mesh::opposite(mesh::next(from_links_, mesh::next(from_links_, h)));
+    } while (h != first && mesh::face_of(from_links_, h) >= 0);
+  }
+  return images;
+}
+
+void Continuation::follow(mesh::SurfacePoint& point, Eigen::Ref<VectorXd> residual) const {
+  double left = residual.norm();
+  for (int n = 0; n < kSteps; ++n) {
+    const auto across = slope(point.triangle);
+    const Vector2d step = (across.transpose() * across).ldlt().solve(across.transpose() * residual);
+    for (const auto& [triangle, dz] : mesh::walk(to_.surface, to_links_, to_sides_, point, {step[0], step[1]}))
+      residual -= slope(triangle) * Vector2d(dz.real(), dz.imag());
+    const double now = residual.norm();
+    if (now > kGain * left) return;
+    left = now;
+  }
+}
+
+}  // namespace holomorph::moduli

@@ -1,0 +1,58 @@
+// The conformal map between two surfaces whose integer classes correspond, found by continuation.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/execution.h"
+#include "forms/closed_forms.h"
+#include "mesh/half_edges.h"
+#include "mesh/surface_walk.h"
+
+namespace holomorph::moduli {
+
+/// A surface and n closed forms on its edges, n x #E, in which |sum of the squares of their integrals| is a metric that
+/// does not depend on the basis: L^-1 h for the Gram matrix L L^T of h.
+struct FormSurface {
+  const mesh::Surface& surface;
+  const forms::RowMajorMatrix& forms;
+};
+
+/// Where the map begins: a vertex of the first surface, a point of the second, and how far their integrals are apart.
+struct MapStart {
+  int vertex = 0;
+  mesh::SurfacePoint image;
+  Eigen::VectorXd residual;
+};
+
+struct ConformalImages {
+  std::vector<int> vertices;           ///< those reached, in the order of the continuation
+  std::vector<mesh::SurfacePoint> points;  ///< their images
+  Eigen::MatrixXd residuals;           ///< n x #vertices: integrals on the first surface minus those on the second
+};
+
+/// n x 2 #T: the two columns 2 t, 2 t + 1 are the change of the integrals along x and y of triangle t (mesh::corners).
+Eigen::MatrixXd slopes(const FormSurface& side, Execution& execution);
+
+/// The integrals of corresponding forms from the start are the same at corresponding points (Abel-Jacobi). From vertex
+/// to vertex along the edges of the first surface, nearest first: the image walks over the second until no direction
+/// brings its integrals nearer. What is left over shows a wrong start, or forms that do not correspond.
+/// @param most_vertices of the first surface that are mapped @throws Cancelled
+/// Cost: O(#V n), and O(#T n) for the directions on the second surface.
+class Continuation {
+ public:
+  Continuation(const FormSurface& from, const FormSurface& to, Execution& execution);
+
+  ConformalImages run(const MapStart& start, std::size_t most_vertices, Execution& execution) const;
+
+ private:
+  auto slope(int triangle) const { return slopes_.middleCols<2>(2 * triangle); }
+  void follow(mesh::SurfacePoint& point, Eigen::Ref<Eigen::VectorXd> residual) const;
+
+  FormSurface from_, to_;
+  mesh::HalfEdges from_links_, to_links_;
+  mesh::Sides to_sides_;
+  Eigen::MatrixXd slopes_;
+};
+
+}  // namespace holomorph::moduli

@@ -1,0 +1,86 @@
+#include "moduli/period_lattice.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "base/errors.h"
+#include "conformal/projection.h"
+#include "moduli/quadratic_forms.h"
+
+namespace holomorph::moduli {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kLargestInteger = 9007199254740992;  // 2^53
+
+// Exact: the entries of a unimodular inverse are integers, and the product is checked.
+IntegerMatrix unimodular_inverse(const IntegerMatrix& A) {
+  const MatrixXd inverse = A.cast<double>().inverse();
+  if (!(inverse.cwiseAbs().maxCoeff() < kLargestInteger)) throw Error("the lattice needs integers beyond 2^53");
+  const IntegerMatrix rounded = inverse.array().round().matrix().cast<std::int64_t>();
+  if (checked_product(A, rounded) != IntegerMatrix::Identity(A.rows(), A.cols()))
+    throw Error("the basis of the lattice of periods is too badly conditioned");
+  return rounded;
+}
+
+MatrixXd in_basis(const IntegerMatrix& basis, const MatrixXd& form) {
+  const MatrixXd T = basis.cast<double>();
+  return conformal::symmetric(T * form * T.transpose());
+}
+
+}  // namespace
+
+IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B) {
+  const MatrixXd most = A.cast<double>().cwiseAbs() * B.cast<double>().cwiseAbs();
+  if (most.size() > 0 && !(most.maxCoeff() < kLargestInteger)) throw Error("the lattice needs integers beyond 2^53");
+  return A * B;
+}
+
+IntegerMatrix short_basis(const MatrixXd& form) {
+  const MatrixXd root = form.llt().matrixU();
+  const auto reduced = lattice::reduce(root);
+  const Eigen::VectorXd length = reduced.basis.colwise().norm();
+  std::vector<Index> order(length.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return length[i] < length[j]; });
+  return reduced.transform(Eigen::all, order).transpose();
+}
+
+PeriodLattice closed_lattice(const MatrixXd& G, const topology::IntegerMatrix& W) {
+  const auto star = conformal::projected_star(G, G, W.cast<double>());
+  return {star.lower, G, star.natural_gram, W};
+}
+
+PeriodLattice bounded_lattice(const MatrixXd& G_N, const MatrixXd& G_D, const topology::IntegerMatrix& W, int genus) {
+  const Index handles = 2 * genus;
+  const MatrixXd real = W.cast<double>();
+  IntegerMatrix pairing = IntegerMatrix::Zero(W.rows(), W.cols());
+  pairing.topLeftCorner(handles, handles) = W.topLeftCorner(handles, handles);
+  const MatrixXd lower = conformal::symmetric(real.transpose() * conformal::inverse(G_N) * real);
+  return {lower, G_D, conformal::projected_star(G_N, G_D, real).dirichlet_gram, pairing};
+}
+
+ReducedLattice reduced(const PeriodLattice& given) {
+  const IntegerMatrix basis = short_basis(given.projected);
+  return {{in_basis(basis, given.lower), in_basis(basis, given.upper), in_basis(basis, given.projected),
+           checked_product(checked_product(basis, given.pairing), basis.transpose())},
+          basis,
+          unimodular_inverse(basis)};
+}
+
+PeriodLattice projected_lattice(const PeriodLattice& lattice) {
+  return {lattice.projected, lattice.projected, lattice.projected, lattice.pairing};
+}
+
+double radius(const PeriodLattice& lattice) {
+  const auto above = log_ratios(lattice.upper, lattice.projected), below = log_ratios(lattice.projected, lattice.lower);
+  return std::max({0.0, above.greatest, below.greatest});
+}
+
+}  // namespace holomorph::moduli

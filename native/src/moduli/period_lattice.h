@@ -1,0 +1,52 @@
+// The integer classes of a surface with their energies: what is left of it by Torelli's theorem.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "lattice/reduction.h"
+#include "topology/symplectic_basis.h"
+
+namespace holomorph::moduli {
+
+using lattice::IntegerMatrix;
+
+/// The lattice Z^n of integer classes, its quadratic form the energy of their harmonic forms, which is known between
+/// two bounds, and an antisymmetric integer pairing. Two closed surfaces of genus >= 1 are conformally equivalent just
+/// if their lattices are isometric by integers that keep the wedge product, n = 2g (Torelli). With boundary it is that
+/// of the Dirichlet forms, n = 2g + b - 1; int h^D_i ^ h^D_j tells a surface from its mirror image.
+struct PeriodLattice {
+  Eigen::MatrixXd lower, upper;  ///< n x n: lower <= energy <= upper, as quadratic forms
+  Eigen::MatrixXd projected;     ///< n x n: the value between them
+  IntegerMatrix pairing;         ///< n x n
+};
+
+/// Of a closed surface. @param G not below the exact Gram matrix of classes with the wedge matrix W @throws SolverError
+PeriodLattice closed_lattice(const Eigen::MatrixXd& G, const topology::IntegerMatrix& W);
+
+/// Of a surface with boundary. @param G_N,G_D likewise of the natural and the Dirichlet forms
+/// @param W n x n, W_ij = int h^N_i ^ h^D_j: [[J_h, 0], [X, 1]]. @throws SolverError
+PeriodLattice bounded_lattice(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd& G_D, const topology::IntegerMatrix& W,
+                              int genus);
+
+/// Rows: an LLL-reduced basis of Z^n with a quadratic form, ascending by length. @throws SolverError
+IntegerMatrix short_basis(const Eigen::MatrixXd& form);
+
+/// The same lattice in a basis of short vectors, ascending by length.
+struct ReducedLattice {
+  PeriodLattice lattice;
+  IntegerMatrix basis, inverse;  ///< rows: the short vectors in the old basis, and the other way round
+};
+
+/// @throws SolverError, Error where integers leave 2^53
+ReducedLattice reduced(const PeriodLattice& lattice);
+
+/// A B. @throws Error where an entry leaves 2^53
+IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B);
+
+/// The projected energies as if they were exact.
+PeriodLattice projected_lattice(const PeriodLattice& lattice);
+
+/// The half-width of the bounds, in the metric of isometries.h: log of the largest ratio of `upper` and `projected`.
+double radius(const PeriodLattice& lattice);
+
+}  // namespace holomorph::moduli

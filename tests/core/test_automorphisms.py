@@ -1,0 +1,157 @@
+"""Automorphisms of surfaces whose groups are known, reduced period matrices, hyperelliptic surfaces."""
+
+import families
+import numpy as np
+import pytest
+import regular_maps
+from equivalence import (
+    distance_or_mirrored,
+    random_symplectic,
+    symplectic_unit,
+)
+from holomorph import (
+    TopologyError,
+    automorphisms,
+    conformal_structure,
+    hyperelliptic,
+    siegel_reduction,
+)
+from holomorph.siegel import moved
+from holomorph.theta_constants import even_theta_constants
+from solved import surface_of
+from test_equivalence import BOLZA, LAWSON
+from test_exact_values import reference_surface
+
+ROUNDING = 1e-9
+# The only matrix with the symmetries of the Klein quartic (Rauch & Lewittes 1970).
+R7 = 1j * np.sqrt(7)
+KLEIN = np.array(
+    [
+        [(-1 + 3 * R7) / 8, (-1 - R7) / 4, (-3 + R7) / 8],
+        [(-1 - R7) / 4, (1 + R7) / 2, (-1 - R7) / 4],
+        [(-3 + R7) / 8, (-1 - R7) / 4, (7 + 3 * R7) / 8],
+    ]
+)
+FERMAT = (1 + 1j) / 2 * np.array([[2, 1, 1], [1, 2, 1], [1, 1, 2]])
+
+
+def structure_of(name):
+    if name == "Klein":
+        return conformal_structure(surface_of(regular_maps.klein_quartic()))
+    if name == "Bring":
+        return conformal_structure(surface_of(regular_maps.bring_curve()))
+    if name == "square torus":
+        return conformal_structure(surface_of(families.flat_torus(1j, 4)))
+    if name == "hexagonal torus":
+        return conformal_structure(surface_of(families.flat_torus(np.exp(1j * np.pi / 3), 4, jitter=0.2)))
+    if name == "a torus":
+        return conformal_structure(surface_of(families.torus(24, 18, jitter=0.2)))
+    return conformal_structure(reference_surface(name))
+
+
+ORDERS = {
+    "square torus": 4,
+    "hexagonal torus": 6,
+    "a torus": 2,
+    "omega2_squares4_level1.npz": 48,
+    "omega3_squares6_level1.npz": 24,
+    "decagon_jittered_16.npz": 10,
+    "Klein": 336,
+    "Bring": 240,
+}
+
+
+@pytest.mark.parametrize("name", ORDERS)
+def test_order_of_the_group(name):
+    structure = structure_of(name)
+    found = automorphisms(structure)
+    assert found.order == ORDERS[name] <= found.at_most
+    wedge = np.rint(np.linalg.inv(structure.intersection_matrix))
+    for R in found.generators:
+        assert (R @ wedge @ R.T == wedge).all()
+    assert order_generated(found.generators) == found.order
+
+
+def test_a_tolerance_finds_the_symmetries_of_the_smooth_surface():
+    """The polyhedral Lawson surface has not all of them, and the bounds know."""
+    structure = structure_of("lawson_xi21_32.obj")
+    assert automorphisms(structure).at_most < 24
+    found = automorphisms(structure, tolerance=0.05)
+    assert found.order == 24 and 0 < found.tolerance < 0.05
+
+
+def order_generated(generators):
+    seen, fresh = set(), [np.eye(len(generators[0]), dtype=np.int64)]
+    while fresh:
+        seen |= {m.tobytes() for m in fresh}
+        products = {(m @ g).tobytes(): m @ g for m in fresh for g in generators}
+        fresh = [m for key, m in products.items() if key not in seen]
+    return len(seen)
+
+
+def test_regular_maps_have_the_known_periods():
+    assert distance_or_mirrored(structure_of("Klein").period_matrix, KLEIN) < ROUNDING
+
+
+def test_automorphisms_belong_to_closed_surfaces():
+    with pytest.raises(TypeError, match="closed surface, not to BoundedStructure"):
+        automorphisms(conformal_structure(surface_of(families.cylinder(8, 4))))
+
+
+# ---- reduced period matrices -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("omega", [BOLZA, LAWSON, FERMAT, np.array([[0.3 + 1.2j]])], ids=["Bolza", "Lawson", "Fermat", "tau"])
+def test_reduced_matrices_keep_the_convention(omega, seed):
+    g = len(omega)
+    S = random_symplectic(g, seed, steps=3)
+    scrambled = moved(omega, S)
+    reduced = siegel_reduction(scrambled)
+    M, J = reduced.matrix, symplectic_unit(g)
+    assert (M @ J @ M.T == J).all()
+    assert np.abs(moved(scrambled, M) - reduced.period_matrix).max() < 1e-6
+    assert np.abs(reduced.period_matrix.real).max() <= 0.5 + ROUNDING
+    assert abs(reduced.period_matrix[0, 0]) >= 1 - ROUNDING
+    if g == 1:
+        assert abs(reduced.period_matrix[0, 0] - omega[0, 0]) < ROUNDING
+
+
+@pytest.mark.parametrize("tau", [-0.5 + 2j, np.exp(2j * np.pi / 3), np.exp(1j * 1.8), 0.5 + 0.1j])
+def test_edge_of_the_fundamental_domain(tau):
+    reduced = siegel_reduction([[tau]]).period_matrix[0, 0]
+    assert abs(reduced) >= 1 - ROUNDING and -ROUNDING <= reduced.real <= 0.5 + ROUNDING
+
+
+def test_what_is_no_period_matrix():
+    with pytest.raises(ValueError, match="square, symmetric and finite"):
+        siegel_reduction([[1j, 0.1], [0, 1j]])
+    with pytest.raises(ValueError, match="positive definite"):
+        siegel_reduction([[-1j]])
+
+
+# ---- hyperelliptic surfaces ------------------------------------------------------------------------------------
+
+
+def test_klein_quartic_is_not_hyperelliptic():
+    """The coarse triangulation has wide bounds, but the symmetry makes its matrix exact."""
+    found = hyperelliptic(structure_of("Klein"))
+    assert found.verdict != "yes"
+    exact = min(abs(value) for value, _ in even_theta_constants(siegel_reduction(KLEIN).period_matrix))
+    assert found.least == pytest.approx(exact, abs=1e-6) and exact > 0.1
+
+
+def test_genus_two_is_always_hyperelliptic():
+    assert hyperelliptic(structure_of("lawson_xi21_32.obj")).verdict == "yes"
+
+
+def test_genus_four_is_not_told():
+    with pytest.raises(TopologyError, match="up to genus 3; the surface has genus 4"):
+        hyperelliptic(structure_of("Bring"))
+
+
+def test_theta_constants_of_a_torus():
+    """Jacobi: theta_3^4 = theta_2^4 + theta_4^4; and theta_3(i) = pi^(1/4) / Gamma(3/4)."""
+    (three, _), (four, _), (two, _) = even_theta_constants(np.array([[1j]]))
+    assert abs(three - 1.0864348112133080) < 1e-14
+    assert abs(three**4 - two**4 - four**4) < 1e-14

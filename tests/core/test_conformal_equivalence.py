@@ -1,0 +1,325 @@
+"""Equivalence of surfaces by their periods: verdicts on known lattices, on meshes, and on random pairs."""
+
+import json
+
+import families
+import numpy as np
+import pytest
+from equivalence import gram_of, omega_of, random_symplectic, symplectic_unit
+from holomorph import (
+    Cancelled,
+    ProgressiveMesh,
+    Surface,
+    TopologyError,
+    _native,
+    conformal_structure,
+    conformally_equivalent,
+)
+from holomorph.__main__ import main
+from holomorph.equivalence import VERDICTS
+from solved import surface_of
+from test_equivalence import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
+from test_exact_values import complex_matrix, reference_surface, reference_values
+from test_read import obj
+
+ROUNDING = 1e-9
+
+
+def lattice(gram):
+    return _native.PeriodLattice.closed(gram, symplectic_unit(len(gram) // 2))
+
+
+def verdict(a, b):
+    code, isometry, sign, tolerance, margin, _ = _native.compare(lattice(a), lattice(b), 0.0, None)
+    return VERDICTS[code], isometry and isometry[0], sign, tolerance, margin
+
+
+def assert_certificate(R, sign):
+    J = symplectic_unit(len(R) // 2)
+    assert (R @ J @ R.T == sign * J).all()
+
+
+# ---- lattices that are known exactly ---------------------------------------------------------------------------
+
+
+def decagon():
+    return complex_matrix(reference_values()["genus2"]["decagon"])
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("omega", [BOLZA, LAWSON, SQUARES], ids=["Bolza", "Lawson", "squares"])
+def test_another_basis_is_equivalent(omega, seed):
+    S = random_symplectic(len(omega), seed)
+    gram = gram_of(omega)
+    name, R, sign, tolerance, _ = verdict(gram, S @ gram @ S.T)
+    assert name == "equivalent" and tolerance < ROUNDING * np.abs(S @ gram @ S.T).max()
+    assert_certificate(R, sign)
+    assert np.abs(R @ gram @ R.T - S @ gram @ S.T).max() < ROUNDING * np.abs(S @ gram @ S.T).max()
+
+
+def test_two_forms_of_bolza():
+    assert verdict(gram_of(BOLZA), gram_of(BOLZA_AGAIN))[0] == "equivalent"
+
+
+def test_known_curves_are_pairwise_different():
+    curves = [BOLZA, LAWSON, SQUARES, decagon()]
+    for i, a in enumerate(curves):
+        for b in curves[:i]:
+            name, R, _, tolerance, margin = verdict(gram_of(a), gram_of(b))
+            assert name == "not_equivalent" and R is None and np.isinf(tolerance) and margin > 0.05
+
+
+def test_mirror_image():
+    skew = np.array([[0.3 + 1.2j]])
+    name, R, sign, _, _ = verdict(gram_of(skew), gram_of(-skew.conj()))
+    assert name == "mirror_image" and sign == -1
+    assert_certificate(R, sign)
+
+
+@pytest.mark.parametrize("bounds", [1e-6, 1e-3, 0.05])
+def test_tori_beside_each_other(bounds):
+    """Error bars of this half-width around tau and tau + small: what is said depends on their distance alone."""
+    tau = 0.21 + 1.3j
+
+    def said(distance):
+        other = tau + 1j * tau.imag * np.expm1(distance)  # on a geodesic of the half-plane
+        grams = [np.exp(bounds) * gram_of(np.array([[t]])) for t in (tau, other)]
+        return verdict(*grams)
+
+    assert said(0.2 * bounds)[0] == "equivalent"
+    assert said(0.2 * bounds)[3] == pytest.approx(2.2 * bounds, rel=1e-3)
+    assert said(0.3 * bounds)[0] == said(1.9 * bounds)[0] == "undecided"
+    assert said(2.1 * bounds)[0] == "not_equivalent"
+    assert said(4 * bounds)[4] == pytest.approx(2 * bounds, rel=1e-3)
+
+
+def random_gram(g, random):
+    root = random.normal(size=(g, g))
+    real = random.uniform(-1, 1, (g, g))
+    return gram_of((real + real.T) / 2 + 1j * (root @ root.T + 0.3 * np.eye(g)))
+
+
+def moved(gram, distance, random):
+    """A symplectic Gram matrix at this distance: by the flow of a random symmetric element of the Lie algebra."""
+    g = len(gram) // 2
+    a, b = (m + m.T for m in random.normal(size=(2, g, g)))
+    flow = np.block([[a, b], [b, -a]])
+    values, vectors = np.linalg.eigh(flow)
+    half = vectors @ np.diag(np.exp(distance / 2 * values / np.abs(values).max())) @ vectors.T
+    real, imaginary = omega_of(gram).real, omega_of(gram).imag
+    root = np.linalg.cholesky(imaginary)
+    frame = np.block([[np.eye(g), -real], [np.zeros((g, g)), np.eye(g)]]) @ np.block(
+        [[root, np.zeros((g, g))], [np.zeros((g, g)), np.linalg.inv(root).T]]
+    )
+    assert np.abs(frame @ frame.T - gram).max() < 1e-6 * np.abs(gram).max()
+    return frame @ half @ half.T @ frame.T
+
+
+def distance_of(a, b):
+    return np.abs(np.log(np.linalg.eigvals(np.linalg.solve(b, a)).real)).max()
+
+
+def test_a_thousand_random_pairs():
+    """Exact periods are near each other, or the same, in another basis; what is compared are estimates of them with
+    error bars that hold. Never is a verdict wrong."""
+    random = np.random.default_rng(7)
+    said = dict.fromkeys(VERDICTS, 0)
+    for trial in range(1000):
+        g = 1 + trial % 4
+        apart = 0.0 if trial % 2 == 0 else 10 ** random.uniform(-3, 0)
+        exact = random_gram(g, random)
+        other = moved(exact, apart, random) if apart else exact
+        S = random_symplectic(g, trial, steps=2)
+        bars = 10 ** random.uniform(-4, -2) * random.uniform(0.5, 1, 2)
+        estimates = [moved(m, random.uniform(0, 0.2) * bar, random) for m, bar in zip((exact, other), bars)]
+        upper = [np.exp(bar) * estimate for bar, estimate in zip(bars, estimates)]
+        name, R, sign, tolerance, margin = verdict(upper[0], S @ upper[1] @ S.T)
+        said[name] += 1
+        if name == "not_equivalent":
+            assert apart > 0 and margin <= apart * (1 + 1e-6)
+        elif name != "undecided":
+            assert_certificate(R, sign)
+            assert distance_of(R @ exact @ R.T, S @ other @ S.T) <= tolerance + 1e-6
+    assert min(said["equivalent"], said["not_equivalent"]) > 200 and said["undecided"] < 500, said
+
+
+# ---- meshes ----------------------------------------------------------------------------------------------------
+
+BLOCKS = {g: families.block_with_holes(g, refine=4, jitter=0.1, seed=g) for g in range(2, 7)} | {
+    1: families.torus(48, 32, R=1.5, shape="triangles", jitter=0.2)
+}
+
+
+def triangles(g):
+    """Twisted, so that nothing is its own mirror image."""
+    mesh = BLOCKS[g] if g == 1 else families.triangles_of(BLOCKS[g])
+    x, y, z = mesh.vertices.T
+    return families.replace(mesh, vertices=np.stack([x, y + 0.3 * x * z, z + 0.15 * x * y + 0.05 * x**2], axis=1))
+
+
+def moebius_image(mesh):
+    """By the inversion in a sphere beside the mesh, which reverses the orientation, and a reflection, which does so
+    again."""
+    centre = mesh.vertices.max(axis=0) + 1.5 * np.ptp(mesh.vertices, axis=0)
+    from_centre = mesh.vertices - centre
+    inverted = from_centre / (from_centre**2).sum(axis=1, keepdims=True)
+    return families.replace(mesh, vertices=inverted * [1, 1, -1])
+
+
+def equivalent(a, b):
+    made = conformally_equivalent(a, b)
+    assert made.sentence.endswith(".") and made.sentence.lower().startswith(made.verdict.split("_")[0])
+    return made
+
+
+@pytest.mark.parametrize("g", sorted(BLOCKS))
+def test_the_same_surface_is_equivalent(g):
+    """Rotated, scaled, renumbered, and cut finer."""
+    mesh = triangles(g)
+    structure = conformal_structure(surface_of(mesh))
+    renumbered, _ = families.relabelled(families.moved(mesh, scale=1e3))
+    made = equivalent(structure, surface_of(renumbered))
+    assert made.verdict == "equivalent" and made.residual < 1e-6
+    assert equivalent(structure, surface_of(families.subdivided(mesh))).verdict == "equivalent"
+
+
+@pytest.mark.parametrize("g", sorted(BLOCKS))
+def test_mirror_image_of_a_mesh(g):
+    mesh = triangles(g)
+    made = equivalent(surface_of(mesh), surface_of(families.mirrored(mesh)))
+    assert made.verdict == "mirror_image" and made.residual < 1e-6
+
+
+@pytest.mark.parametrize("g", sorted(BLOCKS))
+def test_different_meshes(g):
+    mesh = triangles(g)
+    made = equivalent(surface_of(mesh), surface_of(families.replace(mesh, vertices=mesh.vertices * [1, 1, 3])))
+    assert made.verdict == "not_equivalent" and made.margin > 0
+
+
+@pytest.mark.parametrize("g", [1, 2])
+def test_moebius_image(g):
+    mesh = triangles(g)
+    assert equivalent(surface_of(mesh), surface_of(moebius_image(mesh))).verdict == "equivalent"
+
+
+@pytest.mark.parametrize("name", ["kitten_19k.obj", "rockerArm_ngon.obj", "elephant_g3_50k.obj", "fertility_ngon_g4.obj"])
+def test_real_meshes(meshes, name):
+    """Against the Moebius image, half of the triangles, and the mirror image."""
+    surface = Surface.read(meshes / name).components[0]
+    structure = conformal_structure(surface)
+    mesh = families.uniform(surface.vertices, surface.triangles, ((surface.genus, 0),))
+    assert equivalent(structure, surface_of(moebius_image(mesh))).verdict == "equivalent"
+    assert equivalent(structure, ProgressiveMesh(surface).level(len(surface.triangles) // 2)).verdict == "equivalent"
+    assert equivalent(structure, surface_of(families.mirrored(mesh))).verdict == "mirror_image"
+
+
+def test_a_tolerance_takes_meshes_of_one_surface_for_one():
+    coarse, fine = (surface_of(families.torus(n, n, R=1.5)) for n in (12, 48))
+    assert conformally_equivalent(coarse, fine).verdict != "equivalent"
+    assert conformally_equivalent(coarse, fine, tolerance=0.1).verdict == "equivalent"
+    with pytest.raises(ValueError, match="tolerance is -1"):
+        conformally_equivalent(coarse, fine, tolerance=-1)
+
+
+# ---- with boundary ---------------------------------------------------------------------------------------------
+
+
+def holed(loops, genus=0):
+    mesh = families.triangles_of(families.block_with_holes(genus, refine=6, jitter=0.1))
+    return families.punched(mesh, loops, seed=3)
+
+
+@pytest.mark.parametrize(("genus", "loops"), [(0, 2), (0, 3), (0, 4), (1, 1), (1, 2), (2, 3)])
+def test_surfaces_with_boundary(genus, loops):
+    mesh = holed(loops, genus)
+    structure = conformal_structure(surface_of(mesh))
+    renumbered, _ = families.relabelled(families.moved(mesh))
+    made = equivalent(structure, surface_of(renumbered))
+    assert made.verdict == "equivalent" and made.residual < 1e-6
+    stretched = families.replace(mesh, vertices=mesh.vertices * [1, 1, 4])
+    assert equivalent(structure, surface_of(stretched)).verdict == "not_equivalent"
+
+
+@pytest.mark.parametrize(("genus", "loops"), [(0, 4), (0, 5), (1, 2), (2, 1)])
+def test_mirror_images_with_boundary(genus, loops):
+    mesh = holed(loops, genus)
+    assert equivalent(surface_of(mesh), surface_of(families.mirrored(mesh))).verdict == "mirror_image"
+
+
+@pytest.mark.parametrize("loops", [2, 3])
+def test_annuli_and_pairs_of_pants_are_their_mirror_images(loops):
+    mesh = holed(loops)
+    assert equivalent(surface_of(mesh), surface_of(families.mirrored(mesh))).verdict == "equivalent"
+
+
+def test_annuli_by_their_modulus():
+    tubes = [surface_of(families.cylinder(48, m)) for m in (12, 13)]
+    made = equivalent(*tubes)
+    moduli = [conformal_structure(tube).modulus for tube in tubes]
+    assert made.verdict == "not_equivalent"
+    assert 0 < made.margin <= np.log(moduli[1] / moduli[0]) + ROUNDING
+
+
+# ---- what needs no search, and what is refused -----------------------------------------------------------------
+
+
+def test_spheres_and_disks_are_equivalent():
+    assert equivalent(surface_of(families.cube()), surface_of(families.tetrahedron())).residual == 0
+    disks = [surface_of(families.flat_cells(np.ones(shape, bool), 1.0)) for shape in ((2, 3), (4, 4))]
+    assert equivalent(*disks).verdict == "equivalent"
+
+
+def test_different_topology_is_said():
+    made = equivalent(surface_of(families.torus(8, 6)), surface_of(families.cylinder(8, 4)))
+    assert made.verdict == "not_equivalent" and made.matrix is None
+    assert made.sentence == "Not equivalent: genus 1 with 0 boundary loops, and genus 0 with 2 boundary loops."
+
+
+def test_refusals():
+    torus = surface_of(families.torus(8, 6))
+    with pytest.raises(TopologyError, match="2 connected components"):
+        conformally_equivalent(torus, surface_of(families.united(families.torus(8, 6), families.torus(8, 6))))
+    with pytest.raises(TypeError, match="surfaces or structures are compared, not str"):
+        conformally_equivalent(torus, "kitten.obj")
+    with pytest.raises(Cancelled):
+        conformally_equivalent(torus, torus, progress=lambda fraction, stage: False)
+
+
+def test_surfaces_without_positions_are_compared():
+    tori = [surface_of(families.flat_torus(tau, 5, jitter=0.2)) for tau in (0.2 + 1.1j, 0.2 + 1.1001j)]
+    assert equivalent(tori[0], tori[0]).verdict == "equivalent"
+    made = equivalent(*tori)
+    assert made.verdict == "not_equivalent"
+    assert made.margin == pytest.approx(np.log(1.1001 / 1.1), rel=1e-3)
+
+
+# ---- the command -----------------------------------------------------------------------------------------------
+
+
+def write(folder, name, mesh):
+    path = folder / name
+    path.write_bytes(obj(mesh))
+    return str(path)
+
+
+def test_command_line(tmp_path, capsys):
+    torus = write(tmp_path, "a.obj", triangles(1))
+    mirrored = write(tmp_path, "b.obj", families.mirrored(triangles(1)))
+    ball = write(tmp_path, "ball.obj", families.cube())
+    assert main(["compare", torus, torus, "--report", str(tmp_path / "r.json")]) == 0
+    assert capsys.readouterr().out.startswith("Equivalent: ")
+    report = json.loads((tmp_path / "r.json").read_text())
+    assert report["verdict"] == "equivalent" and len(report["matrix"]) == 2
+    assert main(["compare", torus, mirrored]) == 3
+    assert main(["compare", torus, ball]) == 4
+    assert capsys.readouterr().out.splitlines()[1].startswith("Not equivalent: genus 1")
+
+
+def test_command_line_refuses_in_one_sentence(tmp_path, capsys):
+    torus = write(tmp_path, "a.obj", families.torus(8, 6))
+    both = write(tmp_path, "two.obj", families.united(families.torus(8, 6), families.cube()))
+    for wrong, reason in ((both, "2 connected components"), (str(tmp_path / "none.obj"), "none.obj")):
+        assert main(["compare", torus, wrong]) == 1
+        said = capsys.readouterr()
+        assert not said.out and said.err.startswith("holomorph: ") and reason in said.err and said.err.count("\n") == 1
