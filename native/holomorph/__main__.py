@@ -24,7 +24,8 @@ def main(arguments=None):
         return compare(arguments[1:])
     parser = argparse.ArgumentParser(
         prog="python -m holomorph",
-        description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help; two surfaces are compared by: holomorph compare --help",
+        description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help. "
+        "Two surfaces are compared by: holomorph compare --help",
     )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")

@@ -130,7 +130,9 @@ def _equivalence(verdict, made, is_exact):
 
 def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):
     if verdict == "not_equivalent":
-        return f"Not equivalent: every map stretches some direction at least {_factor(margin)} times as much as another."
+        return (
+            f"Not equivalent: every map stretches some direction at least {_factor(margin)} times as much as another."
+        )
     near = f"their periods differ by {_percent(residual)}, certainly by less than {_percent(tolerance)}"
     if verdict in ("equivalent", "mirror_image"):
         begin = "Equivalent" if verdict == "equivalent" else "Mirror images of each other"

@@ -13,7 +13,7 @@ ALIKE = 1e-2  # both do where neither misses by more
 
 
 def planar_verdict(a, b, matrix):
-    """"equivalent", "mirror_image" or "undecided", of structures whose Dirichlet forms correspond by `matrix`.
+    """ "equivalent", "mirror_image" or "undecided", of structures whose Dirichlet forms correspond by `matrix`.
 
     At corresponding points the holomorphic forms have proportional values, at those of a mirror image conjugate ones
     (the canonical map): measured, not bounded."""

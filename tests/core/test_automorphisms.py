@@ -100,9 +100,13 @@ def test_automorphisms_belong_to_closed_surfaces():
 
 # ---- reduced period matrices -----------------------------------------------------------------------------------
 
+PERIODS = {"Bolza": BOLZA, "Lawson": LAWSON, "Fermat": FERMAT, "tau": np.array([[0.3 + 1.2j]])}
+
 
 @pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("omega", [BOLZA, LAWSON, FERMAT, np.array([[0.3 + 1.2j]])], ids=["Bolza", "Lawson", "Fermat", "tau"])
+@pytest.mark.parametrize(
+    "omega", [BOLZA, LAWSON, FERMAT, np.array([[0.3 + 1.2j]])], ids=["Bolza", "Lawson", "Fermat", "tau"]
+)
 def test_reduced_matrices_keep_the_convention(omega, seed):
     g = len(omega)
     S = random_symplectic(g, seed, steps=3)

@@ -1,6 +1,5 @@
 """Zeros of holomorphic forms and of differentials with poles: their orders add up to the genus."""
 
-import families
 import numpy as np
 import pytest
 from holomorph import Surface, TopologyError, conformal_structure

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "lattices.h"
 #include "lattice/reduction.h"
+#include "lattices.h"
 
 namespace holomorph::lattice {
 namespace {

@@ -85,7 +85,8 @@ class Continuation {
       barycentric.row(static_cast<Eigen::Index>(triangles.size())) = mesh::barycentric(*to_, point).transpose();
       triangles.push_back(point.triangle);
     }
-    return py::make_tuple(copy(images.vertices), copy(triangles), copy(barycentric), copy(images.residuals.transpose()));
+    return py::make_tuple(copy(images.vertices), copy(triangles), copy(barycentric),
+                          copy(images.residuals.transpose()));
   }
 
  private:

@@ -57,8 +57,8 @@ SurfacePoint at_vertex(const Surface& surface, int triangle, int vertex) {
   return {triangle, corner[i] + kInwards * (centre - corner[i])};
 }
 
-WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides& sides,
-               SurfacePoint& point, Complex dz, int most_triangles) {
+WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides& sides, SurfacePoint& point, Complex dz,
+               int most_triangles) {
   WalkSteps steps;
   for (int n = 0; n < most_triangles; ++n) {
     const auto corner = corners(surface, point.triangle);

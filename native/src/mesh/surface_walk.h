@@ -31,8 +31,8 @@ SurfacePoint at_vertex(const Surface& surface, int triangle, int vertex);
 
 /// Moves the point along a geodesic that leaves with `dz`, across edges by unfolding; it ends early at the boundary and
 /// after `most_triangles`. @return the steps made
-WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides& sides,
-               SurfacePoint& point, std::complex<double> dz, int most_triangles = 1000);
+WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides& sides, SurfacePoint& point,
+               std::complex<double> dz, int most_triangles = 1000);
 
 /// The corners' vertices of the point's triangle, the nearest first.
 std::array<int, 3> nearest_corners(const Surface& surface, const SurfacePoint& point);

@@ -26,9 +26,9 @@ struct MapStart {
 };
 
 struct ConformalImages {
-  std::vector<int> vertices;           ///< those reached, in the order of the continuation
+  std::vector<int> vertices;               ///< those reached, in the order of the continuation
   std::vector<mesh::SurfacePoint> points;  ///< their images
-  Eigen::MatrixXd residuals;           ///< n x #vertices: integrals on the first surface minus those on the second
+  Eigen::MatrixXd residuals;               ///< n x #vertices: integrals on the first surface minus those on the second
 };
 
 /// n x 2 #T: the two columns 2 t, 2 t + 1 are the change of the integrals along x and y of triangle t (mesh::corners).

@@ -30,15 +30,15 @@ inline constexpr std::int64_t kMostSteps = 5'000'000;
 
 /// What is searched for, and how long.
 struct SearchOptions {
-  int sign = 1;               ///< 1 keeps the orientation, -1 reverses it
-  double slack = 0;           ///< all R with excess <= slack; besides 1e-9 for rounding
+  int sign = 1;                     ///< 1 keeps the orientation, -1 reverses it
+  double slack = 0;                 ///< all R with excess <= slack; besides 1e-9 for rounding
   std::int64_t steps = kMostSteps;  ///< of the search, at most
 };
 
-/// All R whose excess is at most `slack`. Row by row, in a reduced basis of b from short to long: the candidates are the
-/// lattice points near the one point that has the energy products with the rows before, and in the plane that has the
-/// wedge products with them; a candidate is dropped if the bounds exclude the block of rows so far. Nothing that the
-/// bounds allow is ever dropped.
+/// All R whose excess is at most `slack`. Row by row, in a reduced basis of b from short to long: the candidates are
+/// the lattice points near the one point that has the energy products with the rows before, and in the plane that has
+/// the wedge products with them; a candidate is dropped if the bounds exclude the block of rows so far. Nothing that
+/// the bounds allow is ever dropped.
 /// @throws SolverError, Cancelled, Error where integers leave 2^53
 Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options,
                       Execution& execution);
