@@ -17,6 +17,7 @@ from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, To
 from .bounded import BoundedStructure
 from .checks import SOLVERS
 from .closed import ConformalStructure
+from .conformal_map import ConformalMap, conformal_map
 from .disk import DiskMap, RectangleMap, TriangleMap
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
@@ -40,6 +41,7 @@ __all__ = [
     "Automorphisms",
     "BoundedStructure",
     "Cancelled",
+    "ConformalMap",
     "ConformalStructure",
     "DiskMap",
     "Equivalence",
@@ -73,6 +75,7 @@ __all__ = [
     "__version__",
     "automorphisms",
     "choice",
+    "conformal_map",
     "conformal_structure",
     "conformally_equivalent",
     "double_cover",

@@ -75,11 +75,11 @@ def conformally_equivalent(a, b, *, tolerance=0.0, progress=None):
         kind = "disks" if loops else "spheres"
         return Equivalence("equivalent", f"Equivalent: all {kind} are.", residual=0.0, tolerance=0.0)
     structures = [
-        _structure(given, part, _scaled(progress, start, start + 0.4))
+        _structure(given, part, scaled(progress, start, start + 0.4))
         for given, part, start in ((a, first, 0.0), (b, second, 0.4))
     ]
     lattices = [period_lattice(structure) for structure in structures]
-    made = _native.compare(*lattices, float(tolerance), _scaled(progress, 0.8, 1.0))
+    made = _native.compare(*lattices, float(tolerance), scaled(progress, 0.8, 1.0))
     verdict = VERDICTS[made[0]]
     if verdict == "equivalent" and genus == 0 and loops > LOOPS_OF_ACHIRAL_SURFACES:
         verdict = planar_verdict(*structures, made[1][0])
@@ -109,7 +109,8 @@ def _structure(given, component, progress):
     return conformal_structure(component, progress=progress)
 
 
-def _scaled(progress, begin, end):
+def scaled(progress, begin, end):
+    """A progress function for the part [begin, end] of the work; None for none."""
     if progress is None:
         return None
     return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)

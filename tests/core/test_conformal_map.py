@@ -1,0 +1,58 @@
+"""The conformal map between equivalent surfaces: where it is known, and its angles."""
+
+import families
+import numpy as np
+import pytest
+from holomorph import TopologyError, conformal_map, conformal_structure
+from solved import surface_of
+from test_conformal_equivalence import moebius_image, triangles
+
+
+def edge_length(mesh):
+    corners = mesh.vertices[mesh.corners.reshape(-1, 3)]
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean()
+
+
+def structures(*meshes):
+    return [conformal_structure(surface_of(mesh)) for mesh in meshes]
+
+
+@pytest.mark.parametrize("image", [moebius_image, families.moved, families.mirrored, families.subdivided])
+def test_vertices_are_found_again(image):
+    """Genus 3 without symmetry: the map is the only one, and its vertices are known."""
+    mesh = triangles(3)
+    other = image(mesh)
+    found = conformal_map(*structures(mesh, other))
+    distance = np.linalg.norm(found.of(other.vertices) - other.vertices[: len(mesh.vertices)], axis=1)
+    assert np.median(distance) < 0.1 * edge_length(other)
+    assert found.residual < 0.01
+
+
+def test_tori_are_mapped_with_their_angles():
+    """Many maps are conformal; whichever is found has little distortion."""
+    mesh = families.torus(48, 32, R=1.5, shape="triangles", jitter=0.2)
+    other = families.moved(families.torus(64, 24, R=1.5, shape="triangles", jitter=0.2, seed=5))
+    found = conformal_map(*structures(mesh, other))
+    faces = mesh.corners.reshape(-1, 3)
+    images = found.of(other.vertices)
+    first, second = (frames(points[faces]) for points in (mesh.vertices, images))
+    values = np.linalg.svd(second @ np.linalg.inv(first), compute_uv=False)
+    assert np.median(values[:, 0] / values[:, 1]) < 1.1
+
+
+def frames(corners):
+    """(#T, 2, 2) sides 1 and 2 of triangles in their own planes."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    x = a / np.linalg.norm(a, axis=1, keepdims=True)
+    along = (b * x).sum(axis=1)
+    height = np.linalg.norm(b - along[:, None] * x, axis=1)
+    zero = np.zeros(len(a))
+    return np.moveaxis(np.array([[np.linalg.norm(a, axis=1), along], [zero, height]]), 2, 0)
+
+
+def test_refusals():
+    torus, other = structures(families.torus(12, 8), families.torus(12, 8, R=3.0))
+    with pytest.raises(TopologyError, match="there is no map to be made; Not equivalent"):
+        conformal_map(torus, other)
+    with pytest.raises(TypeError, match="not of a BoundedStructure"):
+        conformal_map(torus, *structures(families.cylinder(8, 4)))
