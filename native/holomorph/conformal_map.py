@@ -40,9 +40,9 @@ class ConformalMap:
         return np.einsum("vi,vi...->v...", self.barycentric, values[self._corners[self.triangles]])
 
 
-def conformal_map(a, b, *, progress=None):
+def conformal_map(a, b, *, tolerance=0.0, progress=None):
     """The `ConformalMap` from closed structure `a` to closed structure `b`, of genus >= 1, which are equivalent or
-    mirror images: then it reverses the orientation.
+    mirror images: then it reverses the orientation. `tolerance` as in `conformally_equivalent`.
 
     The integrals of forms that correspond by `Equivalence.matrix` are the same at corresponding points. The map begins
     at a point where the values of all forms agree best, and goes on along the edges of `a`.
@@ -54,7 +54,7 @@ def conformal_map(a, b, *, progress=None):
     for structure in (a, b):
         if not isinstance(structure, ConformalStructure):
             raise TypeError(f"maps are made between closed structures, not of a {type(structure).__name__}")
-    found = conformally_equivalent(a, b, progress=scaled(progress, 0.0, 0.2))
+    found = conformally_equivalent(a, b, tolerance=tolerance, progress=scaled(progress, 0.0, 0.2))
     if found.verdict not in ("equivalent", "mirror_image"):
         raise TopologyError(f"there is no map to be made; {found.sentence}")
     gram = b._native.projected()[0]

@@ -48,7 +48,7 @@ def conformally_equivalent(a, b, *, tolerance=0.0, progress=None):
 
     By Torelli's theorem just if integers bring the periods of one to those of the other. "not_equivalent" is said where
     the error bars of the periods exclude all integer matrices; "equivalent", or "mirror_image", where one brings the
-    projected periods as near as a quarter of the narrower error bar, and the result's `tolerance` says how near the
+    projected periods as near as a quarter of the error bars' geometric mean, and the result's `tolerance` says how near the
     exact ones are for certain; "undecided" else. A surface with both is called what it is nearer to.
 
     Parameters
@@ -142,8 +142,6 @@ def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):
         return "Undecided: a surface has degenerate triangles, and the bounds of its periods are those of another one."
     if not is_complete:
         return f"Undecided: the search among integer matrices reached its limit of {STEPS} steps."
-    if residual == math.inf:
-        return "Undecided: the bounds of the periods are too wide; finer meshes have narrower ones."
     return f"Undecided: {near}; finer meshes have narrower bounds."
 
 

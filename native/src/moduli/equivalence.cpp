@@ -16,6 +16,8 @@ constexpr double kFirstPart = 1e-4, kGrowth = 100;
 constexpr double kNearer = 4;
 // The margin is looked for in doubling steps, from one to the other: dilatations up to 4.
 constexpr double kFirstMargin = 1e-3, kLargestMargin = 2 * std::numbers::ln2;
+// Part of the steps that each of these searches may take: the verdict is known without them.
+constexpr std::int64_t kMarginPart = 100;
 
 const Isometry* nearest(const Isometries& isometries) {
   const auto less = [](const Isometry& x, const Isometry& y) { return x.residual < y.residual; };
@@ -31,7 +33,7 @@ class Judge {
   Comparison run() {
     const double of_a = radius(a_), of_b = radius(b_);
     execution_.stage("integer matrices", 0, 0.3);
-    const bool agree = look_near(std::max({kRounding, allowed_, kAgreement * std::min(of_a, of_b)}));
+    const bool agree = look_near(std::max({kRounding, allowed_, kAgreement * std::sqrt(of_a * of_b)}));
     execution_.stage("integer matrices", 0.3, 0.6);
     if (!agree) take_nearest(a_, b_, allowed_, result_.is_complete);
     const double found = result_.isometry ? result_.isometry->residual : std::numeric_limits<double>::infinity();
@@ -76,7 +78,7 @@ class Judge {
     for (double slack = allowed_ + kFirstMargin;; slack = std::min(2 * slack, kLargestMargin)) {
       double least = slack;
       for (const int sign : {1, -1}) {
-        const auto isometries = moduli::isometries(a_, b_, {sign, slack, steps_}, execution_);
+        const auto isometries = moduli::isometries(a_, b_, {sign, slack, steps_ / kMarginPart}, execution_);
         if (!isometries.is_complete) return;
         for (const Isometry& isometry : isometries.found) least = std::min(least, isometry.excess);
       }

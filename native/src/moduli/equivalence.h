@@ -22,8 +22,9 @@ struct Comparison {
   bool is_complete = true;  ///< false where a limit of steps ended a search that had to be complete
 };
 
-/// Part of the narrower half-width of the bounds to which projected periods have to agree. They are several times as
-/// accurate as the bounds, so that meshes of one surface agree to less, and little more can be told apart from it.
+/// Part of the half-width of the bounds, the geometric mean of both, to which projected periods have to agree. They are
+/// several times as accurate as the bounds, so that meshes of one surface agree to less, and little more can be told
+/// apart from it.
 inline constexpr double kAgreement = 0.25;
 
 /// Equivalent, or mirror image: an integer matrix brings the projected periods of one surface to those of the other, to

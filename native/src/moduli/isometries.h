@@ -26,7 +26,7 @@ struct Isometries {
 };
 
 /// Of one search: some seconds.
-inline constexpr std::int64_t kMostSteps = 5'000'000;
+inline constexpr std::int64_t kMostSteps = 20'000'000;
 
 /// What is searched for, and how long.
 struct SearchOptions {
