@@ -15,6 +15,7 @@ from .structure import conformal_structure
 from .surface import Surface
 
 VERDICTS = ("equivalent", "mirror_image", "not_equivalent", "undecided")
+ROUNDING = 1e-9  # of residuals
 STEPS = _native.isometry_steps  # limit of one search among integer matrices
 
 
@@ -134,7 +135,8 @@ def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):
         return (
             f"Not equivalent: every map stretches some direction at least {_factor(margin)} times as much as another."
         )
-    near = f"their periods differ by {_percent(residual)}, certainly by less than {_percent(tolerance)}"
+    agree = "agree to rounding" if residual <= ROUNDING else f"differ by {_percent(residual)}"
+    near = f"their periods {agree}, certainly to less than {_percent(tolerance)}"
     if verdict in ("equivalent", "mirror_image"):
         begin = "Equivalent" if verdict == "equivalent" else "Mirror images of each other"
         return f"{begin}: {near}."

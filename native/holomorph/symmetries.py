@@ -8,10 +8,9 @@ from . import _native
 from ._native import Error
 from .checks import real_number
 from .closed import ConformalStructure
-from .equivalence import STEPS, period_lattice
+from .equivalence import ROUNDING, STEPS, period_lattice
 
 AGREEMENT = 0.25  # as native/src/moduli/equivalence.h
-ROUNDING = 1e-9  # of residuals
 GAP = 1e-6  # of what is allowed: residuals that differ by less belong to the same symmetry of the mesh
 
 
