@@ -37,7 +37,7 @@ def test_tori_are_mapped_with_their_angles():
     images = found.of(other.vertices)
     first, second = (frames(points[faces]) for points in (mesh.vertices, images))
     values = np.linalg.svd(second @ np.linalg.inv(first), compute_uv=False)
-    assert np.median(values[:, 0] / values[:, 1]) < 1.1
+    assert np.median(values[:, 0] / values[:, 1]) < 1.2  # both meshes interpolate
 
 
 def frames(corners):
