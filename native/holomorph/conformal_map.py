@@ -5,15 +5,16 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from . import _native, arrays
-from ._native import TopologyError
+from ._native import SolverError, TopologyError
 from .closed import ConformalStructure
 from .equivalence import Equivalence, conformally_equivalent, scaled
 
 STARTS = 12  # points of the second surface that are tried for one of the first
-SAMPLES = 4  # points of the first surface that are tried
+SAMPLES = 16  # points of the first surface that are tried
 TRIED = 400  # vertices that tell a right start from a wrong one
 ALIKE = 0.98  # cosine of the forms' values at two points that are taken for one start
 ROUNDS = 4  # of the correction of the start
+MOST_RESIDUAL = 0.05  # of a map that is one
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +48,8 @@ def conformal_map(a, b, *, tolerance=0.0, progress=None):
     The integrals of forms that correspond by `Equivalence.matrix` are the same at corresponding points. The map begins
     at a point where the values of all forms agree best, and goes on along the edges of `a`.
 
-    Raises TypeError for other structures; TopologyError where the surfaces are not known to be equivalent; Cancelled.
+    Raises TypeError for other structures; TopologyError where the surfaces are not known to be equivalent;
+    SolverError where no start leads to a map; Cancelled.
 
     Cost: linear in both surfaces, beside that of `conformally_equivalent`.
     """
@@ -118,6 +120,8 @@ class _Matching:
         vertices, triangles, barycentric, residuals = made
         order = np.argsort(vertices)
         residual = float(np.sqrt((residuals**2).sum(axis=1).mean()))
+        if residual > MOST_RESIDUAL:
+            raise SolverError(f"no map was found: the forms' integrals differ by {residual:.2g} where it ends")
         component, surface = self._a._component, self._a.surface
         all_triangles = np.full(surface.given_vertex_count, -1)
         all_barycentric = np.full((surface.given_vertex_count, 3), np.nan)

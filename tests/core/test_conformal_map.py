@@ -1,9 +1,11 @@
 """The conformal map between equivalent surfaces: where it is known, and its angles."""
 
+import sys
+
 import families
 import numpy as np
 import pytest
-from holomorph import TopologyError, conformal_map, conformal_structure
+from holomorph import SolverError, TopologyError, conformal_map, conformal_structure
 from solved import surface_of
 from test_conformal_equivalence import moebius_image, triangles
 
@@ -48,6 +50,12 @@ def frames(corners):
     height = np.linalg.norm(b - along[:, None] * x, axis=1)
     zero = np.zeros(len(a))
     return np.moveaxis(np.array([[np.linalg.norm(a, axis=1), along], [zero, height]]), 2, 0)
+
+
+def test_a_map_that_does_not_fit_is_refused(monkeypatch):
+    monkeypatch.setattr(sys.modules["holomorph.conformal_map"], "MOST_RESIDUAL", 0.0)
+    with pytest.raises(SolverError, match="no map was found"):
+        conformal_map(*structures(triangles(2), moebius_image(triangles(2))))
 
 
 def test_refusals():
