@@ -49,8 +49,8 @@ def conformally_equivalent(a, b, *, tolerance=0.0, progress=None):
 
     By Torelli's theorem just if integers bring the periods of one to those of the other. "not_equivalent" is said where
     the error bars of the periods exclude all integer matrices; "equivalent", or "mirror_image", where one brings the
-    projected periods as near as a quarter of the error bars' geometric mean, and the result's `tolerance` says how near the
-    exact ones are for certain; "undecided" else. A surface with both is called what it is nearer to.
+    projected periods as near as a quarter of the error bars' geometric mean, and the result's `tolerance` says how
+    near the exact ones are for certain; "undecided" else. A surface with both is called what it is nearer to.
 
     Parameters
     ----------
