@@ -1,5 +1,6 @@
 #include "structure/invariants.h"
 
+#include "forms/gram_matrices.h"
 #include "structure/guarantee.h"
 
 namespace holomorph::structure {
@@ -30,13 +31,17 @@ void complete(const mesh::HalfEdges& triangulation, std::span<const double> weig
   std::vector<int> sizes{families.natural};
   if (families.dirichlet > 0) sizes.push_back(families.dirichlet);
   execution.part(0, 0.3);
-  result.gram = forms::gram_matrices(triangulation, weights, forms, sizes, execution);
+  // Admissible are functions that are 0 there exactly.
+  const auto fixed = mesh::boundary_vertices(topology.boundary);
+  forms.functions(fixed, Eigen::lastN(families.dirichlet)).setZero();
   std::vector<Eigen::MatrixXd> uncertain;
-  if (!errors.empty()) uncertain = forms::gram_matrices(triangulation, errors, forms, sizes, execution);
+  for (const auto& gram : forms::gram_matrices(triangulation, weights, errors, forms, sizes, execution)) {
+    result.gram.push_back(gram.value);
+    if (!errors.empty()) uncertain.push_back(forms::gram_errors(gram));
+  }
   result.certain_gram = certain_gram(result.gram, uncertain);
   execution.part(0.3, 1);
-  result.certificate.residuals = forms::residuals(triangulation, weights, forms, execution, families.natural,
-                                                  mesh::boundary_vertices(topology.boundary));
+  result.certificate.residuals = forms::residuals(triangulation, weights, forms, execution, families.natural, fixed);
   result.certificate.pairing = largest_pairing_error(triangulation, forms, topology, execution);
   // The loops run along edges of the surface itself, and so do its classes; the functions are the same.
   add_loop_indicators(topology, forms.functions);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/intrinsic_triangulation.h"
-#include "mesh/thin_triangles.h"
+#include "mesh/metric_errors.h"
 #include "structure/guarantee.h"
 #include "structure/harmonic_systems.h"
 #include "structure/invariants.h"
