@@ -15,11 +15,13 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 from . import choice, layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
+from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
 from .disk import DiskMap, RectangleMap, TriangleMap
 from .double import double_cover
 from .levels import LevelOfDetail
+from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
@@ -34,6 +36,7 @@ from .verdicts import UNEVEN, Verdict, overall, verdict
 __all__ = [
     "BoundedStructure",
     "Cancelled",
+    "Certificate",
     "ConformalStructure",
     "DiskMap",
     "Error",
@@ -47,6 +50,7 @@ __all__ = [
     "PuncturedStructure",
     "Quality",
     "RectangleMap",
+    "Refinement",
     "Refused",
     "Repairs",
     "Residuals",

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from . import arrays
+from .certificate import certificate
 from .checks import checked_coefficients
 from .results import MemoryPlan, SolverReport, Structure
 
@@ -107,3 +108,13 @@ class FormStructure(Structure):
     def _balanced(self):
         c = self._native.balanced_coefficients()
         return arrays.frozen(c.real.copy() if self.coefficient_type is np.float64 else c)
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedStructure(FormStructure):
+    """Base of the results whose conformal invariants have guaranteed bounds."""
+
+    @cached_property
+    def certificate(self):
+        """`Certificate`: the bounds, whether they are proven for the surface as given, and what was measured."""
+        return certificate(self)

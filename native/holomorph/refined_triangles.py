@@ -82,7 +82,9 @@ def refined(triangles, marked):
     is_cut[triangles.edges[marked]] = True
     cut = _Cut(triangles, is_cut)
     count = is_cut[triangles.edges].sum(axis=1)
-    return Pieces.of([cut.whole(count == 0), *cut.in_two(count == 1), *cut.in_three(count == 2), *cut.in_four(count == 3)])
+    return Pieces.of(
+        [cut.whole(count == 0), *cut.in_two(count == 1), *cut.in_three(count == 2), *cut.in_four(count == 3)]
+    )
 
 
 @dataclass(frozen=True)

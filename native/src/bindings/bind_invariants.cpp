@@ -48,14 +48,11 @@ void bind_invariants(py::class_<Structure, StructurePointer>& type) {
              return py::make_tuple(residuals.closedness, residuals.harmonicity, periods, pairing, asymmetry);
            })
       .def("side_classes", [](const Structure& s) { return copy(structure::side_classes(s.value)); })
-      .def("narrow",
-           [](Structure& s, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain, double metric) {
-             structure::narrow(s.value, std::move(gram), std::move(certain), metric);
-           })
-      .def("intrinsic",
-           [](const Structure& s) {
-             return py::make_tuple(s.value.flip_count, s.value.mollification, s.value.certificate.metric);
-           });
+      .def("narrow", [](Structure& s, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain,
+                        double metric) { structure::narrow(s.value, std::move(gram), std::move(certain), metric); })
+      .def("intrinsic", [](const Structure& s) {
+        return py::make_tuple(s.value.flip_count, s.value.mollification, s.value.certificate.metric);
+      });
 }
 
 }  // namespace holomorph::bindings

@@ -66,9 +66,8 @@ void set_real_bounds(const MatrixXd& G, const MatrixXd& Z, PeriodBounds& bounds)
   bounds.real_upper.resize(g, g);
   for (Index i = 0; i < g; ++i) {
     for (Index j = 0; j < g; ++j) {
-      const double radius =
-          kSlack * (std::sqrt(across[i] * trace) * root[j] + missed.row(i).dot(root) * root[j]) +
-          2 * kUnit * std::abs(Z(i, j));
+      const double radius = kSlack * (std::sqrt(across[i] * trace) * root[j] + missed.row(i).dot(root) * root[j]) +
+                            2 * kUnit * std::abs(Z(i, j));
       bounds.real_lower(i, j) = -Z(i, j) - radius;
       bounds.real_upper(i, j) = -Z(i, j) + radius;
     }

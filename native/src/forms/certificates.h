@@ -1,4 +1,5 @@
-// Residuals and wedge products of harmonic forms, and their energies on the surface's own triangles, summed in a fixed order.
+// Residuals and wedge products of harmonic forms, and their energies on the surface's own triangles, summed in a fixed
+// order.
 #pragma once
 
 #include <Eigen/Core>

@@ -10,11 +10,11 @@
 namespace holomorph::forms {
 namespace {
 
-using mesh::HalfedgeHandle;
-using mesh::HalfEdges;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using mesh::HalfedgeHandle;
+using mesh::HalfEdges;
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 // What bounds of rounding are themselves rounded by.
@@ -136,9 +136,9 @@ std::vector<GramMatrix> gram_matrices(const HalfEdges& mesh, std::span<const dou
   return result;
 }
 
-// |sum over e of the rounding of k h_i h_j| <= c sum |k h_i h_j|, a form that is at most n c diag(size). A value h = (f -
-// f) + eta misses by |delta| <= 2 |h| + |eta| units, and 2 <h, delta> + <delta, delta> by Cauchy and Schwarz is at most
-// 3 epsilon n diag(size) with epsilon^2 >= |delta|^2 / |h|^2.
+// |sum over e of the rounding of k h_i h_j| <= c sum |k h_i h_j|, a form that is at most n c diag(size). A value h = (f
+// - f) + eta misses by |delta| <= 2 |h| + |eta| units, and 2 <h, delta> + <delta, delta> by Cauchy and Schwarz is at
+// most 3 epsilon n diag(size) with epsilon^2 >= |delta|^2 / |h|^2.
 MatrixXd gram_errors(const GramMatrix& gram) {
   const auto n = static_cast<double>(gram.size.size());
   double relative = 0;

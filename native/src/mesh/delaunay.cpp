@@ -98,7 +98,7 @@ class Flipper {
   // Length between the apices when both triangles are laid out in the plane with the edge on the x axis.
   RoundedLength new_length(HalfedgeHandle a, HalfedgeHandle b) const {
     const double base = length(a);
-    struct Apex {  // seen from the start of a half-edge
+    struct Apex {                  // seen from the start of a half-edge
       double x, height, rounding;  // the rounding is that of x
     };
     const auto apex = [&](HalfedgeHandle h) {
@@ -106,7 +106,8 @@ class Flipper {
       const double from_end = length(h1), from_start = length(h2);
       const double x = (base * base + (from_start - from_end) * (from_start + from_end)) / (2 * base);
       const bool flat = from_start + from_end - base < kFlatMargin * base;
-      return Apex{x, flat ? 0.0 : 2 * triangle_area(base, from_end, from_start) / base, kOfAbscissa * (base + std::abs(x))};
+      return Apex{x, flat ? 0.0 : 2 * triangle_area(base, from_end, from_start) / base,
+                  kOfAbscissa * (base + std::abs(x))};
     };
     const Apex p = apex(a), q = apex(b);
     const double across = p.x - (base - q.x), up = p.height + q.height;

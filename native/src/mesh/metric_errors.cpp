@@ -39,7 +39,8 @@ const FaceError& error_at(const Metric& t, HalfedgeHandle h) { return t.errors[t
 
 double largest_cotangent(const Metric& t, HalfedgeHandle h) {
   const auto [h0, h1, h2] = around(t, h);
-  return std::max({std::abs(t.cotangents[h0.idx()]), std::abs(t.cotangents[h1.idx()]), std::abs(t.cotangents[h2.idx()])});
+  return std::max(
+      {std::abs(t.cotangents[h0.idx()]), std::abs(t.cotangents[h1.idx()]), std::abs(t.cotangents[h2.idx()])});
 }
 
 bool is_thin_at(const Metric& t, HalfedgeHandle h) {
@@ -77,7 +78,9 @@ double error_of_side(const Metric& t, HalfedgeHandle h) {
 // sqrt((1 + eta) / (1 - eta)) <= 1 + eta + eta^2.
 double energy_growth(const std::array<RoundedLength, 3>& sides, double* open) {
   const auto& [a, b, c] = sides;
-  const auto part = [](const RoundedLength& x, double y, double z) { return (2 * x.length + x.error) * x.error * y * z; };
+  const auto part = [](const RoundedLength& x, double y, double z) {
+    return (2 * x.length + x.error) * x.error * y * z;
+  };
   const double bound = (part(a, b.length, c.length) + part(b, c.length, a.length) + part(c, a.length, b.length)) / 4;
   const double area = triangle_area(a.length, b.length, c.length), eta = bound / (area * area);
   const bool is_open = !(eta < 0.5);
@@ -113,8 +116,7 @@ FacesBeside faces_beside(const Metric& t, HalfedgeHandle h) {
 
 // Each new face has the same part of both old ones, so of their errors as much as that part may hold; gradients are
 // constant on it, and its energy is spread by area.
-std::array<FaceError, 2> errors_after_flip(const Metric& t, HalfedgeHandle h, const FacesBeside& before,
-                                           double error) {
+std::array<FaceError, 2> errors_after_flip(const Metric& t, HalfedgeHandle h, const FacesBeside& before, double error) {
   const auto& [errors, areas] = before;
   const double whole = areas[0] + areas[1], largest = std::max(errors[0].largest, errors[1].largest);
   const auto after = [&](HalfedgeHandle side) {

@@ -87,8 +87,7 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   const int count = static_cast<int>(sides.cols() / 3);
   NestedLevel level;
   execution.stage("refined triangulation", 0.0, 0.3);
-  auto triangulation =
-      mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
   const std::vector<int> fixed = mesh::boundary_vertices(triangulation.half_edges);
   mesh::make_delaunay(triangulation, execution);
   level.mollification = triangulation.mollification;

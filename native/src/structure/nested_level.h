@@ -30,9 +30,9 @@ struct NestedLevel {
   double mollification = 0;                             ///< other than 0: bounds are of another surface
 };
 
-/// Solves for the forms of these classes. On a triangulation that refines the Delaunay triangulation of a coarser level,
-/// energies are no larger than there: the coarser functions are among those to choose from, and flips towards Delaunay
-/// lower the energy of any (Rippa 1990, doi:10.1016/0167-8396(90)90011-F). So bounds are nested.
+/// Solves for the forms of these classes. On a triangulation that refines the Delaunay triangulation of a coarser
+/// level, energies are no larger than there: the coarser functions are among those to choose from, and flips towards
+/// Delaunay lower the energy of any (Rippa 1990, doi:10.1016/0167-8396(90)90011-F). So bounds are nested.
 /// @param natural how many of the classes are natural; the others are Dirichlet
 /// @throws SolverError, Cancelled
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, const Options& options,
