@@ -76,7 +76,7 @@ def why_uncertain(structure):
     """One sentence, or "" where the bounds are proven for the surface as given."""
     _, mollification, rounding = structure._native.intrinsic()
     if mollification:
-        return f"degenerate triangles were mollified, lengthened by up to {mollification:.1e}: another surface was solved on"
+        return f"degenerate triangles were lengthened, by up to {mollification:.1e}: another surface was solved on"
     if rounding >= OPEN:
         return "a triangle is so thin that the rounding of its sides leaves its shape open"
     memory = getattr(structure, "memory", None)

@@ -1,5 +1,5 @@
-"""Nested refinement of intrinsic triangulations: triangles with lengths and closed integer forms, cut at the midpoints of
-edges, and where the two-sided bounds lose most."""
+"""Nested refinement of intrinsic triangulations: triangles with lengths and closed integer forms are cut at midpoints
+of edges, there where the two-sided bounds lose most."""
 
 from dataclasses import dataclass, fields
 
@@ -47,8 +47,8 @@ def areas(sides):
 def gaps(triangles, functions, natural):
     """(#T,) numbers >= 0 whose sum is the trace of the relative width of the bounds, tr G^-1 (G - W G'^-1 W^T).
 
-    That width is the energy of *h_i - sum_j C_ij h_j, with the C that makes it least, h_j of the other family on surfaces
-    with boundary: it is a sum over triangles, and so tells where it comes from."""
+    That width is the energy of *h_i - sum_j C_ij h_j, with the C that makes it least, h_j of the other family on
+    surfaces with boundary: it is a sum over triangles, and so tells where it comes from."""
     l0, l1, l2 = np.moveaxis(triangles.sides, 1, 0)
     area = areas(triangles.sides)
     x, y = (l0**2 + (l2 - l1) * (l2 + l1)) / (2 * l0), 2 * area / l0  # corner 2, with side 0 on the first axis
@@ -75,9 +75,10 @@ def worst(gap, part):
 
 
 def refined(triangles, marked):
-    """`Pieces` in which all sides of the marked triangles are halved. Their neighbours are cut as far as these midpoints
-    ask for it: into two, three or four. The surface remains the same, but for the rounding of medians, which `errors`
-    hold; halves are exact."""
+    """`Pieces` in which all sides of the marked triangles are halved.
+
+    Their neighbours are cut as far as these midpoints ask for it: into two, three or four. The surface remains the
+    same, but for the rounding of medians, which `errors` hold; halves are exact."""
     is_cut = np.zeros(len(triangles.lengths), dtype=bool)
     is_cut[triangles.edges[marked]] = True
     cut = _Cut(triangles, is_cut)
@@ -103,7 +104,7 @@ class Pieces:
         return cls(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(cls)))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Sides:
     """Sides of some triangles: from and to which vertex, of which edge, how long, and the values of the classes."""
 
@@ -136,8 +137,7 @@ class _Cut:
         self.along = along.reshape(-1, 3)
 
     def turned(self, chosen):
-        """Of triangles with one or two sides cut: their numbers, and that of the first cut side whose predecessor is not
-        cut."""
+        """Of triangles with one or two sides cut: their numbers, and that of the cut side whose predecessor is not."""
         t = np.flatnonzero(chosen)
         cut = self.is_cut[self.t.edges[t]]
         return t, np.argmax(cut & ~np.roll(cut, 1, axis=1), axis=1)

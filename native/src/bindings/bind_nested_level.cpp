@@ -44,8 +44,17 @@ py::tuple solve_level(const mesh::Surface& surface, const Contiguous<int>& class
     return read_only(py::array_t<int>({faces, py::ssize_t{3}}, list.front().data()));
   };
   return py::make_tuple(triples(level.triangles), triples(level.triangle_edges), copy(level.lengths),
-                        copy(level.errors), copy(level.classes), copy(level.functions), level.gram, level.certain_gram,
-                        level.mollification);
+                        copy(level.errors), copy(level.classes), copy(level.functions), level.energies.gram,
+                        level.energies.certain, level.mollification);
+}
+
+// (gram, certain gram matrices) of forms with these functions, on the Delaunay triangulation of the surface.
+py::tuple measure(const mesh::Surface& surface, const Contiguous<int>& classes, int natural,
+                  const forms::RowMajorMatrix& functions) {
+  const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
+  Execution execution;
+  const auto energies = structure::measure(surface, given, natural, functions, execution);
+  return py::make_tuple(energies.gram, energies.certain);
 }
 
 }  // namespace
@@ -53,6 +62,7 @@ py::tuple solve_level(const mesh::Surface& surface, const Contiguous<int>& class
 void bind_nested_level(py::module_& m) {
   m.def("refined_surface", &refined_surface);
   m.def("solve_level", &solve_level);
+  m.def("measure", &measure);
 }
 
 }  // namespace holomorph::bindings

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "forms/gram_matrices.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/delaunay.h"
 #include "mesh/metric_errors.h"
@@ -64,6 +63,33 @@ void write_triangulation(const mesh::IntrinsicTriangulation& triangulation, cons
   }
 }
 
+// The Delaunay triangulation of a surface with all that energies on it are made of.
+struct Triangulated {
+  mesh::IntrinsicTriangulation triangulation;
+  std::vector<int> fixed;
+  Array<double> weights, errors;
+  IntegerForms classes;
+
+  Triangulated(const mesh::Surface& surface, const SideClasses& sides, Execution& execution)
+      : triangulation(mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers())),
+        fixed(mesh::boundary_vertices(triangulation.half_edges)),
+        classes(edge_classes(surface, sides, static_cast<int>(sides.cols() / 3))) {
+    mesh::make_delaunay(triangulation, execution);
+    weights = mesh::cotangent_weights(triangulation, execution);
+    errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
+    topology::pull_back(triangulation.flips, classes);
+  }
+
+  CertainGram measure(const forms::RowMajorMatrix& functions, int natural, Execution& execution) const {
+    const int dirichlet = classes.form_count - natural;
+    forms::ClosedForms forms{classes, functions};
+    forms.functions(fixed, Eigen::lastN(dirichlet)).setZero();
+    std::vector<int> families{natural};
+    if (dirichlet > 0) families.push_back(dirichlet);
+    return certain_energies(triangulation.half_edges, weights, errors, forms, families, execution);
+  }
+};
+
 }  // namespace
 
 SideClasses side_classes(const Structure& s) {
@@ -87,37 +113,27 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   const int count = static_cast<int>(sides.cols() / 3);
   NestedLevel level;
   execution.stage("refined triangulation", 0.0, 0.3);
-  auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
-  const std::vector<int> fixed = mesh::boundary_vertices(triangulation.half_edges);
-  mesh::make_delaunay(triangulation, execution);
-  level.mollification = triangulation.mollification;
-  const auto weights = mesh::cotangent_weights(triangulation, execution);
-  const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
-  auto classes = edge_classes(surface, sides, count);
-  topology::pull_back(triangulation.flips, classes);
-  write_triangulation(triangulation, classes, level);
+  const Triangulated t(surface, sides, execution);
+  level.mollification = t.triangulation.mollification;
+  write_triangulation(t.triangulation, t.classes, level);
 
   execution.stage("refined forms", 0.3, 0.9);
   const auto plan = plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), count},
                                 options.solver, options.memory_limit, Keeping::all);
   execution.part(0, 0.5);
-  HarmonicSystems systems(triangulation.half_edges, weights, fixed, plan.choice, execution);
+  HarmonicSystems systems(t.triangulation.half_edges, t.weights, t.fixed, plan.choice, execution);
   execution.part(0.5, 1);
-  forms::ClosedForms forms{classes, systems.solve(classes, natural, plan.block, execution).functions};
-  forms.functions(fixed, Eigen::lastN(count - natural)).setZero();
+  level.functions = systems.solve(t.classes, natural, plan.block, execution).functions;
 
   execution.stage("refined bounds", 0.9, 1.0);
-  std::vector<int> families{natural};
-  if (count > natural) families.push_back(count - natural);
-  std::vector<Eigen::MatrixXd> uncertain;
-  for (const auto& gram : forms::gram_matrices(triangulation.half_edges, weights, errors, forms, families, execution)) {
-    level.gram.push_back(gram.value);
-    if (!errors.empty()) uncertain.push_back(forms::gram_errors(gram));
-  }
-  level.certain_gram = certain_gram(level.gram, uncertain);
-  level.functions.swap(forms.functions);
+  level.energies = t.measure(level.functions, natural, execution);
   execution.finish();
   return level;
+}
+
+CertainGram measure(const mesh::Surface& surface, const SideClasses& sides, int natural,
+                    const forms::RowMajorMatrix& functions, Execution& execution) {
+  return Triangulated(surface, sides, execution).measure(functions, natural, execution);
 }
 
 void narrow(Structure& structure, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain_gram,

@@ -8,6 +8,7 @@
 #include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/surface.h"
+#include "structure/invariants.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 
@@ -26,8 +27,8 @@ struct NestedLevel {
   std::vector<double> errors;                           ///< #T mesh::FaceError::largest
   SideClasses classes;                                  ///< on it
   forms::RowMajorMatrix functions;                      ///< #V x m
-  std::vector<Eigen::MatrixXd> gram, certain_gram;      ///< as in Structure
-  double mollification = 0;                             ///< other than 0: bounds are of another surface
+  CertainGram energies;
+  double mollification = 0;  ///< other than 0: bounds are of another surface
 };
 
 /// Solves for the forms of these classes. On a triangulation that refines the Delaunay triangulation of a coarser
@@ -37,6 +38,12 @@ struct NestedLevel {
 /// @throws SolverError, Cancelled
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, const Options& options,
                         Execution& execution);
+
+/// Those of the forms eta_i + d f_i with any functions, on the Delaunay triangulation of the surface: admissible ones,
+/// whatever they are, so that bounds hold.
+/// @param functions #V x m; those of Dirichlet forms count as 0 on the boundary
+CertainGram measure(const mesh::Surface& surface, const SideClasses& classes, int natural,
+                    const forms::RowMajorMatrix& functions, Execution& execution);
 
 /// Gram matrices of the same forms from a finer level, and what follows from them.
 void narrow(Structure& structure, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain_gram,
