@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Period matrices against exact values: published errors (Bobenko, Mercat, Schmies 2011,
-doi:10.1007/978-3-642-17413-1_7) beside ours on as many vertices, and errors and certified widths against vertices under even and graded refinement.
+"""python benchmarks/accuracy.py [--json FILE] [--plot FILE]
 
-Needs the folder ../shared/reference of exact values.
+Period matrices against exact values: published errors (Bobenko, Mercat, Schmies 2011,
+doi:10.1007/978-3-642-17413-1_7) beside ours on as many vertices, then errors and certified widths against vertices
+under graded refinement. Needs the folder ../shared/reference of exact values.
 """
 
 import argparse

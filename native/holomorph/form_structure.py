@@ -8,6 +8,7 @@ import numpy as np
 from . import arrays
 from .certificate import certificate
 from .checks import checked_coefficients
+from .narrow_bounds import Refinement
 from .results import MemoryPlan, SolverReport, Structure
 
 
@@ -112,7 +113,12 @@ class FormStructure(Structure):
 
 @dataclass(frozen=True, eq=False)
 class CertifiedStructure(FormStructure):
-    """Base of the results whose conformal invariants have guaranteed bounds."""
+    """Base of the results whose conformal invariants have guaranteed bounds.
+
+    refinement : `Refinement` where narrower bounds were asked for, else None
+    """
+
+    refinement: Refinement = None
 
     @cached_property
     def certificate(self):

@@ -80,8 +80,6 @@ class Structure:
     balanced_coefficients() : those of the map that is shown first
     description : one phrase that says what was made
     invariants() : the conformal invariants as plain data, for reports
-
-    refinement : `Refinement` where narrower bounds were asked for, else None
     """
 
     residuals_kind = Residuals
@@ -93,7 +91,6 @@ class Structure:
     _native: object = field(repr=False)
     _component: Surface = field(repr=False)
     _threads: int = field(repr=False)
-    refinement: object = None
 
     @cached_property
     def edges(self):
@@ -204,10 +201,10 @@ class Structure:
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
 
 
-def result(kind, surface, component, native, threads, refinement=None):
-    """A `kind` of `Structure` made of what the native core computed."""
+def result(kind, surface, component, native, threads, **more):
+    """A `kind` of `Structure` made of what the native core computed, and `more` fields of that kind."""
     seconds = dict(native.timings())
     seconds["total"] = sum(seconds.values())
     certificate = dict(zip(("closedness", "harmonicity", "periods", "pairing", "asymmetry"), native.certificate()))
     residuals = kind.residuals_kind(**{entry.name: certificate[entry.name] for entry in fields(kind.residuals_kind)})
-    return kind(surface, SolverReport(*native.solver()), residuals, seconds, native, component, threads, refinement)
+    return kind(surface, SolverReport(*native.solver()), residuals, seconds, native, component, threads, **more)

@@ -157,7 +157,7 @@ def _forms(surface, component, boundary, options, memory_limit, narrowing):
     if not native.memory()[0]:
         raise SolverError("bounds are narrowed with all forms in memory; they were solved for in blocks")
     refinement = narrow(native, *narrowing, "auto" if solver == "paper" else solver, threads, memory_limit, progress)
-    return result(kind, surface, component, native, threads, refinement)
+    return result(kind, surface, component, native, threads, refinement=refinement)
 
 
 def _residues(residues):
