@@ -10,6 +10,9 @@ from solved import surface_of
 
 SQUARE_MINUS_SQUARE = 10.234092569368052  # its capacity, see test_boundary_values
 
+WIDTH = 5e-3
+ROUNDING = 1e-11
+
 GRADED = {
     "decagon": flat_cones.regular_polygon(10),
     "L-shape": families.square_tiled([1, 0, 2], [2, 1, 0], 1),
@@ -21,25 +24,25 @@ GRADED = {
 def test_bounds_are_as_narrow_as_asked_for_and_nested(name):
     surface = surface_of(GRADED[name])
     wide = conformal_structure(surface).period_bounds
-    structure = conformal_structure(surface, bounds=2e-3)
+    structure = conformal_structure(surface, bounds=WIDTH)
     assert structure.refinement.reached
     widths = [width for _, width in structure.refinement.levels]
-    assert widths[-1] <= 2e-3 < widths[-2]
+    assert widths[-1] <= WIDTH < widths[-2]
     assert (np.diff(widths) < 0).all()
     assert structure.certificate.relative_width == widths[-1]
     assert structure.certificate.holds
     (lower, upper), (wide_lower, wide_upper) = structure.period_bounds, wide
-    assert np.linalg.eigvalsh(lower - wide_lower).min() > 0
-    assert np.linalg.eigvalsh(wide_upper - upper).min() > 0
+    assert np.linalg.eigvalsh(lower - wide_lower).min() > -ROUNDING
+    assert np.linalg.eigvalsh(wide_upper - upper).min() > -ROUNDING
     assert np.linalg.eigvalsh(structure.period_matrix.imag - lower).min() > 0
 
 
 @pytest.mark.parametrize("name", GRADED)
 def test_grading_needs_a_quarter_of_the_triangles(name):
     surface = surface_of(GRADED[name])
-    graded = conformal_structure(surface, bounds=2e-3).refinement
+    graded = conformal_structure(surface, bounds=WIDTH).refinement
     native = conformal_structure(surface)._native
-    even = narrow(native, 2e-3, 4 * graded.levels[-1][0], "auto", 2, 0, uniform=True)
+    even = narrow(native, WIDTH, 4 * graded.levels[-1][0], "auto", 2, 0, uniform=True)
     assert not even.reached and "more than" in even.reason
 
 
