@@ -27,7 +27,7 @@ def conformal_structure(
     threads=None,
     memory_limit=None,
     bounds=None,
-    most_faces=1_000_000,
+    most_faces=2_000_000,
     progress=None,
 ):
     """Conformal structure of one connected surface: harmonic and holomorphic one-forms and conformal invariants; with
