@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from . import arrays
+from .certificate import certain_text
 from .checks import NoInvariant
 from .form_structure import CertifiedStructure
 from .report import bound_lists, complex_pairs
@@ -150,4 +151,5 @@ class BoundedStructure(CertifiedStructure):
             values["capacity_bounds"] = bound_lists(self.capacity_bounds)
         if (surface.genus, surface.boundary_count) == (0, 2):
             values["modulus"], values["modulus_bounds"] = self.modulus, bound_lists(self.modulus_bounds)
+            values["modulus_text"] = None if self.modulus_bounds is None else certain_text(*self.modulus_bounds)
         return values

@@ -1,9 +1,11 @@
 """What is proven of a result, and what was measured of it."""
 
 from dataclasses import dataclass
+from decimal import ROUND_CEILING, Decimal, localcontext
 
 import numpy as np
 
+SLACK = 1e-14  # relative: more than the rounding of a few operations
 OPEN = 1.0  # of `Certificate.rounding`: the metric of a triangle is left open
 
 
@@ -41,9 +43,19 @@ class Certificate:
     period_error: float
     rounding: float
 
+    def period_text(self):
+        """Omega as nested lists of [real, imaginary], each a text of value and uncertainty; None without bounds."""
+        if self.imaginary_bounds is None:
+            return None
+        parts = [*self.real_bounds, *entry_bounds(*self.imaginary_bounds)]
+        return [
+            [[certain_text(a, b), certain_text(c, d)] for a, b, c, d in zip(*row, strict=True)]
+            for row in zip(*parts, strict=True)
+        ]
+
     def as_plain(self):
         """As plain data, for reports."""
-        plain = dict(vars(self))
+        plain = dict(vars(self)) | {"period_text": self.period_text()}
         for name in ("imaginary_bounds", "real_bounds"):
             bounds = plain[name]
             plain[name] = None if bounds is None else [bound.tolist() for bound in bounds]
@@ -111,11 +123,21 @@ def _star_defect(native):
 
 
 def certain_text(lower, upper):
-    """Value and uncertainty with certain digits alone: "2.1785 +- 0.0048", which holds both bounds."""
-    middle, radius = (lower + upper) / 2, (upper - lower) / 2
-    if not radius > 0:
-        return f"{middle:.17g}"
-    digits = max(0, 1 - int(np.floor(np.log10(radius))))
-    shown = round(middle, digits)
-    unit = 10.0**-digits
-    return f"{shown:.{digits}f} +- {np.ceil(max(upper - shown, shown - lower) / unit) * unit:.{digits}f}"
+    """Value and uncertainty in certain digits alone, such as "2.178 +- 0.005": an interval that holds both bounds."""
+    with localcontext() as context:
+        context.prec = 800  # of any double
+        low, high = Decimal(float(lower)), Decimal(float(upper))
+        if low == high:
+            return f"{float(lower)!r}"
+        unit = Decimal(1).scaleb((high - low).adjusted())
+        shown = ((low + high) / 2).quantize(unit)
+        error = max(high - shown, shown - low).quantize(unit, ROUND_CEILING)
+        return f"{shown:f} +- {error:f}"
+
+
+def entry_bounds(lower, upper):
+    """(lower, upper) of each entry of a symmetric matrix between two quadratic forms: it misses their mean by at most
+    (R_ii R_jj)^(1/2), R half their difference, by Cauchy and Schwarz."""
+    half = np.diag(upper - lower) / 2 + SLACK * np.abs(np.diag(upper))
+    middle, radius = (lower + upper) / 2, np.sqrt(np.outer(half, half)) * (1 + SLACK)
+    return middle - radius - SLACK * np.abs(middle), middle + radius + SLACK * np.abs(middle)

@@ -9,7 +9,8 @@ import flat_cones
 import numpy as np
 import pytest
 import slow_path
-from holomorph import SolverError, Surface, _native, conformal_structure
+from holomorph import SolverError, Surface, _native, conformal_structure, report
+from holomorph.certificate import certain_text
 from solved import surface_of
 
 TIGHT = 1e-11  # relative width where the forms are represented exactly: rounding alone
@@ -63,7 +64,7 @@ def energy(form, x):
 @pytest.mark.parametrize("is_jittered", [False, True], ids=["even", "jittered"])
 @pytest.mark.parametrize("name", ORIGAMIS)
 def test_the_area_of_a_square_tiled_surface(name, is_jittered):
-    """The energies of Re dz and Im dz are the number of squares. They are represented exactly, so that the bounds of the
+    """The energies of Re dz and Im dz are the number of squares. They are represented exactly, so the bounds of the
     Gram matrix meet there up to their rounding."""
     right, up = ORIGAMIS[name]
     flat = families.square_tiled(right, up, 3)
@@ -180,3 +181,22 @@ def test_certificate_of_a_bounded_surface():
     low, high = (bound[0, 0] for bound in structure.capacity_bounds)
     assert low < 10.234092569368052 < high
     assert structure.modulus_bounds[0] < 1 / 10.234092569368052 < structure.modulus_bounds[1]
+
+
+# ---- texts --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("middle", [2.17853, -1e-9, 0.0, 3.3e30])
+@pytest.mark.parametrize("radius", [4.8e-3, 9.97e-7, 1e-13, 25.0])
+def test_texts_hold_both_bounds(middle, radius):
+    lower, upper = middle - radius, middle + radius
+    shown, error = map(Fraction, certain_text(lower, upper).split(" +- ")) if lower < upper else (Fraction(lower), 0)
+    assert shown - error <= Fraction(lower) and Fraction(upper) <= shown + error
+    assert error <= 3 * (Fraction(upper) - Fraction(lower))
+
+
+def test_reports_have_texts():
+    structure = conformal_structure(surface_of(families.square_minus_square(4, jitter=0.2)))
+    plain = report.component_report(structure.surface, structure)
+    assert " +- " in plain["modulus_text"]
+    assert " +- " in plain["certificate"]["period_text"][0][0][1]
