@@ -38,39 +38,43 @@ def narrow(native, width, most_faces, solver, threads, memory_limit, progress=No
     """
     natural = native.families()[0]
     surface, classes = native.surface(), native.side_classes()
-    levels, best = [], None
+    levels = []
     while True:
-        solve = _native.solve_level(surface, classes, natural, solver, threads, memory_limit, _stage(progress, levels))
-        triangles, functions, grams, mollification = _level(solve)
-        if mollification or triangles.errors.max() >= OPEN:
-            return _ended(native, best, levels, width, "triangles are too thin for bounds that are certain")
-        best = [*grams, float(triangles.errors.max())]
-        native.narrow(*best)
+        stage = _stage(progress, levels)
+        solved = _native.solve_level(surface, classes, natural, solver, threads, memory_limit, stage)
+        triangles, functions, gram, certain_gram, mollification = _level(solved)
+        rounding = float(triangles.errors.max())
+        if mollification or rounding >= OPEN:
+            reason = "triangles are too thin for bounds that are certain"
+            break
+        native.narrow(gram, certain_gram, rounding)
         levels.append((len(triangles.corners), relative_width(*native.period_bounds(), native.period_matrix().imag)))
-        if levels[-1][1] <= width:
-            return _ended(native, best, levels, width, "the bounds are as narrow as asked for")
-        if len(levels) > 1 and levels[-1][1] > (1 - LEAST_GAIN) * levels[-2][1]:
-            return _ended(native, best, levels, width, "rounding keeps the bounds from getting narrower")
-        marked = np.ones(len(triangles.corners), bool)
-        if not uniform:
-            marked = worst(gaps(triangles, functions, natural), PART)
-        pieces = refined(triangles, marked)
-        if len(pieces.corners) > most_faces or len(levels) == MOST_LEVELS:
+        reason = _ended(levels, width)
+        if reason:
+            break
+        everywhere = np.ones(len(triangles.corners), dtype=bool)
+        pieces = refined(triangles, everywhere if uniform else worst(gaps(triangles, functions, natural), PART))
+        if len(pieces.corners) > most_faces:
             reason = f"the next level would have {len(pieces.corners)} triangles, more than {most_faces}"
-            return _ended(native, best, levels, width, reason)
+            break
         surface, classes = _surface(pieces)
+    return Refinement(bool(levels) and levels[-1][1] <= width, reason, tuple(levels))
 
 
-def _ended(native, best, levels, width, reason):
-    reached = bool(levels) and levels[-1][1] <= width
-    return Refinement(reached, reason, tuple(levels))
+def _ended(levels, width):
+    """Why the last level is the last one; "" where it is not."""
+    if levels[-1][1] <= width:
+        return "the bounds are as narrow as asked for"
+    if len(levels) > 1 and levels[-1][1] > (1 - LEAST_GAIN) * levels[-2][1]:
+        return "rounding keeps the bounds from getting narrower"
+    return f"{MOST_LEVELS} levels were solved" if len(levels) == MOST_LEVELS else ""
 
 
 def _level(solved):
     corners, edges, lengths, errors, classes, functions, gram, certain, mollification = solved
     classes = classes.reshape(len(corners), 3, -1)
     triangles = Triangles(corners, edges, lengths.ravel(), errors.ravel(), classes)
-    return triangles, functions, (gram, certain), mollification
+    return triangles, functions, gram, certain, mollification
 
 
 def _surface(pieces):
