@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
 #include <random>
 
 #include "conformal/certain_bounds.h"
