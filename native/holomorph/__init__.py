@@ -15,6 +15,7 @@ Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Su
 from . import choice, layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
 from .bounded import BoundedStructure
+from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
 from .conformal_map import ConformalMap, conformal_map
@@ -22,6 +23,7 @@ from .disk import DiskMap, RectangleMap, TriangleMap
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
 from .levels import LevelOfDetail
+from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
 from .punctured import PuncturedStructure
@@ -41,6 +43,7 @@ __all__ = [
     "Automorphisms",
     "BoundedStructure",
     "Cancelled",
+    "Certificate",
     "ConformalMap",
     "ConformalStructure",
     "DiskMap",
@@ -57,6 +60,7 @@ __all__ = [
     "PuncturedStructure",
     "Quality",
     "RectangleMap",
+    "Refinement",
     "Refused",
     "Repairs",
     "Residuals",

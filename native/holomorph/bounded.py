@@ -6,14 +6,15 @@ from functools import cached_property
 import numpy as np
 
 from . import arrays
+from .certificate import certain_text
 from .checks import NoInvariant
-from .form_structure import FormStructure
+from .form_structure import CertifiedStructure
 from .report import bound_lists, complex_pairs
 from .results import BoundedResiduals
 
 
 @dataclass(frozen=True, eq=False)
-class BoundedStructure(FormStructure):
+class BoundedStructure(CertifiedStructure):
     """Result of `conformal_structure` for a surface of genus g with b >= 1 boundary loops. n = 2g + b - 1 >= 1 is the
     genus of its double (paper § 8).
 
@@ -102,8 +103,7 @@ class BoundedStructure(FormStructure):
     def _capacity_bounds(self):
         if not self._is_exact:
             return None
-        natural, dirichlet = self._native.certain_gram_matrices()
-        return arrays.frozen(np.linalg.inv(natural)), dirichlet
+        return self._native.inverse_gram_bounds()[0], self._native.certain_gram_matrices()[1]
 
     @property
     def modulus(self):
@@ -125,8 +125,7 @@ class BoundedStructure(FormStructure):
         self._check_annulus()
         if not self._is_exact:
             return None
-        natural, dirichlet = self._native.certain_gram_matrices()
-        return float(1 / dirichlet[0, 0]), float(natural[0, 0])
+        return float(self._native.inverse_gram_bounds()[1][0, 0]), float(self._native.certain_gram_matrices()[0][0, 0])
 
     def _check_planar(self, what):
         genus = self._component.genus
@@ -152,4 +151,5 @@ class BoundedStructure(FormStructure):
             values["capacity_bounds"] = bound_lists(self.capacity_bounds)
         if (surface.genus, surface.boundary_count) == (0, 2):
             values["modulus"], values["modulus_bounds"] = self.modulus, bound_lists(self.modulus_bounds)
+            values["modulus_text"] = None if self.modulus_bounds is None else certain_text(*self.modulus_bounds)
         return values

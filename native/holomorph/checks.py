@@ -37,6 +37,15 @@ def check_memory_limit(memory_limit):
     return int(memory_limit)
 
 
+def check_bounds(width, most_faces):
+    """(relative width, number of triangles), None where no width is asked for. @throws ValueError"""
+    if width is None:
+        return None
+    if real_number(width, "bounds", positive=True) >= 1:
+        raise ValueError(f"bounds is {width!r}; a relative width below 1 is needed")
+    return float(width), int(real_number(most_faces, "most_faces", positive=True))
+
+
 def real_number(value, name, positive=False):
     """`value` as a finite float. @throws ValueError"""
     if not isinstance(value, numbers.Real) or not math.isfinite(value) or (positive and value <= 0):

@@ -5,13 +5,13 @@ from functools import cached_property
 
 import numpy as np
 
-from .form_structure import FormStructure
+from .form_structure import CertifiedStructure
 from .report import bound_lists, complex_pairs
 from .results import ClosedResiduals
 
 
 @dataclass(frozen=True, eq=False)
-class ConformalStructure(FormStructure):
+class ConformalStructure(CertifiedStructure):
     """Result of `conformal_structure` for a closed surface of genus g >= 1: 2g harmonic and g holomorphic forms."""
 
     residuals_kind = ClosedResiduals

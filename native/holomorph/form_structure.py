@@ -6,7 +6,9 @@ from functools import cached_property
 import numpy as np
 
 from . import _native, arrays
+from .certificate import certificate
 from .checks import checked_coefficients
+from .narrow_bounds import Refinement
 from .results import MemoryPlan, SolverReport, Structure
 from .zeros import Zeros
 
@@ -116,3 +118,18 @@ class FormStructure(Structure):
     def _balanced(self):
         c = self._native.balanced_coefficients()
         return arrays.frozen(c.real.copy() if self.coefficient_type is np.float64 else c)
+
+
+@dataclass(frozen=True, eq=False)
+class CertifiedStructure(FormStructure):
+    """Base of the results whose conformal invariants have guaranteed bounds.
+
+    refinement : `Refinement` where narrower bounds were asked for, else None
+    """
+
+    refinement: Refinement = None
+
+    @cached_property
+    def certificate(self):
+        """`Certificate`: the bounds, whether they are proven for the surface as given, and what was measured."""
+        return certificate(self)

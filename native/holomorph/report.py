@@ -53,6 +53,7 @@ def component_report(surface, structure, main_map=None):
             "description": structure.description,
             "forms": len(main_map["coefficients"]),
             **structure.invariants(),
+            **({"certificate": structure.certificate.as_plain()} if hasattr(structure, "certificate") else {}),
             "residuals": vars(structure.residuals) | {"solver": structure.solver.residual},
             "solver": vars(structure.solver),
             "timings": structure.timings,

@@ -201,10 +201,10 @@ class Structure:
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
 
 
-def result(kind, surface, component, native, threads):
-    """A `kind` of `Structure` made of what the native core computed."""
+def result(kind, surface, component, native, threads, **more):
+    """A `kind` of `Structure` made of what the native core computed, and `more` fields of that kind."""
     seconds = dict(native.timings())
     seconds["total"] = sum(seconds.values())
     certificate = dict(zip(("closedness", "harmonicity", "periods", "pairing", "asymmetry"), native.certificate()))
     residuals = kind.residuals_kind(**{entry.name: certificate[entry.name] for entry in fields(kind.residuals_kind)})
-    return kind(surface, SolverReport(*native.solver()), residuals, seconds, native, component, threads)
+    return kind(surface, SolverReport(*native.solver()), residuals, seconds, native, component, threads, **more)

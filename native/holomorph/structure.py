@@ -1,12 +1,13 @@
 """conformal_structure: checks the options and selects the kind of structure by topology and options."""
 
 from . import _native
-from ._native import TopologyError
+from ._native import SolverError, TopologyError
 from .bounded import BoundedStructure
-from .checks import check_memory_limit, check_options, only_component, own_vertices
+from .checks import check_bounds, check_memory_limit, check_options, only_component, own_vertices
 from .closed import ConformalStructure
 from .cut import cut_along
 from .disk import automatic_map, disk, rectangle
+from .narrow_bounds import narrow
 from .punctured import PuncturedStructure
 from .results import result
 from .truncated import coarse_log_map
@@ -25,6 +26,8 @@ def conformal_structure(
     solver="auto",
     threads=None,
     memory_limit=None,
+    bounds=None,
+    most_faces=2_000_000,
     progress=None,
 ):
     """Conformal structure of one connected surface: harmonic and holomorphic one-forms and conformal invariants; with
@@ -50,6 +53,11 @@ def conformal_structure(
     threads : number of threads, None for one per core; the result has the same bits for any number
     memory_limit : bytes that may be in use at once, without the surface itself; None refuses nothing. Where the forms
         of a closed surface do not fit (None: in 2 GB), they are solved for in blocks, and `uv` solves for each map
+    bounds : relative width that the bounds of the period matrix (capacities, modulus) are to have, such as 1e-4. The
+        surface is then refined inside, by intrinsic triangles where its bounds lose most, until they are as narrow or
+        `most_faces` would be exceeded; the result's `refinement` tells. UVs and forms remain those of the surface's own
+        triangles. For surfaces with handles or at least two boundary loops
+    most_faces : number of triangles up to which `bounds` may refine
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Returns
@@ -67,21 +75,26 @@ def conformal_structure(
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
     options = solver, check_options(solver, threads), progress
+    narrowing = check_bounds(bounds, most_faces)
     if boundary not in BOUNDARIES:
         raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
     memory_limit = check_memory_limit(memory_limit)
     component = only_component(surface)
-    made = _structure(surface, component, boundary, punctures, residues, rectangle_corners, options, memory_limit)
+    chosen = punctures, residues, rectangle_corners
+    made = _structure(surface, component, boundary, chosen, options, memory_limit, narrowing)
     if cut_edges is None or not len(cut_edges):
         return made
     return cut_along(made, surface, component, cut_edges)
 
 
-def _structure(surface, component, boundary, punctures, residues, rectangle_corners, options, memory_limit):
+def _structure(surface, component, boundary, chosen, options, memory_limit, narrowing):
+    punctures, residues, rectangle_corners = chosen
     topology = component.genus, component.boundary_count
     vertices, labels = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
     residues = _residues(residues)
     is_chosen = bool(vertices or residues)
+    if narrowing is not None:
+        _check_narrowing(topology, is_chosen or rectangle_corners is not None)
     if boundary == "double_cover":
         _check_double_cover(topology, is_chosen or rectangle_corners is not None)
     if rectangle_corners is not None and len(rectangle_corners):
@@ -91,13 +104,20 @@ def _structure(surface, component, boundary, punctures, residues, rectangle_corn
         return _disk(surface, component, vertices, labels, options)
     if is_chosen or topology == (0, 0):
         return _punctured(surface, component, (vertices, residues, labels), options, memory_limit)
-    return _forms(surface, component, boundary, options, memory_limit)
+    return _forms(surface, component, boundary, options, memory_limit, narrowing)
 
 
 def _check_double_cover(topology, has_choice):
     if has_choice or topology == (0, 1):
         raise TopologyError(
             "the way over the double is for forms of surfaces with boundary, without punctures or corners"
+        )
+
+
+def _check_narrowing(topology, has_choice):
+    if has_choice or topology in ((0, 0), (0, 1)):
+        raise TopologyError(
+            "bounds can be narrowed on surfaces with handles or two boundary loops, without punctures or corners"
         )
 
 
@@ -123,7 +143,7 @@ def _punctured(surface, component, chosen, options, memory_limit):
     return result(PuncturedStructure, surface, component, native, threads)
 
 
-def _forms(surface, component, boundary, options, memory_limit):
+def _forms(surface, component, boundary, options, memory_limit, narrowing):
     solver, threads, progress = options
     bounded = component.boundary_count > 0
     if solver == "paper" and not bounded:
@@ -131,7 +151,13 @@ def _forms(surface, component, boundary, options, memory_limit):
     else:
         limited = solver, threads, memory_limit, progress
         native = _native.conformal_structure(component._native, bounded and boundary == "double_cover", *limited)
-    return result(BoundedStructure if bounded else ConformalStructure, surface, component, native, threads)
+    kind = BoundedStructure if bounded else ConformalStructure
+    if narrowing is None:
+        return result(kind, surface, component, native, threads)
+    if not native.memory()[0]:
+        raise SolverError("bounds are narrowed with all forms in memory; they were solved for in blocks")
+    refinement = narrow(native, *narrowing, "auto" if solver == "paper" else solver, threads, memory_limit, progress)
+    return result(kind, surface, component, native, threads, refinement=refinement)
 
 
 def _residues(residues):

@@ -117,14 +117,21 @@ def test_hopf():
     assert (orders(errors) >= LEAST_ORDER).all(), errors
 
 
-@pytest.mark.parametrize("name", ["omega1_squares3", "omega2_squares4", "omega3_squares6", "decagon"])
-def test_bounds_hold_the_exact_value(name):
+FLAT_CONES = {
+    name: [f"{name}_level{level}.npz" for level in range(4)]
+    for name in ("omega1_squares3", "omega2_squares4", "omega3_squares6")
+} | {"decagon": [f"decagon_jittered_{n}.npz" for n in (8, 16, 32)]}
+
+
+@pytest.mark.parametrize("bounds", [None, 5e-3], ids=["as they are", "narrowed"])
+@pytest.mark.parametrize(("name", "file"), [(name, file) for name, files in FLAT_CONES.items() for file in files])
+def test_bounds_hold_the_exact_value(name, file, bounds):
     """The error bars are guaranteed: in the library's own basis, the exact Im Omega lies between them.
 
     The exact matrix is written in that basis by the symplectic matrix that brings it nearest to the computed one."""
     omega = complex_matrix(reference_values()["genus2"][name])
-    file = "decagon_jittered_8.npz" if name == "decagon" else f"{name}_level0.npz"
-    structure = conformal_structure(reference_surface(file))
+    structure = conformal_structure(reference_surface(file), bounds=bounds)
+    assert structure.certificate.holds
     lower, upper = structure.period_bounds
     candidates = []
     for exact in (omega, -omega.conj()):
@@ -134,3 +141,5 @@ def test_bounds_hold_the_exact_value(name):
     nearest = min(candidates, key=lambda value: np.abs(value - structure.period_matrix).max())
     assert np.linalg.eigvalsh(nearest.imag - lower).min() > -EXACT
     assert np.linalg.eigvalsh(upper - nearest.imag).min() > -EXACT
+    low, high = structure.certificate.real_bounds
+    assert (low - EXACT < nearest.real).all() and (nearest.real < high + EXACT).all()

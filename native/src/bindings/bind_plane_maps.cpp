@@ -52,7 +52,8 @@ void bind_plane_maps(py::module_& m) {
       .def("collapsed_triangles", [](const PlaneMap& map) { return copy(map.collapsed_triangles); })
       .def("certificate", [](const PlaneMap& map) { return py::make_tuple(0.0, map.harmonicity, 0.0, 0.0, 0.0); })
       .def("solver", [](const PlaneMap& map) { return report(map.solver); })
-      .def("intrinsic", [](const PlaneMap& map) { return py::make_tuple(map.flip_count, map.mollification); })
+      .def("intrinsic",
+           [](const PlaneMap& map) { return py::make_tuple(map.flip_count, map.mollification, map.metric); })
       .def("timings", [](const PlaneMap& map) { return map.seconds; });
   m.def("rectangle_map", &rectangle);
   m.def("triangle_map", &triangle);

@@ -3,12 +3,12 @@
 #include <pybind11/stl.h>
 
 #include <memory>
-#include <mutex>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
 #include "bindings/solver_report.h"
+#include "bindings/structure_with_forms.h"
 #include "multiresolution/paper_structure.h"
 #include "plane/disk_map.h"
 #include "plane/sphere_map.h"
@@ -22,25 +22,7 @@ namespace {
 
 using structure::Options;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
-
-/// A structure for Python: the forms that UVs are made of come with it, solved for when first asked for.
-struct Structure {
-  Options options;
-  int threads = 0;
-  structure::Structure value;
-  std::mutex mutex;
-  std::unique_ptr<structure::UvForms> forms;
-
-  /// `use(forms, execution)` without the interpreter's lock, one call at a time.
-  template <class Use>
-  void with_forms(Use use, Execution::Callback progress = interruptible()) {
-    Execution execution(threads, std::move(progress));  // it goes with the lock held: it owns Python's function
-    const py::gil_scoped_release unlocked;
-    const std::lock_guard<std::mutex> one_at_a_time(mutex);
-    use(*forms, execution);
-  }
-};
-using Pointer = std::shared_ptr<Structure>;
+using Pointer = StructurePointer;
 
 // Runs `compute(options, execution)` without the interpreter's lock.
 template <class Compute>
@@ -162,12 +144,6 @@ py::list loops_of_vertices(const mesh::EdgeEnds& ends, const std::vector<std::ve
   return result;
 }
 
-py::list matrices(const std::vector<Eigen::MatrixXd>& list) {
-  py::list result;
-  for (const auto& matrix : list) result.append(copy(matrix));
-  return result;
-}
-
 void bind_actions(py::class_<Structure, Pointer>& type) {
   type.def("prepare_uv", &prepare_uv)
       .def("uv_solver", &uv_solver)
@@ -205,30 +181,11 @@ void bind_values(py::class_<Structure, Pointer>& type) {
            [](const Structure& s) {
              return copy(mesh::triangles_on_one_loop(*s.value.surface, s.value.topology.boundary));
            })
-      .def("gram_matrices", [](const Structure& s) { return matrices(s.value.gram); })
-      .def("certain_gram_matrices", [](const Structure& s) { return matrices(s.value.certain_gram); })
-      .def("projected",
-           [](const Structure& s) {
-             const auto& star = s.value.holomorphic.star;
-             return py::make_tuple(copy(star.natural_gram), copy(star.dirichlet_gram), copy(star.star));
-           })
-      .def("period_matrix", [](const Structure& s) { return copy(s.value.holomorphic.period_matrix); })
-      .def("period_bounds",
-           [](const Structure& s) {
-             const auto& bounds = s.value.holomorphic.bounds;
-             return py::make_tuple(copy(bounds.lower), copy(bounds.upper));
-           })
-      .def("certificate",
-           [](const Structure& s) {
-             const auto& [residuals, periods, pairing, asymmetry] = s.value.certificate;
-             return py::make_tuple(residuals.closedness, residuals.harmonicity, periods, pairing, asymmetry);
-           })
       .def("memory",
            [](const Structure& s) {
              return py::make_tuple(s.value.memory.keep_forms, s.value.memory.block, s.value.memory.bytes);
            })
       .def("solver", [](const Structure& s) { return report(s.value.solver); })
-      .def("intrinsic", [](const Structure& s) { return py::make_tuple(s.value.flip_count, s.value.mollification); })
       .def("timings", [](const Structure& s) { return s.value.seconds; })
       .def_readonly("threads", &Structure::threads);
 }
@@ -239,6 +196,7 @@ void bind_structure(py::module_& m) {
   py::class_<Structure, Pointer> type(m, "Structure");
   bind_actions(type);
   bind_values(type);
+  bind_invariants(type);
   m.def("conformal_structure", &conformal);
   m.def("punctured_structure", &punctured);
   m.def("paper_structure", &paper);

@@ -56,6 +56,7 @@ PYBIND11_MODULE(_native, m) {
   bindings::bind_progressive_mesh(m);
   bindings::bind_laplace_problem(m);
   bindings::bind_moduli(m);
+  bindings::bind_nested_level(m);
   bindings::bind_plane_maps(m);
   bindings::bind_tiling(m);
   bindings::bind_uv_maps(m);

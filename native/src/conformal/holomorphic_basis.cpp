@@ -55,7 +55,7 @@ HolomorphicBasis closed_basis(const MatrixXd& G, const MatrixXd& certain, const 
   MatrixXcd periods(2 * g, g);  // int_{a_i} theta_j = delta_ij, int_{b_i} theta_j = Omega_ij
   periods << MatrixXcd::Identity(g, g), result.period_matrix;
   result.differentials = S.transpose() * periods;  // zeta = R^-1 (a, b), and R^-1 = S^T
-  result.bounds = period_bounds(in_canonical(certain));
+  result.bounds = period_bounds(above_congruent(S, certain));
   return result;
 }
 
@@ -70,7 +70,9 @@ HolomorphicBasis bounded_basis(const std::vector<MatrixXd>& gram, const std::vec
       std::complex<double>(0, 1) * result.star.star.transpose().cast<std::complex<double>>();
   const MatrixXd classes = canonical_classes_of_double(W, 2 * genus);
   result.period_matrix = period_matrix(gram_of_double(classes, result.star.natural_gram, result.star.dirichlet_gram));
-  result.bounds = period_bounds(gram_of_double(classes, certain[0], certain[1]));
+  MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
+  both << certain[0], MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), certain[1];
+  result.bounds = period_bounds(above_congruent(classes, both) / 2);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "conformal/certain_bounds.h"
 #include "conformal/projection.h"
 #include "topology/homology.h"
 
@@ -18,7 +19,7 @@ struct HolomorphicBasis {
   ProjectedStar star;              ///< in the given basis; with one family G_D# belongs to its conjugates
   Eigen::MatrixXcd differentials;  ///< #forms x n: column j is theta_j, written in the harmonic forms
   Eigen::MatrixXcd period_matrix;  ///< Omega, n x n
-  PeriodBounds bounds;             ///< guaranteed bounds of Im Omega of the polyhedral surface, as quadratic forms
+  PeriodBounds bounds;             ///< guaranteed bounds of Omega of the polyhedral surface
 };
 
 /// Of a closed surface: theta_j has the period 1 over a_j and 0 over the other a, n = g.

@@ -46,10 +46,4 @@ Eigen::MatrixXcd period_matrix(const MatrixXd& G) {
   return real.cast<std::complex<double>>() + std::complex<double>(0, 1) * imaginary.cast<std::complex<double>>();
 }
 
-PeriodBounds period_bounds(const MatrixXd& G) {
-  const auto g = G.rows() / 2;
-  const MatrixXd G_ab = G.topRightCorner(g, g), lower = symmetric(inverse(G.bottomRightCorner(g, g)));
-  return {lower, symmetric(G.topLeftCorner(g, g) - G_ab * lower * G_ab.transpose())};
-}
-
 }  // namespace holomorph::conformal

@@ -36,11 +36,4 @@ ProjectedStar projected_star(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd& 
 /// Im Omega = (G_bb)^-1, Re Omega = -G_ab (G_bb)^-1.
 Eigen::MatrixXcd period_matrix(const Eigen::MatrixXd& G);
 
-/// Bounds of Im Omega as quadratic forms from the Gram matrix G >= G_exact of admissible forms in a canonical basis:
-/// (G_bb)^-1 <= Im Omega <= G_aa - G_ab (G_bb)^-1 G_ba.
-struct PeriodBounds {
-  Eigen::MatrixXd lower, upper;
-};
-PeriodBounds period_bounds(const Eigen::MatrixXd& G);
-
 }  // namespace holomorph::conformal

@@ -102,27 +102,6 @@ double relative_maximum(std::size_t elements, Eigen::Index forms, Execution& exe
   return (total[0].array() / total[1].array()).maxCoeff();
 }
 
-// Two forms of one family; more are better multiplied block by block.
-Eigen::Matrix2d gram_matrix_of_two(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
-                                   Execution& execution) {
-  std::array<Eigen::Matrix2d, kBatch> slots;
-  Eigen::Matrix2d G = Eigen::Matrix2d::Zero();
-  for_blocks(
-      weights.size(), execution, 0.0, 1.0,
-      [&](int slot, int begin, int end) {
-        slots[slot].setZero();
-        Row<2> value;
-        for (int e = begin; e < end; ++e) {
-          if (weights[e] == 0) continue;
-          value.setZero();
-          add_along<2>(mesh, forms, HalfedgeHandle(2 * e), 1.0, value);
-          slots[slot].noalias() += value.transpose() * (weights[e] * value);
-        }
-      },
-      [&](int slot) { G += slots[slot]; });
-  return (G + G.transpose()) / 2;
-}
-
 // A triangle adds cot / 2 h^2 for each side, cot that of the angle opposite.
 template <int N>
 Eigen::VectorXd energies_of(const mesh::Surface& surface, const ClosedForms& forms, Execution& execution) {
@@ -168,36 +147,6 @@ Residuals residuals_of(const HalfEdges& mesh, std::span<const double> weights, c
 }
 
 }  // namespace
-
-std::vector<Eigen::MatrixXd> gram_matrices(const HalfEdges& mesh, std::span<const double> weights,
-                                           const ClosedForms& forms, const std::vector<int>& families,
-                                           Execution& execution) {
-  if (families == std::vector<int>{2}) return {gram_matrix_of_two(mesh, weights, forms, execution)};
-  std::vector<Eigen::MatrixXd> G;
-  for (const int n : families) G.push_back(Eigen::MatrixXd::Zero(n, n));
-  std::array<std::vector<Eigen::MatrixXd>, kBatch> slots;
-  slots.fill(G);
-  for_blocks(
-      weights.size(), execution, 0.0, 1.0,
-      [&](int slot, int begin, int end) {
-        const auto k = Eigen::Map<const Eigen::VectorXd>(weights.data() + begin, end - begin);
-        if ((k.array() == 0).all()) {
-          for (Eigen::MatrixXd& matrix : slots[slot]) matrix.setZero();
-          return;
-        }
-        const RowMajorMatrix values = edge_values(mesh, forms, begin, end);
-        int first = 0;
-        for (std::size_t i = 0; i < families.size(); first += families[i++]) {
-          const auto h = values.middleCols(first, families[i]);
-          slots[slot][i].noalias() = h.transpose() * (k.asDiagonal() * h);
-        }
-      },
-      [&](int slot) {
-        for (std::size_t i = 0; i < families.size(); ++i) G[i] += slots[slot][i];
-      });
-  for (Eigen::MatrixXd& matrix : G) matrix = (matrix + matrix.transpose().eval()) / 2;
-  return G;
-}
 
 Eigen::VectorXd energies(const mesh::Surface& surface, const ClosedForms& forms, Execution& execution) {
   return forms.functions.cols() == 2 ? energies_of<2>(surface, forms, execution)

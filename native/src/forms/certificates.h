@@ -1,4 +1,5 @@
-// Energies, residuals and wedge products of harmonic forms, summed in a fixed order.
+// Residuals and wedge products of harmonic forms, and their energies on the surface's own triangles, summed in a fixed
+// order.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,14 +11,6 @@
 #include "mesh/half_edges.h"
 
 namespace holomorph::forms {
-
-/// G_ij = sum_e k_e h_i(e) h_j(e), exactly the L2 products of the piecewise constant forms, within each family of
-/// forms. Summed in a fixed order of blocks of edges, so the bits do not depend on the number of threads. Blocks
-/// without weights cost nothing.
-/// @param families numbers of forms of consecutive families. @return a matrix for each
-std::vector<Eigen::MatrixXd> gram_matrices(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                           const ClosedForms& forms, const std::vector<int>& families,
-                                           Execution& execution);
 
 /// <h_i, h_i> on the surface's own triangles: the diagonal of the Gram matrix there, summed by triangles.
 /// @pre no triangle is degenerate. Cost: #T x #forms

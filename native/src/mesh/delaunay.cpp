@@ -18,6 +18,10 @@ namespace {
 constexpr double kDelaunayTolerance = 1e-9;
 // ... and never more often than this, so that rounding among slivers cannot flip it back and forth for ever.
 constexpr unsigned kMostFlipsOfAnEdge = 60;
+// Rounding of the apices of a quadrilateral that is laid out. (b^2 + (s - e) (s + e)) / 2 b: 6 units of each of the two
+// terms, of which the second one is |2 x - b| b; differences between abscissae, 2; a height, 6.5 of an area and 1; the
+// new length itself, 1.
+constexpr double kOfAbscissa = 10 * 1.2e-16, kOfHeight = 10 * 1.2e-16;
 // Many regions share out the work, large ones (in edges, a power of 2) leave little between them.
 constexpr unsigned kRegions = 16, kLeastRegion = 8192;
 // Prefetch distance, in queue entries.
@@ -92,32 +96,36 @@ class Flipper {
   double length(HalfedgeHandle h) const { return t_.lengths[edge_of(h)]; }
 
   // Length between the apices when both triangles are laid out in the plane with the edge on the x axis.
-  double new_length(HalfedgeHandle a, HalfedgeHandle b) const {
+  RoundedLength new_length(HalfedgeHandle a, HalfedgeHandle b) const {
     const double base = length(a);
-    const auto apex = [&](HalfedgeHandle h) {  // seen from the start of h: abscissa, height
+    struct Apex {                  // seen from the start of a half-edge
+      double x, height, rounding;  // the rounding is that of x
+    };
+    const auto apex = [&](HalfedgeHandle h) {
       const HalfedgeHandle h1 = next(mesh_, h), h2 = next(mesh_, h1);
       const double from_end = length(h1), from_start = length(h2);
       const double x = (base * base + (from_start - from_end) * (from_start + from_end)) / (2 * base);
       const bool flat = from_start + from_end - base < kFlatMargin * base;
-      return std::array<double, 2>{x, flat ? 0.0 : 2 * triangle_area(base, from_end, from_start) / base};
+      return Apex{x, flat ? 0.0 : 2 * triangle_area(base, from_end, from_start) / base,
+                  kOfAbscissa * (base + std::abs(x))};
     };
-    const auto [xa, ya] = apex(a);
-    const auto [xb, yb] = apex(b);
-    return std::hypot(xa - (base - xb), ya + yb);
+    const Apex p = apex(a), q = apex(b);
+    const double across = p.x - (base - q.x), up = p.height + q.height;
+    return {std::hypot(across, up), p.rounding + q.rounding + kOfHeight * up};
   }
 
   void flip(int e) {
     const HalfedgeHandle a(2 * e), b(2 * e + 1);
-    const bool has_errors = has_error(t_.metric(), a);
-    const auto errors = has_errors ? errors_beside(t_.metric(), a) : std::array<MetricError, 2>();
-    const double flipped_length = new_length(a, b);
+    const bool has_errors = !t_.metric_errors.empty();
+    const auto before = has_errors ? faces_beside(t_.metric(), a) : FacesBeside();
+    const auto [flipped_length, rounding] = new_length(a, b);
     const HalfedgeHandle a1 = next(mesh_, a), a2 = next(mesh_, a1), b1 = next(mesh_, b), b2 = next(mesh_, b1);
     flip_links(mesh_, EdgeHandle(e));
     t_.lengths[e] = flipped_length;
     set_cotangents(t_, a);
     set_cotangents(t_, b);
     if (has_errors) {
-      const auto [error_a, error_b] = mixed_errors(t_.metric(), a, errors);
+      const auto [error_a, error_b] = errors_after_flip(t_.metric(), a, before, rounding);
       t_.metric_errors[mesh_.face_handle(a).idx()] = error_a;
       t_.metric_errors[mesh_.face_handle(b).idx()] = error_b;
     }

@@ -32,25 +32,17 @@ bool has_degenerate_face(const IntrinsicTriangulation& t, HalfedgeHandle h) {
 // All cotangents, in the order of the edges, which is that of the vertices: near each other in memory wherever
 // neighbours are, in whatever order the faces come. @return whether a triangle is degenerate
 bool set_all_cotangents(IntrinsicTriangulation& t, Workers& workers) {
-  struct Count {
-    int degenerate = 0, thin = 0;
-    void operator+=(const Count& other) {
-      degenerate += other.degenerate;
-      thin += other.thin;
-    }
-  };
   t.cotangents.resize(t.half_edges.n_halfedges());
-  const auto count = sum_over_rows(workers, static_cast<int>(t.cotangents.size()), Count(), [&t](int i, Count& sum) {
+  const int count = sum_over_rows(workers, static_cast<int>(t.cotangents.size()), 0, [&t](int i, int& sum) {
     const HalfedgeHandle h(i);
     if (t.half_edges.is_boundary(h)) {
       t.cotangents[i] = 0;
     } else if (is_first_of_face(t.half_edges, h)) {
-      sum.thin += set_cotangents(t, h);
-      sum.degenerate += has_degenerate_face(t, h);
+      set_cotangents(t, h);
+      sum += has_degenerate_face(t, h);
     }
   });
-  t.metric_errors = count.thin > 0 && t.mollification == 0 ? metric_errors(t.metric(), workers) : Array<double>();
-  return count.degenerate > 0;
+  return count > 0;
 }
 
 // The faces for which chosen(shortest side, longest side, slack) holds.
@@ -127,13 +119,14 @@ bool lengthen(IntrinsicTriangulation& t, const Chosen& chosen, Workers& workers)
   growth.spread();
   growth.apply();
   t.mollification = std::max(t.mollification, growth.increment);
+  t.metric_errors = Array<FaceError>();
   set_all_cotangents(t, workers);
   return true;
 }
 
 }  // namespace
 
-bool set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
+void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(t.half_edges, h), h2 = next(t.half_edges, h1);
   const double a = t.lengths[edge_of(h)], b = t.lengths[edge_of(h1)], c = t.lengths[edge_of(h2)];
   const double area = triangle_area(a, b, c);
@@ -141,7 +134,6 @@ bool set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
   t.cotangents[h.idx()] = x;
   t.cotangents[h1.idx()] = y;
   t.cotangents[h2.idx()] = z;
-  return is_thin(x, y, z);
 }
 
 IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
@@ -151,6 +143,7 @@ IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges hal
   for_rows(workers, static_cast<int>(result.lengths.size()),
            [&](int e) { result.lengths[e] = surface.edge_lengths[e]; });
   result.degenerate = set_all_cotangents(result, workers);
+  result.metric_errors = metric_errors(result.metric(), surface, workers);
   return result;
 }
 
@@ -183,7 +176,7 @@ Array<double> cotangent_weights(const IntrinsicTriangulation& t, Execution& exec
   weights.resize(t.lengths.size());
   for_rows(execution.workers(), static_cast<int>(weights.size()),
            [&](int e) { weights[e] = 0.5 * t.cotangents[2 * e] + 0.5 * t.cotangents[2 * e + 1]; });
-  if (!t.metric_errors.empty()) sharpen_weights(t.metric(), weights, execution.workers());
+  if (t.mollification == 0) sharpen_weights(t.metric(), weights, execution.workers());
   execution.report(1.0);
   return weights;
 }

@@ -5,7 +5,7 @@
 
 #include "base/execution.h"
 #include "mesh/half_edges.h"
-#include "mesh/thin_triangles.h"
+#include "mesh/metric_errors.h"
 
 namespace holomorph::mesh {
 
@@ -24,9 +24,8 @@ struct IntrinsicTriangulation {
   double mollification = 0;  ///< added to some lengths, in their unit; with 0 the metric is that of the surface
   bool degenerate = false;   ///< whether some triangle of the surface is, and none has been mollified
 
-  /// #F where some triangle of the surface is thin and none is mollified, else none: by how much rounding may change
-  /// energies on each, 0 where that is negligible.
-  Array<double> metric_errors;
+  /// #F by how much rounding may change energies on each; none where a triangle is mollified.
+  Array<FaceError> metric_errors;
 
   Metric metric() const { return {half_edges, lengths, cotangents, metric_errors}; }
 
@@ -34,7 +33,7 @@ struct IntrinsicTriangulation {
   void forget_metric() {
     lengths = Array<double>();
     cotangents = Array<double>();
-    metric_errors = Array<double>();
+    metric_errors = Array<FaceError>();
   }
 };
 
@@ -57,8 +56,8 @@ IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges
 /// By what intrinsic_triangulation lengthens edges; 0 if no triangle is degenerate.
 double mollification(const Surface& surface, Execution& execution);
 
-/// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are. @return whether it is thin
-bool set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
+/// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are.
+void set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
 
 /// #E weights k = (cot a + cot b) / 2 (paper Eq. 3), those of thin triangles to all digits.
 Array<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Execution& execution);

@@ -37,6 +37,9 @@ struct Surface {
   Array<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
   int component_count = 0;
   Array<char> edge_face_count;  ///< #E number of triangles at each edge, 1 or 2
+  /// #T by what part energies may be larger on the surface that this one stands for, whose refinement it is; none: it
+  /// stands for itself.
+  Array<double> metric_errors;
   Repairs repairs;
 
   bool intrinsic() const { return polygons.vertices.empty(); }

@@ -42,13 +42,8 @@ inline double triangle_area(double a, double b, double c) {
   return product > 0 ? 0.25 * std::sqrt(product) : 0.0;
 }
 
-/// A triangle is thin where a cotangent is larger, an angle below 1.1 degrees. The rounding of the others changes no
-/// energy of a form by more than 1e-11 of itself.
+/// A triangle is thin where a cotangent is larger, an angle below 1.1 degrees.
 inline constexpr double kThin = 50;
-
-inline bool is_thin(double x, double y, double z) {
-  return !(std::max({std::abs(x), std::abs(y), std::abs(z)}) <= kThin);
-}
 
 /// Below this fraction of the squared sides an area is rounding; it keeps every cotangent finite.
 inline constexpr double kLeastArea = 1e-14;

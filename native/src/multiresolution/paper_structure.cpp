@@ -4,7 +4,7 @@
 #include "forms/codifferential.h"
 #include "forms/laplacian.h"
 #include "mesh/intrinsic_triangulation.h"
-#include "mesh/thin_triangles.h"
+#include "mesh/metric_errors.h"
 #include "multiresolution/paper_forms.h"
 #include "structure/guarantee.h"
 #include "structure/invariants.h"
@@ -68,6 +68,7 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   result.mollification = triangulation.mollification;
   const auto weights = mesh::cotangent_weights(triangulation, execution);
   const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
+  result.certificate.metric = mesh::largest_error(triangulation.metric());
   const auto laplacian = forms::laplacian(triangulation.half_edges, weights, execution);
 
   execution.stage("harmonic forms", 0.3, 0.85);

@@ -31,6 +31,7 @@ DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<c
                                   -(L * values), solver::Condition::dirichlet,
                                   [&] { return forms::function_terms(half_edges, values); }, execution);
   result.solver = structure::solver_report(solver);
+  for (const int v : fixed) result.functions.row(v) = values.row(v);  // exactly
   Eigen::MatrixXd flux = L * result.functions;
   const double largest = (L.cwiseAbs() * result.functions.cwiseAbs()).maxCoeff();
   result.energies = solver.is_stiff()

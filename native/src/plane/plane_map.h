@@ -21,6 +21,7 @@ struct PlaneMap {
   std::vector<int> collapsed_triangles;      ///< triangles all of whose corners lie on one side of a rectangle
   double harmonicity = 0;                    ///< largest |L f| at a free vertex over the largest sum of its terms
   double mollification = 0;
+  double metric = 0;  ///< as in structure::Certificate
   int flip_count = 0;
   structure::SolverReport solver;
   std::vector<std::pair<std::string, double>> seconds;

@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "base/finite.h"
+#include "conformal/certain_bounds.h"
+#include "forms/gram_matrices.h"
 #include "mesh/delaunay.h"
 #include "mesh/intrinsic_triangulation.h"
-#include "mesh/thin_triangles.h"
+#include "mesh/metric_errors.h"
 #include "plane/dirichlet_problem.h"
 #include "plane/rectangle_corners.h"
 #include "structure/guarantee.h"
@@ -17,7 +19,7 @@ namespace {
 // u: 0 on side 3, 1 on side 1; v: 0 on side 0, 1 on side 2. Each has conditions, and so a system, of its own.
 struct Coordinates {
   DirichletSolution u, v;
-  std::vector<Eigen::MatrixXd> energies, errors;  // of u and v; and by how much rounding may change them, if at all
+  std::vector<Eigen::MatrixXd> energies, errors;  // of u and v; and by how much rounding may change them
   double harmonicity() const { return std::max(u.harmonicity, v.harmonicity); }
 };
 
@@ -36,9 +38,13 @@ Coordinates coordinates(const mesh::IntrinsicTriangulation& triangulation, const
   execution.stage("height", (from + to) / 2, to);
   result.v = one(0, 2);
   const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
+  topology::IntegerForms no_classes;
+  no_classes.rows.resize(weights.size());
   for (const DirichletSolution* f : {&result.u, &result.v}) {
-    result.energies.emplace_back(f->energies);
-    if (!errors.empty()) result.errors.emplace_back(energies(triangulation.half_edges, errors, f->functions));
+    const forms::ClosedForms df{no_classes, f->functions};
+    const auto gram = forms::gram_matrices(triangulation.half_edges, weights, errors, df, {1}, execution)[0];
+    result.energies.push_back(gram.value);
+    if (!errors.empty()) result.errors.push_back(forms::gram_errors(gram));
   }
   return result;
 }
@@ -63,8 +69,9 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   const bool flipped = result.flip_count > 0;
   const Coordinates sharp = coordinates(delaunay, sides, options, 0.2, flipped ? 0.6 : 1.0, execution);
   result.modulus = std::sqrt(sharp.u.energies[0] * (1 / sharp.v.energies[0]));
+  result.metric = mesh::largest_error(delaunay.metric());
   const auto certain = structure::certain_gram(sharp.energies, sharp.errors);
-  const Eigen::MatrixXd lower = certain[1].cwiseInverse();
+  const Eigen::MatrixXd lower = conformal::below_inverse(certain[1]);
   if (result.mollification == 0) structure::require_ordered(lower, certain[0]);
   result.lower = lower(0, 0);
   result.upper = certain[0](0, 0);

@@ -3,7 +3,7 @@
 #include "base/background_task.h"
 #include "base/errors.h"
 #include "mesh/delaunay.h"
-#include "mesh/thin_triangles.h"
+#include "mesh/metric_errors.h"
 #include "structure/double_cover.h"
 #include "structure/guarantee.h"
 #include "structure/invariants.h"
@@ -55,6 +55,7 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   mesh::make_delaunay(triangulation, execution);
   const auto weights = mesh::cotangent_weights(triangulation, execution);
   const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
+  result.certificate.metric = mesh::largest_error(triangulation.metric());
   triangulation.forget_metric();
   result.mollification = triangulation.mollification;
   result.flip_count = static_cast<int>(triangulation.flips.size());

@@ -1,5 +1,8 @@
 #include "structure/invariants.h"
 
+#include <utility>
+
+#include "forms/gram_matrices.h"
 #include "structure/guarantee.h"
 
 namespace holomorph::structure {
@@ -21,6 +24,19 @@ double largest_pairing_error(const mesh::HalfEdges& mesh, const forms::ClosedFor
 
 }  // namespace
 
+CertainGram certain_energies(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+                             std::span<const double> errors, const forms::ClosedForms& forms,
+                             const std::vector<int>& families, Execution& execution) {
+  CertainGram result;
+  std::vector<Eigen::MatrixXd> uncertain;
+  for (const auto& gram : forms::gram_matrices(triangulation, weights, errors, forms, families, execution)) {
+    result.gram.push_back(gram.value);
+    if (!errors.empty()) uncertain.push_back(forms::gram_errors(gram));
+  }
+  result.certain = certain_gram(result.gram, uncertain);
+  return result;
+}
+
 void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights, std::span<const double> errors,
               const topology::IntegerForms& classes, Structure& result, Execution& execution) {
   const Topology& topology = result.topology;
@@ -30,13 +46,14 @@ void complete(const mesh::HalfEdges& triangulation, std::span<const double> weig
   std::vector<int> sizes{families.natural};
   if (families.dirichlet > 0) sizes.push_back(families.dirichlet);
   execution.part(0, 0.3);
-  result.gram = forms::gram_matrices(triangulation, weights, forms, sizes, execution);
-  std::vector<Eigen::MatrixXd> uncertain;
-  if (!errors.empty()) uncertain = forms::gram_matrices(triangulation, errors, forms, sizes, execution);
-  result.certain_gram = certain_gram(result.gram, uncertain);
+  // Admissible are functions that are 0 there exactly.
+  const auto fixed = mesh::boundary_vertices(topology.boundary);
+  forms.functions(fixed, Eigen::lastN(families.dirichlet)).setZero();
+  auto energies = certain_energies(triangulation, weights, errors, forms, sizes, execution);
+  result.gram = std::move(energies.gram);
+  result.certain_gram = std::move(energies.certain);
   execution.part(0.3, 1);
-  result.certificate.residuals = forms::residuals(triangulation, weights, forms, execution, families.natural,
-                                                  mesh::boundary_vertices(topology.boundary));
+  result.certificate.residuals = forms::residuals(triangulation, weights, forms, execution, families.natural, fixed);
   result.certificate.pairing = largest_pairing_error(triangulation, forms, topology, execution);
   // The loops run along edges of the surface itself, and so do its classes; the functions are the same.
   add_loop_indicators(topology, forms.functions);

@@ -17,6 +17,17 @@ namespace holomorph::structure {
 void complete(const mesh::HalfEdges& triangulation, std::span<const double> weights, std::span<const double> errors,
               const topology::IntegerForms& classes, Structure& result, Execution& execution);
 
+/// Gram matrices of forms, one for each family, and matrices that are certainly not below those of the surface.
+struct CertainGram {
+  std::vector<Eigen::MatrixXd> gram, certain;
+};
+
+/// @param errors mesh::energy_errors of the weights, or none. @param families numbers of forms
+/// @throws SolverError where rounding leaves no digit
+CertainGram certain_energies(const mesh::HalfEdges& triangulation, std::span<const double> weights,
+                             std::span<const double> errors, const forms::ClosedForms& forms,
+                             const std::vector<int>& families, Execution& execution);
+
 /// The star, the holomorphic basis and the period matrix from the Gram matrices alone. @throws SolverError
 void set_holomorphic_basis(Structure& result);
 

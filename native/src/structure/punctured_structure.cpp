@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/intrinsic_triangulation.h"
-#include "mesh/thin_triangles.h"
+#include "mesh/metric_errors.h"
 #include "structure/guarantee.h"
 #include "structure/harmonic_systems.h"
 #include "structure/invariants.h"
@@ -129,10 +129,11 @@ void certify(const forms::ClosedForms& basis, double harmonicity, Structure& s) 
   Eigen::VectorXcd theta(static_cast<Eigen::Index>(s.surface->edges.size()));
   theta.real() = forms::combination(*s.surface, basis, p.real());
   theta.imag() = forms::combination(*s.surface, basis, p.imag());
-  auto& [residuals, periods, pairing, asymmetry] = s.certificate;
+  Certificate& certificate = s.certificate;
+  forms::Residuals& residuals = certificate.residuals;
   residuals.harmonicity = std::max(residuals.harmonicity, harmonicity);
   residuals.closedness = std::max(residuals.closedness, closedness(s, theta));
-  periods = std::max(periods, link_residual(s, theta));
+  certificate.periods = std::max(certificate.periods, link_residual(s, theta));
 }
 
 }  // namespace

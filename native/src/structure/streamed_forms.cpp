@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "forms/codifferential.h"
+#include "forms/gram_matrices.h"
 #include "structure/guarantee.h"
 #include "structure/invariants.h"
 #include "uv/balance.h"
@@ -30,7 +31,8 @@ void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const dou
     // A positive matrix is at most the number of its diagonal blocks times these.
     if (!errors.empty()) {
       uncertain[0].block(first, first, width, width) =
-          blocks * forms::gram_matrices(triangulation, errors, solved, {static_cast<int>(width)}, execution)[0];
+          blocks *
+          forms::gram_matrices(triangulation, errors, {}, solved, {static_cast<int>(width)}, execution)[0].value;
     }
     const auto [closedness, harmonicity] =
         forms::residuals(triangulation, weights, solved, execution, static_cast<int>(width), {});

@@ -24,6 +24,8 @@ struct Certificate {
   double periods = 0;    ///< largest |int_{zeta_i} h_j - delta_ij|; with punctures also |int over a link - residue|
   double pairing = 0;    ///< with boundary: largest |int h^N_i ^ h - (W c)_i| of one h = sum_j c_j h^D_j
   double asymmetry = 0;  ///< of the Gram matrix of streamed forms before it was made symmetric
+  double metric =
+      0;  ///< largest part of itself by which the energy of a form on a triangle may grow, for rounding; 1: open
 };
 
 /// Of one connected surface of any kind: closed with handles, with boundary, with punctures. What a kind has not is
@@ -43,7 +45,7 @@ struct Structure {
   Eigen::MatrixXd pole_parts;
 
   std::vector<Eigen::MatrixXd> gram;          ///< of the natural and, with boundary, of the Dirichlet forms
-  std::vector<Eigen::MatrixXd> certain_gram;  ///< the same with what rounding may have taken from them; for the bounds
+  std::vector<Eigen::MatrixXd> certain_gram;  ///< certainly not below those of the surface; for the bounds
   conformal::HolomorphicBasis holomorphic;    ///< of the natural and Dirichlet forms
 
   Certificate certificate;

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""python benchmarks/accuracy.py [--json FILE] [--plot FILE]
+
+Period matrices against exact values: published errors (Bobenko, Mercat, Schmies 2011,
+doi:10.1007/978-3-642-17413-1_7) beside ours on as many vertices, then errors and certified widths against vertices
+under graded refinement. Needs the folder ../shared/reference of exact values.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+REFERENCE = ROOT.parent / "shared" / "reference"
+PACKAGE = ROOT / "build" / "lib" / f"cp{sys.version_info.major}{sys.version_info.minor}"
+sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "core")]
+
+import equivalence  # noqa: E402
+import holomorph  # noqa: E402
+
+FINEST = 1e-12  # relative width that no refinement reaches
+GRADES = (250, 500, 1000, 2000, 4000, 8000, 16000, 32000, 64000)
+
+
+def matrix(entry):
+    if "Re" in entry:
+        return np.array(entry["Re"]) + 1j * np.array(entry["Im"])
+    factor = {"i/3": 1j / 3, "i/sqrt(3)": 1j / np.sqrt(3)}[entry["times"]]
+    return factor * np.array(entry["matrix"])
+
+
+def surface(name):
+    path = REFERENCE / "meshes" / name
+    if path.suffix == ".obj":
+        return holomorph.Surface.read(path)
+    with np.load(path) as arrays:
+        return holomorph.Surface.from_edge_lengths(arrays["faces"], arrays["edge_lengths"])
+
+
+def measured(given, exact, **options):
+    """(vertices, error, certified relative width); error: largest entry up to Sp(2g, Z) and the mirror image."""
+    structure = holomorph.conformal_structure(given, **options)
+    faces = structure.refinement.levels[-1][0] if structure.refinement else len(given.triangles)
+    vertices = faces // 2 + 2 - 2 * given.genus
+    error = equivalence.distance_or_mirrored(structure.period_matrix, exact)
+    return vertices, error, structure.certificate.relative_width
+
+
+def published(values):
+    """Rows (case, published vertices, published error, our vertices, our error, our certified width)."""
+    rows = []
+    for name in ("omega2_squares4", "omega3_squares6"):
+        exact = matrix(values["genus2"][name])
+        for vertices, error in values["published_errors"][name].items():
+            coarsest = surface(f"{name}_level0.npz")
+            ours = measured(coarsest, exact, bounds=FINEST, most_faces=2 * (int(vertices) + 2))
+            rows.append((name, int(vertices), error, *ours))
+    exact = matrix(values["genus2"]["omega3_squares6"])
+    for level in (32, 64):
+        ours = measured(surface(f"lawson_xi21_{level}.obj"), exact)
+        frobenius = values["published_errors"]["lawson_frobenius"].items()
+        nearest = min(frobenius, key=lambda item: abs(int(item[0]) - ours[0]))
+        rows.append((f"lawson_xi21_{level}", int(nearest[0]), nearest[1], *ours))
+    return rows
+
+
+def curves(values):
+    """{name: [(vertices, error, width)]} of graded refinement of one coarse mesh."""
+    found = {}
+    for name, file in [("decagon", "decagon_jittered_8.npz"), ("omega2_squares4", "omega2_squares4_level0.npz")]:
+        exact = matrix(values["genus2"][name])
+        found[name] = [measured(surface(file), exact, bounds=FINEST, most_faces=faces) for faces in GRADES]
+    return found
+
+
+def plot(found, path):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(figsize=(7, 5))
+    for name, rows in found.items():
+        vertices, errors, widths = np.array(rows, float).T
+        (line,) = axes.loglog(vertices, np.maximum(errors, 1e-16), "o-", label=f"{name}: error")
+        axes.loglog(vertices, widths, "s--", color=line.get_color(), label=f"{name}: certified width")
+    axes.set(xlabel="vertices", ylabel="largest entry, relative width")
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--plot", type=Path)
+    options = parser.parse_args()
+    values = json.loads((REFERENCE / "values.json").read_text())
+    rows = published(values)
+    print(f"{'case':20} {'vertices':>9} {'published':>10} {'ours, on':>9} {'error':>10} {'certified':>10}")
+    for name, count, error, vertices, ours, width in rows:
+        print(f"{name:20} {count:9} {error:10.2e} {vertices:9} {ours:10.2e} {width:10.2e}")
+    found = curves(values)
+    for name, points in found.items():
+        for vertices, error, width in points:
+            print(f"{name:20} {vertices:9} error {error:.2e} certified {width:.2e}")
+    if options.json:
+        options.json.write_text(json.dumps({"published": rows, "graded": found}, indent=1))
+    if options.plot:
+        plot(found, options.plot)
+
+
+if __name__ == "__main__":
+    main()

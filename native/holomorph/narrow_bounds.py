@@ -1,0 +1,94 @@
+"""Bounds as narrow as asked for: the surface refined inside, by intrinsic triangles, until they are."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import _native
+from .certificate import OPEN, relative_width
+from .refined_triangles import Triangles, gaps, refined, worst
+
+PART = 0.6  # of all gaps between the energies that triangles marked for refinement have
+MOST_LEVELS = 60
+LEAST_GAIN = 1e-3  # a level that narrows the bounds by a smaller part is the last: rounding is reached
+
+
+@dataclass(frozen=True)
+class Refinement:
+    """How the bounds of a result were narrowed.
+
+    Attributes
+    ----------
+    reached : whether they are as narrow as asked for
+    reason : why the refinement ended, one sentence
+    levels : (triangles, relative width) of each triangulation, the surface's own first; nested, so never wider
+    """
+
+    reached: bool
+    reason: str
+    levels: tuple
+
+
+def narrow(native, width, most_faces, solver, threads, memory_limit, progress=None, uniform=False):
+    """Narrows the bounds of a native structure, whose forms are kept, to the relative width, and returns `Refinement`.
+
+    Each level is solved on the Delaunay triangulation of the surface's metric, then cut where the two energies are
+    farthest apart (`uniform`: everywhere). The classes of the forms are carried along as integers, so all levels have
+    the same basis.
+    """
+    natural = native.families()[0]
+    surface, classes = native.surface(), native.side_classes()
+    levels = []
+    while True:
+        stage = _stage(progress, levels)
+        solved = _native.solve_level(surface, classes, natural, solver, threads, memory_limit, stage)
+        triangles, functions, gram, certain_gram, mollification = _level(solved)
+        rounding = float(triangles.errors.max())
+        if mollification or rounding >= OPEN:
+            reason = "triangles are too thin for bounds that are certain"
+            break
+        native.narrow(gram, certain_gram, rounding)
+        levels.append((len(triangles.corners), relative_width(*native.period_bounds(), native.period_matrix().imag)))
+        reason = _ended(levels, width)
+        if reason:
+            break
+        everywhere = np.ones(len(triangles.corners), dtype=bool)
+        pieces = refined(triangles, everywhere if uniform else worst(gaps(triangles, functions, natural), PART))
+        if len(pieces.corners) > most_faces:
+            reason = f"the next level would have {len(pieces.corners)} triangles, more than {most_faces}"
+            break
+        surface, classes = _surface(pieces)
+    return Refinement(bool(levels) and levels[-1][1] <= width, reason, tuple(levels))
+
+
+def _ended(levels, width):
+    """Why the last level is the last one; "" where it is not."""
+    if levels[-1][1] <= width:
+        return "the bounds are as narrow as asked for"
+    if len(levels) > 1 and levels[-1][1] > (1 - LEAST_GAIN) * levels[-2][1]:
+        return "rounding keeps the bounds from getting narrower"
+    return f"{MOST_LEVELS} levels were solved" if len(levels) == MOST_LEVELS else ""
+
+
+def _level(solved):
+    corners, edges, lengths, errors, classes, functions, gram, certain, mollification = solved
+    classes = classes.reshape(len(corners), 3, -1)
+    triangles = Triangles(corners, edges, lengths.ravel(), errors.ravel(), classes)
+    return triangles, functions, gram, certain, mollification
+
+
+def _surface(pieces):
+    """The native surface of some `Pieces`, and the classes on its sides. Entry i of names and lengths lies opposite
+    corner i there."""
+    opposite = [1, 2, 0]
+    corners = pieces.corners.astype(np.int64)
+    surface = _native.refined_surface(
+        int(corners.max()) + 1, corners, pieces.sides[:, opposite], pieces.names[:, opposite], pieces.errors
+    )
+    return surface, np.ascontiguousarray(pieces.classes.reshape(len(corners), -1), np.int32)
+
+
+def _stage(progress, levels):
+    if progress is None:
+        return None
+    return lambda fraction, stage: progress(fraction, f"level {len(levels) + 1}: {stage}")

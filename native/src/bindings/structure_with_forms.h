@@ -1,0 +1,36 @@
+// What Python holds of a structure.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "bindings/arrays.h"
+#include "bindings/callback.h"
+#include "structure/uv_forms.h"
+
+namespace holomorph::bindings {
+
+/// A structure for Python: the forms that UVs are made of come with it, solved for when first asked for.
+struct Structure {
+  structure::Options options;
+  int threads = 0;
+  structure::Structure value;
+  std::mutex mutex;
+  std::unique_ptr<structure::UvForms> forms;
+
+  /// `use(forms, execution)` without the interpreter's lock, one call at a time.
+  template <class Use>
+  void with_forms(Use use, Execution::Callback progress = interruptible()) {
+    Execution execution(threads, std::move(progress));  // it goes with the lock held: it owns Python's function
+    const py::gil_scoped_release unlocked;
+    const std::lock_guard<std::mutex> one_at_a_time(mutex);
+    use(*forms, execution);
+  }
+};
+using StructurePointer = std::shared_ptr<Structure>;
+
+/// Gram matrices and what follows from them.
+void bind_invariants(py::class_<Structure, StructurePointer>& type);
+
+}  // namespace holomorph::bindings

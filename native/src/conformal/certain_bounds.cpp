@@ -1,0 +1,94 @@
+#include "conformal/certain_bounds.h"
+
+#include <cmath>
+#include <limits>
+
+#include "conformal/projection.h"
+
+namespace holomorph::conformal {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kSlack = 1.01;  // what bounds of rounding are themselves rounded by
+
+// A diagonal matrix not below any symmetric matrix with entries up to those of `errors`: 2 |x_i x_j| <= (w_j / w_i)
+// x_i^2 + (w_i / w_j) x_j^2, with weights that suit the diagonal of P.
+VectorXd diagonal_above(const MatrixXd& errors, const MatrixXd& P) {
+  const VectorXd root = P.diagonal().cwiseAbs().cwiseSqrt().cwiseMax(std::numeric_limits<double>::min());
+  return kSlack * root.cwiseProduct(errors * root.cwiseInverse());
+}
+
+}  // namespace
+
+MatrixXd above_congruent(const MatrixXd& T, const MatrixXd& G) {
+  MatrixXd P = symmetric(T * G * T.transpose());
+  const double factor = kUnit * static_cast<double>(2 * G.rows() + 6);  // both products, the mean, the last sum
+  const MatrixXd errors = kSlack * factor * (T.cwiseAbs() * G.cwiseAbs() * T.cwiseAbs().transpose());
+  P.diagonal() += diagonal_above(symmetric(errors), P);
+  return P;
+}
+
+MatrixXd below_inverse(const MatrixXd& A) {
+  const MatrixXd X = symmetric(inverse(A));
+  MatrixXd lower = 2 * X - above_congruent(X, A);
+  lower.diagonal() -= diagonal_above(3 * kUnit * lower.cwiseAbs(), X);
+  return lower;
+}
+
+namespace {
+
+// Re Omega + Z = -[1, -Z] (M + D) [0; Y], Y = Im Omega and G_exact = M + D with -R <= D <= R, R half the width: by
+// Cauchy and Schwarz |x D y|^2 <= x R x . y R y, and R_bb <= tr(Y R_bb) G_bb, so y R y <= tr(Y R_bb) Y_jj.
+void set_real_bounds(const MatrixXd& G, const MatrixXd& Z, PeriodBounds& bounds) {
+  const Index g = Z.rows();
+  MatrixXd J = MatrixXd::Zero(2 * g, 2 * g);
+  J.topRightCorner(g, g).setIdentity();
+  J.bottomLeftCorner(g, g) = -MatrixXd::Identity(g, g);
+  const MatrixXd below = J.transpose() * below_inverse(G) * J;  // only moves and negates entries
+  MatrixXd R = (G - below) / 2;
+  R.diagonal() += diagonal_above(2 * kUnit * (G.cwiseAbs() + below.cwiseAbs()), G);
+  const MatrixXd M = (G + below) / 2;
+  MatrixXd T(g, 2 * g);
+  T << MatrixXd::Identity(g, g), -Z;
+  const VectorXd across = above_congruent(T, R).diagonal().cwiseMax(0);
+  const MatrixXd products = bounds.upper.cwiseAbs() * R.bottomRightCorner(g, g).cwiseAbs();
+  const double trace = std::max(0.0, (bounds.upper * R.bottomRightCorner(g, g)).trace()) +
+                       kUnit * static_cast<double>(2 * g + 4) * products.trace();
+  const MatrixXd rest = T * M.rightCols(g);
+  const double factor = kUnit * static_cast<double>(2 * g + 8);
+  const MatrixXd missed = rest.cwiseAbs() + kSlack * factor * (T.cwiseAbs() * M.rightCols(g).cwiseAbs());
+  const VectorXd root = bounds.upper.diagonal().cwiseSqrt();
+  bounds.real_lower.resize(g, g);
+  bounds.real_upper.resize(g, g);
+  for (Index i = 0; i < g; ++i) {
+    for (Index j = 0; j < g; ++j) {
+      const double radius = kSlack * (std::sqrt(across[i] * trace) * root[j] + missed.row(i).dot(root) * root[j]) +
+                            2 * kUnit * std::abs(Z(i, j));
+      bounds.real_lower(i, j) = -Z(i, j) - radius;
+      bounds.real_upper(i, j) = -Z(i, j) + radius;
+    }
+  }
+  // Omega is symmetric.
+  bounds.real_lower = bounds.real_lower.cwiseMax(bounds.real_lower.transpose()).eval();
+  bounds.real_upper = bounds.real_upper.cwiseMin(bounds.real_upper.transpose()).eval();
+}
+
+}  // namespace
+
+PeriodBounds period_bounds(const MatrixXd& G) {
+  const Index g = G.rows() / 2;
+  PeriodBounds bounds;
+  bounds.lower = below_inverse(G.bottomRightCorner(g, g));
+  const MatrixXd Z = G.topRightCorner(g, g) * bounds.lower;
+  MatrixXd T(g, 2 * g);
+  T << MatrixXd::Identity(g, g), -Z;
+  bounds.upper = above_congruent(T, G);
+  set_real_bounds(G, Z, bounds);
+  return bounds;
+}
+
+}  // namespace holomorph::conformal

@@ -1,0 +1,154 @@
+#include "forms/gram_matrices.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "forms/block_sums.h"
+
+namespace holomorph::forms {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using mesh::HalfedgeHandle;
+using mesh::HalfEdges;
+
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+// What bounds of rounding are themselves rounded by.
+constexpr double kSlack = 1.01;
+// Edges that are summed before their sum is added to that of a block: short sums round less.
+constexpr int kPart = 64;
+
+// Sums over some edges, for each family.
+struct Sums {
+  std::vector<MatrixXd> value, uncertain;
+  std::vector<VectorXd> size;
+
+  explicit Sums(const std::vector<int>& families) {
+    for (const int n : families) {
+      value.push_back(MatrixXd::Zero(n, n));
+      uncertain.push_back(MatrixXd::Zero(n, n));
+      size.push_back(VectorXd::Zero(n));
+    }
+  }
+  void set_zero() {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      value[i].setZero();
+      uncertain[i].setZero();
+      size[i].setZero();
+    }
+  }
+  void operator+=(const Sums& other) {
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      value[i] += other.value[i];
+      uncertain[i] += other.uncertain[i];
+      size[i] += other.size[i];
+    }
+  }
+};
+
+struct WeightedForms {
+  const HalfEdges& mesh;
+  std::span<const double> weights, errors;
+  const ClosedForms& forms;
+};
+
+// Two forms of one family: several times faster where their number is known in advance.
+void add_two(const WeightedForms& w, int begin, int end, Sums& sums) {
+  const double* f = w.forms.functions.data();
+  Eigen::Matrix2d value = Eigen::Matrix2d::Zero(), uncertain = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+  for (int e = begin; e < end; ++e) {
+    const double k = w.weights[e];
+    if (k == 0) continue;
+    const int head = mesh::to_vertex(w.mesh, HalfedgeHandle(2 * e)),
+              tail = mesh::from_vertex(w.mesh, HalfedgeHandle(2 * e));
+    Eigen::Vector2d h(f[2 * head] - f[2 * tail], f[2 * head + 1] - f[2 * tail + 1]);
+    for (const auto& [i, integer] : topology::forms_between(w.forms.classes.rows[e], w.forms.first, w.forms.first + 2))
+      h[i - w.forms.first] += integer;
+    const Eigen::Matrix2d product = h * h.transpose();
+    value += k * product;
+    if (w.errors.empty()) continue;
+    uncertain += w.errors[e] * product;
+    size += std::abs(k) * h.cwiseAbs2();
+  }
+  sums.value[0] += value;
+  sums.uncertain[0] += uncertain;
+  sums.size[0] += size;
+}
+
+void add_all(const WeightedForms& w, const std::vector<int>& families, int begin, int end, Sums& sums) {
+  const auto k = Eigen::Map<const VectorXd>(w.weights.data() + begin, end - begin);
+  if ((k.array() == 0).all()) return;
+  const RowMajorMatrix values = edge_values(w.mesh, w.forms, begin, end);
+  int first = 0;
+  for (std::size_t i = 0; i < families.size(); first += families[i++]) {
+    const auto h = values.middleCols(first, families[i]);
+    sums.value[i] += h.transpose() * (k.asDiagonal() * h);
+    if (w.errors.empty()) continue;
+    const auto u = Eigen::Map<const VectorXd>(w.errors.data() + begin, end - begin);
+    sums.uncertain[i] += h.transpose() * (u.asDiagonal() * h);
+    sums.size[i] += h.cwiseAbs2().transpose() * k.cwiseAbs();
+  }
+}
+
+VectorXd cut_sizes(const WeightedForms& w) {
+  VectorXd result = VectorXd::Zero(w.forms.functions.cols());
+  const int first = w.forms.first, last = first + static_cast<int>(result.size());
+  for (const int e : w.forms.classes.rows.edges()) {
+    for (const auto& [i, value] : topology::forms_between(w.forms.classes.rows[e], first, last))
+      result[i - first] += std::abs(w.weights[e]) * value * value;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<GramMatrix> gram_matrices(const HalfEdges& mesh, std::span<const double> weights,
+                                      std::span<const double> errors, const ClosedForms& forms,
+                                      const std::vector<int>& families, Execution& execution) {
+  const WeightedForms weighted{mesh, weights, errors, forms};
+  const bool two = families == std::vector<int>{2};
+  Sums total(families);
+  std::vector<Sums> slots(kBatch, total);
+  for_blocks(
+      weights.size(), execution, 0.0, 1.0,
+      [&](int slot, int begin, int end) {
+        slots[slot].set_zero();
+        for (int part = begin; part < end; part += kPart) {
+          const int last = std::min(part + kPart, end);
+          two ? add_two(weighted, part, last, slots[slot]) : add_all(weighted, families, part, last, slots[slot]);
+        }
+      },
+      [&](int slot) { total += slots[slot]; });
+  const VectorXd cut = errors.empty() ? VectorXd() : cut_sizes(weighted);
+  const int edges = static_cast<int>(weights.size());
+  std::vector<GramMatrix> result;
+  for (std::size_t i = 0, first = 0; i < families.size(); first += families[i++]) {
+    const auto symmetric = [](const MatrixXd& A) { return MatrixXd((A + A.transpose()) / 2); };
+    result.push_back({symmetric(total.value[i]), symmetric(total.uncertain[i]), total.size[i], {}, 0});
+    if (!errors.empty()) result[i].cut_size = cut.segment(static_cast<Index>(first), families[i]);
+    result[i].summands = std::min(edges, kPart) + std::min(edges / kPart + 1, kBlock / kPart) + edges / kBlock + 1;
+  }
+  return result;
+}
+
+// |sum over e of the rounding of k h_i h_j| <= c sum |k h_i h_j|, a form that is at most n c diag(size). A value h = (f
+// - f) + eta misses by |delta| <= 2 |h| + |eta| units, and 2 <h, delta> + <delta, delta> by Cauchy and Schwarz is at
+// most 3 epsilon n diag(size) with epsilon^2 >= |delta|^2 / |h|^2.
+MatrixXd gram_errors(const GramMatrix& gram) {
+  const auto n = static_cast<double>(gram.size.size());
+  double relative = 0;
+  for (Index i = 0; i < gram.size.size(); ++i)
+    relative = std::max(relative, gram.size[i] > 0 ? gram.cut_size[i] / gram.size[i] : 0.0);
+  const double of_values = kUnit * std::sqrt(8 + 2 * relative);
+  const double of_sums = kUnit * (gram.summands + 6);  // and the products, the last mean and sum
+  MatrixXd errors = kSlack * gram.uncertain;
+  errors.diagonal() += kSlack * n * (of_sums + 3 * of_values) * gram.size;
+  return errors;
+}
+
+}  // namespace holomorph::forms

@@ -1,0 +1,158 @@
+#include "mesh/metric_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/chunks.h"
+#include "base/double_double.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::mesh {
+namespace {
+
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // of rounding
+// Of a length from positions: 1 of each difference, 3 of its square, 5 of their sum, half that and 1 of the root. Of a
+// given length: the caller's.
+constexpr double kOfDistance = 3.5 * kUnit, kOfGivenLength = 2.5 * kUnit;
+// Of a weight cot / 2, in parts of the largest cotangent of the triangle, which is that of |b^2 - a^2| + c^2 over 4 A:
+// 4 of the numerator, 5.5 of the area (Kahan's order), 1 of the quotient; half that, and half of one of the sum.
+constexpr double kOfWeight = 6 * kUnit;
+// Of the weight of a thin triangle, which is rounded once, and of its errors below; what twice the precision leaves.
+constexpr double kOfSharpWeight = 4 * kUnit, kOfCotangent = 1e-28;
+// Of the sum of the errors themselves, which may cancel opposite obtuse angles.
+constexpr double kOfErrors = 1e-12;
+// Areas of flipped faces, from rounded lengths.
+constexpr double kOfArea = 1e-2;
+
+std::array<HalfedgeHandle, 3> around(const Metric& t, HalfedgeHandle h) {
+  const HalfedgeHandle h1 = next(t.half_edges, h);
+  return {h, h1, next(t.half_edges, h1)};
+}
+
+std::array<double, 3> sides_at(const Metric& t, HalfedgeHandle h) {
+  const auto [h0, h1, h2] = around(t, h);
+  return {t.lengths[edge_of(h0)], t.lengths[edge_of(h1)], t.lengths[edge_of(h2)]};
+}
+
+const FaceError& error_at(const Metric& t, HalfedgeHandle h) { return t.errors[t.half_edges.face_handle(h).idx()]; }
+
+double largest_cotangent(const Metric& t, HalfedgeHandle h) {
+  const auto [h0, h1, h2] = around(t, h);
+  return std::max(
+      {std::abs(t.cotangents[h0.idx()]), std::abs(t.cotangents[h1.idx()]), std::abs(t.cotangents[h2.idx()])});
+}
+
+bool is_thin_at(const Metric& t, HalfedgeHandle h) {
+  return !t.half_edges.is_boundary(h) && !(largest_cotangent(t, h) <= kThin);
+}
+
+// The cotangent opposite h; in a thin triangle to all digits, of the lengths as they are.
+DoubleDouble sharp_cotangent(const Metric& t, HalfedgeHandle h) {
+  if (!is_thin_at(t, h)) return {t.cotangents[h.idx()]};
+  const auto [a, b, c] = sides_at(t, h);
+  const DoubleDouble others = exact_sum(b, c), apart = exact_sum(b, -c), whole{a};
+  const DoubleDouble area = (whole + others) * (others - whole) * (whole - apart) * (whole + apart);  // 16 A^2
+  if (!(area.high > 0)) return {t.cotangents[h.idx()]};
+  const DoubleDouble above = exact_sum(b, -a) * exact_sum(b, a) + exact_product(c, c);
+  return above / sqrt(area);
+}
+
+// Of a map by x, followed by one by y.
+double both(double x, double y) { return std::min(1.0, x + y + x * y); }
+
+// What a side of an edge adds to its error.
+double error_of_side(const Metric& t, HalfedgeHandle h) {
+  if (t.half_edges.is_boundary(h)) return 0;
+  const double error = error_at(t, h).mean, largest = largest_cotangent(t, h);
+  const bool thin = !(largest <= kThin);
+  const double cotangent = thin ? sharp_cotangent(t, h).value() : t.cotangents[h.idx()];
+  const double rounding = thin ? kOfSharpWeight * std::abs(cotangent) + kOfCotangent * largest : kOfWeight * largest;
+  return 0.5 * error * cotangent + rounding + kOfErrors * error * std::abs(cotangent);
+}
+
+}  // namespace
+
+// A length l_i that is off by delta_i changes the metric by (2 l_i + delta_i) delta_i |grad lambda_j| |grad lambda_k|;
+// these gradients are l_j / 2A and l_k / 2A long. Where that is eta, energies, sqrt(det g) g^-1, change by no more than
+// sqrt((1 + eta) / (1 - eta)) <= 1 + eta + eta^2.
+double energy_growth(const std::array<RoundedLength, 3>& sides, double* open) {
+  const auto& [a, b, c] = sides;
+  const auto part = [](const RoundedLength& x, double y, double z) {
+    return (2 * x.length + x.error) * x.error * y * z;
+  };
+  const double bound = (part(a, b.length, c.length) + part(b, c.length, a.length) + part(c, a.length, b.length)) / 4;
+  const double area = triangle_area(a.length, b.length, c.length), eta = bound / (area * area);
+  const bool is_open = !(eta < 0.5);
+  if (open) *open = is_open ? std::sqrt(std::max(bound, area * area)) : area;
+  return is_open ? 1 : eta * (1 + eta) * (1 + kOfArea);
+}
+
+Array<FaceError> metric_errors(const Metric& t, const Surface& surface, Workers& workers) {
+  Array<FaceError> errors(t.half_edges.n_faces());
+  const bool given = !surface.metric_errors.empty();
+  const double of_length = surface.intrinsic() ? kOfGivenLength : kOfDistance;
+  for_rows(workers, static_cast<int>(errors.size()), [&](int f) {
+    if (given) {
+      errors[f] = {surface.metric_errors[f], surface.metric_errors[f]};
+      return;
+    }
+    const auto [a, b, c] = sides_at(t, t.half_edges.halfedge_handle(FaceHandle(f)));
+    const double error = energy_growth({{{a, of_length * a}, {b, of_length * b}, {c, of_length * c}}});
+    errors[f] = {error, error};
+  });
+  return errors;
+}
+
+FacesBeside faces_beside(const Metric& t, HalfedgeHandle h) {
+  const auto area = [&t](HalfedgeHandle side) {
+    double open = 0;
+    const auto [a, b, c] = sides_at(t, side);
+    energy_growth({{{a, kOfDistance * a}, {b, kOfDistance * b}, {c, kOfDistance * c}}}, &open);
+    return open;
+  };
+  return {{error_at(t, h), error_at(t, opposite(h))}, {area(h), area(opposite(h))}};
+}
+
+// Each new face has the same part of both old ones, so of their errors as much as that part may hold; gradients are
+// constant on it, and its energy is spread by area.
+std::array<FaceError, 2> errors_after_flip(const Metric& t, HalfedgeHandle h, const FacesBeside& before, double error) {
+  const auto& [errors, areas] = before;
+  const double whole = areas[0] + areas[1], largest = std::max(errors[0].largest, errors[1].largest);
+  const auto after = [&](HalfedgeHandle side) {
+    const auto [a, b, c] = sides_at(t, side);
+    const double growth = energy_growth({{{a, error}, {b, 0}, {c, 0}}});
+    const double part = std::min(1.0, triangle_area(a, b, c) / whole);
+    double mean = 0;
+    for (const int i : {0, 1}) mean += std::min(errors[i].mean / part, errors[i].largest) * areas[i] / whole;
+    mean = std::min(largest, mean * (1 + kOfArea));
+    return FaceError{both(mean, growth), both(largest, growth)};
+  };
+  return {after(h), after(opposite(h))};
+}
+
+void sharpen_weights(const Metric& t, Array<double>& weights, Workers& workers) {
+  for_rows(workers, static_cast<int>(weights.size()), [&](int e) {
+    const HalfedgeHandle h(2 * e);
+    if (is_thin_at(t, h) || is_thin_at(t, opposite(h)))
+      weights[e] = 0.5 * (sharp_cotangent(t, h) + sharp_cotangent(t, opposite(h))).value();
+  });
+}
+
+Array<double> energy_errors(const Metric& t, const Array<double>& weights, Workers& workers) {
+  if (t.errors.empty()) return {};
+  Array<double> errors(weights.size());
+  for_rows(workers, static_cast<int>(errors.size()), [&](int e) {
+    const HalfedgeHandle h(2 * e);
+    errors[e] = error_of_side(t, h) + error_of_side(t, opposite(h)) + kOfSharpWeight * std::abs(weights[e]);
+  });
+  return errors;
+}
+
+double largest_error(const Metric& t) {
+  double largest = 0;
+  for (const FaceError& error : t.errors) largest = std::max(largest, error.largest);
+  return largest;
+}
+
+}  // namespace holomorph::mesh

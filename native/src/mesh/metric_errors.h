@@ -1,0 +1,66 @@
+// By how much the rounding of lengths may change the energies of forms, proven for every triangle, and the weights of
+// triangles so thin that it shows in twice the working precision.
+//
+// A triangulation with rounded lengths is a surface of its own. The map to the surface that it stands for, affine on
+// each triangle, changes metrics by a relative error there; flips compose such maps. A function on the rounded surface,
+// carried over by the map, is admissible, and its energy is larger by no more than these errors say: so it bounds the
+// invariants of the surface as given (docs/guarantee.md).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "base/workers.h"
+#include "mesh/half_edges.h"
+
+namespace holomorph::mesh {
+
+/// By what part of itself the energy of a form on a face may be larger on the surface that the face stands for: its
+/// mean over the face, and the largest anywhere in it. 1 stands for what rounding leaves open altogether.
+struct FaceError {
+  double mean = 0, largest = 0;
+};
+
+/// A length that stands for another one, which it misses by no more than `error`.
+struct RoundedLength {
+  double length, error;
+};
+
+/// A triangulation by its lengths, #E, with its cotangents, #half-edges, and the errors of its faces, none where the
+/// metric is another one (mollified).
+struct Metric {
+  const HalfEdges& half_edges;
+  std::span<const double> lengths, cotangents;
+  std::span<const FaceError> errors;
+};
+
+/// The rounding of the lengths of a surface, of what was given already (Surface::metric_errors) or of positions.
+Array<FaceError> metric_errors(const Metric& metric, const Surface& surface, Workers& workers);
+
+/// Part by which the energies of forms on a triangle of these sides may grow. @param open the area that rounding leaves
+/// open, or that of the triangle
+double energy_growth(const std::array<RoundedLength, 3>& sides, double* open = nullptr);
+
+/// The errors of the face of `h` and of its neighbour across h, with their areas.
+struct FacesBeside {
+  std::array<FaceError, 2> errors;
+  std::array<double, 2> areas;
+};
+FacesBeside faces_beside(const Metric& metric, HalfedgeHandle h);
+
+/// After the flip of the edge of `h`, the errors of the same two faces. @param error of the new length
+std::array<FaceError, 2> errors_after_flip(const Metric& metric, HalfedgeHandle h, const FacesBeside& before,
+                                           double error);
+
+/// The weights of the edges of thin triangles, anew: opposite obtuse angles, what cot + cot leaves has as many digits
+/// less as the cotangents are larger.
+void sharpen_weights(const Metric& metric, Array<double>& weights, Workers& workers);
+
+/// #E numbers u: the energy of a form h on the surface as given is at most sum_e (k_e + u_e) h(e)^2, the rounding of
+/// the weights included; none where there are no errors. @param weights cotangent_weights
+Array<double> energy_errors(const Metric& metric, const Array<double>& weights, Workers& workers);
+
+/// The largest error of any face: with 1, energies are not bounded.
+double largest_error(const Metric& metric);
+
+}  // namespace holomorph::mesh

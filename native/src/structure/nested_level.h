@@ -1,0 +1,52 @@
+// One level of a nested refinement: the harmonic forms of given integer classes on a triangulation of a surface, and
+// the Delaunay triangulation that they were solved on, to be refined further.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/execution.h"
+#include "forms/closed_forms.h"
+#include "mesh/surface.h"
+#include "structure/invariants.h"
+#include "structure/options.h"
+#include "structure/structure.h"
+
+namespace holomorph::structure {
+
+/// #T x 3 m: the values of m closed integer forms along the sides of triangles, from corner i to corner i + 1.
+using SideClasses = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The classes that the harmonic forms of a structure were solved for, on its surface: the natural ones, and with
+/// boundary the Dirichlet ones.
+SideClasses side_classes(const Structure& structure);
+
+struct NestedLevel {
+  std::vector<mesh::Triple> triangles, triangle_edges;  ///< of the Delaunay triangulation; side i from corner i
+  std::vector<double> lengths;                          ///< #E
+  std::vector<double> errors;                           ///< #T mesh::FaceError::largest
+  SideClasses classes;                                  ///< on it
+  forms::RowMajorMatrix functions;                      ///< #V x m
+  CertainGram energies;
+  double mollification = 0;  ///< other than 0: bounds are of another surface
+};
+
+/// Solves for the forms of these classes. On a triangulation that refines the Delaunay triangulation of a coarser
+/// level, energies are no larger than there: the coarser functions are among those to choose from, and flips towards
+/// Delaunay lower the energy of any (Rippa 1990, doi:10.1016/0167-8396(90)90011-F). So bounds are nested.
+/// @param natural how many of the classes are natural; the others are Dirichlet
+/// @throws SolverError, Cancelled
+NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, const Options& options,
+                        Execution& execution);
+
+/// Those of the forms eta_i + d f_i with any functions, on the Delaunay triangulation of the surface: admissible ones,
+/// whatever they are, so that bounds hold.
+/// @param functions #V x m; those of Dirichlet forms count as 0 on the boundary
+CertainGram measure(const mesh::Surface& surface, const SideClasses& classes, int natural,
+                    const forms::RowMajorMatrix& functions, Execution& execution);
+
+/// Gram matrices of the same forms from a finer level, and what follows from them.
+void narrow(Structure& structure, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain_gram,
+            double metric);
+
+}  // namespace holomorph::structure

@@ -1,0 +1,97 @@
+"""Bounds as narrow as asked for: reached, nested, right, and by fewer triangles where they are needed."""
+
+import families
+import flat_cones
+import numpy as np
+import pytest
+from holomorph import TopologyError, conformal_structure
+from holomorph.narrow_bounds import narrow
+from solved import surface_of
+
+SQUARE_MINUS_SQUARE = 10.234092569368052  # its capacity, see test_boundary_values
+
+WIDTH = 5e-3
+ROUNDING = 1e-11
+
+GRADED = {
+    "decagon": flat_cones.regular_polygon(10),
+    "L-shape": families.square_tiled([1, 0, 2], [2, 1, 0], 1),
+    "octagon": flat_cones.regular_polygon(8),
+}
+
+
+@pytest.mark.parametrize("name", GRADED)
+def test_bounds_are_as_narrow_as_asked_for_and_nested(name):
+    surface = surface_of(GRADED[name])
+    wide = conformal_structure(surface).period_bounds
+    structure = conformal_structure(surface, bounds=WIDTH)
+    assert structure.refinement.reached
+    widths = [width for _, width in structure.refinement.levels]
+    assert widths[-1] <= WIDTH < widths[-2]
+    assert (np.diff(widths) < 0).all()
+    assert structure.certificate.relative_width == widths[-1]
+    assert structure.certificate.holds
+    (lower, upper), (wide_lower, wide_upper) = structure.period_bounds, wide
+    assert np.linalg.eigvalsh(lower - wide_lower).min() > -ROUNDING
+    assert np.linalg.eigvalsh(wide_upper - upper).min() > -ROUNDING
+    assert np.linalg.eigvalsh(structure.period_matrix.imag - lower).min() > 0
+
+
+@pytest.mark.parametrize("name", GRADED)
+def test_grading_needs_a_quarter_of_the_triangles(name):
+    surface = surface_of(GRADED[name])
+    graded = conformal_structure(surface, bounds=WIDTH).refinement
+    native = conformal_structure(surface)._native
+    even = narrow(native, WIDTH, 4 * graded.levels[-1][0], "auto", 2, 0, uniform=True)
+    assert not even.reached and "more than" in even.reason
+
+
+def test_capacity_of_a_square_minus_a_square():
+    structure = conformal_structure(surface_of(families.square_minus_square(2, jitter=0.2)), bounds=1e-3)
+    low, high = (bound[0, 0] for bound in structure.capacity_bounds)
+    assert low < SQUARE_MINUS_SQUARE < high and high - low < 1.01e-3 * high
+    assert low < structure.capacity_matrix[0, 0] < high
+
+
+def test_a_torus_with_holes():
+    structure = conformal_structure(surface_of(families.punched(families.torus(12, 9), 3)), bounds=2e-2)
+    assert structure.refinement.reached
+    lower, upper = structure.period_bounds
+    assert np.linalg.eigvalsh(structure.period_matrix.imag - lower).min() > 0
+    assert np.linalg.eigvalsh(upper - structure.period_matrix.imag).min() > 0
+
+
+def test_what_cannot_be_reached_is_said():
+    refinement = conformal_structure(surface_of(GRADED["decagon"]), bounds=1e-9, most_faces=500).refinement
+    assert not refinement.reached
+    assert "more than 500" in refinement.reason
+    assert refinement.levels[-1][0] <= 500
+
+
+@pytest.mark.parametrize("bounds", [0, -1e-3, 1, np.nan, "narrow"])
+def test_widths_that_mean_nothing(bounds):
+    with pytest.raises(ValueError, match="bounds is"):
+        conformal_structure(surface_of(GRADED["decagon"]), bounds=bounds)
+
+
+def test_surfaces_without_periods():
+    with pytest.raises(TopologyError, match="bounds can be narrowed"):
+        conformal_structure(surface_of(families.block_with_holes(0)), bounds=1e-3)
+
+
+def test_uvs_remain():
+    """Of the surface's own triangles."""
+    surface = surface_of(families.block_with_holes(2, refine=2))
+    plain, narrowed = conformal_structure(surface), conformal_structure(surface, bounds=0.05)
+    assert len(narrowed.refinement.levels) > 1
+    assert np.abs(plain.harmonic_forms - narrowed.harmonic_forms).max() == 0
+    assert narrowed.uv(narrowed.balanced_coefficients()).shape == plain.uv(plain.balanced_coefficients()).shape
+    assert np.abs(narrowed.period_matrix - plain.period_matrix).max() < 0.05 * np.abs(plain.period_matrix).max()
+
+
+def test_progress_is_told_by_level():
+    stages = []
+    conformal_structure(
+        surface_of(GRADED["octagon"]), bounds=0.02, progress=lambda _, stage: stages.append(stage) or True
+    )
+    assert any(stage.startswith("level 2") for stage in stages)
