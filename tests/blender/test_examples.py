@@ -70,15 +70,16 @@ def test_example(name):
         assert written == ["Holomorphic", *(f"Holomorphic {j + 1}" for j in range(min(count, 8)))]
         assert obj.data.uv_layers.active.name == "Holomorphic"
         for map_name in written:
-            check_map(obj, uv(obj, map_name), found)
+            # Several objects are given one texel density: only the one with most area fills the square.
+            check_map(obj, uv(obj, map_name), found, least_extent=0.4 if len(objects) == 1 else 0.2)
         for part in found:
             assert max(part["residuals"].values()) < 1e-8
             assert 1 <= part["main_map"]["mean_angle"] < COARSE.get(name, FINE)
 
 
-def check_map(obj, values, found):
+def check_map(obj, values, found, least_extent):
     assert np.isfinite(values).all()
-    assert values.min() > -1e-6 and values.max() < 1 + 1e-6 and np.ptp(values, axis=0).max() > 0.4
+    assert values.min() > -1e-6 and values.max() < 1 + 1e-6 and np.ptp(values, axis=0).max() > least_extent
     if all(part["genus"] and not part["boundary_count"] for part in found):
         difference, forgiven = edge_mismatch(obj.data, values)
         assert difference <= forgiven

@@ -199,9 +199,10 @@ def test_a_modifier_that_may_close_the_surface_is_told():
     obj.modifiers.new("My Mirror", "MIRROR")
     run_module, targets = module("run"), module("targets")
     found = targets.collect([obj])
-    job = module("jobs").Job(targets.tasks(found))
+    mapper = module("seamless").Mapper(module("maps").MapOptions(), True)
+    job = module("jobs").Job(targets.tasks(found), then=[mapper])
     job.run()
-    outcome = run_module.write(bpy.context, found, job.results, module("maps").MapOptions(), run_module.WriteOptions())
+    outcome = run_module.write(bpy.context, found, job.results, mapper.options(job.results), run_module.WriteOptions())
     assert any("My Mirror" in note for note in outcome.notes)
 
 

@@ -155,7 +155,10 @@ def test_ten_numberings_have_the_same_maps(mesh):
         ratios.append(structure.quality(structure.uv(structure.balanced_coefficients())).density_ratio)
         tilings.append(structure.tile())
     assert np.ptp(ratios) < SEARCH["numbers"] * min(ratios)
-    assert len({len(found.poles) for found in tilings}) == 1
+    optimal = [tiling.optimal_density_ratio for tiling in tilings]
+    assert np.ptp(optimal) < SEARCH["numbers"] * min(optimal)
+    # The lattice comes in another basis, so that another of its points may be taken that is about as near.
+    assert max(tiling.density_ratio for tiling in tilings) < 2 * min(optimal)
 
 
 @few

@@ -118,8 +118,8 @@ def test_headers_name_installed_headers_alone(installed):
     assert not (include / "holomorph" / "bindings").exists()
 
 
-@pytest.mark.parametrize(("component", "suffix"), [("native", ".so"), ("python", ".py")])
-def test_python_components_have_no_headers(installed, component, suffix):
+@pytest.mark.parametrize(("component", "suffixes"), [("native", {".so"}), ("python", {".py", ".typed", ".html"})])
+def test_python_components_have_no_headers(installed, component, suffixes):
     files = {path for path in installed(component).rglob("*") if path.is_file()}
     assert files
-    assert not {path for path in files if path.suffix not in (suffix, ".typed")}
+    assert not {path for path in files if path.suffix not in suffixes}
