@@ -10,12 +10,12 @@ ROOT = Path(__file__).resolve().parents[2]
 SECONDS = 600
 
 
-def run(*command, **environment):
+def run(*command, seconds=SECONDS, **environment):
     """Run a program away from the checkout, with a time limit; its output, or a failure that shows it."""
     clean = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "HOLOMORPH_BLENDER")}
     done = subprocess.run(
         # The program "timeout" ends what the command started, too.
-        ["timeout", "--kill-after=10", str(SECONDS), *map(str, command)],
+        ["timeout", "--kill-after=10", str(seconds), *map(str, command)],
         env={**clean, **{name: str(value) for name, value in environment.items()}},
         cwd="/",
         text=True,

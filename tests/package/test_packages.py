@@ -96,7 +96,7 @@ def test_pip_installs_the_package_without_blender(dist, tmp_path, source):
         "CMAKE_CXX_COMPILER_LAUNCHER": shutil.which("ccache") or "",
         "CMAKE_BUILD_PARALLEL_LEVEL": 2,
     }
-    run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", what, **options)
+    run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", what, seconds=1200, **options)
     write_torus(tmp_path / "torus.obj")
     run(python, "-m", "holomorph", tmp_path / "torus.obj", "--report", tmp_path / "report.json")
     assert (tmp_path / "report.json").stat().st_size > 0
