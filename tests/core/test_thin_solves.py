@@ -4,7 +4,7 @@ solved to what is promised, or refused; what they give does not depend on the nu
 import families
 import numpy as np
 import pytest
-from holomorph import ProgressiveMesh, SolverError, Surface, conformal_structure
+from holomorph import ProgressiveMesh, SolverError, Surface, Tiler, conformal_structure
 from test_thin_triangles import glued, layout
 
 PROMISED = 1e-6  # relative error of a form in energy
@@ -58,6 +58,20 @@ def test_a_pole_in_a_ring(width, solver):
     for same_edges, other in others:
         assert (same_edges == edges).all()
         assert np.nanmax(np.abs(other - one)) < PROMISED * np.nanmax(np.abs(one))
+
+
+@pytest.mark.parametrize(
+    ("thinnest", "is_refused"), [(1e-4, False), (1e-7, False), (1e-9, False), (1e-11, True), (1e-12, True)]
+)
+def test_poles_beside_thin_triangles(thinnest, is_refused):
+    """Vertices 0 and 7 bound the thin row: chosen, they are refused where rounding shows. Poles that are placed keep
+    away from them."""
+    surface = thin_torus(thinnest)
+    for vertex in (0, 7):
+        tiling = refused(lambda vertex=vertex: Tiler(surface, [vertex, 68]).tile(tiles=64))
+        assert (tiling is None) == is_refused
+        assert is_refused or tiling.left_over < 0.01
+    assert not np.isin(Tiler(surface, 4).tile(tiles=64).poles % 8, (0, 7)).any()
 
 
 # ---- levels --------------------------------------------------------------------------------------------------------
