@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from . import distortion, mesh_edges, mesh_io, native
+from . import compatibility, distortion, mesh_edges, mesh_io, native
 from .compatibility import Values
 from .faces import edge_ends
 
@@ -83,6 +83,7 @@ def select(mesh, elements):
     """Selects these elements of a mesh that is not being edited, and no others; hidden ones appear."""
     corners = polygon_corners(mesh, elements.faces)
     vertices = np.concatenate([elements.vertices, elements.edges.ravel(), corners])
+    compatibility.make_edges_selectable(mesh)
     mesh_edges.mark_edges(mesh, "select", elements.edges)
     for owner, own in ((mesh.vertices, vertices), (mesh.polygons, elements.faces)):
         flags = np.zeros(len(owner), bool)

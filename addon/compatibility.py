@@ -54,6 +54,14 @@ def edge_vertex_values(mesh):
     return Values(mesh.edges, "vertices", np.uint32, 2)
 
 
+def make_edges_selectable(mesh):
+    """Removes a selection of edges that is none: Mesh.from_pydata of 5.0 makes it of pairs of integers, and Blender ends
+    when one of them is written."""
+    selection = mesh.attributes.get(".select_edge")
+    if selection is not None and selection.data_type != "BOOLEAN":
+        mesh.attributes.remove(selection)
+
+
 def enable_nodes(material):
     """Gives the material a node tree; from 5.0 it always has one and the switch is deprecated."""
     if bpy.app.version < (5, 0, 0):

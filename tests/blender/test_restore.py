@@ -139,6 +139,8 @@ def test_removing_in_edit_mode_and_attributes_too():
     obj = torus()
     for index in range(8):
         add_own_map(obj, f"Own {index}")
+    for mode in ("EDIT", "OBJECT"):  # Blender's own attributes are then in the order of edit mode
+        bpy.ops.object.mode_set(mode=mode)
     before = everything(obj)
     run()
     bpy.ops.object.mode_set(mode="EDIT")
