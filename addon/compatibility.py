@@ -55,8 +55,8 @@ def edge_vertex_values(mesh):
 
 
 def make_edges_selectable(mesh):
-    """Removes a selection of edges that is none: Mesh.from_pydata of 5.0 makes it of pairs of integers, and Blender ends
-    when one of them is written."""
+    """Removes a selection of edges that is none: Mesh.from_pydata of 5.0 makes it of pairs of integers, and Blender
+    ends when one of them is written."""
     selection = mesh.attributes.get(".select_edge")
     if selection is not None and selection.data_type != "BOOLEAN":
         mesh.attributes.remove(selection)
