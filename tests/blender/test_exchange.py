@@ -13,7 +13,16 @@ from test_headless import headless, our_lines, write_obj
 
 exchange = module("exchange")
 needs_usd = pytest.mark.skipif(not bpy.app.build_options.usd, reason="this Blender is built without USD")
-FORMATS = [".glb", ".gltf", ".fbx", ".obj", pytest.param(".usdc", marks=needs_usd)]
+# The process of Blender 4.2 as a Python module ends with a crash once it has written a glTF file, without any add-on too.
+may_write_gltf = pytest.mark.skipif(
+    bpy.app.version[:2] == (4, 2) and not bpy.app.binary_path, reason="this Blender crashes at exit after writing glTF"
+)
+FORMATS = [
+    *(pytest.param(suffix, marks=may_write_gltf) for suffix in (".glb", ".gltf")),
+    ".fbx",
+    ".obj",
+    pytest.param(".usdc", marks=needs_usd),
+]
 NEAR = 1e-5
 
 
@@ -82,6 +91,7 @@ def test_through_the_command_and_back(suffix, tmp_path):
     assert found["Sheet"].matrix_world.translation.x == pytest.approx(5 if suffix != ".obj" else 0, abs=1e-4)
 
 
+@may_write_gltf
 def test_a_gltf_file_has_its_vertices_joined_and_its_normals(tmp_path):
     ring, _ = scene()
     for polygon in ring.data.polygons:
@@ -107,6 +117,7 @@ def test_a_bare_obj_is_read_with_double_precision_and_others_by_blender(tmp_path
     assert not exchange.is_read_here(tmp_path / "ring.ply")
 
 
+@may_write_gltf
 def test_one_object_of_a_file(tmp_path):
     report = tmp_path / "report.json"
     done = headless(file_of(tmp_path, ".glb"), "--object", "Sheet", "--report", report)
@@ -114,6 +125,7 @@ def test_one_object_of_a_file(tmp_path):
     assert [entry["object"] for entry in json.loads(report.read_text())["objects"]] == ["Sheet"]
 
 
+@may_write_gltf
 def test_the_picture_is_no_part_of_the_file(tmp_path):
     out, picture = tmp_path / "out.glb", tmp_path / "picture.png"
     small = ("--render", picture, "--resolution", 32, "--samples", 1)
@@ -139,6 +151,7 @@ def test_a_file_that_is_refused_has_a_report(tmp_path):
     assert entry["object"] == "bad" and not entry["done"] and entry["refused"]
 
 
+@may_write_gltf
 def test_a_file_without_a_mesh(tmp_path):
     bpy.context.scene.collection.objects.link(bpy.data.objects.new("Nothing", None))
     exchange.write(tmp_path / "empty.glb")
