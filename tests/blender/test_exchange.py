@@ -13,7 +13,7 @@ from test_headless import headless, our_lines, write_obj
 
 exchange = module("exchange")
 needs_usd = pytest.mark.skipif(not bpy.app.build_options.usd, reason="this Blender is built without USD")
-# The process of Blender 4.2 as a Python module ends with a crash once it has written a glTF file, without any add-on too.
+# Blender 4.2 as a Python module crashes at exit once it has written a glTF file, with no add-on either.
 may_write_gltf = pytest.mark.skipif(
     bpy.app.version[:2] == (4, 2) and not bpy.app.binary_path, reason="this Blender crashes at exit after writing glTF"
 )
