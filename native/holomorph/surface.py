@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from . import _native, arrays
+from . import _native, arrays, formats
 from ._native import InvalidMesh, TopologyError
 from .repairs import Refused, Repairs
 
@@ -99,6 +99,21 @@ class Surface:
             if the file is missing or malformed (names the line or byte), or no component of the mesh in it is valid.
         """
         return cls._of(*_native.Surface.read(path, strict, weld))
+
+    def write(self, path, uv=None):
+        """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles, which takes the library
+        trimesh: positions, and with `uv`, (#C, 2), a UV map. Positions and UVs keep double precision, in GLB single.
+
+        Raises
+        ------
+        ValueError
+            if the path ends with neither .obj, .ply nor .glb, before anything is written, or `uv` does not fit
+        ModuleNotFoundError
+            if trimesh is missing: pip install "holomorph[batch]"
+        InvalidMesh
+            if the surface is intrinsic
+        """
+        formats.write(self, path, uv)
 
     @classmethod
     def _of(cls, *adopted):
