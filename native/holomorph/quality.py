@@ -36,7 +36,7 @@ class Quality(Value):
     _triangulation: object
 
     @classmethod
-    def of(cls, triangulation, uv, threads):
+    def of(cls, triangulation: object, uv: Reals, threads: int) -> "Quality":
         """That of (#C, 2) UVs on a native surface."""
         return cls(*_native.quality(triangulation, uv, threads), triangulation)
 

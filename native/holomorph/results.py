@@ -1,7 +1,9 @@
 """What the results of all kinds of surfaces have in common."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -114,7 +116,7 @@ class Structure(Value):
     def _computed_again(self):
         return self._compute()
 
-    def computed_by(self, compute):
+    def computed_by(self, compute: Callable[[], Self]) -> Self:
         """Itself, after noting the call without arguments that computes it, for pickles."""
         vars(self)["_compute"] = compute
         return self

@@ -10,7 +10,7 @@ from . import _native, arrays, formats, pickled_surface
 from ._native import InvalidMesh, TopologyError
 from .array_types import FilePath, Integers, Reals
 from .repairs import Refused, Repairs
-from .value import Value
+from .value import Value, freeze
 
 UNWELDED = "every face is apart: Surface.read(path, weld=True) joins those that touch"
 
@@ -148,13 +148,13 @@ class Surface(Value):
 
     def __getstate__(self):
         index = self._vertex_index, self._face_index, self._corner_index
-        rest = self.given_vertex_count, self._split_vertices, [(part.faces, part.reason) for part in self.refused]
+        rest = self.given_vertex_count, self._split_vertices, tuple((part.faces, part.reason) for part in self.refused)
         return {"mesh": pickled_surface.arrays_of(self._native), "rest": index + rest, "dual_vertex": self.dual_vertex}
 
     def __setstate__(self, state):
+        freeze(state)
         self._adopt(pickled_surface.native_of(state["mesh"]), *state["rest"])
-        if state["dual_vertex"] is not None:
-            self.dual_vertex = arrays.frozen(state["dual_vertex"])
+        self.dual_vertex = state["dual_vertex"]
 
     @cached_property
     def vertices(self) -> Reals | None:

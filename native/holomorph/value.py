@@ -29,7 +29,7 @@ class Value:
         return {name: value for name, value in vars(self).items() if name not in self._unpickled}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        _freeze(state)
+        freeze(state)
         vars(self).update(state)
 
 
@@ -38,10 +38,10 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def _freeze(value: object) -> None:
+def freeze(value: object) -> None:
     """Makes the arrays in dictionaries and tuples read-only, as they were before a pickle."""
     if isinstance(value, np.ndarray):
         value.setflags(write=False)
     elif isinstance(value, (dict, tuple)):
         for entry in value.values() if isinstance(value, dict) else value:
-            _freeze(entry)
+            freeze(entry)
