@@ -79,6 +79,21 @@ class BoundedResiduals(Residuals):
     pairing: float
 
 
+class Solution:
+    """What the native core computed for a structure. A pickle has the call instead that computes the structure: it is
+    made where more is asked for than the pickle has, and gives the same bits."""
+
+    def __init__(self, native):
+        self.native, self.compute = native, None
+
+    @cached_property
+    def native(self):
+        return self.compute()._native
+
+    def __getstate__(self):
+        return {"compute": self.compute}
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Structure(Value):
     """Base of the results of `conformal_structure`. All arrays are read-only; the large ones are computed when first
@@ -91,12 +106,13 @@ class Structure(Value):
     """
 
     residuals_kind = Residuals
-    _unpickled = ("_native", "_computed_again", "_triangulation", "_tilers")
+    _unpickled = ("_triangulation", "_tilers")
 
     surface: Surface
     solver: SolverReport
     residuals: Residuals
     timings: dict[str, float]
+    _solution: Solution
     _component: Surface
     _threads: int
 
@@ -107,18 +123,13 @@ class Structure(Value):
         vars(self).update({name: getattr(self, name) for name in ("description", "flip_count", "_is_exact")})
         return super().__getstate__()
 
-    @cached_property
+    @property
     def _native(self):
-        """What the native core computed; after a pickle it is computed again, with the same bits."""
-        return self._computed_again._native
+        return self._solution.native
 
-    @cached_property
-    def _computed_again(self):
-        return self._compute()
-
-    def computed_by(self, compute: Callable[[], Self]) -> Self:
-        """Itself, after noting the call without arguments that computes it, for pickles."""
-        vars(self)["_compute"] = compute
+    def computed_by(self, compute: Callable[[], "Structure"]) -> Self:
+        """Itself, after noting the call that computes it, for pickles."""
+        self._solution.compute = compute
         return self
 
     @cached_property
@@ -236,6 +247,5 @@ def result(kind, surface, component, native, threads, **more):
     seconds["total"] = sum(seconds.values())
     certificate = dict(zip(("closedness", "harmonicity", "periods", "pairing", "asymmetry"), native.certificate()))
     residuals = kind.residuals_kind(**{entry.name: certificate[entry.name] for entry in fields(kind.residuals_kind)})
-    made = kind(surface, SolverReport(*native.solver()), residuals, seconds, component, threads, **more)
-    vars(made)["_native"] = native
-    return made
+    report = SolverReport(*native.solver())
+    return kind(surface, report, residuals, seconds, Solution(native), component, threads, **more)

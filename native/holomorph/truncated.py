@@ -72,10 +72,8 @@ def coarse_log_map(surface, component, solver, threads, progress):
     (refined,) = truncation.surface.components
     native = _native.punctured_structure(refined._native, punctures, [], [], solver, threads, 0, progress)
     solved = result(PuncturedStructure, truncation.surface, refined, native, threads)
-    own = solved.solver, solved.residuals, solved.timings, component, threads, truncation
-    made = TruncatedStructure(surface, *own)
-    vars(made).update(_native=native, _refined=solved)
-    return made
+    own = solved.solver, solved.residuals, solved.timings, solved._solution, component, threads
+    return TruncatedStructure(surface, *own, truncation, solved)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -83,14 +81,8 @@ class TruncatedStructure(PuncturedStructure):
     """`PuncturedStructure` of a mesh whose punctures' stars meet. It was solved on its `Truncation`; UVs are those of
     the remaining corners, and the corners that were cut off are put back by a similarity."""
 
-    _unpickled = (*PuncturedStructure._unpickled, "_refined")
-
     _truncation: Truncation
-
-    @cached_property
-    def _refined(self):
-        """`PuncturedStructure` of the truncation."""
-        return self._computed_again._refined
+    _refined: PuncturedStructure
 
     @cached_property
     def _triangulation(self):
