@@ -3,6 +3,7 @@
 import argparse
 import json
 import sys
+from pathlib import Path
 
 from . import Error, Surface, Verdict, __version__, formats
 from .batch import arrangement, mapping
@@ -26,8 +27,7 @@ def main(arguments=None):
         return compare(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
-        if options.output:
-            formats.of_path(options.output)
+        _check_output(options.output)
     except (ValueError, ModuleNotFoundError) as error:
         return failed(EXIT_USAGE, error)
     try:
@@ -59,6 +59,16 @@ def failed(status, sentence):
     """The exit status, after a sentence on the error stream."""
     print(f"holomorph: {sentence}", file=sys.stderr)
     return status
+
+
+def _check_output(path):
+    """Raises ValueError or ModuleNotFoundError, before any work."""
+    if path is None:
+        return
+    formats.of_path(path)
+    folder = Path(path).resolve().parent
+    if not folder.is_dir():
+        raise ValueError(f"{path}: the folder {folder} does not exist")
 
 
 def mapped(options):

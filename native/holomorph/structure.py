@@ -86,7 +86,8 @@ def conformal_structure(
     factorisation or the set-up of multigrid; 2 n #V numbers of memory.
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
-    given = locals() | {"progress": None}
+    residues = _residues(residues)
+    given = locals() | {"progress": None}  # all arguments: no other name is there yet
     options = solver, check_options(solver, threads), progress
     narrowing = check_bounds(bounds, most_faces)
     if boundary not in BOUNDARIES:
@@ -97,14 +98,13 @@ def conformal_structure(
     made = _structure(surface, component, boundary, chosen, options, memory_limit, narrowing)
     if cut_edges is not None and len(cut_edges):
         made = cut_along(made, surface, component, cut_edges)
-    return made.computed_by(partial(conformal_structure, **deepcopy(given)))
+    return made.computed_by(partial(conformal_structure, **deepcopy(given)))  # the caller's lists may change
 
 
 def _structure(surface, component, boundary, chosen, options, memory_limit, narrowing):
     punctures, residues, rectangle_corners = chosen
     topology = component.genus, component.boundary_count
     vertices, labels = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
-    residues = _residues(residues)
     is_chosen = bool(vertices or residues)
     if narrowing is not None:
         _check_narrowing(topology, is_chosen or rectangle_corners is not None)

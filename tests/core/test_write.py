@@ -120,6 +120,11 @@ def test_command_refuses_other_endings_before_it_reads(name, tmp_path, capsys):
     assert len(told.splitlines()) == 1
 
 
+def test_command_refuses_a_folder_that_is_not_there_before_it_reads(tmp_path, capsys):
+    assert main([str(tmp_path / "absent.obj"), "--output", str(tmp_path / "nowhere" / "out.obj")]) == 2
+    assert "nowhere does not exist" in capsys.readouterr().err
+
+
 def test_command_writes_no_mesh_where_no_part_has_a_map(tmp_path, capsys):
     path, out = tmp_path / "moebius.obj", tmp_path / "out.obj"
     path.write_bytes(obj(families.moebius()))
