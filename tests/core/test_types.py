@@ -68,7 +68,7 @@ def checker(name):
     """The command that checks a file, or skips."""
     if name == "mypy":
         pytest.importorskip("mypy")
-        return [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "--no-incremental"]
+        return [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "--cache-dir=cache"]
     program = shutil.which("pyright") or pytest.skip("no program pyright")
     return [program, "--pythonpath", sys.executable]
 

@@ -1,7 +1,11 @@
 """Results as values: short reprs, pickles with the same bits, copies."""
 
 import copy
+import hashlib
+import json
 import pickle
+import subprocess
+import sys
 from dataclasses import fields, is_dataclass
 from functools import cache
 
@@ -210,3 +214,19 @@ def test_a_tiler_is_not_pickled():
 def test_errors_are_pickled(kind):
     error = getattr(holomorph, kind)("edge 812 has 3 faces")
     assert (type(again(error)), str(again(error))) == (type(error), str(error))
+
+
+IN_ANOTHER_PROCESS = """
+import hashlib, json, pickle, sys
+sys.path[:0] = json.loads(sys.argv[1])
+structure = pickle.load(sys.stdin.buffer)
+print(hashlib.sha256(structure.uv([1, 0]).tobytes() + structure.period_matrix.tobytes()).hexdigest())
+"""
+
+
+def test_another_process_goes_on_with_the_same_bits():
+    structure = conformal_structure(surface_of(CLOSED["genus 2 block"]))
+    command = [sys.executable, "-c", IN_ANOTHER_PROCESS, json.dumps(sys.path)]
+    run = subprocess.run(command, input=pickle.dumps(structure), capture_output=True, timeout=120)
+    bits = structure.uv([1, 0]).tobytes() + structure.period_matrix.tobytes()
+    assert run.stdout.decode().strip() == hashlib.sha256(bits).hexdigest(), run.stderr.decode()
