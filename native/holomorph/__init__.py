@@ -31,7 +31,7 @@ from .quality import Quality
 from .repairs import Refused, Repairs
 from .results import MemoryPlan, Residuals, SolverReport
 from .siegel import SiegelReduction, siegel_reduction
-from .structure import conformal_structure
+from .structure import AnyStructure, conformal_structure
 from .surface import Surface
 from .symmetries import Automorphisms, automorphisms
 from .theta_constants import Hyperelliptic, hyperelliptic
@@ -40,6 +40,7 @@ from .verdicts import UNEVEN, Verdict, overall, verdict
 from .zeros import Zeros
 
 __all__ = [
+    "AnyStructure",
     "Automorphisms",
     "BoundedStructure",
     "Cancelled",

@@ -1,20 +1,23 @@
-"""python -m holomorph MESHFILE --report report.json; ... batch SOURCE... --out DIR; ... compare A B"""
+"""python -m holomorph MESHFILE --output out.glb --report report.json; ... batch SOURCE... --out DIR; ... compare A B"""
 
 import argparse
 import json
 import sys
+from pathlib import Path
 
-from . import Error, Surface, Verdict, __version__, conformal_structure
+from . import Error, Surface, Verdict, __version__, formats
+from .batch import arrangement, mapping
+from .batch.recipe import MAIN_MAPS, Maps, Recipe
 from .checks import SOLVERS, check_options
 from .compare_command import compare
-from .report import component_report, overall_report, refused_report, repairs_report, skipped_report
+from .report import overall_report, repairs_report
 
-EXIT_REFUSED, EXIT_STRICT = 1, 3
+EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 
 
 def main(arguments=None):
-    """Computes every component; the exit status, other than 0 with one sentence: 1 if no component was done, 2 (of
-    argparse) for options that cannot be, 3 with --strict if some component was not done or its map is not fit."""
+    """Computes every component; the exit status, other than 0 with one sentence: 1 if no component was done, 2 for
+    options that cannot be, 3 with --strict if some component was not done or its map is not fit."""
     arguments = sys.argv[1:] if arguments is None else arguments
     if arguments[:1] == ["batch"]:
         from .batch import command
@@ -22,36 +25,34 @@ def main(arguments=None):
         return command.main(arguments[1:])
     if arguments[:1] == ["compare"]:
         return compare(arguments[1:])
+    options = _parser().parse_args(arguments)
+    try:
+        _check_output(options.output)
+    except (ValueError, ModuleNotFoundError) as error:
+        return failed(EXIT_USAGE, error)
+    try:
+        report = mapped(options)
+    except (Error, OSError, ValueError) as error:
+        return failed(EXIT_REFUSED, error)
+    return _status(report, options.strict)
+
+
+def _parser():
     parser = argparse.ArgumentParser(
         prog="python -m holomorph",
         description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help. "
         "Two surfaces are compared by: holomorph compare --help",
     )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
-    parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default: print it)")
+    parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")
+    parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
+    text = "with --output default automatic: a seamless tiling where that is more even; else balanced"
+    parser.add_argument("--main", choices=MAIN_MAPS, help=text)
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
     parser.add_argument("--strict", action="store_true", help="end with 3 unless every map is good or fair")
     parser.add_argument("--version", action="version", version=__version__)
-    options = parser.parse_args(arguments)
-    try:
-        report = mesh_report(options.mesh, options.threads, options.solver)
-        text = json.dumps(report, indent=1, allow_nan=False)
-        if options.report:
-            with open(options.report, "w", encoding="utf-8") as file:
-                file.write(text + "\n")
-        else:
-            print(text)
-    except (Error, OSError, ValueError) as error:
-        return failed(EXIT_REFUSED, error)
-    not_done = [part for part in report["components"] if not part["done"]]
-    if len(not_done) == len(report["components"]):
-        return failed(EXIT_REFUSED, not_done[0]["reason"])
-    found = Verdict(**report["verdict"])
-    if options.strict and not_done:
-        count = len(report["components"])
-        return failed(EXIT_STRICT, f"{len(not_done)} of {count} parts have no map: {not_done[0]['reason']}")
-    return failed(EXIT_STRICT, found.text) if options.strict and not found.is_fit else 0
+    return parser
 
 
 def failed(status, sentence):
@@ -60,24 +61,56 @@ def failed(status, sentence):
     return status
 
 
-def mesh_report(path, threads=None, solver="auto"):
-    """The report of all components of a mesh file, as plain data."""
-    check_options(solver, threads)
-    surface = Surface.read(path)
-    parts = []
-    for part in surface.components:
-        try:
-            parts.append(component_report(part, conformal_structure(part, solver=solver, threads=threads)))
-        except Error as error:
-            parts.append(skipped_report(part, error))
-    return {
+def _check_output(path):
+    """Raises ValueError or ModuleNotFoundError, before any work."""
+    if path is None:
+        return
+    formats.of_path(path)
+    folder = Path(path).resolve().parent
+    if not folder.is_dir():
+        raise ValueError(f"{path}: the folder {folder} does not exist")
+
+
+def mapped(options):
+    """The report of all components of the mesh file, as plain data; it and the mesh are written as the options say."""
+    check_options(options.solver, options.threads)
+    surface = Surface.read(options.mesh)
+    main = options.main or ("automatic" if options.output else "balanced")
+    recipe = Recipe(Maps(main=main, solver=options.solver))
+    parts = mapping.map_parts(surface, recipe, threads=options.threads)
+    reports = [part.report for part in parts]
+    report = {
         "holomorph": __version__,
-        "mesh": str(path),
+        "mesh": str(options.mesh),
         "faces": len(surface.face_offsets) - 1,
-        "verdict": overall_report(parts, surface.is_unwelded),
+        "verdict": overall_report(reports, surface.is_unwelded),
         "repairs": repairs_report(surface.repairs),
-        "components": parts + [refused_report(refused) for refused in surface.refused],
+        "components": reports + mapping.refused_reports(surface),
     }
+    _write(report, options)
+    if options.output and report["verdict"]:
+        surface.write(options.output, arrangement.main_uv(surface, parts, recipe.maps))
+    return report
+
+
+def _write(report, options):
+    text = json.dumps(report, indent=1, allow_nan=False)
+    if options.report:
+        with open(options.report, "w", encoding="utf-8") as file:
+            file.write(text + "\n")
+    elif not options.output:
+        print(text)
+
+
+def _status(report, is_strict):
+    not_done = [part for part in report["components"] if not part["done"]]
+    if report["verdict"] is None:
+        return failed(EXIT_REFUSED, not_done[0]["reason"])
+    found = Verdict(**report["verdict"])
+    if is_strict and not_done:
+        count = len(report["components"])
+        return failed(EXIT_STRICT, f"{len(not_done)} of {count} parts have no map: {not_done[0]['reason']}")
+    return failed(EXIT_STRICT, found.text) if is_strict and not found.is_fit else 0
 
 
 if __name__ == "__main__":

@@ -2,10 +2,12 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from . import arrays
+from .array_types import Bounds, Integers, Reals
 from .certificate import certain_text
 from .checks import NoInvariant
 from .form_structure import CertifiedStructure
@@ -13,7 +15,7 @@ from .report import bound_lists, complex_pairs
 from .results import BoundedResiduals
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class BoundedStructure(CertifiedStructure):
     """Result of `conformal_structure` for a surface of genus g with b >= 1 boundary loops. n = 2g + b - 1 >= 1 is the
     genus of its double (paper § 8).
@@ -26,53 +28,53 @@ class BoundedStructure(CertifiedStructure):
     residuals_kind = BoundedResiduals
     coefficient_type = np.float64
 
-    @property
-    def description(self):
+    @cached_property
+    def description(self) -> str:
         """What was made, in one phrase."""
         n = len(self.pairing)
         return "1 form, its boundaries straight" if n == 1 else f"{n} forms, their boundaries straight"
 
     @cached_property
-    def boundary_loops(self):
+    def boundary_loops(self) -> tuple[Integers, ...]:
         """Tuple of b integer arrays of vertices, the hole on the left. Loop 0 is the longest; the others follow by
         their lowest vertex, at which each loop starts."""
         return tuple(self._of_surface(loop) for loop in self._native.boundary_loops())
 
     @cached_property
-    def pairing(self):
+    def pairing(self) -> Integers:
         """(n, n) integers W_ij, the integral of h^N_i ^ h^D_j: [[J_h, 0], [X, 1]], |det| 1; the first 2g classes are
         those of the handles, the others those of the loops."""
         return self._native.pairing()
 
     @cached_property
-    def natural_forms(self):
+    def natural_forms(self) -> Reals:
         """(n, #E), dual to `homology_basis`: harmonic, with free boundary; see `prepare_uv`."""
         return arrays.frozen(self._harmonic_forms[: len(self.pairing)])
 
     @cached_property
-    def dirichlet_forms(self):
+    def dirichlet_forms(self) -> Reals:
         """(n, #E): harmonic, zero on all boundary edges. The first 2g are of the classes of the handles; the others are
         d of the harmonic functions that are 1 on one of the loops 1 .. b-1 and 0 on the others."""
         return arrays.frozen(self._harmonic_forms[len(self.pairing) :])
 
     @cached_property
-    def gram_matrices(self):
+    def gram_matrices(self) -> tuple[Reals, Reals]:
         """(natural, Dirichlet), (n, n) each: L2 products of the forms, on the intrinsic triangulation."""
         return tuple(self._native.gram_matrices())
 
     @cached_property
-    def projected_gram_matrices(self):
+    def projected_gram_matrices(self) -> tuple[Reals, Reals]:
         """(natural, Dirichlet), (n, n) each: G_N# = G_N # (W G_D^-1 W^T), the geometric mean, and W^T (G_N#)^-1 W. They
         lie between the bounds W G_D^-1 W^T <= G_N and W^T G_N^-1 W <= G_D of the polyhedral surface."""
         return self._native.projected()[:2]
 
     @cached_property
-    def star(self):
+    def star(self) -> Reals:
         """(n, n) C#: the conjugate of h^N_i is sum_j C#_ij h^D_j; that of h^D_j is -sum_i (C#^-1)_ji h^N_i."""
         return self._native.projected()[2]
 
     @cached_property
-    def collapsed_triangles(self):
+    def collapsed_triangles(self) -> Integers:
         """(#,) triangles all of whose corners lie on one boundary loop: a map that makes the loop straight gives them
         no area."""
         return self._native.collapsed_triangles()
@@ -80,7 +82,7 @@ class BoundedStructure(CertifiedStructure):
     # ---- planar surfaces -------------------------------------------------------------------------
 
     @property
-    def capacity_matrix(self):
+    def capacity_matrix(self) -> Reals:
         """(b-1, b-1) of a planar surface, genus 0: the energy of the harmonic functions that are 1 on one of the loops
         1 .. b-1 and 0 on the others. It does not change under conformal maps.
 
@@ -93,7 +95,7 @@ class BoundedStructure(CertifiedStructure):
         return self.projected_gram_matrices[1]
 
     @property
-    def capacity_bounds(self):
+    def capacity_bounds(self) -> Bounds | None:
         """(lower, upper), (b-1, b-1) each: guaranteed bounds of the polyhedral surface's `capacity_matrix`, as
         quadratic forms; None where those of `period_bounds` are."""
         self._check_planar("capacity matrix")
@@ -106,7 +108,7 @@ class BoundedStructure(CertifiedStructure):
         return self._native.inverse_gram_bounds()[0], self._native.certain_gram_matrices()[1]
 
     @property
-    def modulus(self):
+    def modulus(self) -> float:
         """Of an annulus (genus 0, two loops): height over circumference of the conformal cylinder, ln(R/r) / 2 pi of a
         round ring; the inverse of the capacity.
 
@@ -119,7 +121,7 @@ class BoundedStructure(CertifiedStructure):
         return float(self.projected_gram_matrices[0][0, 0])
 
     @property
-    def modulus_bounds(self):
+    def modulus_bounds(self) -> tuple[float, float] | None:
         """(lower, upper): guaranteed bounds of the polyhedral annulus's `modulus`; None where those of
         `period_bounds` are."""
         self._check_annulus()
@@ -137,7 +139,7 @@ class BoundedStructure(CertifiedStructure):
         if (genus, loops) != (0, 2):
             raise NoInvariant(f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops")
 
-    def invariants(self):
+    def invariants(self) -> dict[str, Any]:
         """Period matrix of the double, capacities and modulus with their bounds, as plain data."""
         surface = self._component
         values = {

@@ -2,15 +2,19 @@
 
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, Decimal, localcontext
+from typing import Any
 
 import numpy as np
+
+from .array_types import Bounds
+from .value import Value
 
 SLACK = 1e-14  # relative: more than the rounding of a few operations
 OPEN = 1.0  # of `Certificate.rounding`: the metric of a triangle is left open
 
 
-@dataclass(frozen=True, eq=False)
-class Certificate:
+@dataclass(frozen=True, eq=False, repr=False)
+class Certificate(Value):
     """What is certain of the conformal invariants, and how far forms were from what they are on a smooth surface.
 
     Attributes
@@ -32,8 +36,8 @@ class Certificate:
 
     holds: bool
     reason: str
-    imaginary_bounds: tuple
-    real_bounds: tuple
+    imaginary_bounds: Bounds | None
+    real_bounds: Bounds | None
     relative_width: float
     asymmetry: float
     smallest_eigenvalue: float
@@ -43,7 +47,10 @@ class Certificate:
     period_error: float
     rounding: float
 
-    def period_text(self):
+    def _facts(self):
+        return [f"relative width {self.relative_width:.2g}", "the bounds hold" if self.holds else self.reason]
+
+    def period_text(self) -> list[list[list[str]]] | None:
         """Omega as nested lists of [real, imaginary], each a text of value and uncertainty; None without bounds."""
         if self.imaginary_bounds is None:
             return None
@@ -53,7 +60,7 @@ class Certificate:
             for row in zip(*parts, strict=True)
         ]
 
-    def as_plain(self):
+    def as_plain(self) -> dict[str, Any]:
         """As plain data, for reports."""
         plain = dict(vars(self)) | {"period_text": self.period_text()}
         for name in ("imaginary_bounds", "real_bounds"):

@@ -1,6 +1,10 @@
 """Which map of a part is shown first: the balanced one of its forms, or a seamless tiling where that is more even."""
 
 import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .tiling import Tiling
 
 EVEN = 2.0  # 95 : 5 % ratio of the density below which a balanced map stays: the squares' sizes hardly differ
 LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
@@ -8,12 +12,12 @@ MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balan
 MOST_FLIPPED = 0.01  # of its area
 
 
-def is_uneven(density_ratio):
+def is_uneven(density_ratio: float | None) -> bool:
     """Whether a balanced map with this ratio, None where it is infinite, is worth a tiling to compare with."""
     return density_ratio is None or density_ratio > EVEN
 
 
-def is_better(tiling, density_ratio, capped_mean_angle):
+def is_better(tiling: "Tiling", density_ratio: float | None, capped_mean_angle: float) -> bool:
     """Whether a `Tiling` takes the place of the balanced map with this ratio, None where it is infinite, and angle:
     it has no visible seam, so that it is to be about as even, and hardly more sheared."""
     ratio = math.inf if density_ratio is None else density_ratio

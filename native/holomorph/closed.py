@@ -2,38 +2,41 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .array_types import Integers, Reals
 from .form_structure import CertifiedStructure
 from .report import bound_lists, complex_pairs
 from .results import ClosedResiduals
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ConformalStructure(CertifiedStructure):
     """Result of `conformal_structure` for a closed surface of genus g >= 1: 2g harmonic and g holomorphic forms."""
 
     residuals_kind = ClosedResiduals
 
-    @property
-    def description(self):
+    @cached_property
+    def description(self) -> str:
         """What was made, in one phrase."""
         g = self._differentials.shape[1]
         return f"{g} holomorphic form{'s' if g > 1 else ''}"
 
     @cached_property
-    def intersection_matrix(self):
+    def intersection_matrix(self) -> Integers:
         """(2g, 2g) integers zeta_i . zeta_j."""
         return self._native.intersection_matrix()
 
     @cached_property
-    def canonical_basis(self):
+    def canonical_basis(self) -> Integers:
         """(2g, 2g) integers, |det| 1: rows a_1..a_g, b_1..b_g written in the zeta."""
         return self._native.canonical_basis()
 
     @property
-    def harmonic_forms(self):
+    def harmonic_forms(self) -> Reals:
         """(2g, #E), dual to zeta: the integral of form i over zeta_j is delta_ij (paper § 6); see `prepare_uv`.
 
         Harmonic on the triangles of the surface, where `gram_matrix` is of the intrinsic ones. If no form's energy
@@ -43,11 +46,11 @@ class ConformalStructure(CertifiedStructure):
         return self._harmonic_forms
 
     @cached_property
-    def gram_matrix(self):
+    def gram_matrix(self) -> Reals:
         """(2g, 2g) L2 products of `harmonic_forms`, on the intrinsic triangulation."""
         return self._native.gram_matrices()[0]
 
-    def uv_of(self, n, m):
+    def uv_of(self, n: ArrayLike, m: ArrayLike) -> Reals:
         """(#C, 2) with u = sum_j n_j h_j and v = sum_j m_j h_j, n and m of length 2g: seams jump by integers
         where n and m are integers."""
         n, m = np.asarray(n, dtype=np.float64), np.asarray(m, dtype=np.float64)
@@ -56,7 +59,7 @@ class ConformalStructure(CertifiedStructure):
             raise ValueError(f"n and m have the shapes {n.shape} and {m.shape}; ({count},) finite numbers are needed")
         return self._native.uv(n + 1j * m)
 
-    def invariants(self):
+    def invariants(self) -> dict[str, Any]:
         """The period matrix with its bounds, as plain data."""
         return {
             "conventions": "a_i.b_j = delta_ij; theta_j has period 1 over a_j; Omega_ij is its integral over b_i",

@@ -1,13 +1,17 @@
 """The conformal map between two equivalent closed surfaces, by matching their forms."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native, arrays
 from ._native import SolverError, TopologyError
+from .array_types import Integers, Progress, Reals
 from .closed import ConformalStructure
 from .equivalence import Equivalence, conformally_equivalent, scaled
+from .value import Value, counted
 
 STARTS = 12  # points of the second surface that are tried for one of the first
 SAMPLES = 16  # points of the first surface that are tried
@@ -17,8 +21,8 @@ ROUNDS = 4  # of the correction of the start
 MOST_RESIDUAL = 0.05  # of a map that is one
 
 
-@dataclass(frozen=True, eq=False)
-class ConformalMap:
+@dataclass(frozen=True, eq=False, repr=False)
+class ConformalMap(Value):
     """A conformal map from one surface to another, at the vertices of the first.
 
     triangles : (#V,) triangle of the second surface in which the image lies, -1 at isolated vertices
@@ -28,20 +32,25 @@ class ConformalMap:
     equivalence : the `Equivalence` that it is made of
     """
 
-    triangles: np.ndarray
-    barycentric: np.ndarray
+    triangles: Integers
+    barycentric: Reals
     residual: float
     equivalence: Equivalence
-    _corners: np.ndarray = field(repr=False)
+    _corners: Integers
 
-    def of(self, values):
+    def _facts(self):
+        return [counted(len(self.triangles), "image"), f"residual {self.residual:.2g}"]
+
+    def of(self, values: ArrayLike) -> NDArray[Any]:
         """(#V, ...) values on the first surface of (#V', ...) values at the vertices of the second: its positions give
         the images."""
         values = np.asarray(values)
         return np.einsum("vi,vi...->v...", self.barycentric, values[self._corners[self.triangles]])
 
 
-def conformal_map(a, b, *, tolerance=0.0, progress=None):
+def conformal_map(
+    a: ConformalStructure, b: ConformalStructure, *, tolerance: float = 0.0, progress: Progress | None = None
+) -> ConformalMap:
     """The `ConformalMap` from closed structure `a` to closed structure `b`, of genus >= 1, which are equivalent or
     mirror images: then it reverses the orientation. `tolerance` as in `conformally_equivalent`.
 

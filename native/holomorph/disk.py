@@ -2,70 +2,73 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from ._native import TopologyError
+from .array_types import Complexes, Integers, Progress, Reals
 from .checks import checked_coefficients, own_vertices
 from .punctured import PuncturedStructure
 from .report import bound_lists, finite_or_none
-from .results import Structure, result
+from .results import SolverReport, Structure, result
 
 UNEVEN = 100.0  # density ratio of a disk map, ten in length, above which others are tried
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PlaneMap(Structure):
     """Base of the results for disks: one fixed map to the plane without a seam, with no forms to mix."""
 
     @cached_property
-    def seams(self):
+    def seams(self) -> Integers:
         """(0,): the map is continuous."""
         return arrays.frozen(np.empty(0, dtype=np.int32))
 
     @cached_property
-    def holomorphic_forms(self):
+    def holomorphic_forms(self) -> Complexes:
         """(0, #E): there are no forms on a disk, and none to mix."""
         return arrays.frozen(np.empty((0, len(self.edges)), dtype=np.complex128))
 
-    def prepare_uv(self, progress=None):
+    def prepare_uv(self, progress: Progress | None = None) -> None:
         """Nothing is left to do: the map is that of the surface's own triangles."""
 
     @property
-    def uv_solver(self):
+    def uv_solver(self) -> SolverReport:
         """The same as `solver`."""
         return self.solver
 
-    def balanced_coefficients(self):
+    def balanced_coefficients(self) -> Complexes:
         """(0,): the map is fixed."""
         return arrays.frozen(np.empty(0, dtype=np.complex128))
 
-    def uv(self, coefficients=()):
+    def uv(self, coefficients: ArrayLike = ()) -> Reals:
         """(#C, 2) UVs, continuous everywhere; there are no coefficients."""
         checked_coefficients(coefficients, 0, np.complex128)
         z = self._plane[self._component.corner_vertices]
         return arrays.frozen(np.stack([z.real, z.imag], axis=1))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class DiskMap(PlaneMap):
     """Result of `conformal_structure` for a disk with a puncture: its Riemann map z = exp(2 pi i (u + iv)) to the unit
     disk, where u + iv has the residue 1 at the puncture. z is 0 there and |z| = 1 on the boundary; a rotation is
     free."""
 
-    @property
-    def description(self):
+    @cached_property
+    def description(self) -> str:
         """What was made, in one phrase."""
         return f"disk map, centre at vertex {self.punctures[0]}"
 
     @cached_property
-    def punctures(self):
+    def punctures(self) -> Integers:
         """(1,): the vertex that is mapped to 0."""
         return self._of_surface(self._native.punctures())
 
     @cached_property
-    def residues(self):
+    def residues(self) -> Complexes:
         """(1,): 1."""
         return self._native.residues()
 
@@ -73,25 +76,25 @@ class DiskMap(PlaneMap):
     def _plane(self):
         return arrays.frozen(self._native.disk_map().ravel())
 
-    def disk_map(self):
+    def disk_map(self) -> Complexes:
         """(#V,) complex: |z| = 1 on the boundary, less inside (1 at most, where a mesh is very coarse), NaN at
         isolated vertices."""
         return self._at_vertices(self._plane)
 
-    def invariants(self):
+    def invariants(self) -> dict[str, Any]:
         """The centre, as plain data: all disks are alike."""
         return {"punctures": self.punctures.tolist()}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RectangleMap(PlaneMap):
     """Result of `conformal_structure` for a disk with four corners on its boundary: the conformal map to a rectangle.
 
     UVs have the width 1 and the height `modulus`, corner 0 at the origin, corner 1 at (1, 0); each of the four sides is
     straight, exactly."""
 
-    @property
-    def description(self):
+    @cached_property
+    def description(self) -> str:
         """What was made, in one phrase."""
         names = [str(corner) for corner in self.corners]
         text = f"rectangle with corners {', '.join(names[:-1])} and {names[-1]}"
@@ -101,23 +104,23 @@ class RectangleMap(PlaneMap):
         return f"{text}; {count} triangle{'s' if count > 1 else ''} along one side collapsed"
 
     @cached_property
-    def corners(self):
+    def corners(self) -> Integers:
         """(4,) vertices, in the order of the boundary, the surface on its left."""
         return self._of_surface(self._native.corners())
 
     @property
-    def modulus(self):
+    def modulus(self) -> float:
         """Height over width, between `modulus_bounds`: a conformal invariant of the surface with its four corners."""
         return self._native.modulus()[0]
 
     @property
-    def modulus_bounds(self):
+    def modulus_bounds(self) -> tuple[float, float] | None:
         """(lower, upper): guaranteed bounds of the modulus of the polyhedral surface. None where degenerate triangles
         had to be mollified: another surface was solved on."""
         return self._native.modulus()[1:] if self._is_exact else None
 
     @cached_property
-    def collapsed_triangles(self):
+    def collapsed_triangles(self) -> Integers:
         """(#,) triangles all of whose corners lie on one side: a map that makes the side straight collapses them."""
         return self._native.collapsed_triangles()
 
@@ -125,7 +128,7 @@ class RectangleMap(PlaneMap):
     def _plane(self):
         return arrays.frozen(self._native.points().ravel())
 
-    def invariants(self):
+    def invariants(self) -> dict[str, Any]:
         """The corners, and the modulus with its bounds, as plain data."""
         return {
             "rectangle_corners": self.corners.tolist(),
@@ -134,13 +137,13 @@ class RectangleMap(PlaneMap):
         }
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class TriangleMap(PlaneMap):
     """Result of `conformal_structure` for a disk with three boundary edges and no vertex for a centre, such as a single
     triangle: the harmonic map to the triangle with these edges, its longest side 1."""
 
-    @property
-    def description(self):
+    @cached_property
+    def description(self) -> str:
         """What was made, in one phrase."""
         return "triangle with the sides of the boundary"
 
@@ -148,7 +151,7 @@ class TriangleMap(PlaneMap):
     def _plane(self):
         return arrays.frozen(self._native.points().ravel())
 
-    def invariants(self):
+    def invariants(self) -> dict[str, Any]:
         """Nothing: all disks are alike."""
         return {}
 

@@ -7,7 +7,7 @@ from ._native import TopologyError
 from .surface import Surface
 
 
-def double_cover(surface):
+def double_cover(surface: Surface) -> Surface:
     """Two copies of a surface, the second one with the other orientation, glued along all boundary loops: closed, and
     of genus 2g + b - 1 where the surface is connected.
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _native
+from .array_types import Integers, Progress
 from .bounded import BoundedStructure
 from .checks import only_component, real_number
 from .closed import ConformalStructure
@@ -13,14 +14,15 @@ from .planar import LOOPS_OF_ACHIRAL_SURFACES, planar_verdict
 from .results import Structure
 from .structure import conformal_structure
 from .surface import Surface
+from .value import Value
 
 VERDICTS = ("equivalent", "mirror_image", "not_equivalent", "undecided")
 ROUNDING = 1e-9  # of residuals
 STEPS = _native.isometry_steps  # limit of one search among integer matrices
 
 
-@dataclass(frozen=True, eq=False)
-class Equivalence:
+@dataclass(frozen=True, eq=False, repr=False)
+class Equivalence(Value):
     """What `conformally_equivalent` found.
 
     verdict : "equivalent", "mirror_image", "not_equivalent" or "undecided"
@@ -38,13 +40,18 @@ class Equivalence:
 
     verdict: str
     sentence: str
-    matrix: np.ndarray | None = None
+    matrix: Integers | None = None
     residual: float = math.inf
     tolerance: float = math.inf
     margin: float = 0.0
 
+    def _facts(self):
+        return [self.sentence]
 
-def conformally_equivalent(a, b, *, tolerance=0.0, progress=None):
+
+def conformally_equivalent(
+    a: Surface | Structure, b: Surface | Structure, *, tolerance: float = 0.0, progress: Progress | None = None
+) -> Equivalence:
     """An `Equivalence`: whether there is a conformal map between two connected surfaces.
 
     By Torelli's theorem just if integers bring the periods of one to those of the other. "not_equivalent" is said where

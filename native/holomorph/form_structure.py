@@ -4,16 +4,18 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native, arrays
-from .certificate import certificate
+from .array_types import Bounds, Complexes, Integers, Progress, Reals
+from .certificate import Certificate, certificate
 from .checks import checked_coefficients
 from .narrow_bounds import Refinement
 from .results import MemoryPlan, SolverReport, Structure
 from .zeros import Zeros
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FormStructure(Structure):
     """Base of the results with forms to combine: differentials made of real harmonic forms h_1 .. h_m, whose integrals'
     real and imaginary parts are UV maps."""
@@ -25,36 +27,36 @@ class FormStructure(Structure):
         return self._native.surface()
 
     @cached_property
-    def homology_basis(self):
+    def homology_basis(self) -> tuple[Integers, ...]:
         """Tuple of integer arrays: 2g closed loops zeta_i of vertices, the first not repeated (paper § 4), then, with
         b boundary loops, the loops 1 .. b-1."""
         return tuple(self._of_surface(loop) for loop in self._native.homology_basis())
 
     @cached_property
-    def seams(self):
+    def seams(self) -> Integers:
         """(#S,) indices into `edges` of the cut graph, on edges of polygons only: cut open there, a disk is left. The
         cut graph ends at punctures, and the edges there are seams, too."""
         return self._native.seams()
 
     @cached_property
-    def period_matrix(self):
+    def period_matrix(self) -> Complexes:
         """(n, n) complex Omega: symmetric, Im Omega > 0 (paper Eq. 13). Closed: the integral of theta_j over b_i. With
         boundary that of the double: (i/2) `capacity_matrix` on planar surfaces."""
         return self._native.period_matrix()
 
     @cached_property
-    def period_bounds(self):
+    def period_bounds(self) -> Bounds | None:
         """(lower, upper), (n, n) each: guaranteed bounds of Im Omega of the polyhedral surface, with boundary of its
         double, as quadratic forms. None where degenerate triangles had to be mollified: another surface was solved
         on."""
         return self._native.period_bounds() if self._is_exact else None
 
     @cached_property
-    def memory(self):
+    def memory(self) -> MemoryPlan:
         """`MemoryPlan`: whether all forms are kept, and the memory that was reckoned with."""
         return MemoryPlan(*self._native.memory())
 
-    def prepare_uv(self, progress=None):
+    def prepare_uv(self, progress: Progress | None = None) -> None:
         """Solves for the forms on the surface's own triangles, of which forms and UVs are made; done by itself when
         first needed, and without work where no edge had to be flipped.
 
@@ -63,7 +65,7 @@ class FormStructure(Structure):
         self._native.prepare_uv(progress)
 
     @cached_property
-    def uv_solver(self):
+    def uv_solver(self) -> SolverReport:
         """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
         return SolverReport(*self._native.uv_solver())
 
@@ -80,7 +82,7 @@ class FormStructure(Structure):
         return self._native.basis_forms()
 
     @cached_property
-    def holomorphic_forms(self):
+    def holomorphic_forms(self) -> Complexes:
         """(n, #E) complex, paper § 7. Closed: theta_j has the period 1 over a_j and 0 over the other a. With boundary:
         theta_i = h^N_i + i sum_j C#_ij h^D_j. With punctures theta_0 comes first, NaN on the edges that end at one."""
         n, edges = self._differentials.shape[1], len(self.edges)
@@ -90,7 +92,7 @@ class FormStructure(Structure):
         values[:1, self._native.spokes()] = np.nan
         return arrays.frozen(values)
 
-    def uv(self, coefficients):
+    def uv(self, coefficients: ArrayLike) -> Reals:
         """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
         with boundary and without punctures. No solve: one small product; where the forms were not kept (`memory`), a
         solve for this map alone.
@@ -101,7 +103,7 @@ class FormStructure(Structure):
         c = checked_coefficients(coefficients, self._differentials.shape[1], self.coefficient_type)
         return self._native.uv(self._differentials @ c)
 
-    def zeros(self, coefficients):
+    def zeros(self, coefficients: ArrayLike) -> Zeros:
         """`Zeros` of the differential sum_j c_j theta_j, the coefficients as in `uv`. Its index at a vertex is the sum
         of the signed angles of the image over 2 pi, minus 1; a flipped triangle counts 1."""
         poles = self._native.punctures()
@@ -109,7 +111,7 @@ class FormStructure(Structure):
         positions = self._component.vertices
         return Zeros(self._of_surface(vertices), orders, None if positions is None else positions[vertices])
 
-    def balanced_coefficients(self):
+    def balanced_coefficients(self) -> Complexes:
         """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over
         the surface's area), scaled so that the UV area of the surface is 1."""
         return self._balanced
@@ -120,16 +122,16 @@ class FormStructure(Structure):
         return arrays.frozen(c.real.copy() if self.coefficient_type is np.float64 else c)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CertifiedStructure(FormStructure):
     """Base of the results whose conformal invariants have guaranteed bounds.
 
     refinement : `Refinement` where narrower bounds were asked for, else None
     """
 
-    refinement: Refinement = None
+    refinement: Refinement | None = None
 
     @cached_property
-    def certificate(self):
+    def certificate(self) -> Certificate:
         """`Certificate`: the bounds, whether they are proven for the surface as given, and what was measured."""
         return certificate(self)

@@ -8,6 +8,9 @@ so that straight boundaries stay horizontal. Same sizes, same layout: ties go by
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
+
+from .array_types import Reals
 
 WIDTHS = 24  # tried, from the square of the total area upwards
 WIDEST = 2.0  # the largest of these widths, in sides of that square
@@ -15,7 +18,7 @@ MOST_GAP = 0.3  # share of the side for all gaps of a row: with many parts the m
 GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each round leaves a few per cent of the error
 
 
-def rows(sizes, width, gap):
+def rows(sizes: Reals, width: float, gap: float) -> tuple[Reals, tuple[float, float]]:
     """((n, 2) lower left corners, (w, h) of the whole): the rectangles of (n, 2) `sizes` on shelves of `width`."""
     order = np.argsort(-sizes[:, 1], kind="stable")
     corners = np.zeros_like(sizes)
@@ -38,7 +41,7 @@ def _best_rows(sizes, gap):
     return min(found, key=lambda layout: max(layout[1]))  # the first of equals
 
 
-def pack(sizes, margin):
+def pack(sizes: ArrayLike, margin: float) -> tuple[Reals, float]:
     """((n, 2) lower left corners, side): rectangles that do not overlap, inside a square of that side.
 
     sizes : (n, 2) widths and heights; margin : distance of neighbours, as a share of the side. The whole is centred in

@@ -1,18 +1,26 @@
 """Levels of detail of a progressive mesh, with UV maps that do not move from level to level."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native, arrays
 from ._native import InvalidMesh
+from .array_types import Integers, Progress, Reals
 from .checks import check_options
 from .results import SolverReport
 from .surface import Surface
+from .value import Value, counted
+
+if TYPE_CHECKING:
+    from .progressive import ProgressiveMesh
 
 
-@dataclass(frozen=True, eq=False)
-class LevelOfDetail:
+@dataclass(frozen=True, eq=False, repr=False)
+class LevelOfDetail(Value):
     """One level with the UV maps of the original.
 
     surface : Surface, triangles; its vertices are some of the original's, by `vertex_index`, its triangles come from
@@ -25,13 +33,28 @@ class LevelOfDetail:
     """
 
     surface: Surface
-    uv: np.ndarray
-    corners: np.ndarray
-    drift: np.ndarray
+    uv: Reals
+    corners: Integers
+    drift: Reals
     solver: SolverReport | None
 
+    def _facts(self):
+        return [
+            counted(len(self.surface.triangles), "triangle"),
+            f"largest drift {np.max(self.drift, initial=0.0):.2g}",
+        ]
 
-def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", threads=None, progress=None):
+
+def levels_of_detail(
+    mesh: "ProgressiveMesh",
+    uv: ArrayLike,
+    n_faces: Sequence[int],
+    *,
+    harmonic: bool = False,
+    solver: str = "auto",
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> tuple[LevelOfDetail, ...]:
     """Levels with UV maps of the original, whose textures do not move from level to level.
 
     A UV map of a holomorphic form jumps across its seams by translations. Every level gets a map with the same
@@ -82,7 +105,7 @@ def levels_of_detail(mesh, uv, n_faces, *, harmonic=False, solver="auto", thread
     return tuple(levels)
 
 
-def level_corner_data(mesh, n_faces):
+def level_corner_data(mesh: "ProgressiveMesh", n_faces: int) -> NDArray[Any] | None:
     """Rows of `corner_data` for the corners of ``level(n_faces)``, None if there are none: that of a corner of the
     original at the same vertex and on the same side of all edges across which the data jump; where the vertex has
     no corner on that side, that of the corner which the triangle had in the original."""

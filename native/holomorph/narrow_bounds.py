@@ -7,14 +7,15 @@ import numpy as np
 from . import _native
 from .certificate import OPEN, relative_width
 from .refined_triangles import Triangles, gaps, refined, worst
+from .value import Value, counted
 
 PART = 0.6  # of all gaps between the energies that triangles marked for refinement have
 MOST_LEVELS = 60
 LEAST_GAIN = 1e-3  # a level that narrows the bounds by a smaller part is the last: rounding is reached
 
 
-@dataclass(frozen=True)
-class Refinement:
+@dataclass(frozen=True, repr=False)
+class Refinement(Value):
     """How the bounds of a result were narrowed.
 
     Attributes
@@ -26,7 +27,11 @@ class Refinement:
 
     reached: bool
     reason: str
-    levels: tuple
+    levels: tuple[tuple[int, float], ...]
+
+    def _facts(self):
+        widths = [f"relative width {width:.2g} on {count} triangles" for count, width in self.levels[-1:]]
+        return [counted(len(self.levels), "level"), *widths, self.reason]
 
 
 def narrow(native, width, most_faces, solver, threads, memory_limit, progress=None, uniform=False):

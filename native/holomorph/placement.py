@@ -3,8 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from .surface import Surface
 
 
 @dataclass(frozen=True)
@@ -17,13 +19,20 @@ class Frame:
     area: float
 
 
-def frame(surface, uv, rotation=0.0):
+def frame(surface: Surface, uv: ArrayLike, rotation: float = 0.0) -> Frame:
     """The `Frame` of a (#C, 2) map of the surface's polygon corners, rotated by `rotation` (radians, counter-clockwise)
     about 0."""
     return Frame(*_native.frame(surface._native, _corners(uv, len(surface.corner_vertices)), float(rotation), 0))
 
 
-def place(uv, factor, origin, target, placed, rows=None):
+def place(
+    uv: ArrayLike,
+    factor: complex,
+    origin: complex,
+    target: complex,
+    placed: NDArray[np.float32],
+    rows: ArrayLike | None = None,
+) -> None:
     """Writes ``factor * (z - origin) + target`` for every z = u + i v of a map into `placed`, rounded once, at the end:
     corners with the same u or v keep them the same where `factor` is real.
 

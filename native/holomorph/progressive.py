@@ -1,22 +1,27 @@
 """Progressive meshes: a small base mesh and a sequence of vertex splits that rebuilds the original exactly."""
 
 import os
-from functools import cached_property
+from collections.abc import Sequence
+from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native, arrays, checked_file, levels
 from ._native import InvalidMesh, TopologyError
+from .array_types import FilePath, Integers, Progress
 from .checks import check_memory_limit, check_options
 from .closed import ConformalStructure
 from .results import result
 from .splits import structured_splits
 from .surface import Surface
+from .value import Value
 
 ORDERS = ("quadric", "independent")
 
 
-class ProgressiveMesh:
+class ProgressiveMesh(Value):
     """The surface's triangulation as a base mesh and vertex splits (Gu, Wang, Yau 2003, section 3; Hoppe 1996,
     doi:10.1145/237170.237216), down to a mesh in which no edge can be collapsed: 4 triangles for a sphere, at most 20
     for a torus. Every level is a manifold of the same topology; vertices never move, and those of the boundary are
@@ -44,7 +49,14 @@ class ProgressiveMesh:
         if `progress` returned False
     """
 
-    def __init__(self, surface, *, corner_data=None, order="quadric", progress=None):
+    def __init__(
+        self,
+        surface: Surface,
+        *,
+        corner_data: ArrayLike | None = None,
+        order: str = "quadric",
+        progress: Progress | None = None,
+    ) -> None:
         if order not in ORDERS:
             raise ValueError(f"order is {order!r}; one of {', '.join(map(repr, ORDERS))} is needed")
         kind, data = "", b""
@@ -53,7 +65,7 @@ class ProgressiveMesh:
         self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, progress)
 
     @classmethod
-    def load(cls, path):
+    def load(cls, path: FilePath) -> "ProgressiveMesh":
         """Reads what `save` wrote.
 
         Raises
@@ -71,21 +83,26 @@ class ProgressiveMesh:
             raise InvalidMesh(f"{os.fspath(path)}: {error}") from error
         return mesh
 
-    def save(self, path):
+    def save(self, path: FilePath) -> None:
         """Writes one binary file: the base, the splits and their attributes, with a checksum at the end."""
         checked_file.write(path, self._native.to_bytes())
 
-    def __repr__(self):
-        coarse, fine = self._native.base_triangle_count, len(self._native.triangle_index)
-        return f"<ProgressiveMesh: {coarse} to {fine} triangles>"
+    def _facts(self):
+        return [f"{self._native.base_triangle_count} to {len(self._native.triangle_index)} triangles"]
+
+    def __getstate__(self):
+        return {"content": self._native.to_bytes()}
+
+    def __setstate__(self, state):
+        self._native = _native.ProgressiveMesh.from_bytes(state["content"])
 
     @cached_property
-    def base(self):
+    def base(self) -> Surface:
         """The coarsest level, a `Surface` of triangles."""
         return self._level(0)
 
     @cached_property
-    def splits(self):
+    def splits(self) -> NDArray[np.void]:
         """Structured array of the vertex splits, coarsest first.
 
         v_s, v_t, v_l, v_r : vertices, v_t the new one; v_l or v_r is -1 where v_s v_t is on the boundary. The triangles
@@ -112,7 +129,7 @@ class ProgressiveMesh:
         return np.repeat(np.arange(len(offsets) - 1, dtype=np.int32), np.diff(offsets) - 2)[self._native.triangle_index]
 
     @cached_property
-    def corner_data(self):
+    def corner_data(self) -> NDArray[Any] | None:
         """The rows given for the original's polygon corners; None if there were none; see `level_corner_data`."""
         kind = self._native.corner_type
         return arrays.unpacked(kind, self._native.corner_data, self._corner_count) if kind else None
@@ -137,7 +154,7 @@ class ProgressiveMesh:
         surface._corner_index = arrays.frozen(self._corners[:faces].ravel())
         return surface
 
-    def level(self, n_faces):
+    def level(self, n_faces: int) -> Surface:
         """The finest level with at most `n_faces` triangles, or the base if that has more.
 
         Returns
@@ -148,12 +165,20 @@ class ProgressiveMesh:
         """
         return self._level(self._split_count(n_faces))
 
-    def restore(self):
+    def restore(self) -> Surface:
         """The original surface, rebuilt from the base by all the splits: positions, polygons and the order of their
         corners, bit for bit."""
         return Surface._of(self._native.restored())
 
-    def conformal_structure(self, n_faces, *, solver="auto", threads=None, memory_limit=None, progress=None):
+    def conformal_structure(
+        self,
+        n_faces: int,
+        *,
+        solver: str = "auto",
+        threads: int | None = None,
+        memory_limit: float | None = None,
+        progress: Progress | None = None,
+    ) -> ConformalStructure:
         """The conformal structure of ``level(n_faces)``, with the same homology classes at every level (paper section
         9): the loops of the base are lifted through the splits, and the classes dual to them pulled back. The
         intersection matrix and the canonical basis are equal at all levels, so period matrices and forms can be
@@ -166,6 +191,7 @@ class ProgressiveMesh:
         ConformalStructure
             Its `surface` is ``level(n_faces)``.
         """
+        again = partial(self.conformal_structure, n_faces, solver=solver, threads=threads, memory_limit=memory_limit)
         threads, memory_limit = check_options(solver, threads), check_memory_limit(memory_limit)
         genus, boundaries = self.base.genus, self.base.boundary_count
         if genus == 0 or boundaries:
@@ -180,9 +206,9 @@ class ProgressiveMesh:
             native = _native.paper_structure_of_level(*level, threads, memory_limit, progress)
         else:
             native = _native.conformal_structure_of_level(*level, solver, threads, memory_limit, progress)
-        return result(ConformalStructure, surface, surface, native, threads)
+        return result(ConformalStructure, surface, surface, native, threads).computed_by(again)
 
-    def vertex_map(self, n_faces):
+    def vertex_map(self, n_faces: int) -> Integers:
         """(#V,) vertex of ``level(n_faces)`` that each vertex of the original was collapsed into; -1 for isolated ones.
         It takes edges of the original to edges or single vertices of the level."""
         return arrays.frozen(self._map_of_original(self._split_count(n_faces)))
@@ -193,7 +219,7 @@ class ProgressiveMesh:
         result[self._native.vertex_index[: len(mapped)]] = mapped
         return result
 
-    def lift_loops(self, loops, n_faces=None):
+    def lift_loops(self, loops: Sequence[Integers], n_faces: int | None = None) -> list[Integers]:
         """Closed loops of vertices of the base, lifted to ``level(n_faces)``, or to the original by default: where a
         split separates the two neighbours of a vertex on a loop, the new edge is inserted (paper section 9).
 
@@ -216,7 +242,7 @@ class ProgressiveMesh:
             lifted = [arrays.frozen(self._native.vertex_index[loop]) for loop in lifted]
         return lifted
 
-    def pull_back_forms(self, forms, n_faces=None):
+    def pull_back_forms(self, forms: ArrayLike, n_faces: int | None = None) -> NDArray[Any]:
         """Closed forms on the edges of the base, pulled back to those of ``level(n_faces)``, or of the original's
         triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s
         that it comes from (paper section 9, step 5b). The period over a lifted loop is that over the loop.

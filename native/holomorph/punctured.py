@@ -2,15 +2,17 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from . import arrays
+from .array_types import Complexes, Integers, Reals
 from .form_structure import FormStructure
 from .report import complex_pairs
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PuncturedStructure(FormStructure):
     """Result of `conformal_structure` for a surface of genus g with punctures p_i.
 
@@ -26,8 +28,8 @@ class PuncturedStructure(FormStructure):
     All of it belongs to the surface's own triangles; in a polygon at a puncture the diagonals are flipped away from it.
     """
 
-    @property
-    def description(self):
+    @cached_property
+    def description(self) -> str:
         """What was made, in one phrase."""
         names = [str(p) for p in self.punctures]
         ends = (
@@ -41,20 +43,20 @@ class PuncturedStructure(FormStructure):
         return f"{'differential' if self._component.genus else 'log map'}{more} with {ends}"
 
     @cached_property
-    def punctures(self):
+    def punctures(self) -> Integers:
         """(k,) vertices."""
         return self._of_surface(self._native.punctures())
 
     @cached_property
-    def residues(self):
+    def residues(self) -> Complexes:
         """(k,) complex residues: by how much the UVs change around each puncture, counter-clockwise."""
         return self._native.residues()
 
-    def balanced_coefficients(self):
+    def balanced_coefficients(self) -> Complexes:
         """(n,) complex coefficients of theta_0 alone, which keeps its residues."""
         return arrays.frozen(np.eye(1, self._differentials.shape[1], dtype=np.complex128)[0])
 
-    def sphere_map(self):
+    def sphere_map(self) -> Reals:
         """(#V, 3) points of the unit sphere: the conformal map of a surface of genus 0 with two punctures, the first at
         (0, 0, 1), the second at (0, 0, -1), NaN at isolated vertices. Moebius maps along the axis are free: the mean
         height over the surface's area is 0.
@@ -62,7 +64,7 @@ class PuncturedStructure(FormStructure):
         Raises TopologyError for another genus or number of punctures."""
         return self._at_vertices(self._native.sphere_map())
 
-    def invariants(self):
+    def invariants(self) -> dict[str, Any]:
         """The punctures and their residues, as plain data: no other invariants are computed."""
         return {"punctures": self.punctures.tolist(), "residues": complex_pairs(self.residues)}
 

@@ -1,18 +1,20 @@
 """The distortion of UV maps."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from . import _native
-from .verdicts import LONG, verdict
+from .array_types import Flags, Reals
+from .value import Value
+from .verdicts import LONG, Verdict, verdict
 
 MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
 
 
-@dataclass(frozen=True, eq=False)
-class Quality:
+@dataclass(frozen=True, eq=False, repr=False)
+class Quality(Value):
     """Distortion of a UV map per triangle, s1 >= s2 its singular values.
 
     angle: (#T,) s1 / s2 (1 where a triangle has no area, infinite where it has collapsed or a UV is not finite); area:
@@ -23,43 +25,54 @@ class Quality:
     lie in long thin triangles.
     """
 
-    angle: np.ndarray
-    area: np.ndarray
-    flipped: np.ndarray
+    _unpickled = ("_triangulation",)
+
+    angle: Reals
+    area: Reals
+    flipped: Flags
     mean_angle: float
     density_ratio: float
     median_density: float
-    _triangulation: object = field(repr=False)
+    _triangulation: object
 
     @classmethod
-    def of(cls, triangulation, uv, threads):
+    def of(cls, triangulation: object, uv: Reals, threads: int) -> "Quality":
         """That of (#C, 2) UVs on a native surface."""
         return cls(*_native.quality(triangulation, uv, threads), triangulation)
 
+    def _facts(self):
+        lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]
+        counts = [f"{count} {name}" for flags, name in lost if (count := np.count_nonzero(flags))]
+        return [f"mean s1/s2 {self.mean_angle:.4g}", f"density ratio {self.density_ratio:.4g}", *counts]
+
+    def __getstate__(self):
+        vars(self).update(long_part=self.long_part, _weights=self._weights)  # of these the triangulation is asked
+        return super().__getstate__()
+
     @property
-    def collapsed(self):
+    def collapsed(self) -> Flags:
         """(#T,) bool: the map leaves a triangle with area next to none."""
         return np.isinf(self.angle)
 
     @cached_property
-    def capped_mean_angle(self):
+    def capped_mean_angle(self) -> float:
         return float(np.average(np.minimum(self.angle, MOST_SHEARED), weights=self._weights))
 
     @cached_property
-    def flipped_part(self):
+    def flipped_part(self) -> float:
         return float(np.average(self.flipped, weights=self._weights))
 
     @cached_property
-    def lost_part(self):
+    def lost_part(self) -> float:
         return float(np.average(self.flipped | self.collapsed, weights=self._weights))
 
     @cached_property
-    def long_part(self):
+    def long_part(self) -> float:
         is_long = self._sides[:, 2] ** 2 > 2 * LONG * self._weights
         return float(np.average(is_long, weights=self._weights))
 
     @cached_property
-    def verdict(self):
+    def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
         return verdict(self)
 

@@ -4,9 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .array_types import Integers
+from .value import Value, counted
 
-@dataclass(frozen=True, eq=False)
-class Refused:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Refused(Value):
     """A connected component that is no surface and was left out.
 
     Attributes
@@ -15,12 +18,15 @@ class Refused:
     reason : one sentence that names its first bad element
     """
 
-    faces: np.ndarray
+    faces: Integers
     reason: str
 
+    def _facts(self):
+        return [f"{counted(len(self.faces), 'face')}: {self.reason}"]
 
-@dataclass(frozen=True, eq=False)
-class Repairs:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Repairs(Value):
     """What was wrong with the input and handled inside; the input itself is never changed. Indices are those of the
     mesh as given.
 
@@ -35,11 +41,16 @@ class Repairs:
         needs less, mostly none
     """
 
-    reversed_faces: np.ndarray
-    zero_area_faces: np.ndarray
-    isolated_vertices: np.ndarray
-    split_vertices: np.ndarray
+    reversed_faces: Integers
+    zero_area_faces: Integers
+    isolated_vertices: Integers
+    split_vertices: Integers
     mollification: float
 
-    def __bool__(self):
+    def _facts(self):
+        counts = {name: len(value) for name, value in vars(self).items() if np.ndim(value)}
+        facts = [f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count]
+        return facts + [f"mollification {self.mollification:.2g}"] * (self.mollification != 0) or ["none"]
+
+    def __bool__(self) -> bool:
         return any(np.any(value) if np.ndim(value) == 0 else len(value) for value in vars(self).values())

@@ -1,31 +1,40 @@
 """Reports as plain data, ready for JSON. Complex numbers are pairs [real, imaginary]; JSON knows no infinity."""
 
 import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .verdicts import Verdict, overall
+
+if TYPE_CHECKING:
+    from .quality import Quality
+    from .repairs import Refused, Repairs
+    from .structure import AnyStructure
+    from .surface import Surface
 
 LISTED = 20  # elements of a repair that a report names
 
 
-def complex_pairs(matrix):
+def complex_pairs(matrix: ArrayLike) -> list[Any]:
     """Nested lists in which each complex number is [real, imaginary]."""
     matrix = np.asarray(matrix)
     return np.stack([matrix.real, matrix.imag], axis=-1).tolist()
 
 
-def bound_lists(bounds):
+def bound_lists(bounds: tuple[ArrayLike, ArrayLike] | None) -> list[Any] | None:
     """[lower, upper] as lists or numbers; None for none."""
     return None if bounds is None else [np.asarray(bound).tolist() for bound in bounds]
 
 
-def finite_or_none(number):
+def finite_or_none(number: float) -> float | None:
     """None for an infinite number."""
     return number if math.isfinite(number) else None
 
 
-def plain(value):
+def plain(value: object) -> Any:
     """Dictionaries, sequences, arrays and numbers as JSON has them: None for what is not finite."""
     if isinstance(value, dict):
         return {str(name): plain(entry) for name, entry in value.items()}
@@ -38,7 +47,9 @@ def plain(value):
     return finite_or_none(value) if isinstance(value, float) else value
 
 
-def component_report(surface, structure, main_map=None):
+def component_report(
+    surface: "Surface", structure: "AnyStructure", main_map: dict[str, Any] | None = None
+) -> dict[str, Any]:
     """What is known about the connected `surface` and its `structure`.
 
     main_map : `map_report` of the map that is shown first; by default that of the balanced coefficients
@@ -64,17 +75,17 @@ def component_report(surface, structure, main_map=None):
     )
 
 
-def skipped_report(surface, reason):
+def skipped_report(surface: "Surface", reason: object) -> dict[str, Any]:
     """Why the connected `surface` was not done."""
     return {"done": False, **_topology(surface), "reason": str(reason)}
 
 
-def refused_report(refused):
+def refused_report(refused: "Refused") -> dict[str, Any]:
     """A component that was left out of a surface, a `Refused`."""
     return {"done": False, "faces": len(refused.faces), "reason": refused.reason}
 
 
-def map_report(coefficients, quality, found=None):
+def map_report(coefficients: ArrayLike, quality: "Quality", found: Verdict | None = None) -> dict[str, Any]:
     """A UV map: its coefficients, its `Quality` and the `Verdict` on it, by default that of the quality."""
     return plain(
         {
@@ -90,14 +101,14 @@ def map_report(coefficients, quality, found=None):
     )
 
 
-def overall_report(parts, is_unwelded=False):
+def overall_report(parts: Sequence[dict[str, Any]], is_unwelded: bool = False) -> dict[str, Any] | None:
     """The `overall` verdict on a mesh out of its components' reports; None where none is done."""
     done = sorted((part for part in parts if part["done"]), key=lambda part: -part["faces"])
     found = [Verdict(**part["main_map"]["verdict"]) for part in done]
     return vars(overall(found, is_unwelded)) if found else None
 
 
-def repairs_report(repairs):
+def repairs_report(repairs: "Repairs") -> dict[str, Any]:
     """`Repairs`, with the number and the first of the elements of each kind."""
     return plain(
         {

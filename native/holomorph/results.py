@@ -1,19 +1,24 @@
 """What the results of all kinds of surfaces have in common."""
 
-from dataclasses import dataclass, field, fields
+from collections.abc import Callable
+from dataclasses import dataclass, fields
 from functools import cached_property
+from typing import Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native, arrays
+from .array_types import Integers, Progress, Reals
 from .checks import real_number
 from .quality import Quality
 from .surface import Surface
-from .tiling import Tiler, wished_poles
+from .tiling import Poles, Tiler, Tiling, wished_poles
+from .value import Value, counted
 
 
-@dataclass(frozen=True)
-class SolverReport:
+@dataclass(frozen=True, repr=False)
+class SolverReport(Value):
     """Which solver was used and why; iterations (of multigrid or, by the paper's solver, on the surface itself; steps
     of iterative refinement of the direct solver); the largest relative residual of the linear systems, or where forms
     were refined, among thin triangles, their largest relative error in energy.
@@ -26,7 +31,10 @@ class SolverReport:
     reason: str
     iterations: int
     residual: float
-    levels: tuple = ()
+    levels: tuple[tuple[int, int, float], ...] = ()
+
+    def _facts(self):
+        return [self.name, self.reason, counted(self.iterations, "iteration"), f"residual {self.residual:.2g}"]
 
 
 @dataclass(frozen=True)
@@ -71,8 +79,23 @@ class BoundedResiduals(Residuals):
     pairing: float
 
 
-@dataclass(frozen=True, eq=False)
-class Structure:
+class Solution:
+    """What the native core computed for a structure. A pickle has the call instead that computes the structure: it is
+    made where more is asked for than the pickle has, and gives the same bits."""
+
+    def __init__(self, native):
+        self.native, self.compute = native, None
+
+    @cached_property
+    def native(self):
+        return self.compute()._native
+
+    def __getstate__(self):
+        return {"compute": self.compute}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Structure(Value):
     """Base of the results of `conformal_structure`. All arrays are read-only; the large ones are computed when first
     used. Each kind of result adds its forms, its invariants and
 
@@ -83,17 +106,34 @@ class Structure:
     """
 
     residuals_kind = Residuals
+    _unpickled = ("_triangulation", "_tilers")
 
     surface: Surface
     solver: SolverReport
     residuals: Residuals
-    timings: dict
-    _native: object = field(repr=False)
-    _component: Surface = field(repr=False)
-    _threads: int = field(repr=False)
+    timings: dict[str, float]
+    _solution: Solution
+    _component: Surface
+    _threads: int
+
+    def _facts(self):
+        return [self.description, counted(len(self._component.triangles), "triangle"), self.solver.name]
+
+    def __getstate__(self):
+        vars(self).update({name: getattr(self, name) for name in ("description", "flip_count", "_is_exact")})
+        return super().__getstate__()
+
+    @property
+    def _native(self):
+        return self._solution.native
+
+    def computed_by(self, compute: Callable[[], "Structure"]) -> Self:
+        """Itself, after noting the call that computes it, for pickles."""
+        self._solution.compute = compute
+        return self
 
     @cached_property
-    def edges(self):
+    def edges(self) -> Integers:
         """(#E, 2) vertices of the triangulation, lower first; forms are values on these. Its diagonals are flipped away
         from punctures."""
         return self._of_surface(self._triangulation.edges)
@@ -103,7 +143,7 @@ class Structure:
         return self._component._native
 
     @cached_property
-    def flip_count(self):
+    def flip_count(self) -> int:
         """Edges flipped to make the intrinsic triangulation Delaunay."""
         return self._native.intrinsic()[0]
 
@@ -112,22 +152,22 @@ class Structure:
         """Whether the metric that invariants come from is that of the surface, without mollification."""
         return self._native.intrinsic()[1] == 0
 
-    def quality(self, uv):
+    def quality(self, uv: ArrayLike) -> Quality:
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
         return Quality.of(self._triangulation, self._checked_uv(uv), self._threads)
 
     def tile(
         self,
-        tiles=None,
-        density=None,
-        poles="auto",
-        lattice="square",
-        direction=None,
-        boundary="straight",
-        max_turn=0.2,
-        turn=None,
-        progress=None,
-    ):
+        tiles: float | None = None,
+        density: float | None = None,
+        poles: Poles = "auto",
+        lattice: str | ArrayLike = "square",
+        direction: ArrayLike | None = None,
+        boundary: str = "straight",
+        max_turn: float = 0.2,
+        turn: float | None = None,
+        progress: Progress | None = None,
+    ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
 
         All jumps of the UVs are translations that leave the texture as it is. Poles, around which the texture closes up
@@ -171,7 +211,7 @@ class Structure:
     def _tilers(self):
         return {}
 
-    def averaged_star(self, form):
+    def averaged_star(self, form: ArrayLike) -> Reals:
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
         edge. It is not closed, so it has no well-defined integral; for comparison with `holomorphic_forms`."""
         return _native.averaged_star(self._triangulation, self._checked_form(form))
@@ -207,4 +247,5 @@ def result(kind, surface, component, native, threads, **more):
     seconds["total"] = sum(seconds.values())
     certificate = dict(zip(("closedness", "harmonicity", "periods", "pairing", "asymmetry"), native.certificate()))
     residuals = kind.residuals_kind(**{entry.name: certificate[entry.name] for entry in fields(kind.residuals_kind)})
-    return kind(surface, SolverReport(*native.solver()), residuals, seconds, native, component, threads, **more)
+    report = SolverReport(*native.solver())
+    return kind(surface, report, residuals, seconds, Solution(native), component, threads, **more)

@@ -3,8 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native, arrays
+from .array_types import Complexes, Integers
+from .value import Value
 
 CONVENTION = (
     "Im Omega is reduced (LLL, 0.99), |Re Omega| <= 1/2, |Omega_11| >= 1; for genus 1 that is the fundamental domain "
@@ -14,17 +17,20 @@ ROUNDING = 1e-9  # a number within it of the edge of the domain is on it, so tha
 MOST_STEPS = 1000
 
 
-@dataclass(frozen=True, eq=False)
-class SiegelReduction:
+@dataclass(frozen=True, eq=False, repr=False)
+class SiegelReduction(Value):
     """period_matrix : (g, g) complex (A Omega + B)(C Omega + D)^-1; matrix : (2g, 2g) integers [[A, B], [C, D]],
     symplectic; convention : the conditions that it fulfils, in words."""
 
-    period_matrix: np.ndarray
-    matrix: np.ndarray
+    period_matrix: Complexes
+    matrix: Integers
     convention: str = CONVENTION
 
+    def _facts(self):
+        return [f"genus {len(self.period_matrix)}", f"Omega_11 {complex(self.period_matrix[0, 0]):.6g}"]
 
-def siegel_reduction(period_matrix):
+
+def siegel_reduction(period_matrix: ArrayLike) -> SiegelReduction:
     """A `SiegelReduction` of a period matrix: symmetric, its imaginary part positive definite.
 
     Source: Deconinck, Heil, Bobenko, van Hoeij & Schmies (2004), doi:10.1090/S0025-5718-03-01609-0.

@@ -1,35 +1,47 @@
 """conformal_structure: checks the options and selects the kind of structure by topology and options."""
 
+from collections.abc import Sequence
+from copy import deepcopy
+from functools import partial
+from typing import TypeAlias
+
+from numpy.typing import ArrayLike
+
 from . import _native
 from ._native import SolverError, TopologyError
+from .array_types import Complexes, Integers, Progress
 from .bounded import BoundedStructure
 from .checks import check_bounds, check_memory_limit, check_options, only_component, own_vertices
 from .closed import ConformalStructure
 from .cut import cut_along
-from .disk import automatic_map, disk, rectangle
+from .disk import DiskMap, RectangleMap, TriangleMap, automatic_map, disk, rectangle
 from .narrow_bounds import narrow
 from .punctured import PuncturedStructure
 from .results import result
+from .surface import Surface
 from .truncated import coarse_log_map
 
 BOUNDARIES = ("natural", "double_cover")
+AnyStructure: TypeAlias = (
+    ConformalStructure | BoundedStructure | PuncturedStructure | DiskMap | RectangleMap | TriangleMap
+)
 
 
 def conformal_structure(
-    surface,
+    surface: Surface,
     *,
-    boundary="natural",
-    punctures=None,
-    residues=None,
-    rectangle_corners=None,
-    cut_edges=None,
-    solver="auto",
-    threads=None,
-    memory_limit=None,
-    bounds=None,
-    most_faces=2_000_000,
-    progress=None,
-):
+    boundary: str = "natural",
+    punctures: Sequence[int] | Integers | None = None,
+    residues: Sequence[complex] | Complexes | None = None,
+    rectangle_corners: Sequence[int] | Integers | None = None,
+    cut_edges: ArrayLike | None = None,
+    solver: str = "auto",
+    threads: int | None = None,
+    memory_limit: float | None = None,
+    bounds: float | None = None,
+    most_faces: int = 2_000_000,
+    progress: Progress | None = None,
+) -> AnyStructure:
     """Conformal structure of one connected surface: harmonic and holomorphic one-forms and conformal invariants; with
     punctures, and on genus 0, a differential of the third kind.
 
@@ -74,6 +86,8 @@ def conformal_structure(
     factorisation or the set-up of multigrid; 2 n #V numbers of memory.
     Source: Gu, Wang, Yau (2003), § 4 to § 8 and Eq. 13; the star by Gu & Yau (2003), projected.
     """
+    residues = _residues(residues)
+    given = locals() | {"progress": None}  # all arguments: no other name is there yet
     options = solver, check_options(solver, threads), progress
     narrowing = check_bounds(bounds, most_faces)
     if boundary not in BOUNDARIES:
@@ -82,16 +96,15 @@ def conformal_structure(
     component = only_component(surface)
     chosen = punctures, residues, rectangle_corners
     made = _structure(surface, component, boundary, chosen, options, memory_limit, narrowing)
-    if cut_edges is None or not len(cut_edges):
-        return made
-    return cut_along(made, surface, component, cut_edges)
+    if cut_edges is not None and len(cut_edges):
+        made = cut_along(made, surface, component, cut_edges)
+    return made.computed_by(partial(conformal_structure, **deepcopy(given)))  # the caller's lists may change
 
 
 def _structure(surface, component, boundary, chosen, options, memory_limit, narrowing):
     punctures, residues, rectangle_corners = chosen
     topology = component.genus, component.boundary_count
     vertices, labels = own_vertices(surface, component, [] if punctures is None else punctures, "puncture")
-    residues = _residues(residues)
     is_chosen = bool(vertices or residues)
     if narrowing is not None:
         _check_narrowing(topology, is_chosen or rectangle_corners is not None)

@@ -1,12 +1,16 @@
 """Surfaces: validated, consistently oriented polygon meshes, or intrinsic triangulations."""
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from . import _native, arrays
+from . import _native, arrays, formats, pickled_surface
 from ._native import InvalidMesh, TopologyError
+from .array_types import FilePath, Integers, Reals
 from .repairs import Refused, Repairs
+from .value import Value, freeze
 
 UNWELDED = "every face is apart: Surface.read(path, weld=True) joins those that touch"
 
@@ -18,7 +22,7 @@ def _checked(vertices, corner_vertices, face_offsets, strict):
     return _native.Surface.sound_part(vertices, corner_vertices, face_offsets)
 
 
-class Surface:
+class Surface(Value):
     """A surface of polygons, validated and triangulated. All arrays are read-only. `given_vertex_count` is the number
     of vertices of the mesh as given, and `refused` a tuple of the components (`Refused`) that were left out of it.
 
@@ -40,11 +44,13 @@ class Surface:
         if the surface is non-orientable.
     """
 
-    def __init__(self, vertices, faces, strict=True):
+    def __init__(self, vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], strict: bool = True) -> None:
         self._adopt(*_checked(arrays.real(vertices, 3, "vertices"), *arrays.polygons(faces), strict))
 
     @classmethod
-    def from_polygons(cls, vertices, corner_vertices, face_offsets, strict=True):
+    def from_polygons(
+        cls, vertices: ArrayLike, corner_vertices: ArrayLike, face_offsets: ArrayLike, strict: bool = True
+    ) -> "Surface":
         """Mixed polygons: polygon f has the vertices ``corner_vertices[face_offsets[f]:face_offsets[f + 1]]``.
 
         Parameters
@@ -63,7 +69,9 @@ class Surface:
         )
 
     @classmethod
-    def from_edge_lengths(cls, faces, edge_lengths, face_edges=None):
+    def from_edge_lengths(
+        cls, faces: ArrayLike, edge_lengths: ArrayLike, face_edges: ArrayLike | None = None
+    ) -> "Surface":
         """An intrinsic surface: triangles and edge lengths alone, without positions.
 
         Parameters
@@ -84,7 +92,7 @@ class Surface:
         return cls._of(_native.Surface.from_edge_lengths(vertex_count, faces, lengths, names))
 
     @classmethod
-    def read(cls, path, strict=False, weld=False):
+    def read(cls, path: FilePath, strict: bool = False, weld: bool = False) -> "Surface":
         """OBJ, OFF, PLY or STL; polygons are kept, in double precision.
 
         Parameters
@@ -99,6 +107,21 @@ class Surface:
             if the file is missing or malformed (names the line or byte), or no component of the mesh in it is valid.
         """
         return cls._of(*_native.Surface.read(path, strict, weld))
+
+    def write(self, path: FilePath, uv: ArrayLike | None = None) -> None:
+        """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles, which takes the library
+        trimesh: positions, and with `uv`, (#C, 2), a UV map. Positions and UVs keep double precision, in GLB single.
+
+        Raises
+        ------
+        ValueError
+            if the path ends with neither .obj, .ply nor .glb, before anything is written, or `uv` does not fit
+        ModuleNotFoundError
+            if trimesh is missing: pip install "holomorph[batch]"
+        InvalidMesh
+            if the surface is intrinsic
+        """
+        formats.write(self, path, uv)
 
     @classmethod
     def _of(cls, *adopted):
@@ -115,55 +138,66 @@ class Surface:
     ):
         self._vertex_index, self._face_index, self._corner_index = vertex_index, face_index, corner_index
         self._split_vertices = arrays.frozen(np.array(split, np.int32))
-        self.given_vertex_count = self._native.vertex_count if given_vertex_count is None else given_vertex_count
-        self.refused = tuple(Refused(faces, reason) for faces, reason in refused)
+        self.given_vertex_count: int = self._native.vertex_count if given_vertex_count is None else given_vertex_count
+        self.refused: tuple[Refused, ...] = tuple(Refused(faces, reason) for faces, reason in refused)
 
-    def __repr__(self):
-        vertices, faces, parts = self._native.vertex_count, len(self.face_offsets) - 1, self._native.component_count
-        return f"<Surface: {vertices} vertices, {faces} faces, {parts} component(s)>"
+    def _facts(self):
+        native, faces = self._native, len(self.face_offsets) - 1
+        counts = (native.vertex_count, "vertices"), (faces, "faces"), (native.component_count, "component(s)")
+        return [f"{count} {noun}" for count, noun in counts]
+
+    def __getstate__(self):
+        index = self._vertex_index, self._face_index, self._corner_index
+        rest = self.given_vertex_count, self._split_vertices, tuple((part.faces, part.reason) for part in self.refused)
+        return {"mesh": pickled_surface.arrays_of(self._native), "rest": index + rest, "dual_vertex": self.dual_vertex}
+
+    def __setstate__(self, state):
+        freeze(state)
+        self._adopt(pickled_surface.native_of(state["mesh"]), *state["rest"])
+        self.dual_vertex = state["dual_vertex"]
 
     @cached_property
-    def vertices(self):
+    def vertices(self) -> Reals | None:
         """(#V, 3) positions; None for an intrinsic surface."""
         return None if self._native.intrinsic else self._native.vertices
 
     @cached_property
-    def corner_vertices(self):
+    def corner_vertices(self) -> Integers:
         """(#C,) vertex of each polygon corner."""
         return self._native.corner_vertices
 
     @cached_property
-    def face_offsets(self):
+    def face_offsets(self) -> Integers:
         """(#F + 1,) first corner of each polygon."""
         return self._native.face_offsets
 
     @cached_property
-    def triangles(self):
+    def triangles(self) -> Integers:
         """(#T, 3) vertices, consistently oriented."""
         return self._native.triangles
 
     @cached_property
-    def triangle_corners(self):
+    def triangle_corners(self) -> Integers:
         """(#T, 3) polygon corner at each triangle corner."""
         return self._native.triangle_corners
 
     @cached_property
-    def triangle_faces(self):
+    def triangle_faces(self) -> Integers:
         """(#T,) polygon of each triangle."""
         return self._native.triangle_faces
 
     @cached_property
-    def vertex_index(self):
+    def vertex_index(self) -> Integers:
         """(#V,) index of each vertex in the mesh as given, of which this may be a component or the sound part."""
         return self._index(self._vertex_index, self._native.vertex_count)
 
     @cached_property
-    def face_index(self):
+    def face_index(self) -> Integers:
         """(#F,) index of each face in the mesh as given."""
         return self._index(self._face_index, len(self.face_offsets) - 1)
 
     @cached_property
-    def corner_index(self):
+    def corner_index(self) -> Integers:
         """(#C,) index of each corner in the mesh as given."""
         return self._index(self._corner_index, len(self.corner_vertices))
 
@@ -171,12 +205,12 @@ class Surface:
     def _index(given, count):
         return arrays.frozen(np.arange(count, dtype=np.int32)) if given is None else given
 
-    dual_vertex = None
+    dual_vertex: Integers | None = None
     """(#V,) of a `double_cover`: the same vertex in the other copy, itself on the boundary between them. None of other
     surfaces."""
 
     @property
-    def components(self):
+    def components(self) -> tuple["Surface", ...]:
         """Tuple of the connected components, ordered by their first face, without isolated vertices."""
         if self._native.component_count == 1 and not len(self._native.isolated_vertices):
             return (self,)  # not kept: a reference to itself would keep it until garbage collection
@@ -195,7 +229,7 @@ class Surface:
         self.require_connected()
         return self._native.topology()
 
-    def require_connected(self):
+    def require_connected(self) -> None:
         """Raises TopologyError where there are several components."""
         if self._native.component_count != 1:
             hint = f"; {UNWELDED}" if self.is_unwelded else ""
@@ -205,27 +239,27 @@ class Surface:
             )
 
     @property
-    def euler_characteristic(self):
+    def euler_characteristic(self) -> int:
         """#V - #E + #F, isolated vertices not counted."""
         return self._topology[0]
 
     @property
-    def boundary_count(self):
+    def boundary_count(self) -> int:
         """Number of boundary loops."""
         return self._topology[1]
 
     @cached_property
-    def area(self):
+    def area(self) -> float:
         """Sum of the triangles' areas, in the square of the positions' unit."""
         return self._native.area()
 
     @property
-    def genus(self):
+    def genus(self) -> int:
         """Number of handles."""
         return self._topology[2]
 
     @cached_property
-    def repairs(self):
+    def repairs(self) -> Repairs:
         """What was handled inside."""
         native = self._native
         return Repairs(
@@ -241,11 +275,11 @@ class Surface:
         return elements if index is None else arrays.frozen(index[elements])
 
     @property
-    def is_whole(self):
+    def is_whole(self) -> bool:
         """Whether elements are numbered as in the mesh as given."""
         return self._face_index is None
 
     @property
-    def is_unwelded(self):
+    def is_unwelded(self) -> bool:
         """Whether there are faces, and every one is apart: they may touch, but share no vertices."""
         return self._native.component_count == len(self.face_offsets) - 1 > 1

@@ -6,16 +6,18 @@ import numpy as np
 
 from . import _native
 from ._native import Error
+from .array_types import Integers, Progress
 from .checks import real_number
 from .closed import ConformalStructure
 from .equivalence import ROUNDING, STEPS, period_lattice
+from .value import Value, counted
 
 AGREEMENT = 0.25  # as native/src/moduli/equivalence.h
 GAP = 1e-6  # of what is allowed: residuals that differ by less belong to the same symmetry of the mesh
 
 
-@dataclass(frozen=True, eq=False)
-class Automorphisms:
+@dataclass(frozen=True, eq=False, repr=False)
+class Automorphisms(Value):
     """What `automorphisms` found.
 
     order : number of integer matrices that keep the wedge product and the energies, for genus >= 2 the conformal maps
@@ -29,12 +31,17 @@ class Automorphisms:
     """
 
     order: int
-    generators: tuple
+    generators: tuple[Integers, ...]
     tolerance: float
     at_most: int | None
 
+    def _facts(self):
+        return [f"order {self.order}", counted(len(self.generators), "generator"), f"tolerance {self.tolerance:.2g}"]
 
-def automorphisms(structure, *, tolerance=0.0, progress=None):
+
+def automorphisms(
+    structure: ConformalStructure, *, tolerance: float = 0.0, progress: Progress | None = None
+) -> Automorphisms:
     """The `Automorphisms` of a closed structure: the largest group of integer matrices that bring the projected periods
     to themselves within a quarter of their bounds, or `tolerance` if that is larger.
 

@@ -26,7 +26,7 @@ class Hyperelliptic:
     error: float = 0.0
 
 
-def hyperelliptic(structure):
+def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     """A `Hyperelliptic` of a closed structure of genus 1 to 3: "no" where the bounds exclude that an even theta
     constant vanishes, "yes" where one is below half of the bound of its error.
 

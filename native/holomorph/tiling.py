@@ -2,22 +2,29 @@
 
 import math
 import numbers
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from ._native import InvalidMesh
+from .array_types import Complexes, Integers, Progress, Reals
 from .checks import own_vertices, real_number
 from .quality import Quality
-from .verdicts import verdict
+from .surface import Surface
+from .value import Value, counted
+from .verdicts import Verdict, verdict
 
 LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
 BOUNDARIES = ("straight", "free")
+Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
 
 
-@dataclass(frozen=True, eq=False)
-class Tiling:
+@dataclass(frozen=True, eq=False, repr=False)
+class Tiling(Value):
     """Result of `tile`. All arrays are read-only.
 
     uv : (#C, 2) UVs: one tile of the texture is the unit square. Multiply them by integers only, and move them by
@@ -35,36 +42,43 @@ class Tiling:
     seams : (#S, 2) vertices of the edges where the UVs jump
     """
 
-    uv: np.ndarray
-    periods: np.ndarray
-    poles: np.ndarray
-    residues: np.ndarray
-    zeros: tuple
+    uv: Reals
+    periods: Integers
+    poles: Integers
+    residues: Complexes
+    zeros: tuple[Integers, Integers]
     added_distortion: float
     left_over: float
     optimal_density_ratio: float
     tiles: float
     quality: Quality
-    seams: np.ndarray
+    seams: Integers
+
+    def _facts(self):
+        size = f"{self.tiles:.4g} tiles, {counted(len(self.poles), 'pole')}"
+        return [size, f"density ratio {self.density_ratio:.4g}", f"mean s1/s2 {self.quality.mean_angle:.4g}"]
 
     @property
-    def density_ratio(self):
+    def density_ratio(self) -> float:
         """95 % over 5 % quantile of s1 s2 by area."""
         return self.quality.density_ratio
 
     @property
-    def verdict(self):
+    def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
         return verdict(self.quality, len(self.poles), self.added_distortion)
 
 
-@dataclass(frozen=True)
-class PlacedPoles:
+@dataclass(frozen=True, repr=False)
+class PlacedPoles(Value):
     """Vertices, complex residues up to a common factor, and the density ratio that they allow."""
 
-    vertices: np.ndarray
-    residues: np.ndarray
+    vertices: Integers
+    residues: Complexes
     density_ratio: float
+
+    def _facts(self):
+        return [counted(len(self.vertices), "pole"), f"density ratio {self.density_ratio:.4g}"]
 
 
 class Tiler:
@@ -81,8 +95,16 @@ class Tiler:
     """
 
     def __init__(
-        self, surface, poles="auto", *, boundary="straight", allowed=None, solver="auto", threads=0, progress=None
-    ):
+        self,
+        surface: Surface,
+        poles: Poles = "auto",
+        *,
+        boundary: str = "straight",
+        allowed: ArrayLike | None = None,
+        solver: str = "auto",
+        threads: int | None = 0,
+        progress: Progress | None = None,
+    ) -> None:
         if boundary not in BOUNDARIES:
             raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
         surface.require_connected()
@@ -92,13 +114,28 @@ class Tiler:
         self._native = _native.Tiler(self._component._native, boundary == "straight", labels, solver, threads or 0)
         self._native.place(count, vertices, _allowed(allowed, surface, self._component), progress)
 
+    def __repr__(self) -> str:
+        return f"<Tiler: {counted(len(self.poles.vertices), 'pole')} on {self._surface!r}>"
+
+    def __reduce__(self):
+        raise TypeError("a Tiler is neither copied nor pickled: take its tiling, or its surface and poles")
+
     @property
-    def poles(self):
+    def poles(self) -> PlacedPoles:
         """`PlacedPoles`."""
         vertices, residues, ratio = self._native.poles()
         return PlacedPoles(self._of_surface(vertices), residues, ratio)
 
-    def tile(self, tiles=None, *, lattice="square", direction=None, turn=None, max_turn=0.2, progress=None):
+    def tile(
+        self,
+        tiles: float | None = None,
+        *,
+        lattice: str | ArrayLike = "square",
+        direction: ArrayLike | None = None,
+        turn: float | None = None,
+        max_turn: float = 0.2,
+        progress: Progress | None = None,
+    ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
         tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
         turn = None if turn is None else real_number(turn, "turn")
@@ -108,7 +145,7 @@ class Tiler:
         self._basis = np.array([[a.real, b.real], [a.imag, b.imag]])
         return self._tiling(self._native.tile(tiles, a, b, turn, along, max_turn, progress))
 
-    def with_poles_moved(self, moves, *, progress=None):
+    def with_poles_moved(self, moves: Mapping[int, int], *, progress: Progress | None = None) -> Tiling:
         """The `Tiling` that `tile` gave last with some of its poles elsewhere; changes nothing of the tiler.
 
         The residues stay, and so do the periods but where a pole has a shorter way to its place around a handle.
@@ -146,7 +183,15 @@ class Tiler:
         return vertices if same else arrays.frozen(self._component.vertex_index[vertices])
 
 
-def place_poles(surface, count="auto", *, boundary="straight", allowed=None, threads=0, progress=None):
+def place_poles(
+    surface: Surface,
+    count: Poles = "auto",
+    *,
+    boundary: str = "straight",
+    allowed: ArrayLike | None = None,
+    threads: int | None = 0,
+    progress: Progress | None = None,
+) -> PlacedPoles:
     """`PlacedPoles` of a connected surface: where poles make the texture density most even. Arguments as in `Tiler`.
 
     A greedy start, then exchanges of one pole at a time, on a level of the progressive mesh of about 10,000 triangles.

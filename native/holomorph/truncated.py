@@ -1,6 +1,6 @@
 """Log maps of meshes so coarse that the stars of any two vertices meet: cones, pyramids, tetrahedra."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -72,17 +72,17 @@ def coarse_log_map(surface, component, solver, threads, progress):
     (refined,) = truncation.surface.components
     native = _native.punctured_structure(refined._native, punctures, [], [], solver, threads, 0, progress)
     solved = result(PuncturedStructure, truncation.surface, refined, native, threads)
-    own = solved.solver, solved.residuals, solved.timings, native, component, threads, truncation, solved
-    return TruncatedStructure(surface, *own)
+    own = solved.solver, solved.residuals, solved.timings, solved._solution, component, threads
+    return TruncatedStructure(surface, *own, truncation, solved)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class TruncatedStructure(PuncturedStructure):
     """`PuncturedStructure` of a mesh whose punctures' stars meet. It was solved on its `Truncation`; UVs are those of
     the remaining corners, and the corners that were cut off are put back by a similarity."""
 
-    _truncation: Truncation = field(repr=False)
-    _refined: PuncturedStructure = field(repr=False)
+    _truncation: Truncation
+    _refined: PuncturedStructure
 
     @cached_property
     def _triangulation(self):

@@ -1,9 +1,14 @@
 """What a UV map is good for, in words: one judgement for the package, its command and Blender."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from .quality import Quality
 
 LEVELS = ("good", "fair", "poor", "unusable")
 
@@ -29,22 +34,22 @@ class Verdict:
     advice: str
 
     @property
-    def is_fit(self):
+    def is_fit(self) -> bool:
         """Whether a texture can be put on: the level is good or fair."""
         return self.rank <= LEVELS.index("fair")
 
     @property
-    def rank(self):
+    def rank(self) -> int:
         """The place of the level in `LEVELS`."""
         return LEVELS.index(self.level)
 
     @property
-    def text(self):
+    def text(self) -> str:
         """Sentence and advice."""
         return self.sentence + (f": {self.advice}" if self.advice else "")
 
 
-def verdict(quality, poles=None, added_distortion=1.0):
+def verdict(quality: "Quality", poles: int | None = None, added_distortion: float = 1.0) -> Verdict:
     """The `Verdict` on a map with this `Quality`.
 
     The worst of three counts: how uneven the density is, how far squares are sheared, and which part of the surface is
@@ -66,7 +71,7 @@ def verdict(quality, poles=None, added_distortion=1.0):
     return Verdict(LEVELS[worst], _sentence(quality, poles, ranks), "; ".join(wanted))
 
 
-def overall(verdicts, is_unwelded=False):
+def overall(verdicts: Sequence[Verdict], is_unwelded: bool = False) -> Verdict:
     """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level.
 
     is_unwelded : every face is apart, as `Surface.is_unwelded` says

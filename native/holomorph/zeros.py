@@ -2,11 +2,12 @@
 
 from dataclasses import dataclass
 
-import numpy as np
+from .array_types import Integers, Reals
+from .value import Value, counted
 
 
-@dataclass(frozen=True, eq=False)
-class Zeros:
+@dataclass(frozen=True, eq=False, repr=False)
+class Zeros(Value):
     """The zeros of a differential, where its UV map branches.
 
     vertices : (k,) vertices of the surface. A zero that the mesh spreads over vertices and flipped triangles that touch
@@ -18,6 +19,9 @@ class Zeros:
     positions : (k, 3) of the vertices; None on an intrinsic surface
     """
 
-    vertices: np.ndarray
-    orders: np.ndarray
-    positions: np.ndarray | None
+    vertices: Integers
+    orders: Integers
+    positions: Reals | None
+
+    def _facts(self):
+        return [counted(len(self.vertices), "zero"), f"the sum of their orders {int(self.orders.sum())}"]

@@ -10,7 +10,8 @@ import holomorph
 import numpy as np
 import pytest
 from conftest import BALANCED, outputs, run, torus_obj
-from holomorph.batch import formats, picture
+from holomorph import formats
+from holomorph.batch import picture
 
 EVERYTHING = """
 [maps]

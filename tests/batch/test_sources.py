@@ -1,11 +1,12 @@
 """What cannot be done is said in one clear sentence, and nothing is written."""
 
+import importlib.util
 import os
 from pathlib import Path
 
 import pytest
 from conftest import library, run, torus_obj
-from holomorph.batch import recipe, sources
+from holomorph.batch import command, recipe, sources
 from holomorph.batch.errors import UsageError
 
 RECIPES = {
@@ -114,3 +115,14 @@ def test_the_command_writes_nothing(case, folder, tmp_path):
     assert result.returncode == 2
     assert result.stdout == "" and "Traceback" not in result.stderr
     assert not Path(tmp_path, "out").exists()
+
+
+def test_a_format_whose_library_is_missing(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(command, "_hear_signals", lambda: None)
+    (tmp_path / "recipe.toml").write_text("[output]\nformats = ['glb']\n")
+    source = torus_obj(tmp_path / "torus.obj")
+    arguments = [source, "--out", tmp_path / "out", "--recipe", tmp_path / "recipe.toml"]
+    assert command.main(list(map(str, arguments))) == 2
+    assert 'the format glb needs the library trimesh: pip install "holomorph[batch]"' in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()

@@ -10,8 +10,9 @@ import sys
 from functools import partial
 from pathlib import Path
 
+from .. import formats
 from ..verdicts import LEVELS
-from . import blend, formats, progress, recipe, sources, workers
+from . import blend, progress, recipe, sources, workers
 from .errors import EngineError, StorageError, UsageError
 from .journal import Journal, stored
 from .overview import Overview, counts
@@ -90,7 +91,7 @@ def _options(arguments):
 def _run(options):
     found = sources.find(options.source, options.out)
     wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
-    formats.check(wanted.output.formats)
+    _check_formats(wanted.output.formats)
     needs_blender = "blend" in wanted.output.formats or any(s.path.suffix.lower() == sources.BLEND for s in found)
     program = blend.program(options.blender) if needs_blender else ""
     if options.share:
@@ -107,6 +108,13 @@ def _run(options):
             if not options.share:
                 Overview(journal, plan.tasks() + plan.unopened()).write()
     return _exit_code(records + [stored(opening) for opening in plan.unopened()], options)
+
+
+def _check_formats(wanted):
+    try:
+        formats.check(wanted)
+    except ModuleNotFoundError as error:
+        raise UsageError(str(error)) from error
 
 
 def _exit_code(records, options):

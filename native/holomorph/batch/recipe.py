@@ -8,12 +8,12 @@ from dataclasses import asdict, dataclass, field, fields
 
 import tomllib
 
-from .. import tiling
+from .. import formats, tiling
 from ..checks import SOLVERS
 from ..structure import BOUNDARIES
 from .errors import UsageError
 
-FORMATS = ("npz", "obj", "ply", "glb", "blend")
+FORMATS = ("npz", *formats.WRITERS, "blend")
 MAIN_MAPS = ("automatic", "seamless", "balanced")
 
 

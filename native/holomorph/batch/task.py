@@ -8,14 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import ProgressiveMesh, Surface, __version__
+from .. import ProgressiveMesh, Surface, __version__, formats
 from .._native import Error
 from ..report import overall_report, repairs_report
-from . import arrangement, blend, formats, mapping, picture
+from . import arrangement, blend, mapping, picture
 from .recipe import Recipe
 from .status import DONE, REFUSED
-
-LEVEL_FORMATS = {"obj": formats.obj, "ply": formats.ply, "glb": formats.glb}
 
 
 @dataclass(frozen=True)
@@ -106,11 +104,11 @@ def _is_mapped(surface, parts):
 
 def _files(task, surface, uv, parts):
     wanted, files = task.recipe.output.formats, {}
-    for name in LEVEL_FORMATS.keys() & set(wanted):
-        files[f"mesh.{name}"] = LEVEL_FORMATS[name](surface, uv)
+    for name in formats.WRITERS.keys() & set(wanted):
+        files[f"mesh.{name}"] = formats.WRITERS[name](surface, uv)
     for number, level in enumerate(_levels(task.recipe.levels, surface, uv), 1):
-        for name in LEVEL_FORMATS.keys() & set(wanted):
-            files[f"lod{number}.{name}"] = LEVEL_FORMATS[name](level.surface, level.uv)
+        for name in formats.WRITERS.keys() & set(wanted):
+            files[f"lod{number}.{name}"] = formats.WRITERS[name](level.surface, level.uv)
         if "npz" in wanted:
             arrays = {"uv": level.uv, "corners": level.corners, "vertex_index": level.surface.vertex_index}
             files[f"lod{number}.npz"] = formats.npz(level.surface, arrays)

@@ -1,0 +1,47 @@
+"""What all results have in common: they are values, which never change."""
+
+from typing import Any, ClassVar
+
+import numpy as np
+
+
+class Value:
+    """Base of results, for people and for other processes. A repr is one short line without arrays. As nothing changes
+    a result, a copy of it is the result itself. From a pickle it has the same bits, and arrays are read-only again."""
+
+    _unpickled: ClassVar[tuple[str, ...]] = ()
+    """Attributes that a pickle leaves out, because they are computed again when needed."""
+
+    def _facts(self) -> list[str]:
+        """What a person wants to be told first."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {', '.join(self._facts())}>"
+
+    def __copy__(self):
+        return self
+
+    def __deepcopy__(self, memo: object):
+        return self
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in vars(self).items() if name not in self._unpickled}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        freeze(state)
+        vars(self).update(state)
+
+
+def counted(count: int, noun: str) -> str:
+    """Such as "1 pole" and "2 poles"."""
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def freeze(value: object) -> None:
+    """Makes the arrays in dictionaries and tuples read-only, as they were before a pickle."""
+    if isinstance(value, np.ndarray):
+        value.setflags(write=False)
+    elif isinstance(value, (dict, tuple)):
+        for entry in value.values() if isinstance(value, dict) else value:
+            freeze(entry)

@@ -1,0 +1,93 @@
+"""Annotations: every public function has them, the stub of the native core is true, and type checkers find a user's
+script clean."""
+
+import ast
+import inspect
+import os
+import shutil
+import subprocess
+import sys
+from functools import cached_property
+from pathlib import Path
+
+import holomorph
+import numpy as np
+import pytest
+from holomorph import _native
+
+SCRIPT = Path(__file__).with_name("user_script.py")
+FOLDER = Path(holomorph.__file__).parent
+WRONG = "\n\nperiods: int = holomorph.Tiler.tile(3)\n"
+
+
+def functions():
+    """(name, function) of all public functions, methods and properties."""
+    for name in holomorph.__all__:
+        value = getattr(holomorph, name)
+        members = vars(value) if inspect.isclass(value) or inspect.ismodule(value) else {"": value}
+        for kind in value.__mro__ if inspect.isclass(value) else ():
+            members = vars(kind) | members if kind.__module__.startswith("holomorph") else members
+        for member, entry in members.items():
+            entry = getattr(entry, "fget", None) or getattr(entry, "func", None) or getattr(entry, "__func__", entry)
+            is_ours = getattr(entry, "__module__", "").startswith("holomorph")
+            if inspect.isfunction(entry) and is_ours and (not member.startswith("_") or member == "__init__"):
+                yield f"{name}.{member}", entry
+
+
+def test_every_public_function_is_annotated():
+    found = dict(functions())
+    assert {"Surface.read", "ConformalStructure.period_matrix", "conformal_structure.", "report.plain"} <= set(found)
+    wrong = []
+    for name, function in found.items():
+        signature = inspect.signature(function)
+        parameters = [p for p in signature.parameters.values() if p.name not in ("self", "cls")]
+        if signature.return_annotation is signature.empty:
+            wrong.append(name)
+        wrong += [f"{name}({p.name})" for p in parameters if p.annotation is p.empty]
+    assert not wrong
+
+
+def test_cached_properties_are_looked_at():
+    assert isinstance(vars(holomorph.Surface)["triangles"], cached_property)
+    assert "Surface.triangles" in dict(functions())
+
+
+def test_the_stub_has_the_errors_of_the_native_core():
+    tree = ast.parse((FOLDER / "_native.pyi").read_text(encoding="utf-8"))
+    stub = {node.name: [base.id for base in node.bases] for node in tree.body if isinstance(node, ast.ClassDef)}
+    native = {
+        name: [base.__name__ for base in value.__bases__]
+        for name, value in vars(_native).items()
+        if inspect.isclass(value) and issubclass(value, Exception)
+    }
+    assert stub == native
+    assert isinstance(_native.__version__, str)
+
+
+def checker(name):
+    """The command that checks a file, or skips."""
+    if name == "mypy":
+        pytest.importorskip("mypy")
+        return [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", "--cache-dir=cache"]
+    program = shutil.which("pyright") or pytest.skip("no program pyright")
+    return [program, "--pythonpath", sys.executable]
+
+
+def checked(name, path, folder):
+    """The finished process, in an empty folder."""
+    environment = os.environ | {"MYPYPATH": str(FOLDER.parent), "PYTHONPATH": str(FOLDER.parent)}
+    settings = f'{{"typeCheckingMode": "strict", "extraPaths": ["{FOLDER.parent}", "{Path(np.__file__).parents[1]}"]}}'
+    (folder / "pyrightconfig.json").write_text(settings)
+    command = [*checker(name), str(path)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=600, cwd=folder, env=environment)
+
+
+@pytest.mark.parametrize("name", ["mypy", "pyright"])
+def test_a_user_s_script_is_clean(name, tmp_path):
+    script = tmp_path / "script.py"
+    script.write_text(SCRIPT.read_text(encoding="utf-8"), encoding="utf-8")
+    run = checked(name, script, tmp_path)
+    assert run.returncode == 0, run.stdout + run.stderr
+    script.write_text(script.read_text(encoding="utf-8") + WRONG, encoding="utf-8")
+    run = checked(name, script, tmp_path)
+    assert run.returncode == 1 and "script.py" in run.stdout, run.stdout + run.stderr
