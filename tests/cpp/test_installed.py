@@ -118,7 +118,9 @@ def test_headers_name_installed_headers_alone(installed):
     assert not (include / "holomorph" / "bindings").exists()
 
 
-@pytest.mark.parametrize(("component", "suffixes"), [("native", {".so"}), ("python", {".py", ".pyi", ".typed", ".html"})])
+@pytest.mark.parametrize(
+    ("component", "suffixes"), [("native", {".so"}), ("python", {".py", ".pyi", ".typed", ".html"})]
+)
 def test_python_components_have_no_headers(installed, component, suffixes):
     files = {path for path in installed(component).rglob("*") if path.is_file()}
     assert files
