@@ -61,7 +61,7 @@ def test_intervals_of_meshes_hold_the_curve_s_invariants(file, curve):
     found = igusa_invariants(conformal_structure(reference_surface(file), bounds=2e-3))
     exact = np.array([float(value) for value in sextics.absolute(curve)])
     assert (np.abs(found.values - exact) <= found.errors).all()
-    assert np.isfinite(found.errors).all()
+    assert (found.errors < np.maximum(np.abs(exact), 2) / 2).all()
 
 
 def test_wide_bounds_leave_them_open():
