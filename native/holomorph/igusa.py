@@ -19,10 +19,10 @@ ROUNDING = 2.0**-50  # relative, of one operation on complex numbers and of the 
 class IgusaInvariants:
     """Two surfaces of genus 2 with I2 other than 0 are conformally equivalent just if these three agree.
 
-    values : (3,) complex I2^5 / I10, I2^3 I4 / I10, I2^2 I6 / I10 of the Igusa-Clebsch invariants I2, I4, I6, I10 of the
-        curve y^2 = f(x), f of degree 5 or 6
-    errors : (3,) the exact ones of the polyhedral surface are certainly within these distances; infinite where the bounds
-        of the periods allow I10 = 0
+    values : (3,) complex I2^5 / I10, I2^3 I4 / I10, I2^2 I6 / I10 of the Igusa-Clebsch invariants I2, I4, I6, I10 of
+        the curve y^2 = f(x), f of degree 5 or 6
+    errors : (3,) the exact ones of the polyhedral surface are certainly within these distances (where the certificate's
+        bounds hold); infinite where the bounds of the periods allow I10 = 0
     """
 
     values: np.ndarray
@@ -35,7 +35,7 @@ def igusa_invariants(structure):
     Raises TopologyError for other surfaces.
 
     Source: Streng (2014), doi:10.1090/S0025-5718-2013-02712-3, § 7: theta constants, with the invariants' definition by
-    Igusa (1960), doi:10.2307/1970233.
+    Igusa (1960).
     """
     genus = structure._component.genus
     if not isinstance(structure, ConformalStructure) or genus != 2:
