@@ -11,7 +11,9 @@ from .equivalence import Equivalence, conformally_equivalent, scaled
 
 STARTS = 12  # points of the second surface that are tried for one of the first
 SAMPLES = 16  # points of the first surface that are tried
-TRIED = 400  # vertices that tell a right start from a wrong one
+TRIED = 400  # vertices that tell most wrong starts from right ones
+FINALISTS = 16  # starts that are tried farther, half of them each time
+FARTHER = 4  # times as many vertices each time
 ALIKE = 0.98  # cosine of the forms' values at two points that are taken for one start
 ROUNDS = 4  # of the correction of the start
 MOST_RESIDUAL = 0.05  # of a map that is one
@@ -75,7 +77,7 @@ class _Matching:
         }
 
     def run(self):
-        _, sign, start = min(self._tried(), key=lambda entry: entry[0])
+        sign, start = self._start()
         continuation = self._continuations[sign]
         best = None
         for k in range(ROUNDS):
@@ -87,6 +89,18 @@ class _Matching:
             vertex, triangle, residual = start
             start = vertex, triangle, residual - self._shift(made)
         return self._result(best)
+
+    def _start(self):
+        """Sign and start that fit best. On a thin arm all forms are nearly proportional, and a wrong start fits there as
+        well as a right one, until the continuation leaves the arm."""
+        found, most = sorted(self._tried(), key=lambda entry: entry[0])[:FINALISTS], TRIED
+        while len(found) > 1:
+            most *= FARTHER
+            again = [
+                (_size(self._continuations[sign].run(*start, most, None)), sign, start) for _, sign, start in found
+            ]
+            found = sorted(again, key=lambda entry: entry[0])[: len(found) // 2]
+        return found[0][1:]
 
     def _tried(self):
         """(size of the residuals, sign, start) of the first vertices from each start."""
