@@ -1,6 +1,7 @@
 """The conformal map between two equivalent closed surfaces, by matching their forms."""
 
 from dataclasses import dataclass, field
+from operator import itemgetter
 
 import numpy as np
 
@@ -91,16 +92,18 @@ class _Matching:
         return self._result(best)
 
     def _start(self):
-        """Sign and start that fit best. On a thin arm all forms are nearly proportional, and a wrong start fits there as
-        well as a right one, until the continuation leaves the arm."""
-        found, most = sorted(self._tried(), key=lambda entry: entry[0])[:FINALISTS], TRIED
+        """Sign and start that fit best. On a thin arm all forms are nearly proportional, and wrong starts fit there as
+        well as right ones, until the continuation leaves the arm."""
+        fit = itemgetter(0)
+        found, most = sorted(self._tried(), key=fit)[:FINALISTS], TRIED
         while len(found) > 1:
             most *= FARTHER
-            again = [
-                (_size(self._continuations[sign].run(*start, most, None)), sign, start) for _, sign, start in found
-            ]
-            found = sorted(again, key=lambda entry: entry[0])[: len(found) // 2]
+            again = [(self._misfit(sign, start, most), sign, start) for _, sign, start in found]
+            found = sorted(again, key=fit)[: len(found) // 2]
         return found[0][1:]
+
+    def _misfit(self, sign, start, most):
+        return _size(self._continuations[sign].run(*start, most, None))
 
     def _tried(self):
         """(size of the residuals, sign, start) of the first vertices from each start."""
@@ -114,9 +117,9 @@ class _Matching:
             for _ in range(STARTS):
                 t = int(np.argmax(likeness))
                 likeness[np.abs(unit[1] @ unit[1][t].conj()) > ALIKE] = -1
-                for sign, continuation in self._continuations.items():
+                for sign in self._continuations:
                     start = int(self._a._triangulation.triangles[s][0]), t, np.zeros(n)
-                    yield _size(continuation.run(*start, TRIED, None)), sign, start
+                    yield self._misfit(sign, start, TRIED), sign, start
                 if likeness.max() < 0:
                     break
 
