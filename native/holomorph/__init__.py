@@ -22,6 +22,7 @@ from .conformal_map import ConformalMap, conformal_map
 from .disk import DiskMap, RectangleMap, TriangleMap
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
+from .igusa import IgusaInvariants, igusa_invariants
 from .levels import LevelOfDetail
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
@@ -52,6 +53,7 @@ __all__ = [
     "Error",
     "Frame",
     "Hyperelliptic",
+    "IgusaInvariants",
     "InvalidMesh",
     "LevelOfDetail",
     "MemoryPlan",
@@ -86,6 +88,7 @@ __all__ = [
     "double_cover",
     "frame",
     "hyperelliptic",
+    "igusa_invariants",
     "layout",
     "overall",
     "place",

@@ -1,6 +1,7 @@
 """The conformal map between two equivalent closed surfaces, by matching their forms."""
 
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,9 @@ from .value import Value, counted
 
 STARTS = 12  # points of the second surface that are tried for one of the first
 SAMPLES = 16  # points of the first surface that are tried
-TRIED = 400  # vertices that tell a right start from a wrong one
+TRIED = 400  # vertices that tell most wrong starts from right ones
+FINALISTS = 16  # starts that are tried farther, half of them each time
+FARTHER = 4  # times as many vertices each time
 ALIKE = 0.98  # cosine of the forms' values at two points that are taken for one start
 ROUNDS = 4  # of the correction of the start
 MOST_RESIDUAL = 0.05  # of a map that is one
@@ -84,7 +87,7 @@ class _Matching:
         }
 
     def run(self):
-        _, sign, start = min(self._tried(), key=lambda entry: entry[0])
+        sign, start = self._start()
         continuation = self._continuations[sign]
         best = None
         for k in range(ROUNDS):
@@ -96,6 +99,20 @@ class _Matching:
             vertex, triangle, residual = start
             start = vertex, triangle, residual - self._shift(made)
         return self._result(best)
+
+    def _start(self):
+        """Sign and start that fit best. On a thin arm all forms are nearly proportional, and wrong starts fit there as
+        well as right ones, until the continuation leaves the arm."""
+        fit = itemgetter(0)
+        found, most = sorted(self._tried(), key=fit)[:FINALISTS], TRIED
+        while len(found) > 1:
+            most *= FARTHER
+            again = [(self._misfit(sign, start, most), sign, start) for _, sign, start in found]
+            found = sorted(again, key=fit)[: len(found) // 2]
+        return found[0][1:]
+
+    def _misfit(self, sign, start, most):
+        return _size(self._continuations[sign].run(*start, most, None))
 
     def _tried(self):
         """(size of the residuals, sign, start) of the first vertices from each start."""
@@ -109,9 +126,9 @@ class _Matching:
             for _ in range(STARTS):
                 t = int(np.argmax(likeness))
                 likeness[np.abs(unit[1] @ unit[1][t].conj()) > ALIKE] = -1
-                for sign, continuation in self._continuations.items():
+                for sign in self._continuations:
                     start = int(self._a._triangulation.triangles[s][0]), t, np.zeros(n)
-                    yield _size(continuation.run(*start, TRIED, None)), sign, start
+                    yield self._misfit(sign, start, TRIED), sign, start
                 if likeness.max() < 0:
                     break
 

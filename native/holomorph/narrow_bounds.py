@@ -9,7 +9,8 @@ from .certificate import OPEN, relative_width
 from .refined_triangles import Triangles, gaps, refined, worst
 from .value import Value, counted
 
-PART = 0.6  # of all gaps between the energies that triangles marked for refinement have
+PART = 0.05, 0.4  # of all gaps between the energies that triangles marked for refinement have, at least and at most
+QUARTERED = 0.75  # of the gap of a triangle that is cut in four is gone, where forms are smooth
 MOST_LEVELS = 60
 LEAST_GAIN = 1e-3  # a level that narrows the bounds by a smaller part is the last: rounding is reached
 
@@ -58,7 +59,8 @@ def narrow(native, width, most_faces, solver, threads, memory_limit, progress=No
         if reason:
             break
         everywhere = np.ones(len(triangles.corners), dtype=bool)
-        pieces = refined(triangles, everywhere if uniform else worst(gaps(triangles, functions, natural), PART))
+        part = np.clip((1 - width / levels[-1][1]) / QUARTERED, *PART)  # the last level is hardly finer than asked for
+        pieces = refined(triangles, everywhere if uniform else worst(gaps(triangles, functions, natural), part))
         if len(pieces.corners) > most_faces:
             reason = f"the next level would have {len(pieces.corners)} triangles, more than {most_faces}"
             break

@@ -11,6 +11,7 @@ from .equivalence import period_lattice
 from .siegel import siegel_reduction
 
 SMALLEST_TERM = 40.0  # terms below exp(-this) are left out of a theta series
+ROUNDING = 1e-12  # relative: more than that of a term, its exponent below SMALLEST_TERM, and of a reduced period matrix
 
 
 @dataclass(frozen=True)
@@ -48,17 +49,21 @@ def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
 
 def even_theta_constants(omega, radius=0.0):
     """(value, error) of theta[a, b](0 | Omega), the sum of exp(pi i (n + a/2) Omega (n + a/2) + pi i (n + a/2) b), for
-    all a, b of 0 and 1 with an even a . b; `radius` is how far Omega may be from the exact one, as
+    the `even_characteristics` in their order; `radius` is how far Omega may be from the exact one, as
     `Equivalence.residual`: then |p dOmega p| <= (exp(radius) - 1) p Im Omega p.
     """
     least = np.linalg.eigvalsh(omega.imag).min() * np.exp(-radius)
     most = int(np.ceil(np.sqrt(SMALLEST_TERM / (np.pi * least)))) + 1
     integers = np.stack(np.meshgrid(*[np.arange(-most, most + 1)] * len(omega), indexing="ij"), -1)
-    for a in product((0, 1), repeat=len(omega)):
+    for a, b in even_characteristics(len(omega)):
         n = integers.reshape(-1, len(omega)) + np.array(a) / 2
         energy = np.einsum("ki,ij,kj->k", n, omega.imag, n)
         terms = np.exp(1j * np.pi * np.einsum("ki,ij,kj->k", n, omega, n))
         error = np.sum(np.pi * np.expm1(radius) * energy * np.exp(-np.pi * np.exp(-radius) * energy))
-        for b in product((0, 1), repeat=len(omega)):
-            if np.dot(a, b) % 2 == 0:
-                yield np.sum(terms * np.exp(1j * np.pi * (n @ b))), error
+        yield np.sum(terms * np.exp(1j * np.pi * (n @ b))), error + ROUNDING * np.abs(terms).sum()
+
+
+def even_characteristics(genus):
+    """All (a, b) of 0 and 1 with an even a . b."""
+    halves = list(product((0, 1), repeat=genus))
+    return [(a, b) for a in halves for b in halves if np.dot(a, b) % 2 == 0]

@@ -1,7 +1,11 @@
 """Flat surfaces with cone points of every genus, glued of squares and of regular polygons."""
 
+from dataclasses import replace
+
 import families
 import numpy as np
+
+FLAT = 1e-9  # of angles
 
 
 def random_origami(squares, seed):
@@ -51,3 +55,41 @@ def regular_polygon(n):
     chi = centre + 1 - (n // 2 + n) + n
     lengths = np.tile([side, 1.0, 1.0], (n, 1))
     return families.FlatSurface(faces, lengths, face_edges, genus=1 - chi // 2)
+
+
+def by_edge_lengths(faces, edge_lengths):
+    """`FlatSurface` whose edges are told by their ends; entry i of a row belongs to the side opposite corner i."""
+    ends = np.sort(np.stack([np.roll(faces, -1, axis=1), np.roll(faces, -2, axis=1)], axis=2), axis=2)
+    names = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)[1].reshape(-1, 3)
+    chi = len(np.unique(faces)) - len(faces) // 2
+    return families.FlatSurface(faces, edge_lengths, names, genus=1 - chi // 2)
+
+
+def jittered(flat, seed, amount=0.3):
+    """The same metric with flat vertices moved, no two of them neighbours, by up to `amount` of their shortest edge."""
+    faces, names = flat.faces, np.roll(flat.face_edges, 1, axis=1)  # side i from corner i to corner i + 1
+    sides = np.roll(flat.edge_lengths, 1, axis=1)
+    before, opposite = np.roll(sides, 1, axis=1), np.roll(sides, -1, axis=1)
+    angles = np.arccos((sides**2 + before**2 - opposite**2) / (2 * sides * before))
+    count = faces.max() + 1
+    total, shortest = np.bincount(faces.ravel(), angles.ravel()), np.full(count, np.inf)
+    np.minimum.at(shortest, faces, np.minimum(sides, before))
+
+    random = np.random.default_rng(seed)
+    priority = np.where(np.abs(total - 2 * np.pi) < FLAT, random.random(count), -1)
+    highest = np.full(count, -1.0)
+    for k in (1, 2):
+        np.maximum.at(highest, faces, np.roll(priority[faces], k, axis=1))
+    step = amount * shortest * random.random(count) * np.exp(2j * np.pi * random.random(count))
+
+    # Around each vertex at once, from one corner to the next over the side that arrives there.
+    both = np.argsort(names.ravel(), kind="stable").reshape(-1, 2).sum(axis=1)  # corners that edges leave
+    lengths = sides[np.unravel_index(np.unique(names, return_index=True)[1], names.shape)]
+    corner = np.unique(faces, return_index=True)[1][priority > highest]
+    direction = np.zeros(len(corner))
+    for _ in range(np.bincount(faces.ravel()).max()):
+        t, i = np.divmod(corner, 3)
+        lengths[names[t, i]] = np.abs(sides[t, i] * np.exp(1j * direction) - step[faces[t, i]])
+        direction += angles[t, i]
+        corner = both[names[t, i - 1]] - (3 * t + (i - 1) % 3)
+    return replace(flat, edge_lengths=lengths[flat.face_edges])

@@ -6,16 +6,20 @@ import pytest
 import regular_maps
 from equivalence import (
     distance_or_mirrored,
+    gram_of,
     random_symplectic,
     symplectic_unit,
 )
+from flint import acb
 from holomorph import (
     TopologyError,
+    _native,
     automorphisms,
     conformal_structure,
     hyperelliptic,
     siegel_reduction,
 )
+from holomorph.equivalence import period_lattice
 from holomorph.siegel import moved
 from holomorph.theta_constants import even_theta_constants
 from solved import surface_of
@@ -32,14 +36,13 @@ KLEIN = np.array(
         [(-3 + R7) / 8, (-1 - R7) / 4, (7 + 3 * R7) / 8],
     ]
 )
+REGULAR = {"Klein": regular_maps.klein_quartic, "Bring": regular_maps.bring_curve}
 FERMAT = (1 + 1j) / 2 * np.array([[2, 1, 1], [1, 2, 1], [1, 1, 2]])
 
 
 def structure_of(name):
-    if name == "Klein":
-        return conformal_structure(surface_of(regular_maps.klein_quartic()))
-    if name == "Bring":
-        return conformal_structure(surface_of(regular_maps.bring_curve()))
+    if name in REGULAR:
+        return conformal_structure(surface_of(REGULAR[name]()))
     if name == "square torus":
         return conformal_structure(surface_of(families.flat_torus(1j, 4)))
     if name == "hexagonal torus":
@@ -89,8 +92,37 @@ def order_generated(generators):
     return len(seen)
 
 
-def test_regular_maps_have_the_known_periods():
+def test_the_klein_quartic_has_its_periods():
     assert distance_or_mirrored(structure_of("Klein").period_matrix, KLEIN) < ROUNDING
+
+
+def bring_periods():
+    """tau M with j(5 tau) = -25/2, Re tau = -1/2 (Riera & Rodriguez 1992): the symmetry alone leaves tau open."""
+    low, high = 0.8661, 1.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (low, middle) if acb(0.5, middle).modular_j().real < -12.5 else (middle, high)
+    return (-0.5 + 0.2j * low) * np.array([[4, 1, -1, 1], [1, 4, 1, -1], [-1, 1, 4, 1], [1, -1, 1, 4]])
+
+
+EXACT = {"Klein": KLEIN, "Bring": bring_periods()}
+
+
+@pytest.mark.parametrize("bounds", [None, 0.02], ids=["as it is", "narrowed"])
+@pytest.mark.parametrize("name", EXACT)
+def test_exact_periods_are_within_the_bounds(name, bounds):
+    structure = conformal_structure(surface_of(REGULAR[name]()), bounds=bounds)
+    lattice, unit = period_lattice(structure), symplectic_unit(structure.surface.genus)
+    exact = gram_of(EXACT[name])
+    found, _ = _native.isometries(_native.PeriodLattice.closed(exact, unit), lattice, 1, 0.0, None)
+    R, residual, _ = min(found, key=lambda isometry: isometry[1])
+    wedge = -np.rint(np.linalg.inv(structure.intersection_matrix))
+    assert (R @ unit @ R.T == wedge).all()
+    gram = R @ exact @ R.T
+    native = structure._native
+    assert np.linalg.eigvalsh(native.certain_gram_matrices()[0] - gram).min() > -ROUNDING
+    assert np.linalg.eigvalsh(np.linalg.inv(gram) - native.inverse_gram_bounds()[0]).min() > -ROUNDING
+    assert bounds is None or residual < bounds / 10  # the projected matrix is much nearer than its bounds
 
 
 def test_automorphisms_belong_to_closed_surfaces():

@@ -5,7 +5,8 @@ import sys
 import families
 import numpy as np
 import pytest
-from holomorph import SolverError, TopologyError, conformal_map, conformal_structure
+from conftest import shared_folder
+from holomorph import SolverError, Surface, TopologyError, conformal_map, conformal_structure
 from solved import surface_of
 from test_conformal_equivalence import moebius_image, triangles
 
@@ -28,6 +29,17 @@ def test_vertices_are_found_again(image):
     distance = np.linalg.norm(found.of(other.vertices) - other.vertices[: len(mesh.vertices)], axis=1)
     assert np.median(distance) < 0.25 * edge_length(mesh) * np.ptp(other.vertices) / np.ptp(mesh.vertices)
     assert found.residual < 0.03
+
+
+def test_thin_arms_do_not_mislead():
+    """On them wrong starts fit as well as right ones."""
+    surface = Surface.read(shared_folder("meshes") / "fertility_ngon_g4.obj")
+    mesh = families.uniform(surface.vertices, surface.triangles)
+    other = moebius_image(mesh)
+    found = conformal_map(*structures(mesh, other), tolerance=0.02)
+    distance = np.linalg.norm(found.of(other.vertices) - other.vertices, axis=1)
+    assert np.median(distance) < 1e-3 * np.ptp(other.vertices)
+    assert found.residual < 1e-3
 
 
 def test_tori_are_mapped_with_their_angles():

@@ -4,9 +4,12 @@ import families
 import flat_cones
 import numpy as np
 import pytest
+from conftest import shared_folder
+from equivalence import distance_or_mirrored
 from holomorph import TopologyError, conformal_structure
 from holomorph.narrow_bounds import narrow
 from solved import surface_of
+from test_exact_values import complex_matrix, reference_values
 
 SQUARE_MINUS_SQUARE = 10.234092569368052  # its capacity, see test_boundary_values
 
@@ -44,6 +47,22 @@ def test_grading_needs_a_quarter_of_the_triangles(name):
     native = conformal_structure(surface)._native
     even = narrow(native, WIDTH, 4 * graded.levels[-1][0], "auto", 2, 0, uniform=True)
     assert not even.reached and "more than" in even.reason
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_published_error_is_beaten_on_a_jittered_mesh(seed):
+    """Bobenko, Mercat & Schmies (2011) on as many vertices, with the symmetric mesh."""
+    values = reference_values()
+    with np.load(shared_folder("reference") / "meshes" / "omega2_squares4_level2.npz") as arrays:
+        flat = flat_cones.by_edge_lengths(arrays["faces"], arrays["edge_lengths"])
+    for k in range(4):
+        flat = flat_cones.jittered(flat, 10 * seed + k)
+    exact = complex_matrix(values["genus2"]["omega2_squares4"])
+    given = surface_of(flat)
+    assert distance_or_mirrored(conformal_structure(given).period_matrix, exact) > ROUNDING  # no symmetry fixes it
+    structure = conformal_structure(given, bounds=ROUNDING, most_faces=2 * (4094 - 2 + 2 * 2))
+    error = distance_or_mirrored(structure.period_matrix, exact)
+    assert error < values["published_errors"]["omega2_squares4"]["4094"]
 
 
 def test_capacity_of_a_square_minus_a_square():
