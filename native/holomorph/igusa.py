@@ -6,17 +6,19 @@ from itertools import combinations
 import numpy as np
 
 from . import arrays
+from .array_types import Complexes, Reals
 from .checks import NoInvariant
 from .closed import ConformalStructure
 from .equivalence import period_lattice
 from .siegel import siegel_reduction
 from .theta_constants import even_characteristics, even_theta_constants
+from .value import Value
 
 ROUNDING = 2.0**-50  # relative, of one operation on complex numbers and of the error's own
 
 
-@dataclass(frozen=True, eq=False)
-class IgusaInvariants:
+@dataclass(frozen=True, eq=False, repr=False)
+class IgusaInvariants(Value):
     """Two surfaces of genus 2 with I2 other than 0 are conformally equivalent just if these three agree.
 
     values : (3,) complex I2^5 / I10, I2^3 I4 / I10, I2^2 I6 / I10 of the Igusa-Clebsch invariants I2, I4, I6, I10 of
@@ -25,11 +27,14 @@ class IgusaInvariants:
         bounds hold); infinite where the bounds of the periods allow I10 = 0
     """
 
-    values: np.ndarray
-    errors: np.ndarray
+    values: Complexes
+    errors: Reals
+
+    def _facts(self):
+        return [f"{complex(value):.6g} +- {error:.1g}" for value, error in zip(self.values, self.errors)]
 
 
-def igusa_invariants(structure):
+def igusa_invariants(structure: ConformalStructure) -> IgusaInvariants:
     """The `IgusaInvariants` of a closed structure of genus 2. Those of the mirror image are the conjugate numbers.
 
     Raises TopologyError for other surfaces.
