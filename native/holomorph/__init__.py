@@ -19,9 +19,10 @@ from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
 from .conformal_map import ConformalMap, conformal_map
-from .disk import DiskMap, RectangleMap, TriangleMap
+from .disk import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
+from .islands import islands
 from .levels import LevelOfDetail
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
@@ -50,6 +51,7 @@ __all__ = [
     "Equivalence",
     "Error",
     "Frame",
+    "FreeBoundaryMap",
     "Hyperelliptic",
     "InvalidMesh",
     "LevelOfDetail",
@@ -85,6 +87,7 @@ __all__ = [
     "double_cover",
     "frame",
     "hyperelliptic",
+    "islands",
     "layout",
     "overall",
     "place",

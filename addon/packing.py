@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands in the UV square without overlap, by Blender's own packer, turned as it likes."""
+
+import math
+from contextlib import contextmanager
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from . import compatibility, maps, mesh_io, native
+
+
+def packed(context, solved, options):
+    """((#C,2) float32 main map, the `maps.MapOptions` with the density that it has): the islands of `maps.values` as
+    Blender packs them, all by the same factor. They fill the UV square, unless the options say a density."""
+    shelves = maps.values(solved, 0, options)
+    parts = [part.surface for part in solved.done]
+    corners = np.concatenate([part.corner_index for part in parts])
+    with _mesh_of(context, parts) as mesh:
+        mesh_io.write_map(mesh, None, maps.MAIN_MAP, shelves[corners])
+        _pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
+        found = mesh_io.read_map(mesh, maps.MAIN_MAP)
+    growth = _length(parts, found) / _length(parts, shelves[corners])
+    if options.per_length:
+        factor = 1 / growth
+    else:
+        factor = options.density
+        options = replace(options, per_length=maps.filling(solved, options) * growth * options.density)
+    result = np.zeros_like(shelves)
+    result[corners] = maps.CENTRE.real + factor * (found - maps.CENTRE.real)
+    return result, options
+
+
+def _length(parts, uv):
+    """The side of a square with the area of the map."""
+    first, area = 0, 0.0
+    for part in parts:
+        count = len(part.corner_vertices)
+        area += native.load().frame(part, uv[first : first + count]).area
+        first += count
+    return math.sqrt(area)
+
+
+@contextmanager
+def _mesh_of(context, parts):
+    """A mesh of these surfaces, none of them joined, in edit mode with all of it selected; it is the only object that
+    is, and it is gone in the end."""
+    layer = context.view_layer
+    before, active = compatibility.selected_objects(context), layer.objects.active
+    mesh = _mesh(parts)
+    obj = bpy.data.objects.new(mesh.name, mesh)
+    context.scene.collection.objects.link(obj)
+    for other in before:
+        other.select_set(False)
+    layer.objects.active = obj
+    obj.select_set(True)
+    try:
+        yield mesh
+    finally:
+        bpy.data.objects.remove(obj)
+        bpy.data.meshes.remove(mesh)
+        for other in before:
+            other.select_set(True)
+        layer.objects.active = active
+
+
+def _mesh(parts):
+    corners = [part.corner_vertices for part in parts]
+    first_vertices = np.cumsum([0] + [len(part.vertices) for part in parts])
+    first_corners = np.cumsum([0] + [len(own) for own in corners])
+    return mesh_io.new_mesh(
+        "Holomorphic Islands",
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate([own + first for own, first in zip(corners, first_vertices)]),
+        np.concatenate([[0], *(part.face_offsets[1:] + first for part, first in zip(parts, first_corners))]),
+    )
+
+
+def _pack(context, margin):
+    """Packs the UVs of the active object."""
+    settings = context.scene.tool_settings
+    was_synced, settings.use_uv_select_sync = settings.use_uv_select_sync, True  # what is selected is packed
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.uv.pack_islands(rotate=True, margin_method="FRACTION", margin=margin)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+        settings.use_uv_select_sync = was_synced
