@@ -1,5 +1,6 @@
 #include "plane/free_boundary.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <complex>
