@@ -17,8 +17,9 @@ def packed(context, solved, options):
     shelves = maps.values(solved, 0, options)
     parts = [part.surface for part in solved.done]
     corners = np.concatenate([part.corner_index for part in parts])
-    with _mesh_of(context, parts) as mesh:
-        mesh_io.write_map(mesh, None, maps.MAIN_MAP, shelves[corners])
+    joined = _joined(parts)
+    with _mesh_of(context, joined) as mesh:
+        mesh_io.write_map(mesh, joined, maps.MAIN_MAP, shelves[corners])
         _pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
         found = mesh_io.read_map(mesh, maps.MAIN_MAP)
     growth = _length(parts, found) / _length(parts, shelves[corners])
@@ -43,12 +44,13 @@ def _length(parts, uv):
 
 
 @contextmanager
-def _mesh_of(context, parts):
-    """A mesh of these surfaces, none of them joined, in edit mode with all of it selected; it is the only object that
-    is, and it is gone in the end."""
+def _mesh_of(context, polygons):
+    """A mesh of these polygons, as the only object that is selected, and the active one; it is gone in the end."""
     layer = context.view_layer
     before, active = compatibility.selected_objects(context), layer.objects.active
-    mesh = _mesh(parts)
+    mesh = mesh_io.new_mesh(
+        "Holomorphic Islands", polygons.vertices, polygons.corner_vertices, polygons.face_offsets
+    )
     obj = bpy.data.objects.new(mesh.name, mesh)
     context.scene.collection.objects.link(obj)
     for other in before:
@@ -65,16 +67,14 @@ def _mesh_of(context, parts):
         layer.objects.active = active
 
 
-def _mesh(parts):
-    corners = [part.corner_vertices for part in parts]
+def _joined(parts):
+    """The `mesh_io.Polygons` of surfaces side by side, without a common vertex: the packer joins none of them."""
     first_vertices = np.cumsum([0] + [len(part.vertices) for part in parts])
-    first_corners = np.cumsum([0] + [len(own) for own in corners])
-    return mesh_io.new_mesh(
-        "Holomorphic Islands",
-        np.concatenate([part.vertices for part in parts]),
-        np.concatenate([own + first for own, first in zip(corners, first_vertices)]),
-        np.concatenate([[0], *(part.face_offsets[1:] + first for part, first in zip(parts, first_corners))]),
-    )
+    first_corners = np.cumsum([0] + [len(part.corner_vertices) for part in parts])
+    corners = [part.corner_vertices + first for part, first in zip(parts, first_vertices)]
+    ends = [part.face_offsets[1:] + first for part, first in zip(parts, first_corners)]
+    vertices = np.concatenate([part.vertices for part in parts])
+    return mesh_io.Polygons(vertices, np.concatenate(corners), np.concatenate([[0], *ends]), None)
 
 
 def _pack(context, margin):

@@ -75,10 +75,12 @@ def assert_packed(obj):
 
 
 def similarities(obj):
-    """(#islands,) complex factors by which each island of the library's map was packed, and how well that fits."""
+    """(#islands,) complex factors by which each island of the library's map was packed, brought to the area that it has
+    in space; nothing but a rotation, a factor and a translation was done."""
     factors = []
     for part in cut_parts(obj):
-        own = native.load().conformal_structure(part, boundary="free").uv() @ [1, 1j]
+        uv_of_part = native.load().conformal_structure(part, boundary="free").uv()
+        own = uv_of_part @ [1, 1j] * (part.area / native.load().frame(part, uv_of_part).area) ** 0.5
         packed = uv(obj)[part.corner_index] @ [1, 1j]
         own, packed = own - own.mean(), packed - packed.mean()
         factor = np.vdot(own, packed) / np.vdot(own, own)
