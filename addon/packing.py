@@ -48,9 +48,7 @@ def _mesh_of(context, polygons):
     """A mesh of these polygons, as the only object that is selected, and the active one; it is gone in the end."""
     layer = context.view_layer
     before, active = compatibility.selected_objects(context), layer.objects.active
-    mesh = mesh_io.new_mesh(
-        "Holomorphic Islands", polygons.vertices, polygons.corner_vertices, polygons.face_offsets
-    )
+    mesh = mesh_io.new_mesh("Holomorphic Islands", polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
     obj = bpy.data.objects.new(mesh.name, mesh)
     context.scene.collection.objects.link(obj)
     for other in before:

@@ -37,8 +37,8 @@ def conformal_structure(
     ----------
     surface : Surface, connected; isolated vertices are ignored
     boundary : how forms of a surface with boundary are found: "natural" on the surface itself, "double_cover" on its
-        double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy. "free", for disks:
-        the conformal map that keeps lengths along the boundary, with the least variation of density
+        double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy; "free"
+        for the map of a disk that keeps lengths along the boundary, with the least variation of density
     punctures : list of vertices whose stars are apart from each other and from the boundary; without any, two far apart
         are taken on a closed surface of genus 0. One of a disk, without residues, makes its map to the unit disk
     residues : list of complex numbers other than 0, one for each puncture: the UVs change by it around the puncture. On
@@ -64,8 +64,7 @@ def conformal_structure(
     Returns
     -------
     ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of
-    one with punctures, DiskMap or RectangleMap (for three boundary edges TriangleMap, with a free boundary FreeBoundaryMap) of a
-    disk
+    one with punctures, DiskMap, RectangleMap, FreeBoundaryMap or (for three boundary edges) TriangleMap of a disk
 
     Raises TopologyError for several components, and for punctures, residues or corners that do not fit; SolverError if
     neither a residual of 1e-10 nor, among thin triangles, an error of 1e-6 in energy is reached, or rounding leaves no

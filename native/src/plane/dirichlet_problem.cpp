@@ -9,7 +9,11 @@ forms::RefinedSolver refined_solver(const mesh::HalfEdges& half_edges, std::span
                                     const std::vector<int>& fixed, solver::Laplacian laplacian, int columns,
                                     const structure::Options& options, Execution& execution) {
   const auto choice = solver::choose_method(options.solver, laplacian.size(), columns);
-  return {half_edges,         weights, fixed, choice, solver::make_solver(choice.method, std::move(laplacian), fixed, execution),
+  return {half_edges,
+          weights,
+          fixed,
+          choice,
+          solver::make_solver(choice.method, std::move(laplacian), fixed, execution),
           execution.workers()};
 }
 

@@ -7,9 +7,9 @@
 
 namespace holomorph::plane {
 
-/// Of all conformal maps to the plane the one that keeps lengths along the boundary: its scale factors e^u, u = 0 on the
-/// boundary, are those with the least Dirichlet energy of u, up to a constant. A surface that is flat already is mapped
-/// by a rigid motion.
+/// Of all conformal maps to the plane the one that keeps lengths along the boundary: its scale factors e^u, u = 0 on
+/// the boundary, are those with the least Dirichlet energy of u, up to a constant. A surface that is flat already is
+/// mapped by a rigid motion.
 ///
 /// The curvature asks L u = -K inside; the flattened boundary turns by k + L u at each vertex; the curve with these
 /// angles and the lengths nearest to those of the surface is closed, and both coordinates are extended harmonically.
