@@ -1,5 +1,4 @@
-"""Disks: the Riemann map to the unit disk, the map to a rectangle, that with a free boundary, and which of them is taken
-without a choice."""
+"""Disks: maps to the unit disk and to a rectangle, that with a free boundary, and which is taken without a choice."""
 
 from dataclasses import dataclass
 from functools import cached_property

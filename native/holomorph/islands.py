@@ -69,7 +69,8 @@ def _fans(triangle_edges, is_seam, most):
     to the other through triangles, and across no seam.
 
     The corner at the start of side h of a triangle is followed by that of the triangle across this side: a fan is a
-    path or a cycle of corners, and its name the end of the path or the lowest corner of the cycle; by pointer doubling. `most` corners, or fewer, are at a vertex.
+    path or a cycle of corners, and its name the end of the path or the lowest corner of the cycle; by pointer doubling.
+    No fan has more than `most` corners.
     """
     edges = triangle_edges.ravel()
     corners = np.arange(len(edges))
