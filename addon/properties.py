@@ -61,8 +61,8 @@ MAIN_MAPS = (
     (
         "ISLANDS",
         "Islands",
-        "The mesh is cut along the seams that you marked, each part is flattened without shearing, and Blender packs the "
-        "parts without overlap: for baking and painting",
+        "The mesh is cut along the seams that you marked, each part is flattened without shearing, and Blender packs "
+        "the parts without overlap: for baking and painting",
     ),
 )
 TEXTURES = (
