@@ -14,22 +14,17 @@ from . import compatibility, maps, mesh_io, native
 def packed(context, solved, options):
     """((#C,2) float32 main map, the `maps.MapOptions` with the density that it has): the islands of `maps.values` as
     Blender packs them, all by the same factor. They fill the UV square, unless the options say a density."""
-    shelves = maps.values(solved, 0, options)
+    shelves = maps.values(solved, 0, replace(options, density=1.0, per_length=0.0))
     parts = [part.surface for part in solved.done]
-    corners = np.concatenate([part.corner_index for part in parts])
-    joined = _joined(parts)
+    corners, joined = np.concatenate([part.corner_index for part in parts]), _joined(parts)
     with _mesh_of(context, joined) as mesh:
         mesh_io.write_map(mesh, joined, maps.MAIN_MAP, shelves[corners])
         _pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
         found = mesh_io.read_map(mesh, maps.MAIN_MAP)
-    growth = _length(parts, found) / _length(parts, shelves[corners])
-    if options.per_length:
-        factor = 1 / growth
-    else:
-        factor = options.density
-        options = replace(options, per_length=maps.filling(solved, options) * growth * options.density)
+    filling = maps.filling(solved, options) * _length(parts, found) / _length(parts, shelves[corners])
+    options = replace(options, per_length=options.per_length or filling)
     result = np.zeros_like(shelves)
-    result[corners] = maps.CENTRE.real + factor * (found - maps.CENTRE.real)
+    result[corners] = maps.CENTRE.real + options.density * options.per_length / filling * (found - maps.CENTRE.real)
     return result, options
 
 
@@ -82,7 +77,8 @@ def _pack(context, margin):
     bpy.ops.object.mode_set(mode="EDIT")
     try:
         bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.uv.pack_islands(rotate=True, margin_method="FRACTION", margin=margin)
+        # The margin is added before the packer's factor, which is near 1; an exact one would take several packings.
+        bpy.ops.uv.pack_islands(rotate=True, margin_method="ADD", margin=margin)
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
         settings.use_uv_select_sync = was_synced
