@@ -13,6 +13,7 @@ from . import faces
 
 AUTOMATIC, FACES, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "PUNCTURES", "RECTANGLE", "NONE"
 EXPLICIT = (PUNCTURES, RECTANGLE)
+FREE = "free"  # boundary of islands: the mesh is cut along its seams into parts, each flattened by itself
 CORNERS = 4
 
 
@@ -37,6 +38,10 @@ class Choices:
     def is_explicit(self):
         return self.use in EXPLICIT
 
+    @property
+    def are_islands(self):
+        return self.boundary == FREE
+
 
 def use_of_vertices(selection):
     """What selected vertices are for a use of the selection."""
@@ -51,6 +56,9 @@ def use_of_faces(selection):
 def attempts(part, choices):
     """Keywords for a connected part, the most wanted first; the later ones leave out implicit choices. Vertices are
     those of the whole mesh."""
+    if choices.are_islands:
+        base = _with_fitting_method(part, {"solver": choices.solver, "boundary": "natural"})
+        return [base | {"boundary": FREE}, base]
     base = {"solver": choices.solver, "boundary": choices.boundary}
     selection = _selection(part, choices)
     seams = choices.seams

@@ -21,7 +21,7 @@ class Parser(argparse.ArgumentParser):
 
 def parse(arguments):
     """The options. @throws UsageError"""
-    textures = [name.lower() for name, *_ in properties.TEXTURES]
+    textures, main_maps = ([name.lower() for name, *_ in of] for of in (properties.TEXTURES, properties.MAIN_MAPS))
     parser = Parser(
         prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
         description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
@@ -51,7 +51,7 @@ def parse(arguments):
     parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
     parser.add_argument("--strict", action="store_true", help="end with 3 unless every part has a map that is fit")
     parser.add_argument("--lod0", action="store_true", help="a copy of the object as the finest level")
-    parser.add_argument("--main", choices=("automatic", "seamless", "balanced"), default="automatic", help="main map")
+    parser.add_argument("--main", choices=main_maps, default="automatic", help="main map")
     _add_choices(parser)
     headless_tile.add_options(parser)
     options = parser.parse_args(arguments)

@@ -16,7 +16,7 @@ from .mesh_io import MAIN_MAP
 
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
-AUTOMATIC, SEAMLESS, BALANCED = "AUTOMATIC", "SEAMLESS", "BALANCED"
+AUTOMATIC, SEAMLESS, BALANCED, ISLANDS = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS"
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
 
 
@@ -30,7 +30,7 @@ class MapOptions:
     amounts: tuple = ()  # factor of each form's share in the main map; none means 1
     turns: tuple = ()  # radians, phase of each form's share in the main map
     margin: float = 0.02  # least distance between parts, in sides of the UV square
-    main: str = AUTOMATIC  # AUTOMATIC, SEAMLESS or BALANCED: what the main map is
+    main: str = AUTOMATIC  # AUTOMATIC, SEAMLESS, BALANCED or ISLANDS: what the main map is
     per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
 
     @property

@@ -58,6 +58,12 @@ MAIN_MAPS = (
     ),
     ("SEAMLESS", "Seamless", "A texture that tiles shows no seam; density, rotation and forms' shares do not matter"),
     ("BALANCED", "Balanced", "The combination of the forms whose density is most even: exactly conformal, with seams"),
+    (
+        "ISLANDS",
+        "Islands",
+        "The mesh is cut along the seams that you marked, each part is flattened without shearing, and Blender packs "
+        "the parts without overlap: for baking and painting",
+    ),
 )
 TEXTURES = (
     ("CHECKER", "Checker", "Squares"),
@@ -216,12 +222,13 @@ class MapProperties:
         """The `targets.Request`; raises ValueError where the residues cannot be read."""
         from . import choices, targets
 
+        are_islands = self.main == "ISLANDS"
         return targets.Request(
             use=choices.use_of_vertices(self.use_selection),
             faces=choices.use_of_faces(self.use_selection),
             residues=choices.numbers(self.residues),
-            cut_at_seams=self.cut_at_seams,
-            boundary=self.boundary,
+            cut_at_seams=self.cut_at_seams or are_islands,
+            boundary=choices.FREE if are_islands else self.boundary,
             solver=self.solver,
             modifiers=self.modifiers,
         )

@@ -18,6 +18,7 @@ from . import (
     mesh_edges,
     mesh_io,
     native,
+    packing,
     patterns,
     report,
     restore,
@@ -86,11 +87,20 @@ def write(context, targets, results, map_options, write_options, time_has_passed
 
     def write_object(outcome, obj, polygons, mapped):
         if mapped.done:
-            _write_object(outcome, obj, polygons, mapped, map_options, write_options)
+            values, options = _values(context, mapped, map_options)
+            _write_object(outcome, obj, polygons, mapped, values, options, write_options)
         else:
             _report_all_skipped(outcome, obj, mapped.solved, map_options)
 
     return write_each(context, targets, results, write_object, time_has_passed)
+
+
+def _values(context, mapped, options):
+    """The maps as `seamless.map_values` has them, and the options with the density of the main one."""
+    if options.main != maps.ISLANDS:
+        return seamless.map_values(mapped.solved, options, mapped.tiled), options
+    main, options = packing.packed(context, mapped.solved, options)
+    return [(maps.MAIN_MAP, main)], options
 
 
 def write_each(context, targets, results, write_object, time_has_passed=False):
@@ -181,12 +191,11 @@ def _entry(obj, solved, tiled, written, new_seams, options):
     return report.object_report(obj, solved, written, new_seams, options, parts)
 
 
-def _write_object(outcome, obj, polygons, mapped, map_options, options):
+def _write_object(outcome, obj, polygons, mapped, values, map_options, options):
     mesh, solved, tiled = obj.data, mapped.solved, mapped.tiled
     restore.remember(mesh)
     if polygons.faces is None:
         mesh_io.remove_maps(mesh)
-    values = seamless.map_values(solved, map_options, tiled)
     written = [mesh_io.write_map(mesh, polygons, name, uv) for name, uv in values]
     mesh_io.add_own_maps(mesh, [w.name for w in written])
     shown = written[min(options.shown, len(written) - 1)]

@@ -12,6 +12,7 @@ from . import choices, native
 DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hierarchy
 DOUBLES_OF_TILING = 6  # for each corner: UVs and quality
 KEPT_TILINGS = 4  # of each part: the redo panel goes back and forth between a few
+NO_ISLANDS = "no seams cut it open: mark some in edit mode (Edge > Mark Seam), or take another main map"
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
 
 
@@ -126,7 +127,7 @@ def solve(task, progress=None):
         polygons.vertices, polygons.corner_vertices, polygons.face_offsets, strict=False
     )
     polygons.share(surface)
-    parts = surface.components
+    parts = _parts(holomorph, surface, task.chosen)
     stray = choices.stray_vertex(polygons.corner_vertices, task.chosen)
     if stray is not None:
         raise holomorph.InvalidMesh(f"vertex {stray} belongs to no face and cannot be chosen")
@@ -138,6 +139,16 @@ def solve(task, progress=None):
         solved.append(_solve_component(holomorph, make, part, task.chosen, _scaled(progress, done, share)))
         done += share
     return SolvedObject(surface, polygons, tuple(solved), time.perf_counter() - start)
+
+
+def _parts(holomorph, surface, chosen):
+    """The connected components, or the islands between the seams. Seams may be edges of no face that is mapped."""
+    if not chosen.are_islands:
+        return surface.components
+    islands = holomorph.islands(surface, chosen.seams, strict=False)
+    if any(part.genus == 0 and part.boundary_count == 1 for part in islands):
+        return islands
+    raise holomorph.TopologyError(NO_ISLANDS)
 
 
 def _scaled(progress, done, share):

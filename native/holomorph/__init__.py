@@ -19,10 +19,11 @@ from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
 from .conformal_map import ConformalMap, conformal_map
-from .disk import DiskMap, RectangleMap, TriangleMap
+from .disk import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
 from .igusa import IgusaInvariants, igusa_invariants
+from .islands import islands
 from .levels import LevelOfDetail
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
@@ -52,6 +53,7 @@ __all__ = [
     "Equivalence",
     "Error",
     "Frame",
+    "FreeBoundaryMap",
     "Hyperelliptic",
     "IgusaInvariants",
     "InvalidMesh",
@@ -89,6 +91,7 @@ __all__ = [
     "frame",
     "hyperelliptic",
     "igusa_invariants",
+    "islands",
     "layout",
     "overall",
     "place",

@@ -1,4 +1,4 @@
-"""Disks: the Riemann map to the unit disk, the map to a rectangle, and which of them is taken without a choice."""
+"""Disks: maps to the unit disk and to a rectangle, that with a free boundary, and which is taken without a choice."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -156,6 +156,33 @@ class TriangleMap(PlaneMap):
         return {}
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class FreeBoundaryMap(PlaneMap):
+    """Result of `conformal_structure` for a disk with a free boundary: the conformal map of least variation of density.
+
+    Lengths are kept along the boundary: the scale factors e^u are 1 there, and of all conformal maps this one has the
+    least Dirichlet energy of u (Sawhney and Crane 2017). A flat surface is mapped by a rigid motion. Around much
+    curvature the map may overlap itself."""
+
+    @property
+    def description(self) -> str:
+        """What was made, in one phrase."""
+        return "free boundary, its lengths kept"
+
+    @cached_property
+    def scale_factors(self) -> Reals:
+        """(#V,) e^u, length in the plane over length on the surface: 1 on the boundary, NaN at isolated vertices."""
+        return self._at_vertices(arrays.frozen(self._native.scale_factors().ravel()))
+
+    @cached_property
+    def _plane(self):
+        return arrays.frozen(self._native.points().ravel())
+
+    def invariants(self) -> dict[str, Any]:
+        """Nothing: all disks are alike."""
+        return {}
+
+
 def automatic_map(surface, component, solver, threads, progress):
     """The map of a disk for which nothing was chosen.
 
@@ -196,6 +223,12 @@ def rectangle(surface, component, chosen, solver, threads, progress):
     """`RectangleMap` of a disk with the chosen corners."""
     corners, labels = own_vertices(surface, component, chosen, "rectangle corner")
     return _rectangle(surface, component, corners, labels, solver, threads, progress)
+
+
+def free_boundary(surface, component, solver, threads, progress):
+    """`FreeBoundaryMap` of a disk."""
+    native = _native.free_boundary_map(component._native, solver, threads, progress)
+    return result(FreeBoundaryMap, surface, component, native, threads)
 
 
 def disk(surface, component, punctures, labels, solver, threads, progress):

@@ -41,6 +41,11 @@ def _best_rows(sizes, gap):
     return min(found, key=lambda layout: max(layout[1]))  # the first of equals
 
 
+def fitting_margin(margin: float, count: int) -> float:
+    """The margin, or the largest that so many parts leave room for."""
+    return min(margin, MOST_GAP / math.sqrt(count))
+
+
 def pack(sizes: ArrayLike, margin: float) -> tuple[Reals, float]:
     """((n, 2) lower left corners, side): rectangles that do not overlap, inside a square of that side.
 
@@ -50,7 +55,7 @@ def pack(sizes: ArrayLike, margin: float) -> tuple[Reals, float]:
     sizes = np.asarray(sizes, np.float64).reshape(-1, 2)
     if not sizes.any():  # all of them points
         return np.zeros_like(sizes), 0.0
-    margin = min(margin, MOST_GAP / math.sqrt(len(sizes)))
+    margin = fitting_margin(margin, len(sizes))
     corners, whole = _best_rows(sizes, 0.0)
     for _ in range(GAP_ROUNDS if len(sizes) > 1 else 0):
         corners, whole = _best_rows(sizes, margin * max(whole))

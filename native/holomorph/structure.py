@@ -14,16 +14,25 @@ from .bounded import BoundedStructure
 from .checks import check_bounds, check_memory_limit, check_options, only_component, own_vertices
 from .closed import ConformalStructure
 from .cut import cut_along
-from .disk import DiskMap, RectangleMap, TriangleMap, automatic_map, disk, rectangle
+from .disk import (
+    DiskMap,
+    FreeBoundaryMap,
+    RectangleMap,
+    TriangleMap,
+    automatic_map,
+    disk,
+    free_boundary,
+    rectangle,
+)
 from .narrow_bounds import narrow
 from .punctured import PuncturedStructure
 from .results import result
 from .surface import Surface
 from .truncated import coarse_log_map
 
-BOUNDARIES = ("natural", "double_cover")
+BOUNDARIES = ("natural", "double_cover", "free")
 AnyStructure: TypeAlias = (
-    ConformalStructure | BoundedStructure | PuncturedStructure | DiskMap | RectangleMap | TriangleMap
+    ConformalStructure | BoundedStructure | PuncturedStructure | DiskMap | FreeBoundaryMap | RectangleMap | TriangleMap
 )
 
 
@@ -49,7 +58,8 @@ def conformal_structure(
     ----------
     surface : Surface, connected; isolated vertices are ignored
     boundary : how forms of a surface with boundary are found: "natural" on the surface itself, "double_cover" on its
-        double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy
+        double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy; "free"
+        for the map of a disk that keeps lengths along the boundary, with the least variation of density
     punctures : list of vertices whose stars are apart from each other and from the boundary; without any, two far apart
         are taken on a closed surface of genus 0. One of a disk, without residues, makes its map to the unit disk
     residues : list of complex numbers other than 0, one for each puncture: the UVs change by it around the puncture. On
@@ -75,7 +85,7 @@ def conformal_structure(
     Returns
     -------
     ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary, PuncturedStructure of
-    one with punctures, DiskMap or RectangleMap (for three boundary edges TriangleMap) of a disk
+    one with punctures, DiskMap, RectangleMap, FreeBoundaryMap or (for three boundary edges) TriangleMap of a disk
 
     Raises TopologyError for several components, and for punctures, residues or corners that do not fit; SolverError if
     neither a residual of 1e-10 nor, among thin triangles, an error of 1e-6 in energy is reached, or rounding leaves no
@@ -110,6 +120,9 @@ def _structure(surface, component, boundary, chosen, options, memory_limit, narr
         _check_narrowing(topology, is_chosen or rectangle_corners is not None)
     if boundary == "double_cover":
         _check_double_cover(topology, is_chosen or rectangle_corners is not None)
+    if boundary == "free":
+        _check_free_boundary(is_chosen or rectangle_corners is not None)
+        return free_boundary(surface, component, *options)
     if rectangle_corners is not None and len(rectangle_corners):
         _check_no_punctures(is_chosen)
         return rectangle(surface, component, rectangle_corners, *options)
@@ -125,6 +138,11 @@ def _check_double_cover(topology, has_choice):
         raise TopologyError(
             "the way over the double is for forms of surfaces with boundary, without punctures or corners"
         )
+
+
+def _check_free_boundary(has_choice):
+    if has_choice:
+        raise TopologyError("a map with a free boundary has no punctures or corners; choose either")
 
 
 def _check_narrowing(topology, has_choice):

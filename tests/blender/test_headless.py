@@ -320,3 +320,15 @@ def sphere_with_spikes(path):
     vertices = np.array(vertices)
     factor = 1 + 6 * np.exp(-24 * (0.5 - vertices.max(axis=1)))
     return write_obj(path, vertices * factor[:, None], faces)
+
+
+def test_islands_of_a_blend_file(tmp_path):
+    obj, report = torus(around=24, across=12), tmp_path / "report.json"
+    row, column = np.divmod(np.array([e.vertices for e in obj.data.edges]), 12)
+    obj.data.edges.foreach_set("use_seam", (row == 0).all(axis=1) | (column == 0).all(axis=1))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "ring.blend"))
+    done = headless("--main", "islands", "--no-checker", "--report", report, blend=tmp_path / "ring.blend")
+    assert done.returncode == 0, done.stderr
+    (entry,) = json.loads(report.read_text())["objects"][0]["components"]
+    assert (entry["genus"], entry["boundary_count"]) == (0, 1)
+    assert entry["description"].startswith("free boundary")

@@ -66,6 +66,7 @@ EXAMPLES = {
     "DiskMap": lambda: conformal_structure(disk(), punctures=[int(np.abs(disk().vertices).sum(axis=1).argmin())]),
     "automatic map": lambda: conformal_structure(disk()),
     "RectangleMap": lambda: conformal_structure(Surface([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])),
+    "FreeBoundaryMap": lambda: conformal_structure(disk(), boundary="free"),
     "TriangleMap": lambda: conformal_structure(Surface(np.eye(3), [[0, 1, 2]])),
     "level": lambda: ProgressiveMesh(surface_of(CLOSED["torus of quads"])).conformal_structure(200),
     "Certificate": lambda: example("ConformalStructure").certificate,
@@ -93,7 +94,7 @@ EXAMPLES = {
 }
 STRUCTURES = [
     *("ConformalStructure", "narrow bounds", "BoundedStructure", "double cover", "PuncturedStructure", "truncated"),
-    *("residues", "DiskMap", "automatic map", "RectangleMap", "TriangleMap", "level"),
+    *("residues", "DiskMap", "automatic map", "RectangleMap", "FreeBoundaryMap", "TriangleMap", "level"),
 ]
 
 

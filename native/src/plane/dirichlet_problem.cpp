@@ -1,9 +1,23 @@
 #include "plane/dirichlet_problem.h"
 
 #include "forms/laplacian.h"
-#include "forms/refined_solver.h"
 
 namespace holomorph::plane {
+namespace {
+
+forms::RefinedSolver refined_solver(const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                                    const std::vector<int>& fixed, solver::Laplacian laplacian, int columns,
+                                    const structure::Options& options, Execution& execution) {
+  const auto choice = solver::choose_method(options.solver, laplacian.size(), columns);
+  return {half_edges,
+          weights,
+          fixed,
+          choice,
+          solver::make_solver(choice.method, std::move(laplacian), fixed, execution),
+          execution.workers()};
+}
+
+}  // namespace
 
 Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                          const Eigen::MatrixXd& functions) {
@@ -16,30 +30,43 @@ Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const doub
   return result;
 }
 
+DirichletProblem::DirichletProblem(const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                                   const std::vector<int>& fixed, int columns, const structure::Options& options,
+                                   Execution& execution)
+    : half_edges_(half_edges),
+      weights_(weights),
+      fixed_(fixed),
+      laplacian_(forms::laplacian(half_edges, weights, execution)),
+      solver_(refined_solver(half_edges, weights, fixed, laplacian_, columns, options, execution)) {}
+
+DirichletSolution DirichletProblem::harmonic(const Eigen::MatrixXd& values, Execution& execution) {
+  const auto L = laplacian_.matrix();
+  DirichletSolution result;
+  result.functions = values + solver_.solve(
+                                  -(L * values), solver::Condition::dirichlet,
+                                  [&] { return forms::function_terms(half_edges_, values); }, execution);
+  result.solver = structure::solver_report(solver_);
+  for (const int v : fixed_) result.functions.row(v) = values.row(v);  // exactly
+  Eigen::MatrixXd flux = L * result.functions;
+  const double largest = (L.cwiseAbs() * result.functions.cwiseAbs()).maxCoeff();
+  result.energies = solver_.is_stiff()
+                        ? energies(half_edges_, weights_, result.functions)
+                        : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());
+  for (const int v : fixed_) flux.row(v).setZero();
+  result.harmonicity = flux.cwiseAbs().maxCoeff() / largest;
+  return result;
+}
+
+Eigen::MatrixXd DirichletProblem::poisson(const Eigen::MatrixXd& sources, Execution& execution) {
+  return solver_.solve(
+      sources, solver::Condition::dirichlet, [&] { return forms::FluxTerms{.sources = sources}; }, execution);
+}
+
 DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                   const std::vector<int>& fixed, const Eigen::MatrixXd& values,
                                   const structure::Options& options, Execution& execution) {
-  const auto laplacian = forms::laplacian(half_edges, weights, execution);
-  const auto L = laplacian.matrix();
-  const auto choice = solver::choose_method(options.solver, L.rows(), values.cols());
-  auto given = laplacian;
-  forms::RefinedSolver solver(half_edges, weights, fixed, choice,
-                              solver::make_solver(choice.method, std::move(given), fixed, execution),
-                              execution.workers());
-  DirichletSolution result;
-  result.functions = values + solver.solve(
-                                  -(L * values), solver::Condition::dirichlet,
-                                  [&] { return forms::function_terms(half_edges, values); }, execution);
-  result.solver = structure::solver_report(solver);
-  for (const int v : fixed) result.functions.row(v) = values.row(v);  // exactly
-  Eigen::MatrixXd flux = L * result.functions;
-  const double largest = (L.cwiseAbs() * result.functions.cwiseAbs()).maxCoeff();
-  result.energies = solver.is_stiff()
-                        ? energies(half_edges, weights, result.functions)
-                        : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());
-  for (const int v : fixed) flux.row(v).setZero();
-  result.harmonicity = flux.cwiseAbs().maxCoeff() / largest;
-  return result;
+  DirichletProblem problem(half_edges, weights, fixed, static_cast<int>(values.cols()), options, execution);
+  return problem.harmonic(values, execution);
 }
 
 }  // namespace holomorph::plane

@@ -1,4 +1,4 @@
-// Harmonic functions with prescribed values.
+// Functions with prescribed values, harmonic or with a prescribed Laplacian.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/execution.h"
+#include "forms/refined_solver.h"
 #include "mesh/half_edges.h"
 #include "structure/options.h"
 #include "structure/solver_report.h"
@@ -23,10 +24,34 @@ struct DirichletSolution {
 Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                          const Eigen::MatrixXd& functions);
 
-/// L f = 0 at the free vertices; natural at those of the boundary.
+/// The system of one set of fixed vertices, natural at the others of the boundary, for several right-hand sides.
 /// Refined where weights ask for it (forms/refined_solver.h).
-/// @param values #V x m, 0 at the free vertices
-/// @throws SolverError, Cancelled
+class DirichletProblem {
+ public:
+  /// @param columns about how many right-hand sides there will be, for the choice of the solver
+  /// @pre the triangulation and its weights outlive this. @throws SolverError, Cancelled
+  DirichletProblem(const mesh::HalfEdges& half_edges, std::span<const double> weights, const std::vector<int>& fixed,
+                   int columns, const structure::Options& options, Execution& execution);
+
+  /// L f = 0 at the free vertices, f = `values` at the fixed ones.
+  /// @param values #V x m, 0 at the free vertices
+  /// @throws SolverError, Cancelled
+  DirichletSolution harmonic(const Eigen::MatrixXd& values, Execution& execution);
+
+  /// L f = `sources` at the free vertices, f = 0 at the fixed ones: #V x m.
+  /// @param sources #V x m; the rows of fixed vertices are ignored
+  /// @throws SolverError, Cancelled
+  Eigen::MatrixXd poisson(const Eigen::MatrixXd& sources, Execution& execution);
+
+ private:
+  const mesh::HalfEdges& half_edges_;
+  std::span<const double> weights_;
+  std::vector<int> fixed_;
+  solver::Laplacian laplacian_;
+  forms::RefinedSolver solver_;
+};
+
+/// `DirichletProblem::harmonic` of a problem with no other right-hand sides.
 DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                   const std::vector<int>& fixed, const Eigen::MatrixXd& values,
                                   const structure::Options& options, Execution& execution);

@@ -1,0 +1,90 @@
+"""The islands into which seams cut a surface."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native, arrays
+from ._native import TopologyError
+from .edges import edge_keys
+from .surface import Surface
+
+
+def islands(surface: Surface, seams: ArrayLike, strict: bool = True) -> tuple[Surface, ...]:
+    """The parts into which the seams cut the surface, each a connected `Surface`, ordered by their first face.
+
+    A vertex becomes one vertex for each fan of faces that the seams leave at it; a seam that ends inside a part cuts it
+    open, too. `vertex_index`, `face_index` and `corner_index` of the parts are those of the mesh as given.
+
+    Parameters
+    ----------
+    surface : Surface with positions
+    seams : (#S, 2) vertices of edges, as the mesh was given; those on the boundary do not matter
+    strict : refuse vertices that no edge of a face joins, else pass over them
+
+    Raises TopologyError for other shapes or types, and for such vertices.
+
+    Cost: O(#C log #C).
+    """
+    if surface.vertices is None:
+        raise TopologyError("islands are cut out of surfaces with positions; this one has edge lengths alone")
+    edges = surface._native.edges
+    diagonals = len(surface.triangles) - (len(surface.face_offsets) - 1)  # a polygon of n corners has n - 2 triangles
+    sides = edge_keys(surface.vertex_index[edges[: len(edges) - diagonals]], surface.given_vertex_count)
+    wanted = _seam_keys(surface, seams, sides, strict)
+    is_seam = np.zeros(len(edges), bool)
+    is_seam[: len(sides)] = np.isin(sides, wanted)
+    return _cut_open(surface, is_seam).components
+
+
+def _seam_keys(surface, seams, sides, strict):
+    seams = np.asarray(seams)
+    if seams.size == 0:
+        return np.empty(0, np.int64)
+    if seams.ndim != 2 or seams.shape[1] != 2 or not np.issubdtype(seams.dtype, np.integer):
+        raise TopologyError(
+            f"seams are an array of {seams.dtype} of {seams.shape}; (rows, 2) integers are needed, vertices of edges"
+        )
+    is_vertex = ((seams >= 0) & (seams < surface.given_vertex_count)).all(axis=1)
+    wanted = edge_keys(seams, surface.given_vertex_count)
+    is_known = is_vertex & np.isin(wanted, sides)
+    for a, b in seams[~is_known] if strict else ():
+        raise TopologyError(f"a seam runs between the vertices {a} and {b}, which no edge of a face joins")
+    return wanted[is_known]
+
+
+def _cut_open(surface, is_seam):
+    """The surface with the edges of this mask, (#E,), doubled."""
+    vertices = surface.triangles.ravel().astype(np.int64)
+    fans = _fans(surface._native.triangle_edges, is_seam, int(np.bincount(vertices).max()))
+    _, first, new = np.unique(vertices * len(fans) + fans, return_index=True, return_inverse=True)
+    index = vertices[first]
+    corner_vertices = np.empty(len(surface.corner_vertices), np.int32)
+    corner_vertices[surface.triangle_corners.ravel()] = new.ravel()
+    native = _native.Surface.from_polygons(surface.vertices[index], corner_vertices, surface.face_offsets)
+    indices = arrays.frozen(surface.vertex_index[index]), surface.face_index, surface.corner_index
+    return Surface._of(native, *indices, surface.given_vertex_count)
+
+
+def _fans(triangle_edges, is_seam, most):
+    """(3 #T,) a name for the fan of each triangle corner: corners of one vertex have the same where one comes from one
+    to the other through triangles, and across no seam.
+
+    The corner at the start of side h of a triangle is followed by that of the triangle across this side: a fan is a
+    path or a cycle of corners, and its name the end of the path or the lowest corner of the cycle; by pointer doubling.
+    No fan has more than `most` corners.
+    """
+    edges = triangle_edges.ravel()
+    corners = np.arange(len(edges))
+    order = np.argsort(edges, kind="stable")
+    pairs = np.flatnonzero((edges[order[1:]] == edges[order[:-1]]) & ~is_seam[edges[order[1:]]])
+    one, other = order[pairs], order[pairs + 1]
+    following = corners.copy()
+    following[one], following[other] = _next_side(other), _next_side(one)
+    place, lowest = following, corners
+    for _ in range(most.bit_length()):
+        lowest, place = np.minimum(lowest, lowest[place]), place[place]
+    return np.where(following[place] == place, place, lowest)
+
+
+def _next_side(sides):
+    return np.where(sides % 3 == 2, sides - 2, sides + 1)

@@ -1,0 +1,24 @@
+// The conformal map of a disk to the plane with a free boundary and the least variation of density.
+#pragma once
+
+#include "base/execution.h"
+#include "mesh/surface.h"
+#include "plane/plane_map.h"
+
+namespace holomorph::plane {
+
+/// Of all conformal maps to the plane the one that keeps lengths along the boundary: its scale factors e^u, u = 0 on
+/// the boundary, are those with the least Dirichlet energy of u, up to a constant. A surface that is flat already is
+/// mapped by a rigid motion.
+///
+/// The curvature asks L u = -K inside; the flattened boundary turns by k + L u at each vertex; the curve with these
+/// angles and the lengths nearest to those of the surface is closed, and both coordinates are extended harmonically.
+/// Where curvature is large and the mesh coarse the image may overlap itself.
+///
+/// The lowest boundary vertex lies at 0, and the edge that leaves it, the surface on its left, along the real axis.
+/// @throws TopologyError for a surface that is no disk; SolverError; Cancelled
+/// Cost: one factorisation, three right-hand sides.
+/// Source: \cite SawhneyCrane2017, section 4.
+PlaneMap free_boundary_map(const mesh::Surface& surface, const Options& options, Execution& execution);
+
+}  // namespace holomorph::plane

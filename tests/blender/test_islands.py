@@ -1,0 +1,177 @@
+"""Islands: seams as cuts, each part flattened with a free boundary, packed by Blender without overlap."""
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from scenes import everything, mesh_edges, mesh_io, mesh_object, native, run, select, stored_report, torus_arrays, uv
+
+FLOAT32 = 1e-5  # of the UV square
+MARGIN = 0.02
+
+
+def islands(obj, **options):
+    return run(main="ISLANDS", **options)
+
+
+def capped_cylinder(segments=24):
+    """Radius 1, height 2, its caps n-gons, seams around both and up the side."""
+    bm = bmesh.new()
+    bmesh.ops.create_cone(bm, cap_ends=True, segments=segments, radius1=1, radius2=1, depth=2)
+    for edge in bm.edges:
+        edge.seam = any(len(face.verts) > 4 for face in edge.link_faces)
+    next(edge for edge in bm.edges if not edge.seam).seam = True
+    mesh = bpy.data.meshes.new("Can")
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new("Can", mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    select(obj)
+    return obj
+
+
+def striped_torus():
+    """Quads, cut into three bent strips around its axis, and these open."""
+    around, across = 24, 12
+    obj = mesh_object("Rings", *torus_arrays(around, across))
+    row, column = np.divmod(np.array([e.vertices for e in obj.data.edges]), across)
+    is_seam = (row == 0).all(axis=1) | ((column[:, 0] == column[:, 1]) & (column[:, 0] % 4 == 0))
+    obj.data.edges.foreach_set("use_seam", is_seam)
+    return obj
+
+
+def whole_surface(obj):
+    polygons = mesh_io.read_polygons(obj.data, np.eye(3))
+    return native.load().Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+
+
+def cut_parts(obj):
+    return native.load().islands(whole_surface(obj), mesh_edges.marked_edges(obj.data, "use_seam"))
+
+
+def overlapping_pairs(triangles):
+    """How many pairs of (#T, 3, 2) triangles share more than `FLOAT32`: no line along a side of either separates
+    them."""
+    first, second = np.triu_indices(len(triangles), 1)
+    separated = np.zeros(len(first), bool)
+    for sided, one, other in ((triangles, first, second), (triangles, second, first)):
+        along = np.roll(sided, -1, axis=1) - sided
+        normal = np.stack([along[..., 1], -along[..., 0]], -1) / np.linalg.norm(along, axis=-1, keepdims=True)
+        for side in range(3):
+            outwards = np.einsum("nj,nkj->nk", normal[one, side], triangles[other] - sided[one, side][:, None])
+            inwards = np.einsum("nj,nkj->nk", normal[one, side], triangles[one] - sided[one, side][:, None])
+            separated |= outwards.min(axis=1) >= inwards.max(axis=1) - FLOAT32
+            separated |= outwards.max(axis=1) <= inwards.min(axis=1) + FLOAT32
+    return np.count_nonzero(~separated)
+
+
+def assert_packed(obj):
+    """Every triangle lies in the UV square and apart from every other."""
+    values = uv(obj)
+    triangles = values[whole_surface(obj).triangle_corners]
+    assert overlapping_pairs(triangles) == 0
+    assert values.min() > -FLOAT32
+    assert values.max() < 1 + FLOAT32
+
+
+def similarities(obj):
+    """(#islands,) complex factors by which each island of the library's map was packed, brought to the area that it has
+    in space; nothing but a rotation, a factor and a translation was done."""
+    factors = []
+    for part in cut_parts(obj):
+        uv_of_part = native.load().conformal_structure(part, boundary="free").uv()
+        own = uv_of_part @ [1, 1j] * (part.area / native.load().frame(part, uv_of_part).area) ** 0.5
+        packed = uv(obj)[part.corner_index] @ [1, 1j]
+        own, packed = own - own.mean(), packed - packed.mean()
+        factor = np.vdot(own, packed) / np.vdot(own, own)
+        assert np.abs(packed - factor * own).max() < FLOAT32
+        factors.append(factor)
+    return np.array(factors)
+
+
+def test_a_capped_cylinder_is_flattened_without_distortion():
+    obj = capped_cylinder()
+    assert islands(obj) == {"FINISHED"}
+    entry = stored_report(obj)
+    assert [part["main_map"]["mean_angle"] for part in entry["components"]] == pytest.approx([1, 1, 1], abs=1e-4)
+    assert [part["main_map"]["density_ratio"] for part in entry["components"]] == pytest.approx([1, 1, 1], abs=1e-4)
+    assert [m["name"] for m in entry["maps"]] == ["Holomorphic"]
+    assert_packed(obj)
+
+
+def test_islands_are_turned_and_keep_one_texel_density():
+    obj = striped_torus()
+    assert islands(obj) == {"FINISHED"}
+    assert_packed(obj)
+    factors = similarities(obj)
+    assert len(factors) == 3
+    assert np.ptp(np.abs(factors)) < 1e-4 * np.abs(factors[0])
+    assert np.abs(np.angle(factors)).max() > 0.1
+    values = uv(obj)
+    assert np.ptp(values, axis=0).max() > 1 - 4 * MARGIN  # they fill the square
+
+
+def test_the_density_dial_is_followed():
+    obj = striped_torus()
+    assert islands(obj) == {"FINISHED"}
+    full = np.ptp(uv(obj), axis=0)
+    assert islands(obj, density=0.5) == {"FINISHED"}
+    assert np.ptp(uv(obj), axis=0) == pytest.approx(full / 2, rel=1e-3)
+
+
+def test_several_objects_have_one_texel_density():
+    first, second = capped_cylinder(), capped_cylinder()
+    second.scale = 3, 3, 3
+    select(first, second)
+    assert islands(first) == {"FINISHED"}
+    small, large = np.abs(similarities(first)), np.abs(similarities(second))
+    assert large == pytest.approx(3 * small, rel=1e-4)  # both by their meshes' own lengths
+    assert_packed(second)
+
+
+def test_a_closed_mesh_without_seams_says_what_to_do():
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    before = everything(obj)
+    with pytest.raises(RuntimeError, match="mark some in edit mode"):
+        islands(obj)
+    assert everything(obj) == before
+
+
+def test_what_is_no_disk_keeps_its_map_and_is_named():
+    obj, (vertices, faces) = capped_cylinder(), torus_arrays()
+    ring = mesh_object("Ring", vertices + (5, 0, 0), faces)
+    select(obj, ring)
+    bpy.ops.object.join()
+    assert islands(obj) == {"FINISHED"}
+    entries = stored_report(obj)["components"]
+    told = [entry for entry in entries if "not_followed" in entry]
+    assert len(entries) == 4
+    assert [entry["genus"] for entry in told] == [1]
+    assert "a free boundary needs a disk" in told[0]["not_followed"]
+
+
+def test_punctures_and_islands_exclude_each_other():
+    obj = capped_cylinder()
+    obj.data.vertices[0].select = True
+    with pytest.raises(RuntimeError, match="choose those or another main map"):
+        islands(obj, use_selection="PUNCTURES")
+
+
+def test_selection_mode_and_scene_are_as_before():
+    obj, other = striped_torus(), capped_cylinder()
+    select(obj)
+    settings = bpy.context.scene.tool_settings
+    settings.use_uv_select_sync = False
+    objects, meshes = set(bpy.data.objects), set(bpy.data.meshes)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    assert islands(obj) == {"FINISHED"}
+    assert obj.mode == "EDIT"
+    assert bpy.context.view_layer.objects.active == obj
+    assert list(bpy.context.view_layer.objects.selected) == [obj]
+    assert not settings.use_uv_select_sync
+    assert (set(bpy.data.objects), set(bpy.data.meshes)) == (objects, meshes)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert_packed(obj)
+    assert not other.data.uv_layers
