@@ -13,7 +13,7 @@ from . import faces
 
 AUTOMATIC, FACES, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "PUNCTURES", "RECTANGLE", "NONE"
 EXPLICIT = (PUNCTURES, RECTANGLE)
-FREE = "free"  # boundary of islands: the mesh is cut along its seams into parts, each flattened by itself
+ISLANDS = "islands"  # as a boundary: the mesh is cut along its seams into parts, each flattened by itself
 CORNERS = 4
 
 
@@ -40,7 +40,7 @@ class Choices:
 
     @property
     def are_islands(self):
-        return self.boundary == FREE
+        return self.boundary == ISLANDS
 
 
 def use_of_vertices(selection):
@@ -58,7 +58,7 @@ def attempts(part, choices):
     those of the whole mesh."""
     if choices.are_islands:
         base = _with_fitting_method(part, {"solver": choices.solver, "boundary": "natural"})
-        return [base | {"boundary": FREE}, base]
+        return [base | {"boundary": "free"}, base]
     base = {"solver": choices.solver, "boundary": choices.boundary}
     selection = _selection(part, choices)
     seams = choices.seams

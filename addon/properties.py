@@ -228,7 +228,7 @@ class MapProperties:
             faces=choices.use_of_faces(self.use_selection),
             residues=choices.numbers(self.residues),
             cut_at_seams=self.cut_at_seams or are_islands,
-            boundary=choices.FREE if are_islands else self.boundary,
+            boundary=choices.ISLANDS if are_islands else self.boundary,
             solver=self.solver,
             modifiers=self.modifiers,
         )

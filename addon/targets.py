@@ -100,7 +100,7 @@ def _target(obj, mask, request):
     target = Target(obj.name, library, None, mask=mask)
     if obj.data.library is not None:
         return replace(target, refused="its mesh is linked from another file; make it local first")
-    if request.boundary == choices.FREE and request.use in choices.EXPLICIT:
+    if request.boundary == choices.ISLANDS and request.use in choices.EXPLICIT:
         return replace(target, refused="islands have no punctures or corners: choose those or another main map")
     own = read(obj, mask)
     if request.modifiers and obj.mode != "EDIT":
