@@ -32,13 +32,13 @@ def test_vertices_are_found_again(image):
 
 
 def test_thin_arms_do_not_mislead():
-    """On them wrong starts fit as well as right ones."""
+    """On them wrong starts fit as well as right ones, and a vertex may be caught on the wrong side of one."""
     surface = Surface.read(shared_folder("meshes") / "fertility_ngon_g4.obj")
     mesh = families.uniform(surface.vertices, surface.triangles)
     other = moebius_image(mesh)
     found = conformal_map(*structures(mesh, other), tolerance=0.02)
     distance = np.linalg.norm(found.of(other.vertices) - other.vertices, axis=1)
-    assert np.median(distance) < 1e-3 * np.ptp(other.vertices)
+    assert distance.max() < 3e-3 * np.ptp(other.vertices)
     assert found.residual < 1e-3
 
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <numeric>
 
 #include "base/chunks.h"
 
@@ -16,6 +17,8 @@ using Eigen::VectorXd;
 
 constexpr int kSteps = 12;      // walks for one vertex, at most
 constexpr double kGain = 0.99;  // a walk that leaves more of the residual is the last
+constexpr double kStuck = 1.5;  // times a neighbour's residual: the walk of this vertex ended too early
+constexpr double kFine = 1e-6;  // of a residual, in units of a loop's integral: no walk that ended there is stuck
 
 }  // namespace
 
@@ -75,7 +78,36 @@ ConformalImages Continuation::run(const MapStart& start, std::size_t most_vertic
       h = mesh::opposite(mesh::next(from_links_, mesh::next(from_links_, h)));
     } while (h != first && mesh::face_of(from_links_, h) >= 0);
   }
+  free_stuck(images);
   return images;
+}
+
+void Continuation::free_stuck(ConformalImages& images) const {
+  std::vector<Index> place(from_.surface.vertex_count, -1);
+  for (std::size_t i = 0; i < images.vertices.size(); ++i) place[images.vertices[i]] = static_cast<Index>(i);
+  std::vector<Index> queue(images.vertices.size());
+  std::iota(queue.begin(), queue.end(), Index{0});
+  // Each success lowers a norm by a factor, so that this ends.
+  while (!queue.empty()) {
+    const Index i = queue.back();
+    queue.pop_back();
+    const auto first = from_links_.halfedge_handle(mesh::VertexHandle(images.vertices[i]));
+    auto h = first;
+    do {
+      const Index j = place[mesh::to_vertex(from_links_, h)];
+      if (j >= 0 && images.residuals.col(j).norm() > std::max(kFine, kStuck * images.residuals.col(i).norm())) {
+        VectorXd residual = images.residuals.col(i) + mesh::sign(h) * from_.forms.col(mesh::edge_of(h));
+        mesh::SurfacePoint point = images.points[i];
+        follow(point, residual);
+        if (kStuck * residual.norm() < images.residuals.col(j).norm()) {
+          images.residuals.col(j) = residual;
+          images.points[j] = point;
+          queue.push_back(j);
+        }
+      }
+      h = mesh::opposite(mesh::next(from_links_, mesh::next(from_links_, h)));
+    } while (h != first && mesh::face_of(from_links_, h) >= 0);
+  }
 }
 
 void Continuation::follow(mesh::SurfacePoint& point, Eigen::Ref<VectorXd> residual) const {
