@@ -127,7 +127,7 @@ def solve(task, progress=None):
         polygons.vertices, polygons.corner_vertices, polygons.face_offsets, strict=False
     )
     polygons.share(surface)
-    parts = _parts(holomorph, surface, task.chosen)
+    parts = _parts(holomorph, surface, task.chosen, progress)
     stray = choices.stray_vertex(polygons.corner_vertices, task.chosen)
     if stray is not None:
         raise holomorph.InvalidMesh(f"vertex {stray} belongs to no face and cannot be chosen")
@@ -141,14 +141,26 @@ def solve(task, progress=None):
     return SolvedObject(surface, polygons, tuple(solved), time.perf_counter() - start)
 
 
-def _parts(holomorph, surface, chosen):
+def _parts(holomorph, surface, chosen, progress):
     """The connected components, or the islands between the seams. Seams may be edges of no face that is mapped."""
     if not chosen.are_islands:
         return surface.components
-    islands = holomorph.islands(surface, chosen.seams, strict=False)
+    between_seams = holomorph.islands(surface, chosen.seams, strict=False)
+    islands = [disk for part in between_seams for disk in _opened(holomorph, part, progress)]
     if any(part.genus == 0 and part.boundary_count == 1 for part in islands):
         return islands
     raise holomorph.TopologyError(NO_ISLANDS)
+
+
+def _opened(holomorph, part, progress):
+    """A part with several boundary loops, or with a boundary and handles, cut open to a disk; others as they are."""
+    if part.boundary_count == 0 or (part.genus, part.boundary_count) == (0, 1):
+        return (part,)
+    try:
+        structure = holomorph.conformal_structure(part, progress=_scaled(progress, 0.0, 0.0))
+    except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
+        return (part,)  # what is wrong with it is said where its map is made
+    return holomorph.islands(part, structure.edges[structure.seams])
 
 
 def _scaled(progress, done, share):

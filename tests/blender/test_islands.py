@@ -151,6 +151,27 @@ def test_what_is_no_disk_keeps_its_map_and_is_named():
     assert "a free boundary needs a disk" in told[0]["not_followed"]
 
 
+@pytest.mark.parametrize("genus", [0, 1])
+def test_an_island_with_several_loops_or_handles_is_cut_open(genus):
+    """The side of a cylinder without a seam along it, which is developable; a torus with a seam around one face."""
+    obj = capped_cylinder() if genus == 0 else mesh_object("Ring", *torus_arrays())
+    if genus == 0:
+        is_cap = [len(face.vertices) > 4 for face in obj.data.polygons]
+        rims = {key for face, cap in zip(obj.data.polygons, is_cap) if cap for key in face.edge_keys}
+    else:
+        rims = set(obj.data.polygons[0].edge_keys)
+    for edge in obj.data.edges:
+        edge.use_seam = edge.key in rims
+    assert islands(obj) == {"FINISHED"}
+    entries = stored_report(obj)["components"]
+    assert all((entry["genus"], entry["boundary_count"]) == (0, 1) for entry in entries)
+    assert not any("not_followed" in entry for entry in entries)
+    assert len(entries) == (3 if genus == 0 else 2)
+    assert max(entry["main_map"]["mean_angle"] for entry in entries) < (1 + 1e-4 if genus == 0 else 1.2)
+    if genus == 0:
+        assert_packed(obj)
+
+
 def test_punctures_and_islands_exclude_each_other():
     obj = capped_cylinder()
     obj.data.vertices[0].select = True
