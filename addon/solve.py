@@ -160,7 +160,7 @@ def _opened(holomorph, part, progress):
         structure = holomorph.conformal_structure(part, progress=_scaled(progress, 0.0, 0.0))
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
         return (part,)  # what is wrong with it is said where its map is made
-    return holomorph.islands(part, structure.edges[structure.seams])
+    return holomorph.islands(part, part.vertex_index[structure.edges[structure.seams]])
 
 
 def _scaled(progress, done, share):
