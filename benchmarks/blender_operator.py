@@ -4,11 +4,11 @@
     blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_operator.py -- [--faces 1000000]
         [--main AUTOMATIC | BALANCED] [--method CONFORMAL | ANGLE_BASED | NONE] [--json FILE]
 
-The mesh is a torus of triangles. For Blender's unwrap one meridian and one parallel are marked as seams, which makes it
-a disk; the operator needs no seams, and its main map is what the button takes, or the balanced one. It runs on three
-objects, each of them new to it, then Blender's unwrap once, which takes minutes. Prints the seconds of the first run, for
-which the package is loaded and the system makes the memory, and of the median of all, the ratio of Blender's to each, and
-the peak memory of the process after the first.
+The mesh is a torus of triangles. For Blender's unwrap one meridian and one parallel are marked as seams, which makes
+it a disk; the operator needs no seams, and its main map is what the button takes, or the balanced one. It runs on
+three objects, each of them new to it, then Blender's unwrap once, which takes minutes. Prints the seconds of the
+first run, for which the package is loaded and the system makes the memory, and of the median of all, the ratio of
+Blender's to each, and the peak memory of the process after the first.
 """
 
 import argparse
