@@ -190,7 +190,8 @@ def automatic_map(surface, component, solver, threads, progress):
     these corners. Else the map to the unit disk centred at the vertex farthest from the boundary along the edges.
     Where its density ratio is above `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with
     the same puncture and the rectangle with corners at the quarters of the boundary. Where every vertex is next to the
-    boundary, that rectangle; with three boundary edges a triangle.
+    boundary, that rectangle, or the map with a free boundary where the rectangle collapses triangles and it flips none;
+    with three boundary edges a triangle.
     """
     options = solver, threads, progress
     corners = _native.clear_corners(component._native)
@@ -201,13 +202,22 @@ def automatic_map(surface, component, solver, threads, progress):
     except TopologyError:
         if _native.boundary_length(component._native) == 3:
             return result(TriangleMap, surface, component, _native.triangle_map(component._native, *options), threads)
-        return _rectangle(surface, component, _native.quarter_corners(component._native), [], *options)
+        return _without_inner_vertices(surface, component, options)
     if _density_ratio(round_map) <= UNEVEN:
         return round_map
     maps = [round_map, result(PuncturedStructure, surface, component, round_map._native, threads)]
     if _native.boundary_length(component._native) > 3:
         maps.append(_rectangle(surface, component, _native.quarter_corners(component._native), [], *options))
     return min(maps, key=_density_ratio)
+
+
+def _without_inner_vertices(surface, component, options):
+    """A rectangle whose sides take no whole triangle, or what keeps its shape."""
+    straight = _rectangle(surface, component, _native.quarter_corners(component._native), [], *options)
+    if not len(straight.collapsed_triangles):
+        return straight
+    free = free_boundary(surface, component, *options)
+    return straight if free.quality(free.uv()).flipped.any() else free
 
 
 def _density_ratio(structure):

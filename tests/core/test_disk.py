@@ -6,6 +6,7 @@ import pytest
 from forms import edge_forms
 from holomorph import (
     DiskMap,
+    FreeBoundaryMap,
     PuncturedStructure,
     RectangleMap,
     Surface,
@@ -128,14 +129,24 @@ def test_a_patch_with_four_corners_becomes_a_rectangle():
     assert sorted(structure.corners) == [0, 5, 48, 53]
 
 
-def test_no_room_for_a_centre():
-    """A fan of triangles around nothing: all vertices on the boundary."""
-    angle = 2 * np.pi * np.arange(12) / 12
+@pytest.mark.parametrize("count", [12, 300])
+def test_no_room_for_a_centre(count):
+    """A polygon, cut into triangles without an inner vertex: it keeps its shape, where a rectangle would collapse the
+    triangles along its sides."""
+    angle = 2 * np.pi * np.arange(count) / count
     points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
-    structure = conformal_structure(Surface(points, [list(range(12))]))
+    structure = conformal_structure(Surface(points, [list(range(count))]))
+    assert isinstance(structure, FreeBoundaryMap)
+    assert np.abs(structure.scale_factors - 1).max() < EXACT
+    distances = np.linalg.norm(structure.uv([]) - structure.uv([]).mean(axis=0), axis=1)
+    assert np.ptp(distances) < EXACT * distances.max()
+
+
+def test_no_room_for_a_centre_and_nothing_collapses():
+    """A strip of quads keeps the rectangle."""
+    points = np.array([[x, y, 0] for x in range(4) for y in (0, 1.0)])
+    structure = conformal_structure(Surface(points, [[2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1] for i in range(3)]))
     assert isinstance(structure, RectangleMap)
-    uv = structure.uv([])
-    assert np.ptp(uv, axis=0).min() > 0.5
 
 
 NESTED = [[3, 4, 5], [0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4], [2, 0, 5], [0, 3, 5]]
