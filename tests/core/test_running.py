@@ -379,11 +379,12 @@ def test_command_cannot_write_its_report(tmp_path):
 # ---- Ctrl-C, and what is no mesh ----------------------------------------------------------------------------------
 
 INTERRUPTED = """
-import json, sys
+import json, signal, sys
 sys.path[:0] = json.loads(sys.argv[1])
 import families
 from holomorph import conformal_structure
 from solved import surface_of
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs start with it ignored
 surface = surface_of(families.scaffold(5))
 print("begun", flush=True)
 try:
