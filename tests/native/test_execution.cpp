@@ -51,6 +51,23 @@ TEST_F(ExecutionTest, ReportsAreOfTheStageAndThePart) {
   EXPECT_EQ(reports_.back(), Report(0.875, "next"));
 }
 
+TEST_F(ExecutionTest, StagesWithinAreOfTheStageOrPart) {
+  execution_.stage("outer", 0.0, 0.5);
+  execution_.part(0.5, 1.0);
+  {
+    const Execution::Within within(execution_);
+    execution_.stage("inner", 0.5, 1.0);
+    execution_.finish();
+  }
+  pause();
+  execution_.report(1.0);
+  execution_.stage("next", 0.5, 1.0);
+  execution_.finish();
+  EXPECT_EQ(reports_,
+            (std::vector<Report>{
+                {0.0, "outer"}, {0.375, "inner"}, {0.5, "inner"}, {0.5, "outer"}, {0.5, "next"}, {1.0, "next"}}));
+}
+
 TEST_F(ExecutionTest, FractionsNeverFallNorPassOne) {
   execution_.stage("late", 0.5, 1.0);
   execution_.stage("early", 0.25, 0.5);

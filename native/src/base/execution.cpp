@@ -1,22 +1,37 @@
 #include "base/execution.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace holomorph {
 
 void Execution::stage(const std::string& name, double begin, double end) {
   close_stage();
   name_ = name;
-  begin_ = begin;
-  end_ = end;
+  begin_ = std::lerp(whole_begin_, whole_end_, begin);
+  end_ = std::lerp(whole_begin_, whole_end_, end);
   part(0, 1);
   stage_start_ = Clock::now();
-  if (callback_) call(begin);
+  if (callback_) call(begin_);
 }
 
 void Execution::finish() {
-  if (callback_) call(1.0);
+  if (callback_) call(whole_end_);
   close_stage();
+}
+
+Execution::Within::Within(Execution& execution)
+    : execution_(execution), begin_(execution.whole_begin_), end_(execution.whole_end_), stage_(execution.name_) {
+  execution_.whole_begin_ = std::lerp(execution.begin_, execution.end_, execution.part_begin_);
+  execution_.whole_end_ = std::lerp(execution.begin_, execution.end_, execution.part_end_);
+}
+
+Execution::Within::~Within() {
+  execution_.close_stage();
+  execution_.whole_begin_ = begin_;
+  execution_.whole_end_ = end_;
+  execution_.name_ = stage_;
+  execution_.stage_start_ = Clock::now();
 }
 
 void Execution::call(double fraction) {

@@ -46,8 +46,22 @@ class Execution {
     if (i % 4096 == 0) report(from + (to - from) * static_cast<double>(i) / static_cast<double>(count));
   }
 
-  /// Reports 1 and ends the last stage.
+  /// Ends the last stage, and reports that all is done.
   void finish();
+
+  /// While it lives, the stages of a computation that is called within this one are of its current stage or part.
+  class Within {
+   public:
+    explicit Within(Execution& execution);
+    ~Within();
+    Within(const Within&) = delete;
+    Within& operator=(const Within&) = delete;
+
+   private:
+    Execution& execution_;
+    double begin_, end_;
+    std::string stage_;
+  };
 
   /// Seconds of wall time per stage, in the order in which they were first begun; a stage begun twice is summed.
   const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
@@ -62,6 +76,7 @@ class Execution {
   Callback callback_;
   Workers workers_;
   std::string name_;
+  double whole_begin_ = 0, whole_end_ = 1;  // what the stages are of, see Within
   double begin_ = 0, end_ = 0, part_begin_ = 0, part_end_ = 1, reported_ = 0;
   Clock::time_point stage_start_{}, last_call_{};
   std::vector<std::pair<std::string, double>> seconds_;

@@ -4,6 +4,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
+#include "moduli/carried_uv.h"
 #include "moduli/continuation.h"
 #include "moduli/equivalence.h"
 
@@ -54,6 +55,24 @@ py::array form_slopes(const mesh::Surface& surface, const forms::RowMajorMatrix&
     }
   }
   return read_only(std::move(result));
+}
+
+// Of (#V,) triangles and (#V, 3) barycentric coordinates, and (#C', 2) UVs: (#C, 2).
+py::array carried_uv(const mesh::Surface& from, const Contiguous<int>& triangles, const Contiguous<double>& barycentric,
+                     const mesh::Surface& to, const Contiguous<double>& uv, const py::object& progress) {
+  const moduli::VertexImages images{values(triangles), rows<double, 3>(barycentric)};
+  const auto* points = reinterpret_cast<const std::complex<double>*>(uv.data());
+  const std::vector<std::complex<double>> given(points, points + uv.size() / 2);
+  Execution execution(1, callback(progress));
+  std::vector<std::complex<double>> carried;
+  {
+    const py::gil_scoped_release unlocked;
+    execution.stage("texture", 0, 1);
+    carried = moduli::carried_uv(from, images, to, given, execution);
+    execution.finish();
+  }
+  return copy(Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(
+      reinterpret_cast<const double*>(carried.data()), static_cast<Eigen::Index>(carried.size()), 2));
 }
 
 /// A continuation that keeps what it is made of.
@@ -107,6 +126,7 @@ void bind_moduli(py::module_& m) {
   py::class_<Continuation>(m, "Continuation")
       .def(py::init<SurfacePointer, forms::RowMajorMatrix, SurfacePointer, forms::RowMajorMatrix>())
       .def("run", &Continuation::run);
+  m.def("carried_uv", &carried_uv);
   m.def("form_slopes", &form_slopes);
   m.attr("isometry_steps") = moduli::kMostSteps;
   m.def("short_basis", [](const Eigen::MatrixXd& form) { return copy(moduli::short_basis(form)); });

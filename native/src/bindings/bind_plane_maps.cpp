@@ -8,6 +8,7 @@
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
 #include "bindings/solver_report.h"
+#include "plane/clear_corners.h"
 #include "plane/free_boundary.h"
 #include "plane/rectangle.h"
 #include "plane/rectangle_corners.h"

@@ -7,6 +7,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "mesh/components.h"
+#include "mesh/graph_distances.h"
 #include "mesh/intrinsic_surface.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "mesh/io/read.h"
@@ -96,6 +97,14 @@ py::list components(const Surface& surface) {
   return result;
 }
 
+py::array edge_distances(const Surface& surface, const Contiguous<double>& lengths, const std::vector<int>& sources) {
+  const auto l = values(lengths);
+  return copy(without_lock([&] {
+    Execution execution;
+    return mesh::graph_distances(mesh::half_edges(surface, execution), l, sources);
+  }));
+}
+
 // (Euler characteristic, boundary loops, genus) of a connected surface.
 py::tuple topology(const Surface& surface) {
   const auto type = mesh::topological_type(surface);
@@ -125,6 +134,7 @@ void bind_surface(py::module_& m) {
       .def_static("read", &read, py::arg("path"), py::arg("strict"), py::arg("weld"))
       .def("components", &components)
       .def("topology", &topology)
+      .def("edge_distances", &edge_distances)
       .def("area",
            [](const Surface& s) {
              Workers workers;

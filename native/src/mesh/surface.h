@@ -44,6 +44,7 @@ struct Surface {
 
   bool intrinsic() const { return polygons.vertices.empty(); }
   bool is_diagonal(int edge) const { return edge >= polygon_edge_count; }
+  bool has_diagonals() const { return polygon_edge_count < static_cast<int>(edges.size()); }
 };
 
 /// Sum of the areas of the triangles.

@@ -15,10 +15,22 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr int kSteps = 12;      // walks for one vertex, at most
-constexpr double kGain = 0.99;  // a walk that leaves more of the residual is the last
-constexpr double kStuck = 1.5;  // times a neighbour's residual: the walk of this vertex ended too early
-constexpr double kFine = 1e-6;  // of a residual, in units of a loop's integral: no walk that ended there is stuck
+constexpr int kSteps = 12;        // walks for one vertex, at most
+constexpr double kGain = 0.99;    // a walk that leaves more of the residual is the last
+constexpr double kStuck = 1.5;    // times a neighbour's residual: the walk of this vertex ended too early
+constexpr double kFine = 1e-6;    // of a residual, in units of a loop's integral: no walk that ended there is stuck
+constexpr double kFreeing = 0.1;  // part of the work that the second pass is, about
+
+// Calls visit(h) with each half-edge that leaves the vertex, those of the boundary included.
+template <class Visit>
+void for_each_leaving(const mesh::HalfEdges& links, int vertex, const Visit& visit) {
+  const auto first = links.halfedge_handle(mesh::VertexHandle(vertex));
+  auto h = first;
+  do {
+    visit(h);
+    h = mesh::next(links, mesh::opposite(h));
+  } while (h != first);
+}
 
 }  // namespace
 
@@ -66,47 +78,40 @@ ConformalImages Continuation::run(const MapStart& start, std::size_t most_vertic
   };
   take(start.vertex, start.image, start.residual);
   for (std::size_t i = 0; i < images.vertices.size(); ++i) {
-    execution.step(i, most_vertices);
-    const auto first = from_links_.halfedge_handle(mesh::VertexHandle(images.vertices[i]));
-    auto h = first;
-    do {
+    execution.report((1 - kFreeing) * static_cast<double>(i) / static_cast<double>(most_vertices));
+    for_each_leaving(from_links_, images.vertices[i], [&](mesh::HalfedgeHandle h) {
       const int vertex = mesh::to_vertex(from_links_, h);
-      if (!is_reached[vertex] && images.vertices.size() < most_vertices) {
-        const VectorXd step = mesh::sign(h) * from_.forms.col(mesh::edge_of(h));
-        take(vertex, images.points[i], images.residuals.col(static_cast<Index>(i)) + step);
-      }
-      h = mesh::opposite(mesh::next(from_links_, mesh::next(from_links_, h)));
-    } while (h != first && mesh::face_of(from_links_, h) >= 0);
+      if (is_reached[vertex] || images.vertices.size() == most_vertices) return;
+      const VectorXd step = mesh::sign(h) * from_.forms.col(mesh::edge_of(h));
+      take(vertex, images.points[i], images.residuals.col(static_cast<Index>(i)) + step);
+    });
   }
-  free_stuck(images);
+  free_stuck(images, execution);
   return images;
 }
 
-void Continuation::free_stuck(ConformalImages& images) const {
+void Continuation::free_stuck(ConformalImages& images, Execution& execution) const {
   std::vector<Index> place(from_.surface.vertex_count, -1);
   for (std::size_t i = 0; i < images.vertices.size(); ++i) place[images.vertices[i]] = static_cast<Index>(i);
   std::vector<Index> queue(images.vertices.size());
   std::iota(queue.begin(), queue.end(), Index{0});
   // Each success lowers a norm by a factor, so that this ends.
   while (!queue.empty()) {
+    const auto left = static_cast<double>(queue.size()) / static_cast<double>(images.vertices.size());
+    execution.report(1 - kFreeing * std::min(1.0, left));
     const Index i = queue.back();
     queue.pop_back();
-    const auto first = from_links_.halfedge_handle(mesh::VertexHandle(images.vertices[i]));
-    auto h = first;
-    do {
+    for_each_leaving(from_links_, images.vertices[i], [&](mesh::HalfedgeHandle h) {
       const Index j = place[mesh::to_vertex(from_links_, h)];
-      if (j >= 0 && images.residuals.col(j).norm() > std::max(kFine, kStuck * images.residuals.col(i).norm())) {
-        VectorXd residual = images.residuals.col(i) + mesh::sign(h) * from_.forms.col(mesh::edge_of(h));
-        mesh::SurfacePoint point = images.points[i];
-        follow(point, residual);
-        if (kStuck * residual.norm() < images.residuals.col(j).norm()) {
-          images.residuals.col(j) = residual;
-          images.points[j] = point;
-          queue.push_back(j);
-        }
-      }
-      h = mesh::opposite(mesh::next(from_links_, mesh::next(from_links_, h)));
-    } while (h != first && mesh::face_of(from_links_, h) >= 0);
+      if (j < 0 || images.residuals.col(j).norm() <= std::max(kFine, kStuck * images.residuals.col(i).norm())) return;
+      VectorXd residual = images.residuals.col(i) + mesh::sign(h) * from_.forms.col(mesh::edge_of(h));
+      mesh::SurfacePoint point = images.points[i];
+      follow(point, residual);
+      if (kStuck * residual.norm() >= images.residuals.col(j).norm()) return;
+      images.residuals.col(j) = residual;
+      images.points[j] = point;
+      queue.push_back(j);
+    });
   }
 }
 

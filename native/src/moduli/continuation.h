@@ -49,7 +49,7 @@ class Continuation {
   auto slope(int triangle) const { return slopes_.middleCols<2>(2 * triangle); }
   void follow(mesh::SurfacePoint& point, Eigen::Ref<Eigen::VectorXd> residual) const;
   // Walks may end in a fold beside the right place: there they are made again from a neighbour that has found its own.
-  void free_stuck(ConformalImages& images) const;
+  void free_stuck(ConformalImages& images, Execution& execution) const;
 
   FormSurface from_, to_;
   mesh::HalfEdges from_links_, to_links_;

@@ -39,12 +39,12 @@ PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
         "take one of auto, direct, multigrid");
   }
   PaperLevels levels;
-  // The stage's name remains the caller's; its progress function is called all the same.
-  Execution silent(execution.threads(), [&](double done, const std::string&) {
-    execution.report(kCollapsing * done);
-    return true;
-  });
-  levels.mesh = std::make_shared<const ProgressiveMesh>(progressive_mesh(surface, progressive::Order::quadric, silent));
+  execution.part(0, kCollapsing);
+  {
+    const Execution::Within within(execution);
+    levels.mesh =
+        std::make_shared<const ProgressiveMesh>(progressive_mesh(surface, progressive::Order::quadric, execution));
+  }
   const ProgressiveMesh& mesh = *levels.mesh;
   levels.splits = static_cast<int>(mesh.splits.size());
   levels.place.resize(mesh.vertex_index.size());

@@ -2,21 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/errors.h"
 #include "mesh/components.h"
 #include "mesh/element_labels.h"
-#include "mesh/triangle_geometry.h"
 
 namespace holomorph::plane {
 namespace {
 
 using mesh::HalfedgeHandle;
 using mesh::Labels;
-
-// Least exterior angle of a corner, in radians.
-constexpr double kCorner = std::numbers::pi / 4;
 
 // The vertices of the boundary, the surface on its left, from the lowest.
 std::vector<int> around(const mesh::HalfEdges& half_edges, const mesh::BoundaryLoops& boundary) {
@@ -88,27 +83,6 @@ std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& 
     if (on[a] & on[b] & on[c]) result.push_back(t);
   }
   return result;
-}
-
-std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution) {
-  const auto half_edges = mesh::half_edges(surface, execution);
-  const auto boundary = mesh::boundary_loops(surface, half_edges);
-  std::vector<double> exterior(surface.vertex_count, std::numbers::pi);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      const auto length = [&](int side) { return surface.edge_lengths[surface.triangle_edges[t][(i + side) % 3]]; };
-      const double a = length(1), b = length(2), c = length(0);  // a opposite corner i
-      exterior[surface.triangles[t][i]] -= std::atan2(4 * mesh::triangle_area(a, b, c), (b - a) * (b + a) + c * c);
-    }
-  }
-  std::vector<int> corners;
-  for (const int v : around(half_edges, boundary)) {
-    if (std::abs(exterior[v]) <= kCorner) continue;
-    if (exterior[v] < 0 || corners.size() == 4) return {};
-    corners.push_back(v);
-  }
-  if (corners.size() != 4) return {};
-  return corners;
 }
 
 int boundary_length(const mesh::Surface& surface, Execution& execution) {

@@ -1,8 +1,7 @@
-// The four corners of a disk that is mapped to a rectangle: checks of given ones, and default ones.
+// The four corners of a disk that is mapped to a rectangle: checks of given ones, and those of a disk without any.
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "base/execution.h"
@@ -22,10 +21,6 @@ Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_
 
 /// Triangles all of whose corners lie on one side, ascending: a map that makes the side straight collapses them.
 std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides);
-
-/// The four corners of a disk whose boundary has exactly four vertices with an exterior angle beyond 45 degrees, all
-/// of them inwards, in its order from the lowest; nothing for other disks.
-std::optional<std::vector<int>> clear_corners(const mesh::Surface& surface, Execution& execution);
 
 /// Number of edges of the longest boundary loop.
 int boundary_length(const mesh::Surface& surface, Execution& execution);

@@ -67,7 +67,7 @@ void flip(Surface& surface, int e, Place a, Place b) {
 
 std::optional<Surface> with_single_edges(const Surface& surface) {
   if (surface.intrinsic()) throw InvalidMesh("a progressive mesh needs positions; this surface has edge lengths only");
-  if (surface.polygon_edge_count == static_cast<int>(surface.edges.size())) return {};
+  if (!surface.has_diagonals()) return {};
   const std::vector<int> doubled = doubled_diagonals(surface);
   if (doubled.empty()) return {};
   std::vector<int> polygon(surface.edges.size());

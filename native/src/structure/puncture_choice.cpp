@@ -98,7 +98,8 @@ std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& 
     p = q;
   }
   if (best.empty())
-    throw TopologyError("no two vertices can be punctures: the stars of any two meet; subdivide the mesh");
+    throw TopologyError(
+        "the mesh is too coarse for two poles: the faces around any two vertices meet; subdivide the mesh");
   return best;
 }
 

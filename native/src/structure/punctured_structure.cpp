@@ -138,6 +138,13 @@ void certify(const forms::ClosedForms& basis, double harmonicity, Structure& s) 
 
 }  // namespace
 
+forms::Poles cut_at_punctures(Structure& s, const mesh::HalfEdges& half_edges, std::span<const double> lengths,
+                              const Array<double>& weights, Execution& execution) {
+  execution.stage("homology", 0.1, 0.25);
+  s.topology = find_topology(*s.surface, half_edges, execution, {}, s.stars);
+  return poles_of(s, half_edges, lengths, weights);
+}
+
 PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> given, Punctures punctures,
                                    Execution& execution) {
   PuncturedSurface made;
@@ -150,24 +157,18 @@ PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> given, P
   auto flipped = std::make_shared<mesh::Surface>(*given);
   mesh::flip_diagonals_away(*flipped, vertices, names);
   result.surface = flipped;
-  const mesh::Surface& surface = *flipped;
 
   execution.stage("residues", 0.05, 0.1);
-  made.half_edges = mesh::half_edges(surface, execution);
+  made.half_edges = mesh::half_edges(*flipped, execution);
   const auto triangulation =
-      mesh::intrinsic_triangulation(surface, made.half_edges.copy(execution.workers()), execution.workers());
+      mesh::intrinsic_triangulation(*flipped, made.half_edges.copy(execution.workers()), execution.workers());
   result.mollification = triangulation.mollification;
   result.stars = mesh::stars(made.half_edges, triangulation.lengths, vertices, names);
   if (residues.empty()) residues = default_residues(*given, half_edges, vertices, closed, execution);
   half_edges = {};
-
-  execution.stage("homology", 0.1, 0.25);
-  result.topology = find_topology(surface, made.half_edges, execution, {}, result.stars);
-
-  execution.stage("solver", 0.25, 0.4);
   made.weights = mesh::cotangent_weights(triangulation, execution);
   made.errors = mesh::energy_errors(triangulation.metric(), made.weights, execution.workers());
-  made.poles = poles_of(result, made.half_edges, triangulation.lengths, made.weights);
+  made.poles = cut_at_punctures(result, made.half_edges, triangulation.lengths, made.weights, execution);
   return made;
 }
 

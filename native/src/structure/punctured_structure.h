@@ -1,6 +1,8 @@
 // Surfaces with punctures: a differential of the third kind, and the holomorphic forms with it (paper § 11 names them).
 #pragma once
 
+#include <span>
+
 #include "base/execution.h"
 #include "forms/third_kind.h"
 #include "structure/options.h"
@@ -20,6 +22,11 @@ struct PuncturedSurface {
 /// What `punctured_structure` begins with; the same arguments and errors.
 PuncturedSurface punctured_surface(std::shared_ptr<const mesh::Surface> surface, Punctures punctures,
                                    Execution& execution);
+
+/// The topology of a structure whose stars are known.
+/// @param lengths, weights #E, of the surface's own triangulation
+forms::Poles cut_at_punctures(Structure& structure, const mesh::HalfEdges& half_edges, std::span<const double> lengths,
+                              const Array<double>& weights, Execution& execution);
 
 /// Of any connected surface. theta_0 has the residues r_i / (2 pi i) at the punctures; for real residues its imaginary
 /// part is single-valued, and 0 on the boundary. The holomorphic forms of the surface come after it.

@@ -36,37 +36,50 @@ IntegerForms on_flipped(IntegerForms classes, const mesh::Surface& before, const
   return classes;
 }
 
-bool has_diagonals(const mesh::Surface& surface) {
-  return surface.polygon_edge_count < static_cast<int>(surface.edges.size());
-}
-
 }  // namespace
 
 ClosedMaps::ClosedMaps(const Landscape& landscape, const std::vector<int>& vertices, const std::vector<int>& names,
-                       const structure::Options& options, Execution& execution) {
+                       const structure::Options& options, Execution& execution)
+    : landscape_(landscape) {
   structure::Punctures punctures{vertices, std::vector<Complex>(vertices.size(), 1.0), names};
   punctures.residues.back() = -static_cast<double>(vertices.size() - 1);
-  auto punctured = structure::punctured_surface(landscape.structure().surface, std::move(punctures), execution);
-  structure_ = std::make_shared<structure::Structure>(std::move(punctured.structure));
-  half_edges_ = std::move(punctured.half_edges);
-  weights_ = std::move(punctured.weights);
-  poles_ = std::move(punctured.poles);
+  poles_ = make_structure(landscape, std::move(punctures), execution);
   const structure::Structure& s = *structure_;
-  systems_ = has_diagonals(*s.surface) ? nullptr : landscape.systems();
+  execution.stage("solver", 0.3, 0.6);
+  systems_ = flipped_ ? nullptr : landscape.systems();
   if (!systems_) {
     const structure::Extent extent{s.surface->vertex_count, static_cast<std::int64_t>(s.surface->edges.size()), 2};
     const auto plan = structure::plan_memory(extent, options.solver, options.memory_limit, structure::Keeping::all);
-    systems_ =
-        std::make_shared<structure::HarmonicSystems>(half_edges_, weights_, std::vector<int>{}, plan.choice, execution);
+    systems_ = std::make_shared<structure::HarmonicSystems>(half_edges(), weights(), std::vector<int>{}, plan.choice,
+                                                            execution);
   }
   const structure::Structure& plain = landscape.structure();
   change_ = change_of_basis(plain.topology.classes, s);
   pole_parts_.resize(change_.rows(), s.topology.families.poles);
   if (change_.rows() == 0) return;
   // Away from the flipped diagonals the harmonic forms are those of the landscape, and integers are all that is wanted.
-  const forms::ClosedForms harmonic{on_flipped(plain.topology.classes, *plain.surface, *s.surface, half_edges_),
+  const forms::ClosedForms harmonic{on_flipped(plain.topology.classes, *plain.surface, *s.surface, half_edges()),
                                     landscape.harmonic().functions};
-  pole_parts_ = forms::harmonic_part(half_edges_, poles_, harmonic, plain.gram[0]);
+  pole_parts_ = forms::harmonic_part(half_edges(), poles_, harmonic, plain.gram[0]);
+}
+
+forms::Poles ClosedMaps::make_structure(const Landscape& landscape, structure::Punctures punctures,
+                                        Execution& execution) {
+  if (landscape.surface().has_diagonals()) {
+    auto made = structure::punctured_surface(landscape.structure().surface, std::move(punctures), execution);
+    flipped_ = {std::move(made.half_edges), std::move(made.weights)};
+    structure_ = std::make_shared<structure::Structure>(std::move(made.structure));
+    return std::move(made.poles);
+  }
+  structure::Structure s;
+  s.surface = landscape.structure().surface;
+  s.punctures = std::move(punctures);
+  structure::check_punctures(s.punctures, s.surface->vertex_count, true);
+  s.stars = mesh::stars(landscape.half_edges(), landscape.lengths(), s.punctures.vertices, s.punctures.names);
+  auto poles =
+      structure::cut_at_punctures(s, landscape.half_edges(), landscape.lengths(), landscape.weights(), execution);
+  structure_ = std::make_shared<structure::Structure>(std::move(s));
+  return poles;
 }
 
 SeamlessForm ClosedMaps::form(const VectorXcd& X, const VectorXcd& r, const TextureLattice& lattice) const {
@@ -79,10 +92,11 @@ SeamlessForm ClosedMaps::form(const VectorXcd& X, const VectorXcd& r, const Text
 }
 
 uv::UvArray ClosedMaps::function(const SeamlessForm& form, Execution& execution) {
+  execution.stage("function", 0.6, 1.0);
   const auto& topology = structure_->topology;
   const auto& families = topology.families;
   const auto natural = topology::first_forms(topology.classes, families.natural, families.natural);
-  return forms::function_with_poles(half_edges_, weights_, poles_, natural, form.periods,
+  return forms::function_with_poles(half_edges(), weights(), poles_, natural, form.periods,
                                     form.coefficients.segment(families.natural, families.poles), systems_->solver(),
                                     execution);
 }

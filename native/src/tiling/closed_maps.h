@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "structure/harmonic_systems.h"
@@ -13,6 +14,7 @@ namespace holomorph::tiling {
 
 class ClosedMaps {
  public:
+  /// The landscape outlives this.
   /// @param vertices at least two. @throws TopologyError, SolverError, Cancelled, as punctured_structure does
   ClosedMaps(const Landscape& landscape, const std::vector<int>& vertices, const std::vector<int>& names,
              const structure::Options& options, Execution& execution);
@@ -30,9 +32,19 @@ class ClosedMaps {
   uv::UvArray function(const SeamlessForm& form, Execution& execution);
 
  private:
+  // What there is of a surface whose diagonals are flipped away from the poles.
+  struct Flipped {
+    mesh::HalfEdges half_edges;
+    Array<double> weights;
+  };
+
+  forms::Poles make_structure(const Landscape& landscape, structure::Punctures punctures, Execution& execution);
+  const mesh::HalfEdges& half_edges() const { return flipped_ ? flipped_->half_edges : landscape_.half_edges(); }
+  const Array<double>& weights() const { return flipped_ ? flipped_->weights : landscape_.weights(); }
+
+  const Landscape& landscape_;
+  std::optional<Flipped> flipped_;
   std::shared_ptr<const structure::Structure> structure_;
-  mesh::HalfEdges half_edges_;
-  Array<double> weights_;
   forms::Poles poles_;
   std::shared_ptr<structure::HarmonicSystems> systems_;  // the landscape's where it has the same triangles
   Eigen::MatrixXd change_;                               // from the classes of the landscape to those of the structure

@@ -43,6 +43,7 @@ mesh::Surface renumbered(const mesh::Surface& surface, const std::vector<int>& o
 CoarseLevel level_of(const mesh::Surface& surface, const std::vector<int>& order, Execution& execution) {
   auto all = std::make_shared<mesh::Surface>(renumbered(surface, order, execution));
   if (all->triangles.size() <= kLevelTriangles) return {std::move(all), order, inverse(order)};
+  const Execution::Within within(execution);
   const auto mesh = progressive::progressive_mesh(*all, progressive::Order::quadric, execution);
   const int splits = progressive::split_count(mesh, kLevelTriangles);
   auto level = std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(mesh, splits), execution));

@@ -102,6 +102,8 @@ void Landscape::solve(const structure::Options& options, Execution& execution) {
     structure_.functions = systems_->solve(classes, natural, structure_.memory.block, execution).functions;
     structure::complete(half_edges_, weights_, {}, classes, structure_, execution);
     harmonic_.functions.swap(structure_.functions);
+    // Maps of polygons have triangles of their own (closed_maps.h), and poles are solved for on the level.
+    if (on_level_ && surface().has_diagonals()) systems_.reset();
     const auto values = uv::values_on_sides(surface(), *sides_, harmonic_, samples_);
     holomorphic_ = uv::sampled_parts(surface(), {samples_, values}, structure_.differentials);
   }

@@ -21,9 +21,10 @@ using Eigen::VectorXcd;
 // Poles by themselves.
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
 constexpr double kEvenWithout = 3, kEvenWith = 6;
-constexpr int kThinning = 3;             // every third sample is enough to tell which candidates are worth a trial
-constexpr int kTried = 2, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
-constexpr int kSweeps = 3;
+constexpr double kWorth = 0.9;  // more poles are taken where the ratio of the density falls to this part of itself
+constexpr int kThinning = 3;    // every third sample is enough to tell which candidates are worth a trial
+constexpr int kTried = 4, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
+constexpr int kSweeps = 5;
 constexpr double kGain = 1e-3;  // less is no gain
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
@@ -223,7 +224,7 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution&
     if (least <= (best.vertices.empty() ? kEvenWithout : kEvenWith) || !search.add(added, count)) break;
     Poles settled = search.settled(added);
     const double ratio = density_ratio(density(landscape, settled, execution));
-    if (ratio > least) continue;
+    if (ratio > kWorth * least) continue;
     least = ratio;
     best = std::move(settled);
   }

@@ -62,18 +62,18 @@ Tiler::Tiler(std::shared_ptr<const mesh::Surface> surface, const structure::Opti
 void Tiler::place(const PoleWishes& wishes, Execution& execution) {
   chosen_ = !wishes.vertices.empty();
   allowed_ = wishes.allowed;
-  execution.stage("level for the poles", 0.0, 0.1);
+  execution.stage("level for the poles", 0.0, 0.2);
   const CoarseLevel level = chosen_ ? CoarseLevel{surface_, {}, {}} : coarse_level(surface_, execution);
-  execution.stage("forms for the poles", 0.1, 0.2);
+  execution.stage("forms for the poles", 0.2, 0.25);
   auto landscape = std::make_unique<Landscape>(level.surface, options_, execution);
   PlacementRules rules{kind_, {}, wishes.vertices};
   for (const int v : level.vertex) {
     if (!wishes.allowed.empty()) rules.allowed.push_back(wishes.allowed[v]);
   }
-  execution.stage("poles", 0.2, 0.7);
+  execution.stage("poles", 0.25, 0.6);
   Poles poles = wishes.count ? placed_poles(*landscape, rules, *wishes.count, execution)
                              : placed_poles(*landscape, rules, execution);
-  execution.stage("forms of the surface", 0.7, 1.0);
+  execution.stage("forms of the surface", 0.6, 1.0);
   if (level.surface == surface_)
     adopt(std::move(landscape), std::move(poles), execution);
   else
@@ -123,6 +123,7 @@ std::shared_ptr<structure::Structure> Tiler::structure_at(const std::vector<int>
   } else {
     structure::Punctures punctures{vertices, std::vector<Complex>(vertices.size(), 1.0), names_};
     if (landscape_->closed()) punctures.residues.back() = -static_cast<double>(vertices.size() - 1);
+    const Execution::Within within(execution);
     structure_ = std::make_shared<structure::Structure>(
         structure::punctured_structure(surface_, std::move(punctures), options_, execution));
   }
@@ -222,11 +223,14 @@ void Tiler::write_map(Tiling& result, const VectorXcd& X, const TextureLattice& 
   const auto count = static_cast<Index>(result.residues.size());
   const VectorXcd all = Eigen::Map<const VectorXcd>(result.residues.data(), count);
   if (landscape_->closed() && count > 0) {
+    auto within = std::make_optional<Execution::Within>(execution);
     if (!closed_maps_ || closed_maps_->vertices() != result.poles)
       closed_maps_ = std::make_shared<ClosedMaps>(*landscape_, result.poles, names_, options_, execution);
     const SeamlessForm form = closed_maps_->form(X, all.head(count - 1), lattice);
     result.structure = closed_maps_->structure();
-    finish_map(result, form, closed_maps_->function(form, execution), execution);
+    uv::UvArray function = closed_maps_->function(form, execution);
+    within.reset();
+    finish_map(result, form, std::move(function), execution);
     return;
   }
   const auto s = structure_at(result.poles, execution);

@@ -4,6 +4,9 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <utility>
+
+#include "mesh/half_edges.h"
 
 namespace holomorph::uv {
 namespace {
@@ -37,23 +40,46 @@ std::vector<int> stars(const mesh::Surface& surface, const std::vector<int>& pol
 }
 
 struct Image {
-  std::vector<double> angle;  // of each vertex, the sum of its signed angles outside of the poles' stars
-  std::vector<int> flipped;   // triangles there
+  std::vector<double> angle;                 // of each vertex, the sum of its signed angles outside of the poles' stars
+  std::vector<std::pair<int, int>> flipped;  // triangles there whose angles are not pi together, by how many turns
 };
 
-Image image(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, const std::vector<char>& is_pole) {
-  Image result{std::vector<double>(surface.vertex_count, 0.0), {}};
+// #E images from the lower to the higher vertex, where no pole's star is. Edges whose image is a point get any
+// direction, the same on both sides: where a form has decayed to rounding, the orders still add up.
+std::vector<Eigen::RowVector2d> directions(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv,
+                                           const std::vector<char>& is_pole, const mesh::Sides& sides) {
+  std::vector<Eigen::RowVector2d> direction(surface.edges.size(), Eigen::RowVector2d(1, 0));
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
     const auto& corner = surface.triangle_corners[t];
     const auto& [x, y, z] = surface.triangles[t];
     if (is_pole[x] || is_pole[y] || is_pole[z]) continue;
     for (int i = 0; i < 3; ++i) {
-      const Eigen::RowVector2d here = uv.row(corner[i]), a = uv.row(corner[(i + 1) % 3]) - here,
-                               b = uv.row(corner[(i + 2) % 3]) - here;
-      const double cross = a[0] * b[1] - a[1] * b[0];
-      result.angle[surface.triangles[t][i]] += std::atan2(cross, a.dot(b));
-      if (i == 0 && cross < 0) result.flipped.push_back(t);
+      const Eigen::RowVector2d along = uv.row(corner[(i + 1) % 3]) - uv.row(corner[i]);
+      if (!along.isZero(0)) direction[surface.triangle_edges[t][i]] = mesh::sign(sides(t, i)) * along;
     }
+  }
+  return direction;
+}
+
+Image image(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, const std::vector<char>& is_pole) {
+  const mesh::Sides sides(surface);
+  const auto direction = directions(surface, uv, is_pole, sides);
+  const auto along = [&](int t, int i) -> Eigen::RowVector2d {
+    return mesh::sign(sides(t, i)) * direction[surface.triangle_edges[t][i]];
+  };
+  Image result{std::vector<double>(surface.vertex_count, 0.0), {}};
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    const auto& [x, y, z] = surface.triangles[t];
+    if (is_pole[x] || is_pole[y] || is_pole[z]) continue;
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::RowVector2d a = along(t, i), b = -along(t, (i + 2) % 3);
+      const double angle = std::atan2(a[0] * b[1] - a[1] * b[0], a.dot(b));
+      result.angle[surface.triangles[t][i]] += angle;
+      sum += angle;
+    }
+    const auto turns = static_cast<int>(std::lround((std::numbers::pi - sum) / (2 * std::numbers::pi)));
+    if (turns != 0) result.flipped.emplace_back(t, turns);
   }
   return result;
 }
@@ -75,22 +101,40 @@ void count_in_stars(const std::vector<int>& star, const std::vector<char>& is_po
     index[link.second] = static_cast<int>(std::lround(link.first / (2 * std::numbers::pi)));
 }
 
-// 0 at vertices without a triangle.
-std::vector<int> indices(const mesh::Surface& surface, const std::vector<double>& angle) {
-  std::vector<double> flat(surface.vertex_count, 2 * std::numbers::pi);
+std::vector<char> boundary_vertices(const mesh::Surface& surface) {
+  std::vector<char> is_boundary(surface.vertex_count, 0);
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
-    if (surface.edge_face_count[e] == 1) flat[surface.edges[e][0]] = flat[surface.edges[e][1]] = std::numbers::pi;
+    if (surface.edge_face_count[e] == 1) is_boundary[surface.edges[e][0]] = is_boundary[surface.edges[e][1]] = 1;
   }
+  return is_boundary;
+}
+
+// 0 at vertices without a triangle.
+std::vector<int> indices(const mesh::Surface& surface, const std::vector<double>& angle,
+                         const std::vector<char>& is_boundary) {
   std::vector<int> index(surface.vertex_count, 0);
   for (const auto& triangle : surface.triangles) {
-    for (const int v : triangle) index[v] = static_cast<int>(std::lround(angle[v] / flat[v])) - 1;
+    for (const int v : triangle) {
+      const double flat = (is_boundary[v] ? 1 : 2) * std::numbers::pi;
+      index[v] = static_cast<int>(std::lround(angle[v] / flat)) - 1;
+    }
   }
   return index;
 }
 
-Clusters touching(const mesh::Surface& surface, const std::vector<int>& index, const std::vector<int>& flipped) {
+// What touches: inside, and on the boundary, where an order is half as much.
+struct Cluster {
+  int vertex = kNone;
+  bool is_boundary = false;
+  int inside = 0, on_boundary = 0;
+
+  int order() const { return is_boundary ? on_boundary + 2 * inside : inside; }
+};
+
+Clusters touching(const mesh::Surface& surface, const std::vector<int>& index,
+                  const std::vector<std::pair<int, int>>& flipped) {
   Clusters clusters(surface.vertex_count);
-  for (const int t : flipped) {
+  for (const auto& [t, _] : flipped) {
     for (const int v : surface.triangles[t]) clusters.join(v, surface.triangles[t][0]);
   }
   for (const auto& [a, b] : surface.edges) {
@@ -106,23 +150,31 @@ std::vector<Zero> zeros(const mesh::Surface& surface, const Eigen::Ref<const UvA
   std::vector<char> is_pole(surface.vertex_count, 0);
   for (const int pole : poles) is_pole[pole] = 1;
   const auto [angle, flipped] = image(surface, uv, is_pole);
-  std::vector<int> index = indices(surface, angle);
+  const std::vector<char> is_boundary = boundary_vertices(surface);
+  std::vector<int> index = indices(surface, angle, is_boundary);
   count_in_stars(stars(surface, poles), is_pole, angle, index);
   Clusters clusters = touching(surface, index, flipped);
-  std::map<int, Zero> found;
+  std::map<int, Cluster> found;
   for (int v = 0; v < surface.vertex_count; ++v) {
     if (index[v] == 0) continue;
-    Zero& zero = found.try_emplace(clusters.root(v), Zero{v, 0}).first->second;
-    if (index[v] > index[zero.vertex]) zero.vertex = v;
-    zero.order += index[v];
+    Cluster& cluster = found[clusters.root(v)];
+    (is_boundary[v] ? cluster.on_boundary : cluster.inside) += index[v];
+    const bool is_first = cluster.vertex == kNone || (is_boundary[v] && !cluster.is_boundary);
+    if (is_first || (is_boundary[v] == cluster.is_boundary && index[v] > index[cluster.vertex])) cluster.vertex = v;
+    cluster.is_boundary = cluster.is_boundary || is_boundary[v];
   }
-  for (const int t : flipped) {
+  for (const auto& [t, turns] : flipped) {
     const int v = surface.triangles[t][0];
-    ++found.try_emplace(clusters.root(v), Zero{v, 0}).first->second.order;
+    Cluster& cluster = found[clusters.root(v)];
+    if (cluster.vertex == kNone) {
+      cluster.vertex = v;
+      cluster.is_boundary = is_boundary[v];
+    }
+    cluster.inside += turns;
   }
   std::vector<Zero> result;
-  for (const auto& [root, zero] : found) {
-    if (zero.order != 0) result.push_back(zero);
+  for (const auto& [root, cluster] : found) {
+    if (cluster.order() != 0) result.push_back({cluster.vertex, cluster.order()});
   }
   return result;
 }
