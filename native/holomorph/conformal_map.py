@@ -1,4 +1,4 @@
-"""The conformal map between two equivalent closed surfaces, by matching their forms."""
+"""The conformal map between two equivalent surfaces, by matching their forms."""
 
 from dataclasses import dataclass
 from operator import itemgetter
@@ -10,8 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native, arrays
 from ._native import SolverError, TopologyError
 from .array_types import Integers, Progress, Reals
+from .bounded import BoundedStructure
 from .closed import ConformalStructure
 from .equivalence import Equivalence, conformally_equivalent, scaled
+from .map_sides import sides
+from .surface import Surface
 from .value import Value, counted
 
 STARTS = 12  # points of the second surface that are tried for one of the first
@@ -22,6 +25,9 @@ FARTHER = 4  # times as many vertices each time
 ALIKE = 0.98  # cosine of the forms' values at two points that are taken for one start
 ROUNDS = 4  # of the correction of the start
 MOST_RESIDUAL = 0.05  # of a map that is one
+SEARCH = (0.2, 0.3, 0.4)  # parts of the work: the verdict, starts, the best of them
+
+Mapped = ConformalStructure | BoundedStructure
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -39,6 +45,7 @@ class ConformalMap(Value):
     barycentric: Reals
     residual: float
     equivalence: Equivalence
+    _surfaces: tuple[Surface, Surface]
     _corners: Integers
 
     def _facts(self):
@@ -50,15 +57,27 @@ class ConformalMap(Value):
         values = np.asarray(values)
         return np.einsum("vi,vi...->v...", self.barycentric, values[self._corners[self.triangles]])
 
+    def uv(self, uv: ArrayLike, progress: Progress | None = None) -> Reals:
+        """(#C, 2) UVs at the polygon corners of the first surface of (#C', 2) `uv` at those of the second: its texture,
+        carried over. The corners of one polygon are in one chart, that of the polygon's middle, which is continued
+        across its cuts: a texture that goes on there, as that of a map by forms does, goes on here.
 
-def conformal_map(
-    a: ConformalStructure, b: ConformalStructure, *, tolerance: float = 0.0, progress: Progress | None = None
-) -> ConformalMap:
-    """The `ConformalMap` from closed structure `a` to closed structure `b`, of genus >= 1, which are equivalent or
-    mirror images: then it reverses the orientation. `tolerance` as in `conformally_equivalent`.
+        Raises ValueError for another shape or numbers that are not finite; Cancelled. Cost: linear."""
+        first, second = self._surfaces
+        uv = np.asarray(uv, dtype=np.float64)
+        count = len(second.corner_vertices)
+        if uv.shape != (count, 2) or not np.isfinite(uv).all():
+            raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) finite numbers are needed")
+        return _native.carried_uv(first._native, self.triangles, self.barycentric, second._native, uv, progress)
+
+
+def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Progress | None = None) -> ConformalMap:
+    """The `ConformalMap` from structure `a` to structure `b`, closed of genus >= 1 or with boundary, which are
+    equivalent or mirror images: then it reverses the orientation. `tolerance` as in `conformally_equivalent`.
 
     The integrals of forms that correspond by `Equivalence.matrix` are the same at corresponding points. The map begins
-    at a point where the values of all forms agree best, and goes on along the edges of `a`.
+    at a point where the values of all forms agree best, on the boundary if there is one, and goes on along the edges of
+    `a`.
 
     Raises TypeError for other structures; TopologyError where the surfaces are not known to be equivalent;
     SolverError where no start leads to a map; Cancelled.
@@ -66,71 +85,82 @@ def conformal_map(
     Cost: linear in both surfaces, beside that of `conformally_equivalent`.
     """
     for structure in (a, b):
-        if not isinstance(structure, ConformalStructure):
-            raise TypeError(f"maps are made between closed structures, not of a {type(structure).__name__}")
+        if not isinstance(structure, Mapped):
+            raise TypeError(
+                f"maps are made of structures with forms, without punctures, not of a {type(structure).__name__}"
+            )
     found = conformally_equivalent(a, b, tolerance=tolerance, progress=scaled(progress, 0.0, 0.2))
     if found.verdict not in ("equivalent", "mirror_image"):
         raise TopologyError(f"there is no map to be made; {found.sentence}")
-    gram = b._native.projected()[0]
-    whiten = np.linalg.inv(np.linalg.cholesky(gram))
-    forms = [whiten @ found.matrix @ a.harmonic_forms, whiten @ b.harmonic_forms]
-    return _Matching(a, b, forms, found, progress).run()
+    made = _Matching(sides(a, b, found), found.verdict == "mirror_image", progress).run()
+    return _result(a, b, made, found)
 
 
 class _Matching:
-    def __init__(self, a, b, forms, found, progress):
-        self._a, self._b, self._forms, self._found, self._progress = a, b, forms, found, progress
-        surfaces = a._triangulation, b._triangulation
-        self._slopes = [_native.form_slopes(surface, f) for surface, f in zip(surfaces, forms)]  # (#T, n, 2)
+    def __init__(self, both, is_mirror_image, progress):
+        self._sides, self._is_mirror_image, self._progress = both, is_mirror_image, progress
+        first, second = both
+        self._slopes = [_native.form_slopes(side.surface, side.forms) for side in both]  # (#T, n, 2)
         self._continuations = {
-            sign: _native.Continuation(surfaces[0], sign * forms[0], surfaces[1], forms[1]) for sign in (1, -1)
+            sign: _native.Continuation(first.surface, sign * first.forms, second.surface, second.forms)
+            for sign in (1, -1)
         }
 
     def run(self):
+        """(vertices, triangles, barycentric, residuals) of the best continuation."""
         sign, start = self._start()
         continuation = self._continuations[sign]
-        best = None
+        best, begin = None, SEARCH[2]
         for k in range(ROUNDS):
-            progress = scaled(self._progress, 0.2 + 0.8 * k / ROUNDS, 0.2 + 0.8 * (k + 1) / ROUNDS)
-            made = continuation.run(*start, len(self._a.edges), progress)
+            step = (1 - begin) / ROUNDS
+            progress = scaled(self._progress, begin + k * step, begin + (k + 1) * step)
+            made = continuation.run(*start, len(self._sides[0].surface.edges), progress)
             if best is not None and _size(made) >= _size(best):
                 break
             best = made
             vertex, triangle, residual = start
             start = vertex, triangle, residual - self._shift(made)
-        return self._result(best)
+        return best
 
     def _start(self):
         """Sign and start that fit best. On a thin arm all forms are nearly proportional, and wrong starts fit there as
         well as right ones, until the continuation leaves the arm."""
         fit = itemgetter(0)
         found, most = sorted(self._tried(), key=fit)[:FINALISTS], TRIED
+        parts = iter(np.linspace(*SEARCH[1:], 2 * len(found)))
         while len(found) > 1:
             most *= FARTHER
-            again = [(self._misfit(sign, start, most), sign, start) for _, sign, start in found]
+            again = [(self._misfit(sign, start, most, next(parts)), sign, start) for _, sign, start in found]
             found = sorted(again, key=fit)[: len(found) // 2]
         return found[0][1:]
 
-    def _misfit(self, sign, start, most):
-        return _size(self._continuations[sign].run(*start, most, None))
+    def _misfit(self, sign, start, most, part):
+        """`part` of the whole work is done."""
+        return _size(self._continuations[sign].run(*start, most, scaled(self._progress, part, part)))
 
     def _tried(self):
         """(size of the residuals, sign, start) of the first vertices from each start."""
-        values = [slopes @ np.array([1, -1j]) for slopes in self._slopes]
-        if self._found.verdict == "mirror_image":
-            values[0] = values[0].conj()
-        unit = [v / np.linalg.norm(v, axis=1, keepdims=True) for v in values]
-        n = len(self._forms[0])
-        for s in np.linspace(0, len(unit[0]) - 1, SAMPLES).astype(int):
+        first, second = self._sides
+        unit = [self._unit_values(i) for i in range(2)]
+        if self._is_mirror_image:
+            unit[0] = unit[0].conj()
+        for k, s in enumerate(np.linspace(0, len(unit[0]) - 1, SAMPLES).astype(int)):
             likeness = np.abs(unit[1] @ unit[0][s].conj())
-            for _ in range(STARTS):
+            for i in range(STARTS):
+                part = SEARCH[0] + (SEARCH[1] - SEARCH[0]) * (k + i / STARTS) / SAMPLES
                 t = int(np.argmax(likeness))
                 likeness[np.abs(unit[1] @ unit[1][t].conj()) > ALIKE] = -1
+                triangle, corner = second.starts[t]
+                start = int(first.vertices[s]), int(triangle), second.residual(triangle, corner)
                 for sign in self._continuations:
-                    start = int(self._a._triangulation.triangles[s][0]), t, np.zeros(n)
-                    yield self._misfit(sign, start, TRIED), sign, start
+                    yield self._misfit(sign, start, TRIED, part), sign, start
                 if likeness.max() < 0:
                     break
+
+    def _unit_values(self, i):
+        """(k, n) unit vectors: the forms' complex values at the starts of a side."""
+        values = self._slopes[i][self._sides[i].starts[:, 0]] @ np.array([1, -1j])
+        return values / np.linalg.norm(values, axis=1, keepdims=True)
 
     def _shift(self, made):
         """By how much the integrals of the start are wrong: what the images cannot follow, in the mean."""
@@ -142,21 +172,27 @@ class _Matching:
         projectors = np.eye(n) - slopes @ np.linalg.pinv(slopes)
         return np.linalg.solve(projectors.mean(axis=0), residuals.mean(axis=0))
 
-    def _result(self, made):
-        vertices, triangles, barycentric, residuals = made
-        order = np.argsort(vertices)
-        residual = float(np.sqrt((residuals**2).sum(axis=1).mean()))
-        if residual > MOST_RESIDUAL:
-            raise SolverError(f"no map was found: the forms' integrals differ by {residual:.2g} where it ends")
-        component, surface = self._a._component, self._a.surface
-        all_triangles = np.full(surface.given_vertex_count, -1)
-        all_barycentric = np.full((surface.given_vertex_count, 3), np.nan)
-        where = np.arange(len(order)) if component is surface else component.vertex_index
-        all_triangles[where], all_barycentric[where] = triangles[order], barycentric[order]
-        corners = self._b._of_surface(self._b._triangulation.triangles)
-        return ConformalMap(
-            arrays.frozen(all_triangles), arrays.frozen(all_barycentric), residual, self._found, corners
-        )
+
+def _result(a, b, made, found):
+    vertices, triangles, barycentric, residuals = made
+    residual = float(np.sqrt((residuals**2).sum(axis=1).mean()))
+    if residual > MOST_RESIDUAL:
+        raise SolverError(f"no map was found: the forms' integrals differ by {residual:.2g} where it ends")
+    # What lies beyond the boundary, in the other copy of the double, is reflected.
+    count = len(b._triangulation.triangles)
+    is_beyond = triangles >= count
+    triangles = np.where(is_beyond, triangles - count, triangles)
+    barycentric = np.where(is_beyond[:, None], barycentric[:, [0, 2, 1]], barycentric)
+    component, surface = a._component, a.surface
+    all_triangles = np.full(surface._native.vertex_count, -1, dtype=np.int32)
+    all_barycentric = np.full((len(all_triangles), 3), np.nan)
+    where = vertices if component is surface else component.vertex_index[vertices]
+    all_triangles[where], all_barycentric[where] = triangles, barycentric
+    corners = b._of_surface(b._triangulation.triangles)
+    surfaces = surface, b.surface
+    return ConformalMap(
+        arrays.frozen(all_triangles), arrays.frozen(all_barycentric), residual, found, surfaces, corners
+    )
 
 
 def _size(made):

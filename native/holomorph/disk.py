@@ -1,6 +1,6 @@
 """Disks: maps to the unit disk and to a rectangle, that with a free boundary, and which is taken without a choice."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,7 +11,10 @@ from . import _native, arrays
 from ._native import TopologyError
 from .array_types import Complexes, Integers, Progress, Reals
 from .checks import checked_coefficients, own_vertices
+from .edges import boundary_corners
+from .overlap import overlapping_part
 from .punctured import PuncturedStructure
+from .quality import Quality
 from .report import bound_lists, finite_or_none
 from .results import SolverReport, Structure, result
 
@@ -162,7 +165,7 @@ class FreeBoundaryMap(PlaneMap):
 
     Lengths are kept along the boundary: the scale factors e^u are 1 there, and of all conformal maps this one has the
     least Dirichlet energy of u (Sawhney and Crane 2017). A flat surface is mapped by a rigid motion. Around much
-    curvature the map may overlap itself."""
+    curvature the map may overlap itself: `quality(uv).overlapping_part` says how much."""
 
     @property
     def description(self) -> str:
@@ -178,6 +181,12 @@ class FreeBoundaryMap(PlaneMap):
     def _plane(self):
         return arrays.frozen(self._native.points().ravel())
 
+    def quality(self, uv: ArrayLike) -> Quality:
+        """`Quality` of a (#C, 2) UV map that is continuous, also of how much it covers itself."""
+        found = super().quality(uv)
+        border = boundary_corners(self._component)
+        return replace(found, overlapping_part=overlapping_part((self._checked_uv(uv) @ [1, 1j])[border]))
+
     def invariants(self) -> dict[str, Any]:
         """Nothing: all disks are alike."""
         return {}
@@ -186,12 +195,13 @@ class FreeBoundaryMap(PlaneMap):
 def automatic_map(surface, component, solver, threads, progress):
     """The map of a disk for which nothing was chosen.
 
-    Where its boundary has exactly four exterior angles beyond 45 degrees, all of them inwards, the rectangle with
-    these corners. Else the map to the unit disk centred at the vertex farthest from the boundary along the edges.
-    Where its density ratio is above `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with
-    the same puncture and the rectangle with corners at the quarters of the boundary. Where every vertex is next to the
-    boundary, that rectangle, or the map with a free boundary where the rectangle collapses triangles and it flips none;
-    with three boundary edges a triangle.
+    Where its boundary has four clear corners, rough, round or wavy as they may be, the rectangle with these: where it
+    turns by more than 45 degrees at exactly four places, and back at none (plane/clear_corners.h). Else the map to the
+    unit disk centred at the vertex farthest from the boundary along the edges. Where its density ratio is above
+    `UNEVEN`, as on a glove or a long tube, the most even one of it, the log map with the same puncture and the
+    rectangle with corners at the quarters of the boundary. Where every vertex is next to the boundary, that rectangle,
+    or the map with a free boundary where the rectangle collapses triangles and it flips none; with three boundary edges
+    a triangle.
     """
     options = solver, threads, progress
     corners = _native.clear_corners(component._native)

@@ -17,3 +17,12 @@ def edges_of_keys(edges, keys, vertex_count):
     known = edge_keys(edges, vertex_count)
     order = np.argsort(known)
     return order[np.searchsorted(known, keys, sorter=order)]
+
+
+def boundary_corners(surface):
+    """(#B, 2) corners of the surface's polygons at the ends of the sides that no other polygon has, in the direction of
+    its triangles."""
+    edges = surface._native.triangle_edges.ravel()
+    corners = surface.triangle_corners
+    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2)
+    return ends[np.bincount(edges)[edges] == 1]

@@ -5,11 +5,15 @@ from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from ._native import TopologyError
+from .checks import real_number
 from .edges import edge_keys
+from .hard_edges import cuts_to_tips, is_hard
 from .surface import Surface
 
 
-def islands(surface: Surface, seams: ArrayLike, strict: bool = True) -> tuple[Surface, ...]:
+def islands(
+    surface: Surface, seams: ArrayLike = (), strict: bool = True, *, hard_edges: float | None = None
+) -> tuple[Surface, ...]:
     """The parts into which the seams cut the surface, each a connected `Surface`, ordered by their first face.
 
     A vertex becomes one vertex for each fan of faces that the seams leave at it; a seam that ends inside a part cuts it
@@ -20,8 +24,11 @@ def islands(surface: Surface, seams: ArrayLike, strict: bool = True) -> tuple[Su
     surface : Surface with positions
     seams : (#S, 2) vertices of edges, as the mesh was given; those on the boundary do not matter
     strict : refuse vertices that no edge of a face joins, else pass over them
+    hard_edges : degrees between the normals of two faces; where they differ by more, the edge is a seam, too. A part
+        that has a tip then, a vertex inside with more than 60 degrees too few or too many around it, such as that of a
+        cone, is cut from there to the nearest seam. None: only the seams that are given
 
-    Raises TopologyError for other shapes or types, and for such vertices.
+    Raises TopologyError for other shapes or types, and for such vertices; ValueError for an angle that is none.
 
     Cost: O(#C log #C).
     """
@@ -33,6 +40,9 @@ def islands(surface: Surface, seams: ArrayLike, strict: bool = True) -> tuple[Su
     wanted = _seam_keys(surface, seams, sides, strict)
     is_seam = np.zeros(len(edges), bool)
     is_seam[: len(sides)] = np.isin(sides, wanted)
+    if hard_edges is not None:
+        is_seam |= is_hard(surface, real_number(hard_edges, "hard_edges", positive=True))
+        is_seam |= cuts_to_tips(surface, is_seam)
     return _cut_open(surface, is_seam).components
 
 

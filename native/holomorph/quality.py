@@ -22,7 +22,8 @@ class Quality(Value):
     triangles that have not collapsed; density_ratio: 95 % over 5 % quantile of s1 s2 by area; median_density: its 50 %
     quantile; capped_mean_angle: mean of s1 / s2 over the area, 10 at most, so that no single triangle decides it;
     flipped_part, lost_part, long_part: parts of the area that are flipped, that are flipped or have collapsed, and that
-    lie in long thin triangles.
+    lie in long thin triangles; overlapping_part: of a map with a free boundary, the part of its region in the plane
+    that it covers more than once; None for others.
     """
 
     _unpickled = ("_triangulation",)
@@ -34,6 +35,7 @@ class Quality(Value):
     density_ratio: float
     median_density: float
     _triangulation: object
+    overlapping_part: float | None = None
 
     @classmethod
     def of(cls, triangulation: object, uv: Reals, threads: int) -> "Quality":

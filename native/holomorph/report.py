@@ -97,6 +97,7 @@ def map_report(coefficients: ArrayLike, quality: "Quality", found: Verdict | Non
             "flipped_part": quality.flipped_part,
             "flipped_triangles": np.count_nonzero(quality.flipped),
             "collapsed_triangles": np.count_nonzero(quality.collapsed),
+            "overlapping_part": quality.overlapping_part,
         }
     )
 

@@ -16,6 +16,7 @@ LEVELS = ("good", "fair", "poor", "unusable")
 UNEVEN = (10.0, 40.0, 1000.0)  # 95 : 5 % ratio of the density, in area
 SHEARED = (1.15, 1.4, 2.5)  # mean s1 / s2, each at most `quality.MOST_SHEARED`
 LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
+OVERLAPPING = (1e-6, 1e-6, 0.2)  # part of an island that covers itself; less is rounding, none is fair
 
 EVENNESS = ("even", "fairly even", "uneven", "very uneven")
 SHEAR = (None, "slightly sheared", "sheared", "badly sheared")
@@ -23,6 +24,7 @@ LONG = 10.0  # square of the longest side over twice the area of a long thin tri
 MOSTLY = 0.5  # part of the area that is
 ADDED = 1.05  # mean s1 / s2 that a tiling's whole numbers add, from which on more tiles would show
 ISLANDS = "or unwrap it in islands along its hard edges"
+OVERLAP_ADVICE = "mark one more seam across the island"
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,11 @@ class Verdict:
         return LEVELS.index(self.level)
 
     @property
+    def offers_islands(self) -> bool:
+        """Whether islands along hard edges would help: the mesh is too coarse for a conformal map of the whole."""
+        return ISLANDS in self.advice
+
+    @property
     def text(self) -> str:
         """Sentence and advice."""
         return self.sentence + (f": {self.advice}" if self.advice else "")
@@ -52,8 +59,8 @@ class Verdict:
 def verdict(quality: "Quality", poles: int | None = None, added_distortion: float = 1.0) -> Verdict:
     """The `Verdict` on a map with this `Quality`.
 
-    The worst of three counts: how uneven the density is, how far squares are sheared, and which part of the surface is
-    flipped or has collapsed. `UNEVEN`, `SHEARED` and `LOST` are the limits.
+    The worst counts: how uneven the density is, how far squares are sheared, which part of the surface is flipped or
+    has collapsed, and which part of an island covers itself. `UNEVEN`, `SHEARED`, `LOST`, `OVERLAPPING` are the limits.
 
     poles, added_distortion : of a seamless tiling, how many it has and `Tiling.added_distortion`; None for other maps
     """
@@ -63,12 +70,16 @@ def verdict(quality: "Quality", poles: int | None = None, added_distortion: floa
         _rank(quality.density_ratio, UNEVEN),
         _rank(quality.capped_mean_angle, SHEARED),
         _rank(quality.lost_part, LOST),
+        _rank(quality.overlapping_part or 0.0, OVERLAPPING),
     ]
     worst = max(ranks)
     against_shear = _against_shear(quality, added_distortion, worst)
-    advice = (_against_unevenness(poles), against_shear, _against_losses(quality))
+    is_island = quality.overlapping_part is not None
+    advice = (_against_unevenness(poles, is_island), against_shear, _against_losses(quality), OVERLAP_ADVICE)
     wanted = [text for text, rank in zip(advice, ranks) if rank == worst > 0]
-    return Verdict(LEVELS[worst], _sentence(quality, poles, ranks), "; ".join(wanted))
+    more_exact = [text for text in wanted if not any(other.startswith(f"{text} ") for other in wanted)]
+    decisive = [text for text in more_exact if ISLANDS in text]  # nothing else helps a mesh that is so coarse
+    return Verdict(LEVELS[worst], _sentence(quality, poles, ranks), "; ".join(decisive or more_exact))
 
 
 def overall(verdicts: Sequence[Verdict], is_unwelded: bool = False) -> Verdict:
@@ -91,12 +102,14 @@ def _rank(value, limits):
 
 
 def _sentence(quality, poles, ranks):
-    uneven, sheared, lost = ranks
+    uneven, sheared, lost, overlapping = ranks
     words = [EVENNESS[uneven], None if poles is None else "seamless", SHEAR[sheared]]
     if uneven > 1:
         words[0] += f" (squares of 1 to {_factor(math.sqrt(quality.density_ratio))})"
     if lost:
         words.append(f"{_percent(quality.lost_part)} flipped or collapsed")
+    if overlapping:
+        words.append(f"{_percent(quality.overlapping_part)} of the island lies over itself")
     if poles is not None:
         words.append({0: "no poles", 1: "1 pole"}.get(poles, f"{poles} poles"))
     sentence = ", ".join(word for word in words if word)
@@ -116,7 +129,9 @@ def _percent(part):
     return f"{100 * part:.2g} %"
 
 
-def _against_unevenness(poles):
+def _against_unevenness(poles, is_island):
+    if is_island:
+        return "mark a seam up to where it is coarse"
     return "add poles where it is coarse" if poles else "make a seamless tiling, with poles where it is coarse"
 
 

@@ -14,7 +14,8 @@ class Zeros(Value):
         is one, named by the vertex with the largest part; those in the star of a puncture are named by a vertex around
         it
     orders : (k,) integers: around the vertex the map turns 2 pi (order + 1); on a boundary pi (order + 1). On a closed
-        surface their sum is 2g - 2, with p punctures 2g - 2 + p, exactly. A negative order is a defect of a coarse
+        surface their sum is 2g - 2, with p punctures 2g - 2 + p, exactly; with b boundary loops the orders on them and
+        twice the others are 4g - 4 + 2b + 2p together. A negative order is a defect of a coarse
         map: beside it, zeros are too many
     positions : (k, 3) of the vertices; None on an intrinsic surface
     """

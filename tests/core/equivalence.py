@@ -77,21 +77,23 @@ def isometries(gram, target, tolerance):
     return extended([])
 
 
-def distance(omega, target):
-    """Least max-norm of R.omega - target over Sp(2g, Z), infinite where nothing comes within the tolerances."""
+def max_norm(matrix):
+    return np.abs(matrix).max()
+
+
+def distance(omega, target, norm=max_norm):
+    """Least norm of R.omega - target over Sp(2g, Z), infinite where nothing comes within the tolerances."""
     gram, goal = gram_of(omega), gram_of(target)
     for tolerance in TOLERANCES:
-        found = [
-            np.abs(omega_of(R @ gram @ R.T) - target).max() for R in isometries(gram, goal, tolerance * goal.max())
-        ]
+        found = [norm(omega_of(R @ gram @ R.T) - target) for R in isometries(gram, goal, tolerance * goal.max())]
         if found:
             return min(found)
     return np.inf
 
 
-def distance_or_mirrored(omega, target):
+def distance_or_mirrored(omega, target, norm=max_norm):
     """The same over the matrix and its mirror image."""
-    return min(distance(omega, target), distance(-omega.conj(), target))
+    return min(distance(omega, target, norm), distance(-omega.conj(), target, norm))
 
 
 def automorphism_count(omega):

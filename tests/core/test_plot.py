@@ -80,6 +80,14 @@ def test_each_loop_has_a_colour(plot):
     assert not any(share(found, to_rgb(f"C{number}"), 0.005) for number in (4, 5))
 
 
+def test_each_form_has_a_checker(plot):
+    structure = solved("genus 2 block")
+    picture = plot.forms(structure, squares=8)
+    assert [axes.get_title() for axes in picture.axes] == ["form 1", "form 2"]
+    shares = [share(pixels(picture), colour) for colour in plot.SQUARES]
+    assert min(shares) > 0.1
+
+
 def test_y_may_be_upwards(plot):
     surface, uv = square()
     lying, standing = (pixels(plot.checker(surface, uv, up=up)) for up in "ZY")

@@ -201,8 +201,8 @@ def test_path_may_be_any_bytes_that_a_file_system_takes(tmp_path):
     try:
         with open(name, "wb") as file:
             file.write(off(MIXED))
-    except OSError:
-        pytest.skip("this file system takes only UTF-8")
+    except (OSError, UnicodeDecodeError):
+        pytest.skip("this system takes only UTF-8")
     assert Surface.read(os.fsdecode(name)).genus == 1
     assert Surface.read(name).genus == 1
     with pytest.raises(InvalidMesh, match=r"caf\?2\.off: there is no such file"):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from holomorph import Surface, conformal_structure, overall, verdict
 from holomorph.__main__ import main
-from holomorph.verdicts import LEVELS, LOST, SHEARED, UNEVEN
+from holomorph.verdicts import LEVELS, LOST, OVERLAPPING, SHEARED, UNEVEN
 from solved import solved
 from test_read import obj
 
@@ -25,6 +25,7 @@ class Measured:
     lost_part: float = 0.0
     long_part: float = 0.0
     mean_angle: float = 1.0
+    overlapping_part: float | None = None
     flipped: tuple = (False,)
     collapsed: tuple = (False,)
 
@@ -48,6 +49,16 @@ def test_each_quantity_alone_decides_the_level(field, limits):
     assert {verdict(Measured(**{field: value})).level for value in (np.inf, np.nan)} == {"unusable"}
 
 
+def test_an_island_that_lies_over_itself_is_not_fit():
+    found = verdict(Measured(overlapping_part=2 * OVERLAPPING[0]))
+    assert found.level == "poor" and verdict(Measured(overlapping_part=0.3)).level == "unusable"
+
+
+def test_islands_are_offered_where_the_mesh_is_too_coarse():
+    assert verdict(Measured(capped_mean_angle=2.0)).offers_islands
+    assert not verdict(Measured(density_ratio=225)).offers_islands
+
+
 def test_a_map_without_distortion_is_good_and_needs_no_advice():
     structure, uv = disk()
     assert structure.quality(uv).verdict == verdict(Measured())
@@ -61,6 +72,10 @@ ISLANDS = "or unwrap it in islands along its hard edges"
     ("measured", "tiling", "sentence", "advice"),
     [
         ({}, {"poles": 8}, "Even, seamless, 8 poles", ""),
+        ({"overlapping_part": 0.0}, {}, "Even", ""),
+        ({"overlapping_part": OVERLAPPING[0]}, {}, "Even", ""),
+        ({"overlapping_part": 0.12}, {}, "Even, 12 % of the island lies over itself", "mark one more seam across"),
+        ({"density_ratio": 225, "overlapping_part": 0.0}, {}, "Uneven (squares of 1 to 15)", "mark a seam up to"),
         ({}, {"poles": 0}, "Even, seamless, no poles", ""),
         ({"density_ratio": 25}, {}, "Fairly even", "make a seamless tiling, with poles where it is coarse"),
         ({"density_ratio": 225}, {"poles": 1}, "Uneven (squares of 1 to 15), seamless, 1 pole", "add poles"),
@@ -91,6 +106,16 @@ def test_words(measured, tiling, sentence, advice):
 
 
 # ---- of real maps -------------------------------------------------------------------------------------------------
+
+
+def test_no_advice_is_given_twice():
+    found = verdict(Measured(capped_mean_angle=1.3, lost_part=0.005, flipped=(True,)))
+    assert found.advice == "subdivide the mesh where faces are flipped"
+
+
+def test_where_a_mesh_is_too_coarse_islands_are_the_only_advice():
+    found = verdict(Measured(density_ratio=1e4, capped_mean_angle=4, lost_part=0.2, long_part=0.9))
+    assert found.advice == f"remesh its long thin faces, {ISLANDS}"
 
 
 @pytest.mark.parametrize("factor", [np.nan, 0.0, np.inf])

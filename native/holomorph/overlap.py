@@ -1,0 +1,35 @@
+"""How much of the plane a map covers twice."""
+
+import numpy as np
+
+ROWS_PER_EDGE, MOST_ROWS = 8, 4096  # of the lines across a curve that are looked at
+
+
+def overlapping_part(curve):
+    """The part of the region around which closed curves wind that they wind around more than once: 0 where the map that
+    they bound lies beside itself nowhere.
+
+    curve : (n, 2) complex ends of directed edges, which make closed curves
+
+    The winding number is exact along each of up to 4096 horizontal lines at equal distances, the area the sum of the
+    lengths: an overlap lower than their distance may lie between two of them.
+    Cost: O(m log m) for m crossings.
+    """
+    start, end = curve.T
+    low = start.imag.min()
+    rows = min(ROWS_PER_EDGE * len(curve), MOST_ROWS)
+    height = (start.imag.max() - low) / rows
+    if not height > 0 or not np.isfinite(curve).all():
+        return 0.0
+    # Row k lies at low + (k + 1/2) height. Each end is rounded once: edges that meet there share no row and skip none.
+    first, last = (np.ceil((at.imag - low) / height - 0.5).astype(np.int64) for at in (start, end))
+    count = np.abs(last - first)
+    edge = np.repeat(np.arange(len(curve)), count)
+    row = np.minimum(first, last)[edge] + np.arange(len(edge)) - np.repeat(np.cumsum(count) - count, count)
+    along = (low + (row + 0.5) * height - start.imag[edge]) / (end.imag - start.imag)[edge]
+    x = start.real[edge] + along * (end.real - start.real)[edge]
+    order = np.lexsort((x, row))
+    winding = np.cumsum(np.sign(first - last)[edge[order]])[:-1]  # 0 at the end of each row
+    length = np.diff(x[order])
+    around = length[winding != 0].sum()
+    return float(length[np.abs(winding) > 1].sum() / around) if around > 0 else 0.0

@@ -1,0 +1,117 @@
+"""Islands along hard edges: developable parts without distortion, cuts to tips, angles and scales."""
+
+import families
+import numpy as np
+import pytest
+from holomorph import Surface, conformal_structure, islands
+from solved import surface_of
+from test_islands import assert_same_faces, is_rigid
+
+ANGLE = 40  # degrees
+
+
+def around(n, radius, height):
+    turn = 2 * np.pi * np.arange(n) / n
+    return np.stack([radius * np.cos(turn), radius * np.sin(turn), np.full(n, height)], axis=1)
+
+
+def cone(n=32):
+    """As Blender makes it: triangles to the tip, vertex n, and a base of one face."""
+    sides = [[i, (i + 1) % n, n] for i in range(n)]
+    return Surface(np.concatenate([around(n, 1, -1), [[0, 0, 1]]]), [*sides, list(range(n))[::-1]])
+
+
+def can(n=32):
+    """A cylinder with one face for each cap."""
+    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    points = np.concatenate([around(n, 1, -1), around(n, 1, 1)])
+    return Surface(points, [*sides, list(range(n))[::-1], list(range(n, 2 * n))])
+
+
+def bracket():
+    """Two plates at a right angle, with a square hole in one."""
+    cells = np.ones((4, 4, 4), bool)
+    cells[1:, :, 1:] = False
+    cells[0, 1:3, 2] = False
+    return surface_of(families.voxel_surface(cells, ((0, 0),)))
+
+
+def test_a_cone_is_too_coarse_for_one_map_and_fits_in_islands():
+    surface = cone()
+    structure = conformal_structure(surface)
+    whole = structure.quality(structure.uv(structure.balanced_coefficients()))
+    assert whole.capped_mean_angle > 3 and whole.verdict.offers_islands
+    parts = islands(surface, hard_edges=ANGLE)
+    assert [len(part.face_index) for part in parts] == [32, 1]
+    assert_same_faces(surface, parts)
+    assert all(is_rigid(part) for part in parts)
+
+
+def test_the_cut_to_a_tip_is_one_edge_long():
+    side = islands(cone(), hard_edges=ANGLE)[0]
+    assert (side.genus, side.boundary_count) == (0, 1)
+    assert np.count_nonzero(side.vertex_index == 32) == 1  # the tip stays one vertex
+    assert len(side.vertices) == 32 + 1 + 1
+
+
+def test_tips_inside_a_fine_mesh_are_reached_by_the_shortest_path():
+    """A pyramid on a plate, in small cells: the plate's rim is the only seam."""
+    n = 24
+    x, y = np.divmod(np.arange((n + 1) ** 2), n + 1)
+    height = np.maximum(0, 6 - np.maximum(abs(x - n // 2), abs(y - n // 2))) * 3.0
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    quads = np.stack([corner, corner + n + 1, corner + n + 2, corner + 1], axis=1)
+    surface = Surface(np.stack([x, y, height], axis=1).astype(float), quads)
+    (part,) = islands(surface, hard_edges=170)
+    assert (part.genus, part.boundary_count) == (0, 1)
+    assert len(part.vertices) > len(surface.vertices)
+    before, after = (conformal_structure(each, boundary="free") for each in (surface, part))
+    uneven, even = (each.quality(each.uv()).density_ratio for each in (before, after))
+    assert even < uneven
+
+
+def test_a_can_falls_into_side_and_caps():
+    parts = islands(can(), hard_edges=ANGLE)
+    assert [(part.boundary_count, len(part.face_index)) for part in parts] == [(2, 32), (1, 1), (1, 1)]
+
+
+def test_a_cube_falls_into_its_sides_at_angles_below_ninety():
+    surface = surface_of(families.cube())
+    assert [len(islands(surface, hard_edges=degrees)) for degrees in (89.9, 90.1)] == [6, 1]
+
+
+def test_seams_count_besides():
+    surface = can()
+    parts = islands(surface, [[0, 32]], hard_edges=ANGLE)
+    assert parts[0].boundary_count == 1 and is_rigid(parts[0])
+
+
+def test_a_smooth_surface_has_no_hard_edges():
+    surface = surface_of(families.geodesic_sphere(6))
+    (part,) = islands(surface, hard_edges=ANGLE)
+    assert part.boundary_count == 0 and len(part.vertices) == len(surface.vertices)
+
+
+@pytest.mark.parametrize("change", [lambda m: families.moved(m, scale=1e-5), families.partly_reversed])
+def test_size_place_and_the_order_of_corners_do_not_matter(change):
+    mesh = families.cube()
+    assert len(islands(surface_of(change(mesh)), hard_edges=ANGLE)) == 6
+
+
+def test_open_edges_are_no_hard_edges():
+    plate = surface_of(families.flat_cells(np.ones((3, 3), bool), 1.0, topology=((0, 1),)))
+    assert len(islands(plate, hard_edges=1e-3)) == 1
+
+
+@pytest.mark.parametrize("angle", [0, -1, np.nan, "40"])
+def test_what_is_no_angle_is_refused(angle):
+    with pytest.raises(ValueError, match="hard_edges is"):
+        islands(can(), hard_edges=angle)
+
+
+def test_a_bracket_is_flattened_without_shearing():
+    """Plane parts; that with a hole is a ring, which is not flattened here."""
+    parts = islands(bracket(), hard_edges=ANGLE)
+    disks = [part for part in parts if part.boundary_count == 1]
+    assert len(parts) - len(disks) == 2
+    assert all(is_rigid(part) for part in disks)
