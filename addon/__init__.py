@@ -14,6 +14,7 @@ bl_info = {
 
 def register():
     from . import (
+        carry,
         compare,
         drag,
         lod,
@@ -39,6 +40,7 @@ def register():
     lod.register()
     texel_operators.register()
     compare.register()
+    carry.register()
     overlay.register()
     tools.register()
     submit.register()
@@ -50,6 +52,7 @@ def register():
 
 def unregister():
     from . import (
+        carry,
         compare,
         drag,
         lod,
@@ -73,6 +76,7 @@ def unregister():
     submit.unregister()
     tools.unregister()
     overlay.unregister()
+    carry.unregister()
     compare.unregister()
     texel_operators.unregister()
     lod.unregister()

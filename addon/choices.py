@@ -27,12 +27,13 @@ class Choices:
     seams: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64), compare=False)  # (#S,2) vertices
     boundary: str = "natural"
     solver: str = "auto"
+    hard_edges: float = 0.0  # degrees: islands are cut along sharper edges, too; 0 for the seams alone
 
     @property
     def key(self):
         """Equal for choices that give the same solve."""
         selected = (self.use, self.selected, self.residues) if self.selected else ()
-        return (*selected, self.seams.tobytes(), self.boundary, self.solver)
+        return (*selected, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges)
 
     @property
     def is_explicit(self):
@@ -145,16 +146,16 @@ def _selection(part, choices):
 
 def _are_corners_of_a_disk(part, vertices):
     is_disk = part.genus == 0 and part.boundary_count == 1
-    return is_disk and len(vertices) == CORNERS and bool(np.isin(vertices, _boundary_edges(part)[0]).all())
+    return is_disk and len(vertices) == CORNERS and bool(np.isin(vertices, boundary_edges(part)[0]).all())
 
 
-def _boundary_edges(part):
+def boundary_edges(part):
     """(starts, ends) of the boundary edges, directed as in their triangles, in vertices of the whole mesh."""
-    triangles = part.vertex_index[part.triangles].astype(np.int64)
+    triangles = part.triangles.astype(np.int64)
     start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
     count = triangles.max() + 1
-    is_boundary = ~np.isin(start * count + end, end * count + start)
-    return start[is_boundary], end[is_boundary]
+    is_boundary = ~np.isin(start * count + end, end * count + start)  # also both sides of a cut
+    return part.vertex_index[start[is_boundary]], part.vertex_index[end[is_boundary]]
 
 
 def around_boundary(part, vertices):
@@ -163,7 +164,7 @@ def around_boundary(part, vertices):
 
     Steps to the first vertex by pointer doubling, O(n log n) for n vertices of the whole mesh.
     """
-    start, end = _boundary_edges(part)
+    start, end = boundary_edges(part)
     if not np.isin(vertices, start).all():
         return vertices
     following = np.arange(start.max() + 1)

@@ -69,6 +69,8 @@ def _add_choices(parser):
     group.add_argument("--selection", choices=("automatic", "faces", "punctures", "rectangle", "none"), default="none")
     group.add_argument("--modifiers", action="store_true", help="map what the modifiers make")
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
+    text = "with --main islands: cut along edges sharper than so many degrees, too, and those marked sharp"
+    group.add_argument("--hard-edges", type=float, default=0.0, metavar="DEGREES", help=text)
     group.add_argument(
         "--boundary",
         choices=("natural", "double_cover", "straight", "free"),
@@ -100,6 +102,9 @@ def _check_values(options):
     is_ratio = 0 < options.ratio < 1
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
     _refuse_if(options.puncture and options.rectangle, "--puncture and --rectangle exclude each other")
+    _refuse_if(not 0 <= options.hard_edges < 180, "--hard-edges must be at least 0 and less than 180")
+    is_used = not options.hard_edges or options.main == "islands"
+    _refuse_if(not is_used, "--hard-edges cuts islands: it goes with --main islands")
     boundaries = ("natural", "straight", "free") if options.seamless else ("natural", "double_cover")
     sentence = "--boundary is straight or free with --seamless, natural or double_cover without"
     _refuse_if(options.boundary not in boundaries, sentence)

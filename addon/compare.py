@@ -6,13 +6,8 @@ import bpy
 from .modal import WorkOperator
 
 
-class HOLOMORPH_OT_compare(WorkOperator, bpy.types.Operator):
-    """Say whether there is a map between the two selected meshes that keeps all angles: whether they are the same
-    surface, mirror images, different, or cannot be told apart at this resolution"""
-
-    bl_idname = "object.holomorphic_compare"
-    bl_label = "Compare Conformally"
-    bl_options = {"REGISTER"}
+class TwoMeshes:
+    """A mixin: an operator on the two selected meshes."""
 
     @classmethod
     def why_not(cls, context):
@@ -21,25 +16,37 @@ class HOLOMORPH_OT_compare(WorkOperator, bpy.types.Operator):
         selected = context.view_layer.objects.selected
         return "" if sum(o.type == "MESH" for o in selected) == 2 else "Select two meshes"
 
+    @staticmethod
+    def read_sides(objects):
+        from . import comparison, targets
+
+        return [comparison.Side(o.name, targets.read(o), o.matrix_world.determinant() < 0) for o in objects]
+
+    def waiting_faces(self):
+        return sum(side.polygons.face_count for side in self._sides)
+
+
+class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
+    """Say whether there is a map between the two selected meshes that keeps all angles: whether they are the same
+    surface, mirror images, different, or cannot be told apart at this resolution"""
+
+    bl_idname = "object.holomorphic_compare"
+    bl_label = "Compare Conformally"
+    bl_options = {"REGISTER"}
+
     def draw_options(self, _layout, _obj):
         """There are none."""
 
     def prepare(self, context):
-        from . import comparison, targets
+        from . import targets
 
-        self._sides = [
-            comparison.Side(obj.name, targets.read(obj), obj.matrix_world.determinant() < 0)
-            for obj in targets.mesh_objects(context)
-        ]
+        self._sides = self.read_sides(targets.mesh_objects(context))
         return True
 
     def make_work(self, progress):
         from . import comparison
 
         return comparison.Comparison(self._sides, progress)
-
-    def waiting_faces(self):
-        return sum(len(side.polygons.face_offsets) - 1 for side in self._sides)
 
     def finish(self, _context, work, time_has_passed):
         if work.error:

@@ -21,6 +21,10 @@ class Side:
             corners, offsets = corners[::-1], offsets[-1] - offsets[::-1]
         return native.load().Surface.from_polygons(self.polygons.vertices, corners, offsets)
 
+    def in_order(self, values):
+        """Values at the polygons' corners in the order of the surface's, and the reverse."""
+        return values[::-1] if self.is_mirrored else values
+
 
 class Comparison(jobs.Work):
     """After `run`, `found` is the `holomorph.Equivalence`, or `error` one sentence why there is none."""

@@ -14,6 +14,16 @@ import sys
 from pathlib import Path
 
 NAME = "holomorph"
+# What the name of a zip says of the computer it is for, by what Python says of it.
+PLATFORMS = {
+    ("Windows", "AMD64"): "windows_x64",
+    ("Darwin", "arm64"): "macos_arm64",
+    ("Darwin", "x86_64"): "macos_x64",
+    ("Linux", "x86_64"): "linux_x64",
+    ("Linux", "aarch64"): "linux_arm64",
+}
+TAGS = ("cp311", "cp313")  # the Pythons that the zips have modules for
+FIRST_WITH_EXTENSIONS = (4, 2)  # version of Blender
 
 
 class NativeMissing(Exception):
@@ -27,6 +37,24 @@ def python_tag():
 
 def _looked_for():
     return f"Python {platform.python_version()} on {platform.system()} {platform.machine()}"
+
+
+def right_zip(blender, system, machine, tag):
+    """What to install in that version of Blender: the end of a sentence."""
+    platform_name = PLATFORMS.get((system, machine))
+    if platform_name is None or tag not in TAGS:
+        return "there is no zip for this computer, but scripts/build compiles it where it is used"
+    if blender >= FIRST_WITH_EXTENSIONS:
+        return f"the zip to install in this Blender is the one whose name ends in {platform_name}.zip"
+    if (platform_name, tag) == ("linux_x64", "cp311"):
+        return "the zip to install in this Blender is the one whose name ends in blender-3.4.zip"
+    return "on this computer it needs Blender 4.2 or newer"
+
+
+def _right_zip_here():
+    import bpy  # here alone: the package is also looked for where there is no Blender
+
+    return right_zip(bpy.app.version, platform.system(), platform.machine(), python_tag())
 
 
 def _package_folders():
@@ -73,7 +101,7 @@ def _find():
     for folder in [*_package_folders(), *_hidden_folders()]:
         if (folder / "__init__.py").is_file() and any(folder.glob("_native*")):
             return _import_from(folder)
-    raise NativeMissing(f"Holomorph's native part for {_looked_for()} is not installed")
+    raise NativeMissing(f"Holomorph's native part for {_looked_for()} is not installed: {_right_zip_here()}")
 
 
 @functools.lru_cache(maxsize=1)
@@ -87,7 +115,10 @@ def _load():
     except NativeMissing as error:
         return None, str(error)
     except ImportError as error:
-        return None, f"Holomorph's native part does not load with {_looked_for()}: {error}"
+        return (
+            None,
+            f"Holomorph's native part does not load with {_looked_for()}: {sentence(error)}; {_right_zip_here()}",
+        )
 
 
 def problem():

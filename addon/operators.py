@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operators: one computes the maps, one measures a map, one brings the object's own materials back."""
 
+import math
+
 import bpy
+from bpy.props import EnumProperty, FloatProperty
 
 from . import native
 from .modal import MODAL_FACES, MODAL_TILED_FACES, WorkOperator
-from .properties import MapProperties
+from .properties import HARD_EDGE, HARD_EDGES, MAIN_MAPS, MapProperties
+
+CONVERTIBLE = {"FONT", "CURVE", "SURFACE", "META"}
+CONVERT = "Object > Convert > Mesh makes this a mesh"
 
 
-class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
-    """Compute conformal UV maps for the selected meshes, whatever their shape; in edit mode for the selected faces.
-    Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
-
-    bl_idname = "uv.holomorphic_maps"
-    bl_label = "Holomorphic UV Maps"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}
+class _MapsOperator(MapProperties, WorkOperator):
+    """What the operators that make maps share."""
 
     @classmethod
     def why_not(cls, context):
@@ -22,7 +23,7 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
             return "Go to Object Mode or Edit Mode"
         selected = context.view_layer.objects.selected
         if context.mode == "OBJECT" and not any(o.type == "MESH" for o in selected):
-            return "Select a mesh"
+            return CONVERT if any(o.type in CONVERTIBLE for o in selected) else "Select a mesh"
         return ""
 
     def prepare(self, context):
@@ -65,6 +66,30 @@ class HOLOMORPH_OT_maps(MapProperties, WorkOperator, bpy.types.Operator):
         self.form_count = outcome.forms
         self.show(context, outcome, self.checker)
         return self.tell(outcome)
+
+
+class HOLOMORPH_OT_maps(_MapsOperator, bpy.types.Operator):
+    """Compute conformal UV maps for the selected meshes, whatever their shape; in edit mode for the selected faces.
+    Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
+
+    bl_idname = "uv.holomorphic_maps"
+    bl_label = "Holomorphic UV Maps"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+
+class HOLOMORPH_OT_islands(_MapsOperator, bpy.types.Operator):
+    """Cut the selected meshes along their hard edges and seams, and flatten each island without shearing: for meshes of
+    few or long thin faces, which no seamless map can fit"""
+
+    bl_idname = "uv.holomorphic_islands"
+    bl_label = "Islands by Hard Edges"
+    bl_options = {"REGISTER", "UNDO"}
+
+    # Of its own, so that the maps operator does not remember them.
+    main: EnumProperty(name="Main Map", description="What the main map is", items=MAIN_MAPS, default="ISLANDS")
+    hard_edges: FloatProperty(
+        name="Hard Edges", description=HARD_EDGES, default=HARD_EDGE, min=0.0, max=math.pi, subtype="ANGLE"
+    )
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
@@ -133,7 +158,7 @@ def _forget_solves(*_arguments):
     cache.clear()
 
 
-CLASSES = (HOLOMORPH_OT_maps, HOLOMORPH_OT_heat, HOLOMORPH_OT_restore_materials)
+CLASSES = (HOLOMORPH_OT_maps, HOLOMORPH_OT_islands, HOLOMORPH_OT_heat, HOLOMORPH_OT_restore_materials)
 
 
 def register():

@@ -8,7 +8,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from . import compatibility, maps, mesh_io, native
+from . import choices, compatibility, maps, mesh_io, native
 
 
 def packed(context, solved, options):
@@ -26,6 +26,13 @@ def packed(context, solved, options):
     result = np.zeros_like(shelves)
     result[corners] = maps.CENTRE.real + options.density * options.per_length / filling * (found - maps.CENTRE.real)
     return result, options
+
+
+def cuts(parts):
+    """(#S, 2) vertices of the mesh, of the edges along which these parts of it were cut: two boundaries have them."""
+    ends = np.concatenate([np.stack(choices.boundary_edges(part), axis=1) for part in parts])
+    rows, count = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
+    return rows[count > 1]
 
 
 def _length(parts, uv):

@@ -7,7 +7,14 @@ from . import lines, native, overlay, tools_panel
 from .compare import HOLOMORPH_OT_compare
 from .drag import HOLOMORPH_OT_drag_poles
 from .lod import HOLOMORPH_OT_levels
-from .operators import HOLOMORPH_OT_heat, HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
+from .operators import (
+    CONVERT,
+    CONVERTIBLE,
+    HOLOMORPH_OT_heat,
+    HOLOMORPH_OT_islands,
+    HOLOMORPH_OT_maps,
+    HOLOMORPH_OT_restore_materials,
+)
 from .tile import HOLOMORPH_OT_tile
 
 INDENT = 8  # spaces before what is continued on a further line
@@ -34,6 +41,8 @@ class _HolomorphPanel:
                 tools_panel.draw_modifiers(column, context, obj)
                 layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, context, obj)
+        elif obj is not None and obj.type in CONVERTIBLE:
+            lines.draw(column, context, CONVERT, "INFO")
         if context.mode == "OBJECT":
             layout.operator(HOLOMORPH_OT_compare.bl_idname, icon="ARROW_LEFTRIGHT")
             _draw_overlays(layout, context)
@@ -105,7 +114,9 @@ def _draw_result(layout, context, obj):
     if restore.is_possible(obj):
         layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
     if obj.get(report.PROPERTY):
-        verdict_view.draw(layout, context, obj[report.PROPERTY], HOLOMORPH_OT_tile.bl_idname)
+        verdict_view.draw(
+            layout, context, obj[report.PROPERTY], HOLOMORPH_OT_tile.bl_idname, HOLOMORPH_OT_islands.bl_idname
+        )
 
 
 def _draw_menu_entry(self, _context):

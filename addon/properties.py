@@ -2,12 +2,18 @@
 """The options of the maps operator: as Blender's properties, their drawing, and the requests made of them."""
 
 import functools
+import math
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from . import native
 
 DIALS = 8
+HARD_EDGE = math.radians(40)
+HARD_EDGES = (
+    "Islands are cut along edges that are sharper than this, and those marked sharp, as well as along seams. 0: along "
+    "seams alone"
+)
 MODIFIERS = (
     "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result becomes an object "
     "of its own and the object is hidden"
@@ -75,7 +81,7 @@ TEXTURES = (
     ("HEXAGONS", "Hexagons", "Glazed hexagonal tiles"),
 )
 DRAWN = (  # in groups
-    ("main", "density", "equal", "margin", "rotation", "forms", "shown"),
+    ("main", "hard_edges", "density", "equal", "margin", "rotation", "forms", "shown"),
     ("checker", "texture", "checker_scale", "seams", "shape"),
     ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
 )
@@ -138,6 +144,7 @@ class MapProperties:
         subtype="ANGLE",
         unit="ROTATION",
     )
+    hard_edges: FloatProperty(name="Hard Edges", description=HARD_EDGES, min=0.0, max=math.pi, subtype="ANGLE")
     # Not remembered for the next object, which has a selection of its own.
     use_selection: EnumProperty(
         name="Use Selection",
@@ -212,7 +219,8 @@ class MapProperties:
         for group in DRAWN:
             column = layout.column()
             for name in group:
-                column.prop(self, name)
+                if name != "hard_edges" or self.main == "ISLANDS":
+                    column.prop(self, name)
         for index in range(min(self.form_count, DIALS) if self.form_count > 1 else 0):  # a single form has no share
             row = layout.row(align=True)
             row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
@@ -231,6 +239,7 @@ class MapProperties:
             boundary=choices.ISLANDS if are_islands else self.boundary,
             solver=self.solver,
             modifiers=self.modifiers,
+            hard_edges=math.degrees(self.hard_edges) if are_islands else 0.0,
         )
 
     def map_options(self):

@@ -27,6 +27,7 @@ from . import (
     tiling,
 )
 
+OVERLAPS = "overlaps itself: UV > Select Overlap shows where"
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
 
@@ -160,6 +161,9 @@ def judge(outcome, obj, entry):
     """Adds the verdict on an object's map: among the problems where no texture can be put on."""
     found = report.verdict(entry)
     (outcome.notes if found.is_fit else outcome.problems).append(f"{obj.name}: {found.text}")
+    for index, part in enumerate(entry.get("components", []), 1):
+        if part["done"] and (part["main_map"]["overlapping_part"] or 0.0) > native.load().verdicts.OVERLAPPING[0]:
+            outcome.problems.append(f"{obj.name}: island {index} {OVERLAPS}")
     count = entry.get("faces_without_area", 0)
     if count:
         outcome.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
@@ -243,6 +247,7 @@ def _seam_pairs(solved, tiled):
     """(#S,2) vertices of the object: where the main map is cut."""
     others = [c for c in seamless.others(solved, tiled) if c.structure is not None]
     return np.concatenate(
-        [c.structure.edges[c.structure.seams] for c in others]
+        [packing.cuts([c.surface for c in solved.components])]
+        + [c.structure.edges[c.structure.seams] for c in others]
         + [part.vertices(part.tiling.seams) for part in tiled.done]
     )

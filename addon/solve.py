@@ -13,6 +13,7 @@ DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hiera
 DOUBLES_OF_TILING = 6  # for each corner: UVs and quality
 KEPT_TILINGS = 4  # of each part: the redo panel goes back and forth between a few
 NO_ISLANDS = "no seams cut it open: mark some in edit mode (Edge > Mark Seam), or take another main map"
+NO_HARD_EDGES = "no edge is that hard: choose a smaller angle, mark seams in edit mode, or take another main map"
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
 
 
@@ -145,11 +146,11 @@ def _parts(holomorph, surface, chosen, progress):
     """The connected components, or the islands between the seams. Seams may be edges of no face that is mapped."""
     if not chosen.are_islands:
         return surface.components
-    between_seams = holomorph.islands(surface, chosen.seams, strict=False)
+    between_seams = holomorph.islands(surface, chosen.seams, strict=False, hard_edges=chosen.hard_edges or None)
     islands = [disk for part in between_seams for disk in _opened(holomorph, part, progress)]
     if any(part.genus == 0 and part.boundary_count == 1 for part in islands):
         return islands
-    raise holomorph.TopologyError(NO_ISLANDS)
+    raise holomorph.TopologyError(NO_HARD_EDGES if chosen.hard_edges else NO_ISLANDS)
 
 
 def _opened(holomorph, part, progress):

@@ -9,6 +9,7 @@ import numpy as np
 from . import choices, compatibility, evaluated, faces, mesh_edges, mesh_io, solve
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
+NO_EDGES = np.empty((0, 2), np.int64)
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
 
 
@@ -58,6 +59,7 @@ class Request:
     solver: str = "auto"
     faces: str = faces.WHOLE  # which ones are mapped
     modifiers: bool = False  # whether they count, in object mode
+    hard_edges: float = 0.0  # degrees: islands are cut along sharper edges and those marked sharp; 0 for seams alone
 
 
 def mesh_objects(context):
@@ -106,7 +108,7 @@ def _target(obj, mask, request):
     if request.modifiers and obj.mode != "EDIT":
         return _with_modifiers(obj, replace(target, modifiers=True), own, request)
     if not own.face_count and evaluated.first_of(obj) and evaluated.read(obj, _linear(obj))[0].face_count:
-        sentence = f"it has faces by its modifiers alone ({evaluated.first_of(obj)}): press Map with Modifiers"
+        sentence = f"all its faces come from its modifiers ({evaluated.first_of(obj)}): press Map with Modifiers"
         return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_choices(obj, request))
 
@@ -120,17 +122,20 @@ def _with_modifiers(obj, target, own, request):
         return replace(target, refused=f"its modifiers leave no faces; the first is {evaluated.first_of(obj)}")
     if target.mask is not None or request.use in choices.EXPLICIT:
         return replace(target, refused="the selection is one of the mesh itself, not of what its modifiers make")
-    seams = seams if request.cut_at_seams else np.empty((0, 2), np.int64)
-    chosen = choices.Choices(seams=seams, boundary=request.boundary, solver=request.solver)
+    seams = seams if request.cut_at_seams else NO_EDGES
+    how = request.boundary, request.solver, request.hard_edges
+    chosen = choices.Choices(choices.NONE, (), (), seams, *how)
     note = "what its modifiers make is an object now; the object itself is hidden"
     return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=f"{obj.name}: {note}")
 
 
 def _choices(obj, request):
     """What was chosen on this object; @pre pending edits are written to the mesh."""
-    seams = mesh_edges.marked_edges(obj.data, "use_seam") if request.cut_at_seams else np.empty((0, 2), np.int64)
+    marks = (["use_seam"] if request.cut_at_seams else []) + (["use_edge_sharp"] if request.hard_edges else [])
+    seams = np.concatenate([NO_EDGES, *(mesh_edges.marked_edges(obj.data, mark) for mark in marks)])
     selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
-    return choices.Choices(request.use, tuple(selected), request.residues, seams, request.boundary, request.solver)
+    how = request.boundary, request.solver, request.hard_edges
+    return choices.Choices(request.use, tuple(selected), request.residues, seams, *how)
 
 
 def _selected(obj, use):

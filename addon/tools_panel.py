@@ -4,6 +4,8 @@
 import bpy
 
 from . import evaluated, lines, submit, texel_operators
+from .carry import HOLOMORPH_OT_carry
+from .compare import HOLOMORPH_OT_compare
 from .operators import HOLOMORPH_OT_maps
 from .tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad
 
@@ -33,6 +35,12 @@ class _ToolsPanel:
 class HOLOMORPH_PT_view3d_tools(_ToolsPanel, bpy.types.Panel):
     bl_space_type = "VIEW_3D"
     bl_parent_id = "HOLOMORPH_PT_view3d"
+
+    def draw(self, context):
+        super().draw(context)
+        column = self.layout.column(align=True)
+        column.operator(HOLOMORPH_OT_compare.bl_idname)
+        column.operator(HOLOMORPH_OT_carry.bl_idname)
 
 
 class HOLOMORPH_PT_image_tools(_ToolsPanel, bpy.types.Panel):

@@ -9,8 +9,8 @@ from . import coarse, lines, report
 ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
 
 
-def draw(layout, context, stored, tile_operator):
-    """Out of a stored report; `tile_operator` is offered where poles would help."""
+def draw(layout, context, stored, tile_operator, islands_operator):
+    """Out of a stored report; the operators are offered where poles would help, and islands."""
     found, places, measured = read(stored)
     if found is None:
         return
@@ -21,6 +21,8 @@ def draw(layout, context, stored, tile_operator):
         box.operator(tile_operator, text="Add Poles There").poles = "COARSE"
     elif found.advice and not found.is_fit:
         lines.draw(box, context, f"Try: {found.advice}")
+    if found.offers_islands and not found.is_fit:
+        box.operator(islands_operator)
     for name, value in measured:
         row = box.split(factor=0.72)
         row.label(text=name)

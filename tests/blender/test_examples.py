@@ -23,6 +23,7 @@ EXAMPLES = {
     "pipe": {"Pipe": [(0, 2)]},
     "critter": {"Critter": [(0, 0)]},
     "lizard": {"Lizard": [(0, 0)]},
+    "armadillo": {"Armadillo": [(0, 0)]},
     "text": {"Text": [(0, 0), (1, 0)] * 4 + [(0, 0)]},  # H o l o m o r p h
     "mask": {"Mask as Disk": [(0, 1)], "Mask as Rectangle": [(0, 1)]},
 }

@@ -22,7 +22,7 @@ class Drawn:
         self.texts.append(text)
 
     def operator(self, name, text="", icon="NONE"):
-        self.buttons.append(text)
+        self.buttons.append(text or name)
         return type("Properties", (), {})()
 
     def box(self, **_options):
@@ -36,7 +36,7 @@ def drawn(obj, width=220):
     style = SimpleNamespace(widget=SimpleNamespace(points=11))
     preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
     layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
-    verdict_view.draw(layout, context, obj["holomorph_report"], "uv.holomorphic_tile")
+    verdict_view.draw(layout, context, obj["holomorph_report"], "uv.holomorphic_tile", "uv.holomorphic_islands")
     return layout
 
 
@@ -289,6 +289,7 @@ def test_a_higher_density_shows_more_squares_where_their_number_is_chosen():
 def test_a_form_that_is_alone_has_no_share(forms, dials):
     """Its amount would be a change of scale, which the density undoes."""
     layout, properties = Drawn(), module("properties").MapProperties()
+    properties.main = "AUTOMATIC"
     properties.form_count, layout.prop = forms, lambda _owner, name, **_options: layout.texts.append(name)
     properties.draw_options(layout, None)
     assert layout.texts.count("amounts") == dials

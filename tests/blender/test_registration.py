@@ -59,6 +59,32 @@ def test_registration_survives_a_missing_native_part(without_native_part):
     assert [name for name, *_ in module("properties").solver_items(None, None)] == ["auto"]
 
 
+@pytest.mark.parametrize(
+    "blender, computer, tag, end",
+    [
+        ((4, 2, 0), ("Windows", "AMD64"), "cp311", "ends in windows_x64.zip"),
+        ((5, 2, 0), ("Darwin", "arm64"), "cp313", "ends in macos_arm64.zip"),
+        ((4, 2, 0), ("Linux", "aarch64"), "cp311", "ends in linux_arm64.zip"),
+        ((3, 4, 1), ("Linux", "x86_64"), "cp311", "ends in blender-3.4.zip"),
+        ((3, 6, 0), ("Windows", "AMD64"), "cp311", "needs Blender 4.2 or newer"),
+        ((5, 2, 0), ("Linux", "x86_64"), "cp314", "compiles it where it is used"),
+        ((5, 2, 0), ("FreeBSD", "amd64"), "cp313", "compiles it where it is used"),
+    ],
+)
+def test_the_right_zip_is_named(blender, computer, tag, end):
+    assert module("native").right_zip(blender, *computer, tag).endswith(end)
+
+
+def test_the_sentence_of_a_missing_native_part_names_the_zip(addon, monkeypatch):
+    native = module("native")
+    monkeypatch.setattr(native, "NAME", "nothing_of_this_name")
+    native.forget()
+    assert "is not installed: the zip to install in this Blender" in native.problem()
+    monkeypatch.undo()
+    native.forget()
+    assert native.problem() == ""
+
+
 def test_a_broken_native_part_is_named(addon, monkeypatch):
     native = module("native")
 

@@ -21,7 +21,7 @@ from scenes import (
 from test_choices import grid_arrays
 from test_faces import HALF, add_own_map, corners_of, leave, pick_faces
 
-ROUNDED = 0.2  # relative: a tiling has whole numbers of tiles around
+ROUNDED = 0.25  # relative: a tiling has whole numbers of tiles around, of 100 that are a few each
 FLAT = 1e-3  # relative: quads of the library are two triangles, and float32
 
 

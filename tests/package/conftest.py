@@ -27,6 +27,17 @@ def run(*command, seconds=SECONDS, **environment):
     return done.stdout
 
 
+def run_extension_program(python, *arguments):
+    """Blender's program for extensions, from the Blender that this Python has as a module; what it says."""
+    scripts = run(python, "-c", "import bpy; print(bpy.utils.system_resource('SCRIPTS'))").splitlines()[-1]
+    return run(python, Path(scripts) / "addons_core" / "bl_pkg" / "cli" / "blender_ext.py", *arguments)
+
+
+def extension(dist):
+    """The extension for this computer."""
+    return next(path for path in dist.glob("*.zip") if "blender-3.4" not in path.name)
+
+
 @pytest.fixture(scope="session")
 def dist(tmp_path_factory):
     """The folder with the wheels and the zips."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT, run
+from conftest import ROOT, extension, run, run_extension_program
 
 HERE = Path(__file__).resolve().parent
 # What every Linux with glibc has, the C++ run-time library included: Blender itself needs them.
@@ -22,10 +22,6 @@ def one(folder, pattern):
     found = sorted(folder.glob(pattern))
     assert len(found) == 1, found
     return found[0]
-
-
-def extension(dist):
-    return next(path for path in dist.glob("*.zip") if "blender-3.4" not in path.name)
 
 
 def place_of_package(output):
@@ -62,9 +58,7 @@ def test_the_wheels_are_self_contained(dist, tmp_path):
 
 
 def test_the_extension_is_valid(dist, bpy_python):
-    scripts = run(bpy_python, "-c", "import bpy; print(bpy.utils.system_resource('SCRIPTS'))").splitlines()[-1]
-    program = Path(scripts) / "addons_core" / "bl_pkg" / "cli" / "blender_ext.py"
-    output = run(bpy_python, program, "validate", extension(dist))
+    output = run_extension_program(bpy_python, "validate", extension(dist))
     assert "warning" not in output.lower() and "error" not in output.lower(), output
 
 

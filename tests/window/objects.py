@@ -70,3 +70,41 @@ def spikes(name):
     edited.to_mesh(mesh)
     edited.free()
     bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
+
+
+def terrain(name, count=64):
+    """Hills on a square of ten metres."""
+    i, j = np.divmod(np.arange((count + 1) ** 2), count + 1)
+    x, y = 10 * i / count, 10 * j / count
+    waves = [(0.9, 0.3, 0.7), (-0.5, 1.1, 0.5), (1.9, 1.3, 0.25), (2.7, -2.1, 0.15), (-4.1, 3.3, 0.08)]
+    z = sum(height * np.sin(a * x + b * y + k) for k, (a, b, height) in enumerate(waves))
+    corner = (np.arange(count)[:, None] * (count + 1) + np.arange(count)).ravel()
+    corners = np.stack([corner, corner + count + 1, corner + count + 2, corner + 1], -1).ravel()
+    add_object(name, np.stack([x, y, z], -1), corners)
+
+
+def pipe(name, around=24, along=60):
+    """A bent tube, open at both ends."""
+    i, j = np.meshgrid(np.arange(along), np.arange(around), indexing="ij")
+    bend, turn = 1.5 * np.pi * i / (along - 1), 2 * np.pi * j / around
+    radius = 2 + 0.5 * np.cos(turn)
+    vertices = np.stack([radius * np.cos(bend), 0.5 * np.sin(turn), radius * np.sin(bend)], -1).reshape(-1, 3)
+    a = (i * around + j)[:-1]
+    b = (i * around + (j + 1) % around)[:-1]
+    add_object(name, vertices, np.stack([a, b, b + around, a + around], -1).ravel())
+
+
+def figure(name):
+    """A body of bones, edges alone, which a Skin modifier makes a surface of."""
+    joints = [(0, 0, 1), (0, 0, 1.6), (0, 0, 2), (0.7, 0, 1.5), (-0.7, 0, 1.5), (0.3, 0, 0), (-0.3, 0, 0)]
+    bones = [(0, 1), (1, 2), (1, 3), (1, 4), (0, 5), (0, 6)]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(joints, bones, [])
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    pick(name)
+    obj.modifiers.new("Skin", "SKIN")
+    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    mesh.skin_vertices[0].data[0].use_root = True
+    for vertex in mesh.skin_vertices[0].data:
+        vertex.radius = 0.2, 0.2

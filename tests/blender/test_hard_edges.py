@@ -1,0 +1,176 @@
+"""Islands by hard edges: offered where a mesh is too coarse for one map, made without shearing, overlaps told."""
+
+import json
+import math
+
+import bpy
+import numpy as np
+import pytest
+from conftest import module
+from scenes import everything, mesh_edges, mesh_object, run, select, stored_report
+from test_first_minute import drawn
+from test_headless import headless, our_lines, write_obj
+from test_islands import assert_packed, capped_cylinder
+
+BUTTON = "uv.holomorphic_islands"
+
+
+def primitive(make, **options):
+    make(**options)
+    obj = bpy.context.object
+    while obj.data.uv_layers:
+        obj.data.uv_layers.remove(obj.data.uv_layers[0])
+    return obj
+
+
+def cone():
+    return primitive(bpy.ops.mesh.primitive_cone_add)
+
+
+def helix():
+    """A flat strip that winds one and a half times around an axis, rising."""
+    n = 120
+    angle = np.linspace(0, 3 * np.pi, n)
+    rails = [np.stack([r * np.cos(angle), r * np.sin(angle), 0.05 * angle], axis=1) for r in (1, 1.5, 2)]
+    i = np.arange(n - 1)
+    quads = [np.stack([i + k * n, i + (k + 1) * n, i + 1 + (k + 1) * n, i + 1 + k * n], axis=1) for k in range(2)]
+    obj = mesh_object("Helix", np.concatenate(rails), np.concatenate(quads))
+    mesh_edges.mark_edges(obj.data, "use_seam", [[n // 2, n // 2 + n]])  # opens nothing
+    return obj
+
+
+def main_maps(obj):
+    return [part["main_map"] for part in stored_report(obj)["components"]]
+
+
+def test_the_panel_offers_islands_where_the_mesh_is_too_coarse():
+    obj = cone()
+    run()
+    panel = drawn(obj)
+    assert "hard edges" in " ".join(panel.texts) and BUTTON in panel.buttons
+    assert main_maps(obj)[0]["capped_mean_angle"] > 2.5
+
+
+@pytest.mark.parametrize("make", [cone, lambda: primitive(bpy.ops.mesh.primitive_cylinder_add)])
+def test_the_button_makes_islands_without_shearing(make):
+    obj = make()
+    run()
+    assert bpy.ops.uv.holomorphic_islands() == {"FINISHED"}
+    assert [found["mean_angle"] for found in main_maps(obj)] == pytest.approx([1] * len(main_maps(obj)), abs=1e-3)
+    assert_packed(obj)
+    panel = drawn(obj)
+    assert stored_report(obj)["verdict"]["level"] == "good" and BUTTON not in panel.buttons
+
+
+def test_no_island_is_offered_where_the_map_is_good():
+    obj = primitive(bpy.ops.mesh.primitive_cube_add)
+    run()
+    assert BUTTON not in drawn(obj).buttons
+
+
+def test_edges_that_are_marked_sharp_are_hard_whatever_their_angle():
+    """A can whose side is cut along two of its edges, besides the caps."""
+    obj = capped_cylinder()
+    upright = [e.index for e in obj.data.edges if np.ptp([obj.data.vertices[v].co.z for v in e.vertices]) > 1]
+    for index in upright[:2]:
+        obj.data.edges[index].use_edge_sharp = True
+    for edge in obj.data.edges:
+        edge.use_seam = False
+    assert bpy.ops.uv.holomorphic_islands(hard_edges=math.radians(60)) == {"FINISHED"}
+    assert len(main_maps(obj)) == 4
+
+
+def test_the_maps_operator_does_not_remember_islands():
+    obj = cone()
+    assert bpy.ops.uv.holomorphic_islands() == {"FINISHED"}
+    assert stored_report(obj)["dials"]["main"] == "ISLANDS"
+    assert bpy.ops.uv.holomorphic_maps() == {"FINISHED"}
+    assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"
+
+
+def test_mark_seams_marks_where_islands_were_cut():
+    """Around the base, and once up to the tip."""
+    obj = cone()
+    assert bpy.ops.uv.holomorphic_islands(seams=True) == {"FINISHED"}
+    height = [{obj.data.vertices[v].co.z for v in e.vertices} for e in obj.data.edges if e.use_seam]
+    assert len(height) == 33 and sum(len(each) == 2 for each in height) == 1
+    islands = len(main_maps(obj))
+    assert run(main="ISLANDS") == {"FINISHED"}
+    assert len(main_maps(obj)) == islands == 2
+
+
+def test_a_text_is_to_be_converted_and_then_flattened():
+    """Its letters come with faces, backs and sides apart."""
+    bpy.ops.object.text_add()
+    obj = bpy.context.object
+    obj.data.extrude = 0.1
+    operators = module("operators")
+    assert operators.HOLOMORPH_OT_maps.why_not(bpy.context) == operators.CONVERT
+    bpy.ops.object.convert(target="MESH")
+    assert operators.HOLOMORPH_OT_maps.why_not(bpy.context) == ""
+    run()
+    assert BUTTON in drawn(bpy.context.object).buttons
+    assert bpy.ops.uv.holomorphic_islands() == {"FINISHED"}
+    assert stored_report(bpy.context.object)["verdict"]["level"] in ("good", "fair")
+
+
+def test_the_angle_decides():
+    """The sides of a prism with eight sides meet at 45 degrees."""
+    obj = primitive(bpy.ops.mesh.primitive_cylinder_add, vertices=8)
+    counts = []
+    for degrees in (40, 50):
+        assert bpy.ops.uv.holomorphic_islands(hard_edges=math.radians(degrees)) == {"FINISHED"}
+        counts.append(len(main_maps(obj)))
+    assert counts == [10, 3]
+
+
+def test_a_smooth_closed_mesh_says_what_to_do():
+    obj = primitive(bpy.ops.mesh.primitive_ico_sphere_add, subdivisions=4)
+    before = everything(obj)
+    with pytest.raises(RuntimeError, match="no edge is that hard: choose a smaller angle"):
+        bpy.ops.uv.holomorphic_islands()
+    assert everything(obj) == before
+
+
+def test_an_island_that_overlaps_itself_is_told():
+    obj = helix()
+    select(obj)
+    assert run(main="ISLANDS") == {"FINISHED"}
+    (found,) = main_maps(obj)
+    assert 0.3 < found["overlapping_part"] < 1
+    assert stored_report(obj)["verdict"]["level"] in ("poor", "unusable")
+    assert "one more seam" in " ".join(drawn(obj).texts)
+
+
+def test_the_overlapping_island_is_named(capfd):
+    helix()
+    run(main="ISLANDS")
+    assert "island 1 overlaps itself" in capfd.readouterr().out
+
+
+def can_file(folder, n=24):
+    """A cylinder with a face for each cap."""
+    turn = 2 * np.pi * np.arange(n) / n
+    rim = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    vertices = np.concatenate([np.pad(rim, ((0, 0), (0, 1)), constant_values=z) for z in (-1, 1)])
+    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
+    return write_obj(folder / "can.obj", vertices, [*sides, list(range(n))[::-1], list(range(n, 2 * n))])
+
+
+def test_the_command_cuts_along_hard_edges(tmp_path):
+    report = tmp_path / "report.json"
+    done = headless(can_file(tmp_path), "--main", "islands", "--hard-edges", 40, "--strict", "--report", report)
+    assert done.returncode == 0, done.stderr
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert [part["faces"] for part in entry["components"]] == [24, 1, 1]
+    assert entry["components"][0]["main_map"]["mean_angle"] == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [(("--hard-edges", 40), "--main islands"), (("--main", "islands", "--hard-edges", 200), "less than 180")],
+)
+def test_hard_edges_that_cannot_be_are_refused_by_the_command(tmp_path, options, word):
+    done = headless(can_file(tmp_path), *options)
+    (line,) = our_lines(done)
+    assert done.returncode == 1 and word in line

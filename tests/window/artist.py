@@ -1,0 +1,84 @@
+"""What an artist does with an object: looks at it, presses the large button, then what the panel offers next."""
+
+import json
+
+import bpy
+from objects import pick
+from screen import area, hover, inside, picture, window
+from sidebar import count_draws, open_tab, press_button
+
+PATIENCE = 30  # seconds for an object
+seen = {}
+
+
+def prepare():
+    bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.view.smooth_view = 0
+    window().workspace = bpy.data.workspaces["Layout"]
+    yield 2
+    area("VIEW_3D").spaces.active.show_region_ui = True
+    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
+    yield 1
+    yield from open_tab("VIEW_3D", seen)
+    for obj in list(bpy.data.objects):
+        if obj.name != "Cube":
+            bpy.data.objects.remove(obj)
+
+
+def look_at(name):
+    for obj in bpy.data.objects:
+        obj.hide_set(obj.name != name)
+    pick(name)
+    with inside(area("VIEW_3D")):
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_orbit(angle=0.6, type="ORBITLEFT")
+        bpy.ops.view3d.view_orbit(angle=0.4, type="ORBITUP")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message=name)
+    hover(area("VIEW_3D"))
+
+
+def report_of(name):
+    obj = bpy.data.objects.get(name)
+    return json.loads(obj["holomorph_report"]) if obj is not None and "holomorph_report" in obj else None
+
+
+def wait_for(name, before=None):
+    """Until there is another report on the object."""
+    for _ in range(10 * PATIENCE):
+        yield 0.1
+        found = report_of(name)
+        if found is not None and found != before:
+            break
+    yield 1
+
+
+def note(step, name, picture_name):
+    found = report_of(name)
+    seen[step] = found and found["verdict"] | {"maps": [each["name"] for each in found["maps"]]}
+    yield 0.5
+    picture(picture_name)
+
+
+def press(step, name):
+    """The large button."""
+    look_at(name)
+    yield 1
+    yield from press_button("VIEW_3D")
+    yield from wait_for(name)
+    yield from note(step, name, f"five_{step}.png")
+
+
+def then(step, name, operator, on=None, **options):
+    """What the panel offers next, for this object or that; its report is on the first."""
+    before = report_of(name)
+    pick(on or name)
+    with inside(area("VIEW_3D")):
+        try:
+            operator("INVOKE_DEFAULT", **options)
+        except RuntimeError as error:  # what the status bar says
+            seen[f"{step}: told"] = str(error)
+            picture(f"five_{step}.png")
+            return
+    yield from wait_for(name, before)
+    yield from note(step, name, f"five_{step}.png")

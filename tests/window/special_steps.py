@@ -1,0 +1,57 @@
+"""Runs inside Blender with a window and simulated events: an artist's next minutes with bones that a modifier makes a
+character, a terrain, a pipe and a text."""
+
+import sys
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+from artist import look_at, prepare, press, report_of, seen, then
+from objects import figure, pipe, terrain
+from running import run
+from screen import area, inside, picture
+from sidebar import press_button
+
+
+def figure_of_bones():
+    figure("Figure")
+    look_at("Figure")
+    yield 1
+    yield from press_button("VIEW_3D")
+    yield 2
+    seen["figure"] = report_of("Figure")
+    picture("five_figure.png")
+    yield from then("figure mapped", "Figure Mapped", bpy.ops.uv.holomorphic_maps, on="Figure", modifiers=True)
+
+
+def ground_and_pipe():
+    terrain("Terrain")
+    yield from press("terrain", "Terrain")
+    pipe("Pipe")
+    yield from press("pipe", "Pipe")
+
+
+def letters():
+    with inside(area("VIEW_3D")):
+        bpy.ops.object.text_add()
+        words = bpy.context.object.data
+        words.body, words.extrude = "Mesh", 0.1
+    look_at("Text")
+    yield 1
+    yield from press_button("VIEW_3D")
+    yield 2
+    picture("five_text.png")
+    seen["text"] = report_of("Text")
+    with inside(area("VIEW_3D")):
+        bpy.ops.object.convert(target="MESH")
+    yield from press("text as mesh", "Text")
+    yield from then("text in islands", "Text", bpy.ops.uv.holomorphic_islands)
+
+
+def steps():
+    for part in (prepare, figure_of_bones, ground_and_pipe, letters):
+        yield from part()
+
+
+run(steps(), seen)
