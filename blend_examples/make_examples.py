@@ -294,17 +294,47 @@ def lizard():
                 toe = foot.co + Vector((0.26 * math.cos(turn), side * 0.26 * math.sin(turn), -0.01))
                 strand(bm, radius, [(*toe, 0.045)], foot)
     body[1][radius].use_root = True
-    obj = object_of("Lizard", bm)
+    obj = skinned("Lizard", bm)
+    obj.rotation_euler = Euler((0, 0, math.radians(-30)))
+    return [obj]
+
+
+def armadillo():
+    """Upright, like an armadillo on its hind legs: ears, snout, tail, three fingers and toes each; without a handle."""
+    bm = bmesh.new()
+    radius = bm.verts.layers.skin.verify()
+    spine = [(0, 0, 0.85, 0.3), (0, -0.05, 1.15, 0.36), (0, 0, 1.5, 0.29), (0, -0.06, 1.8, 0.17), (0, -0.16, 2.02, 0.2)]
+    spine += [(0, -0.44, 1.95, 0.11), (0, -0.6, 1.9, 0.07)]
+    hips, _, chest, _, head, *_ = body = strand(bm, radius, spine)
+    tail = [(0, 0.36, 0.62, 0.18), (0, 0.66, 0.36, 0.12), (0.06, 0.95, 0.2, 0.09), (0.2, 1.25, 0.2, 0.06)]
+    strand(bm, radius, tail, hips)
+    for side in (-1, 1):
+        strand(bm, radius, [(side * 0.19, -0.08, 2.22, 0.08), (side * 0.3, -0.04, 2.44, 0.05)], head)
+        leg = [(side * 0.32, -0.04, 0.6, 0.18), (side * 0.38, -0.1, 0.32, 0.13), (side * 0.4, -0.04, 0.09, 0.1)]
+        arm = [(side * 0.4, -0.03, 1.54, 0.14), (side * 0.66, -0.1, 1.34, 0.1), (side * 0.76, -0.34, 1.46, 0.09)]
+        for limb, joint, reach in ((leg, hips, 0.3), (arm, chest, 0.24)):
+            end = strand(bm, radius, limb, joint)[-1]
+            for turn in (-0.6, 0.0, 0.6):
+                tip = end.co + Vector((reach * math.sin(turn), -reach * math.cos(turn), 0.12 if limb is arm else -0.02))
+                strand(bm, radius, [(*tip, 0.05)], end)
+    body[0][radius].use_root = True
+    obj = skinned("Armadillo", bm)
+    obj.rotation_euler = Euler((0, 0, math.radians(25)))
+    return [obj]
+
+
+def skinned(name, bm):
+    """An object of the skin modifier around edges, of one smooth surface."""
+    obj = object_of(name, bm)
     obj.modifiers.new("Skin", "SKIN").branch_smoothing = 0.6
     subdivision = obj.modifiers.new("Subdivision", "SUBSURF")
     subdivision.levels = 2
-    remesh = obj.modifiers.new("Remesh", "REMESH")  # the skin crosses itself where legs and toes branch off
+    remesh = obj.modifiers.new("Remesh", "REMESH")  # the skin crosses itself where limbs and toes branch off
     remesh.mode, remesh.voxel_size = "VOXEL", 0.03
     smooth = obj.modifiers.new("Smooth", "SMOOTH")
     smooth.factor, smooth.iterations = 0.5, 8
     apply_modifiers(obj)
-    obj.rotation_euler = Euler((0, 0, math.radians(-30)))
-    return [obj]
+    return obj
 
 
 def strand(bm, radius, points, start=None):
@@ -395,6 +425,7 @@ EXAMPLES = {
     pipe: [[(0, 2)]],
     critter: [[(0, 0)]],
     lizard: [[(0, 0)]],
+    armadillo: [[(0, 0)]],
     text: [[(0, 0)] * 5 + [(1, 0)] * 4],
     mask: [[(0, 1)], [(0, 1)]],
 }

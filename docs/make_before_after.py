@@ -116,10 +116,9 @@ def made_maps(obj, **options):
 
 
 def show(obj, polygons, uv):
-    """In place of the map that the material shows."""
+    """In the map that the material shows."""
     mesh_io = module("mesh_io")
-    mesh_io.remove_maps(obj.data)
-    mesh_io.write_map(obj.data, polygons, mesh_io.MAIN_MAP, uv.astype(np.float32))
+    mesh_io.overwrite_map(obj.data, polygons, mesh_io.MAIN_MAP, uv.astype(np.float32))
     obj.data.update()
 
 
