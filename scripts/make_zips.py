@@ -1,4 +1,4 @@
-"""Put the add-on and its wheels into the zips that Blender installs: make_zips.py FOLDER WHEEL..."""
+"""Put the add-on and its wheels into the zips that Blender installs, one a platform: make_zips.py FOLDER WHEEL..."""
 
 import re
 import shutil
@@ -8,10 +8,24 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 ADDON = ROOT / "addon"
-LEGACY_TAG = "cp311"  # the Python of Debian's Blender 3.4
-# Not "holomorph": Blender puts the folder's parent on the import path, where it would hide the package of that name.
-LEGACY_FOLDER = "holomorph_addon"
+# Blender's names of platforms, by the end of a wheel's name.
+PLATFORMS = {
+    "win_amd64": "windows-x64",
+    "macosx_11_0_arm64": "macos-arm64",
+    "macosx_11_0_x86_64": "macos-x64",
+    "_x86_64": "linux-x64",
+    "_aarch64": "linux-arm64",
+}
+LEGACY = ("linux-x64", "cp311")  # Debian's Blender 3.4 and its Python
+# The folder in all zips. Blender 4.2 and later take the files out of it; an older one that is given their zip makes an
+# add-on of it, which says which zip is right. Not "holomorph": such a Blender puts the folder's parent on the import
+# path, where it would hide the package of that name.
+FOLDER = "holomorph_addon"
 DATE = (2000, 1, 1, 0, 0, 0)  # the same for every file: the same sources give the same zip
+
+
+def platform_of(wheel):
+    return next(platform for end, platform in PLATFORMS.items() if wheel.stem.endswith(end))
 
 
 def addon_files():
@@ -24,14 +38,16 @@ def addon_files():
     return files | {name: (ROOT / name).read_bytes() for name in ("LICENSE", "NOTICE")}
 
 
-def with_wheels(manifest, wheels):
-    """The manifest naming these wheels; the list is a key of the top table, so it comes before any other table."""
+def with_wheels(manifest, platform, wheels):
+    """The manifest of one platform, naming its wheels in the same table, which comes before any other."""
     if re.search(r"^wheels\s*=", manifest, re.MULTILINE):
         raise SystemExit("make_zips.py: blender_manifest.toml lists wheels; the list is written here")
-    lines = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
-    table = re.search(r"^\[", manifest, re.MULTILINE)
-    end = table.start() if table else len(manifest)
-    return f"{manifest[:end].rstrip()}\nwheels = [\n{lines}]\n\n{manifest[end:]}"
+    names = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
+    lines = f'platforms = ["{platform}"]\nwheels = [\n{names}]'
+    manifest, found = re.subn(r"^platforms = \[[^]]*\]$", lines, manifest, flags=re.MULTILINE)
+    if found != 1:
+        raise SystemExit("make_zips.py: blender_manifest.toml does not list the platforms")
+    return manifest
 
 
 def write_zip(path, files):
@@ -39,18 +55,18 @@ def write_zip(path, files):
         for name in sorted(files):
             # A wheel is compressed already.
             method = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
-            info = zipfile.ZipInfo(name, DATE)
+            info = zipfile.ZipInfo(f"{FOLDER}/{name}", DATE)
             info.external_attr = 0o644 << 16
             archive.writestr(info, files[name], method)
     print(f"{path} ({path.stat().st_size / 1e6:.1f} MB)")
 
 
-def write_extension(folder, version, wheels):
+def write_extension(folder, version, platform, wheels):
     files = addon_files()
     manifest = files["blender_manifest.toml"].decode()
-    files["blender_manifest.toml"] = with_wheels(manifest, wheels).encode()
+    files["blender_manifest.toml"] = with_wheels(manifest, platform, wheels).encode()
     files |= {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels}
-    write_zip(folder / f"holomorph-{version}.zip", files)
+    write_zip(folder / f"holomorph-{version}-{platform.replace('-', '_')}.zip", files)
 
 
 def write_legacy(folder, version, wheel):
@@ -58,24 +74,23 @@ def write_legacy(folder, version, wheel):
     del files["blender_manifest.toml"]
     with zipfile.ZipFile(wheel) as archive:
         names = [name for name in archive.namelist() if not name.endswith("/") and ".dist-info/" not in name]
-        files |= {f"lib/{LEGACY_TAG}/{name}": archive.read(name) for name in names}
-    write_zip(
-        folder / f"holomorph-{version}-blender-3.4.zip",
-        {f"{LEGACY_FOLDER}/{name}": data for name, data in files.items()},
-    )
+        files |= {f"lib/{LEGACY[1]}/{name}": archive.read(name) for name in names}
+    write_zip(folder / f"holomorph-{version}-blender-3.4.zip", files)
 
 
-def main(folder, *wheels):
-    folder, wheels = Path(folder), [Path(wheel) for wheel in wheels]
+def main(folder, *names):
+    folder, wheels = Path(folder), [Path(name) for name in names]
+    manifest = (ADDON / "blender_manifest.toml").read_text(encoding="utf-8")
+    version = re.search(r'^version = "(.*)"', manifest, re.MULTILINE)[1]
     for wheel in wheels:
         shutil.copy(wheel, folder)
-    version = re.search(
-        r'^version = "(.*)"', (ADDON / "blender_manifest.toml").read_text(encoding="utf-8"), re.MULTILINE
-    )[1]
-    write_extension(folder, version, wheels)
-    legacy = [wheel for wheel in wheels if f"-{LEGACY_TAG}-" in wheel.name]
-    if legacy:
-        write_legacy(folder, version, legacy[0])
+    for platform in dict.fromkeys(PLATFORMS.values()):
+        own = [wheel for wheel in wheels if platform_of(wheel) == platform]
+        if own:
+            write_extension(folder, version, platform, own)
+    for wheel in wheels:
+        if (platform_of(wheel), wheel.name.split("-")[2]) == LEGACY:
+            write_legacy(folder, version, wheel)
 
 
 if __name__ == "__main__":
