@@ -1,20 +1,21 @@
 """What all results have in common: they are values, which never change."""
 
+from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 
 import numpy as np
 
 
-class Value:
+class Value(ABC):
     """Base of results, for people and for other processes. A repr is one short line without arrays. As nothing changes
     a result, a copy of it is the result itself. From a pickle it has the same bits, and arrays are read-only again."""
 
     _unpickled: ClassVar[tuple[str, ...]] = ()
     """Attributes that a pickle leaves out, because they are computed again when needed."""
 
+    @abstractmethod
     def _facts(self) -> list[str]:
         """What a person wants to be told first."""
-        raise NotImplementedError
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {', '.join(self._facts())}>"

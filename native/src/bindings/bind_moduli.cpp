@@ -94,7 +94,6 @@ class Continuation {
     moduli::ConformalImages images;
     {
       const py::gil_scoped_release unlocked;
-      execution.stage("conformal map", 0, 1);
       images = value_.run({vertex, middle, residual}, most_vertices, execution);
       execution.finish();
     }

@@ -14,10 +14,10 @@ Eigen::MatrixXd above_congruent(const Eigen::MatrixXd& T, const Eigen::MatrixXd&
 /// @pre A positive definite
 Eigen::MatrixXd below_inverse(const Eigen::MatrixXd& A);
 
-/// Bounds of Im Omega as quadratic forms, and of the entries of Re Omega.
+/// Bounds of the period matrix.
 struct PeriodBounds {
-  Eigen::MatrixXd lower, upper;            ///< of the imaginary part
-  Eigen::MatrixXd real_lower, real_upper;  ///< of each entry of the real part
+  Eigen::MatrixXd lower, upper;            ///< lower <= Im Omega <= upper as quadratic forms
+  Eigen::MatrixXd real_lower, real_upper;  ///< bounds of each entry of Re Omega
 };
 
 /// From the Gram matrix G >= G_exact of admissible forms in a canonical basis:

@@ -19,7 +19,7 @@ constexpr int kSteps = 12;        // walks for one vertex, at most
 constexpr double kGain = 0.99;    // a walk that leaves more of the residual is the last
 constexpr double kStuck = 1.5;    // times a neighbour's residual: the walk of this vertex ended too early
 constexpr double kFine = 1e-6;    // of a residual, in units of a loop's integral: no walk that ended there is stuck
-constexpr double kFreeing = 0.1;  // part of the work that the second pass is, about
+constexpr double kFreeing = 0.1;  // part of the work that freeing is, about
 
 // Calls visit(h) with each half-edge that leaves the vertex, those of the boundary included.
 template <class Visit>
@@ -76,9 +76,10 @@ ConformalImages Continuation::run(const MapStart& start, std::size_t most_vertic
     images.vertices.push_back(vertex);
     images.points.push_back(point);
   };
+  execution.stage("following the forms", 0, 1 - kFreeing);
   take(start.vertex, start.image, start.residual);
   for (std::size_t i = 0; i < images.vertices.size(); ++i) {
-    execution.report((1 - kFreeing) * static_cast<double>(i) / static_cast<double>(most_vertices));
+    execution.report(static_cast<double>(i) / static_cast<double>(most_vertices));
     for_each_leaving(from_links_, images.vertices[i], [&](mesh::HalfedgeHandle h) {
       const int vertex = mesh::to_vertex(from_links_, h);
       if (is_reached[vertex] || images.vertices.size() == most_vertices) return;
@@ -86,6 +87,7 @@ ConformalImages Continuation::run(const MapStart& start, std::size_t most_vertic
       take(vertex, images.points[i], images.residuals.col(static_cast<Index>(i)) + step);
     });
   }
+  execution.stage("freeing stuck points", 1 - kFreeing, 1);
   free_stuck(images, execution);
   return images;
 }
@@ -98,7 +100,7 @@ void Continuation::free_stuck(ConformalImages& images, Execution& execution) con
   // Each success lowers a norm by a factor, so that this ends.
   while (!queue.empty()) {
     const auto left = static_cast<double>(queue.size()) / static_cast<double>(images.vertices.size());
-    execution.report(1 - kFreeing * std::min(1.0, left));
+    execution.report(1 - std::min(1.0, left));
     const Index i = queue.back();
     queue.pop_back();
     for_each_leaving(from_links_, images.vertices[i], [&](mesh::HalfedgeHandle h) {
