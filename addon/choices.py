@@ -28,12 +28,13 @@ class Choices:
     boundary: str = "natural"
     solver: str = "auto"
     hard_edges: float = 0.0  # degrees: islands are cut along sharper edges, too; 0 for the seams alone
+    most_stretch: float = 0.0  # islands are cut open where lengths change by a larger factor; 0 for no such cuts
 
     @property
     def key(self):
         """Equal for choices that give the same solve."""
         selected = (self.use, self.selected, self.residues) if self.selected else ()
-        return (*selected, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges)
+        return (*selected, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges, self.most_stretch)
 
     @property
     def is_explicit(self):

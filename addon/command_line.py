@@ -2,6 +2,7 @@
 """The options of the headless command, and which values of them cannot be."""
 
 import argparse
+import math
 from pathlib import Path
 
 from . import exchange, headless_tile, properties
@@ -71,6 +72,8 @@ def _add_choices(parser):
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
     text = "with --main islands: cut along edges sharper than so many degrees, too, and those marked sharp"
     group.add_argument("--hard-edges", type=float, default=0.0, metavar="DEGREES", help=text)
+    text = "with --main islands: cut them open where lengths change by more than this factor"
+    group.add_argument("--most-stretch", type=float, default=0.0, metavar="FACTOR", help=text)
     group.add_argument(
         "--boundary",
         choices=("natural", "double_cover", "straight", "free"),
@@ -103,8 +106,11 @@ def _check_values(options):
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
     _refuse_if(options.puncture and options.rectangle, "--puncture and --rectangle exclude each other")
     _refuse_if(not 0 <= options.hard_edges < 180, "--hard-edges must be at least 0 and less than 180")
-    is_used = not options.hard_edges or options.main == "islands"
-    _refuse_if(not is_used, "--hard-edges cuts islands: it goes with --main islands")
+    is_factor = options.most_stretch == 0 or 1 < options.most_stretch < math.inf
+    _refuse_if(not is_factor, "--most-stretch must be above 1, or 0 for no cuts")
+    is_used = options.main == "islands"
+    _refuse_if(options.hard_edges and not is_used, "--hard-edges cuts islands: it goes with --main islands")
+    _refuse_if(options.most_stretch and not is_used, "--most-stretch cuts islands: it goes with --main islands")
     boundaries = ("natural", "straight", "free") if options.seamless else ("natural", "double_cover")
     sentence = "--boundary is straight or free with --seamless, natural or double_cover without"
     _refuse_if(options.boundary not in boundaries, sentence)

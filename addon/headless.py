@@ -110,7 +110,7 @@ def request(options, holomorph):
     faces = choices.use_of_faces(use) if use == choices.FACES else module("faces").WHOLE
     are_islands = options.main == "islands"
     cut, boundary = options.cut_at_seams or are_islands, choices.ISLANDS if are_islands else options.boundary
-    how = cut, boundary, options.solver, faces, options.modifiers, options.hard_edges
+    how = cut, boundary, options.solver, faces, options.modifiers, options.hard_edges, options.most_stretch
     return module("targets").Request(choices.use_of_vertices(use), vertices, residues, *how)
 
 

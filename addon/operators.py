@@ -8,7 +8,7 @@ from bpy.props import EnumProperty, FloatProperty
 
 from . import native
 from .modal import MODAL_FACES, MODAL_TILED_FACES, WorkOperator
-from .properties import HARD_EDGE, HARD_EDGES, MAIN_MAPS, MapProperties
+from .properties import HARD_EDGE, HARD_EDGES, MAIN_MAPS, MOST_STRETCH, MapProperties
 
 CONVERTIBLE = {"FONT", "CURVE", "SURFACE", "META"}
 CONVERT = "Object > Convert > Mesh makes this a mesh"
@@ -90,6 +90,7 @@ class HOLOMORPH_OT_islands(_MapsOperator, bpy.types.Operator):
     hard_edges: FloatProperty(
         name="Hard Edges", description=HARD_EDGES, default=HARD_EDGE, min=0.0, max=math.pi, subtype="ANGLE"
     )
+    most_stretch: FloatProperty(name="Most Stretch", description=MOST_STRETCH, min=0.0, soft_max=10.0)
 
 
 class HOLOMORPH_OT_restore_materials(bpy.types.Operator):

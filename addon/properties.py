@@ -14,6 +14,10 @@ HARD_EDGES = (
     "Islands are cut along edges that are sharper than this, and those marked sharp, as well as along seams. 0: along "
     "seams alone"
 )
+MOST_STRETCH = (
+    "Islands are cut open, from the place that is stretched or squeezed most to its border, until lengths change by less "
+    "than this factor: seams for an even texture. 0: no such cuts"
+)
 MODIFIERS = (
     "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result becomes an object "
     "of its own and the object is hidden"
@@ -81,10 +85,11 @@ TEXTURES = (
     ("HEXAGONS", "Hexagons", "Glazed hexagonal tiles"),
 )
 DRAWN = (  # in groups
-    ("main", "hard_edges", "density", "equal", "margin", "rotation", "forms", "shown"),
+    ("main", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
     ("checker", "texture", "checker_scale", "seams", "shape"),
     ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
 )
+OF_ISLANDS = {"hard_edges", "most_stretch"}
 
 
 @functools.lru_cache(maxsize=1)
@@ -145,6 +150,7 @@ class MapProperties:
         unit="ROTATION",
     )
     hard_edges: FloatProperty(name="Hard Edges", description=HARD_EDGES, min=0.0, max=math.pi, subtype="ANGLE")
+    most_stretch: FloatProperty(name="Most Stretch", description=MOST_STRETCH, min=0.0, soft_max=10.0)
     # Not remembered for the next object, which has a selection of its own.
     use_selection: EnumProperty(
         name="Use Selection",
@@ -219,7 +225,7 @@ class MapProperties:
         for group in DRAWN:
             column = layout.column()
             for name in group:
-                if name != "hard_edges" or self.main == "ISLANDS":
+                if name not in OF_ISLANDS or self.main == "ISLANDS":
                     column.prop(self, name)
         for index in range(min(self.form_count, DIALS) if self.form_count > 1 else 0):  # a single form has no share
             row = layout.row(align=True)
@@ -240,6 +246,7 @@ class MapProperties:
             solver=self.solver,
             modifiers=self.modifiers,
             hard_edges=math.degrees(self.hard_edges) if are_islands else 0.0,
+            most_stretch=self.most_stretch if are_islands else 0.0,
         )
 
     def map_options(self):

@@ -27,16 +27,17 @@ class MappedObject:
 
 
 class Mapper:
-    """Makes the `MappedObject` of one solve after the other; where they are to be equal, tilings have as many tiles for
-    their area as the first one."""
+    """Makes the `MappedObject` of one solve after the other; where they are to be equal, as many tiles for their area
+    are asked for as of the first tiling, and other maps have the density that it got."""
 
     def __init__(self, options, is_equal=True):
-        self._options, self._is_equal, self._density = options, is_equal, 0.0
+        self._options, self._is_equal = options, is_equal
+        self._density = self._per_length = 0.0  # tiles for an area, and UV units for a length
 
     def __call__(self, solved, progress=None):
         made = tiled(solved, self._options, progress, self._density)
-        if self._is_equal:
-            self._density = self._density or made.density
+        if self._is_equal and made.done and not self._density:
+            self._density, self._per_length = made.density, 1 / made.unit_length
         return MappedObject(solved, made)
 
     def options(self, results):
@@ -45,7 +46,7 @@ class Mapper:
         if not self._is_equal or len(mapped) < 2:
             return self._options
         fitting = min(maps.filling(made.solved, self._options) for made in mapped)
-        per_length = math.sqrt(self._density) or (fitting if math.isfinite(fitting) else 0.0)
+        per_length = self._per_length or (fitting if math.isfinite(fitting) else 0.0)
         return replace(self._options, per_length=per_length)
 
 

@@ -148,6 +148,8 @@ def _parts(holomorph, surface, chosen, progress):
         return surface.components
     between_seams = holomorph.islands(surface, chosen.seams, strict=False, hard_edges=chosen.hard_edges or None)
     islands = [disk for part in between_seams for disk in _opened(holomorph, part, progress)]
+    if chosen.most_stretch > 1:
+        islands = [_cut_to_cones(holomorph, part, chosen.most_stretch, progress) for part in islands]
     if any(part.genus == 0 and part.boundary_count == 1 for part in islands):
         return islands
     raise holomorph.TopologyError(NO_HARD_EDGES if chosen.hard_edges else NO_ISLANDS)
@@ -162,6 +164,16 @@ def _opened(holomorph, part, progress):
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
         return (part,)  # what is wrong with it is said where its map is made
     return holomorph.islands(part, part.vertex_index[structure.edges[structure.seams]])
+
+
+def _cut_to_cones(holomorph, part, most_stretch, progress):
+    """A disk cut open where its flat map would be stretched more; others as they are."""
+    if (part.genus, part.boundary_count) != (0, 1):
+        return part
+    try:
+        return holomorph.cut_to_cones(part, most_stretch, progress=_scaled(progress, 0.0, 0.0))
+    except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
+        return part  # what is wrong with it is said where its map is made
 
 
 def _scaled(progress, done, share):

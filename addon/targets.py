@@ -60,6 +60,12 @@ class Request:
     faces: str = faces.WHOLE  # which ones are mapped
     modifiers: bool = False  # whether they count, in object mode
     hard_edges: float = 0.0  # degrees: islands are cut along sharper edges and those marked sharp; 0 for seams alone
+    most_stretch: float = 0.0  # islands are cut open where lengths change by a larger factor; 0 for no such cuts
+
+    @property
+    def how(self):
+        """The last fields of the `choices.Choices`."""
+        return self.boundary, self.solver, self.hard_edges, self.most_stretch
 
 
 def mesh_objects(context):
@@ -123,8 +129,7 @@ def _with_modifiers(obj, target, own, request):
     if target.mask is not None or request.use in choices.EXPLICIT:
         return replace(target, refused="the selection is one of the mesh itself, not of what its modifiers make")
     seams = seams if request.cut_at_seams else NO_EDGES
-    how = request.boundary, request.solver, request.hard_edges
-    chosen = choices.Choices(choices.NONE, (), (), seams, *how)
+    chosen = choices.Choices(choices.NONE, (), (), seams, *request.how)
     note = "what its modifiers make is an object now; the object itself is hidden"
     return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=f"{obj.name}: {note}")
 
@@ -134,8 +139,7 @@ def _choices(obj, request):
     marks = (["use_seam"] if request.cut_at_seams else []) + (["use_edge_sharp"] if request.hard_edges else [])
     seams = np.concatenate([NO_EDGES, *(mesh_edges.marked_edges(obj.data, mark) for mark in marks)])
     selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
-    how = request.boundary, request.solver, request.hard_edges
-    return choices.Choices(request.use, tuple(selected), request.residues, seams, *how)
+    return choices.Choices(request.use, tuple(selected), request.residues, seams, *request.how)
 
 
 def _selected(obj, use):

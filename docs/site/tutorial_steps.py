@@ -14,8 +14,8 @@ from mathutils import Euler
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "window"))
 from objects import maps, part_report, pick
 from running import run
-from screen import area, click, hover, inside, picture, region, window
-from sidebar import count_draws, open_tab, press_button
+from screen import area, click, enter, hover, inside, picture, region, window
+from sidebar import open_sidebar, press_button
 
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 120  # seconds for a map
@@ -89,18 +89,12 @@ def wait_for_maps(obj):
 
 
 def prepare():
-    bpy.context.preferences.view.show_splash = False
-    bpy.context.preferences.view.smooth_view = 0
-    window().workspace = bpy.data.workspaces["Layout"]
-    yield 2
+    yield from enter("Layout")
     space = view().spaces.active
-    space.show_region_ui = True
     space.overlay.show_floor = space.overlay.show_axis_x = space.overlay.show_axis_y = False
     space.overlay.show_cursor = False
-    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
     load("mug")
-    yield 1
-    yield from open_tab("VIEW_3D", seen["tab"])
+    yield from open_sidebar(seen["tab"])
 
 
 def one_button():

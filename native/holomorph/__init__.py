@@ -18,6 +18,7 @@ from .bounded import BoundedStructure
 from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
+from .cones import cut_to_cones
 from .conformal_map import ConformalMap, conformal_map
 from .disk import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .double import double_cover
@@ -87,6 +88,7 @@ __all__ = [
     "conformal_map",
     "conformal_structure",
     "conformally_equivalent",
+    "cut_to_cones",
     "double_cover",
     "frame",
     "hyperelliptic",

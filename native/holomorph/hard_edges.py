@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from .cut_open import on_border, paths_to_border
+
 TIP = np.pi / 3  # radians that are missing around a vertex, or too many
 
 
@@ -21,36 +23,9 @@ def is_hard(surface, degrees):
 def cuts_to_tips(surface, is_seam):
     """(#E,) the shortest paths of the polygons' edges from the seams, a mask of edges, and from the boundary to the
     tips of the parts that they leave."""
-    native, count = surface._native, len(surface.vertices)
-    edges = np.asarray(native.edges, np.int64)
-    is_border = is_seam | (np.bincount(native.triangle_edges.ravel(), minlength=len(edges)) == 1)
-    on_border = np.zeros(count, bool)
-    on_border[edges[is_border]] = True
-    tips = (np.abs(_defects(surface)) > TIP) & ~on_border
-    result = np.zeros(len(edges), bool)
-    if not tips.any() or not on_border.any():
-        return result
-    lengths = np.array(native.edge_lengths)
-    lengths[native.polygon_edge_count :] = np.inf
-    distances = native.edge_distances(lengths, np.flatnonzero(on_border).tolist())
-    nearer, edge_to_it = _steps(edges[: native.polygon_edge_count], lengths, distances)
-    path, place = tips & np.isfinite(distances), nearer
-    for _ in range(count.bit_length()):  # after k rounds the first 2^k vertices of each path are marked
-        path[place[path]] = True
-        place = place[place]
-    result[edge_to_it[path & (nearer != np.arange(count))]] = True
-    return result
-
-
-def _steps(edges, lengths, distances):
-    """(#V,) the next vertex on a shortest path to the sources, itself where there is none, and (#V,) the edge to it."""
-    ends = np.concatenate([edges, edges[:, ::-1]])
-    through = distances[ends[:, 1]] + np.tile(lengths[: len(edges)], 2)
-    is_step = (through == distances[ends[:, 0]]) & (distances[ends[:, 1]] < distances[ends[:, 0]])
-    nearer, edge_to_it = np.arange(len(distances)), np.zeros(len(distances), np.int64)
-    nearer[ends[is_step, 0]] = ends[is_step, 1]
-    edge_to_it[ends[is_step, 0]] = np.tile(np.arange(len(edges)), 2)[is_step]
-    return nearer, edge_to_it
+    is_on_border = on_border(surface, is_seam)
+    tips = (np.abs(_defects(surface)) > TIP) & ~is_on_border
+    return paths_to_border(surface, is_on_border, tips)
 
 
 def _face_normals(surface):

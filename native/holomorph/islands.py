@@ -3,9 +3,9 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native, arrays
 from ._native import TopologyError
 from .checks import real_number
+from .cut_open import cut_open
 from .edges import edge_keys
 from .hard_edges import cuts_to_tips, is_hard
 from .surface import Surface
@@ -43,7 +43,7 @@ def islands(
     if hard_edges is not None:
         is_seam |= is_hard(surface, real_number(hard_edges, "hard_edges", positive=True))
         is_seam |= cuts_to_tips(surface, is_seam)
-    return _cut_open(surface, is_seam).components
+    return cut_open(surface, is_seam).components
 
 
 def _seam_keys(surface, seams, sides, strict):
@@ -60,41 +60,3 @@ def _seam_keys(surface, seams, sides, strict):
     for a, b in seams[~is_known] if strict else ():
         raise TopologyError(f"a seam runs between the vertices {a} and {b}, which no edge of a face joins")
     return wanted[is_known]
-
-
-def _cut_open(surface, is_seam):
-    """The surface with the edges of this mask, (#E,), doubled."""
-    vertices = surface.triangles.ravel().astype(np.int64)
-    fans = _fans(surface._native.triangle_edges, is_seam, int(np.bincount(vertices).max()))
-    _, first, new = np.unique(vertices * len(fans) + fans, return_index=True, return_inverse=True)
-    index = vertices[first]
-    corner_vertices = np.empty(len(surface.corner_vertices), np.int32)
-    corner_vertices[surface.triangle_corners.ravel()] = new.ravel()
-    native = _native.Surface.from_polygons(surface.vertices[index], corner_vertices, surface.face_offsets)
-    indices = arrays.frozen(surface.vertex_index[index]), surface.face_index, surface.corner_index
-    return Surface._of(native, *indices, surface.given_vertex_count)
-
-
-def _fans(triangle_edges, is_seam, most):
-    """(3 #T,) a name for the fan of each triangle corner: corners of one vertex have the same where one comes from one
-    to the other through triangles, and across no seam.
-
-    The corner at the start of side h of a triangle is followed by that of the triangle across this side: a fan is a
-    path or a cycle of corners, and its name the end of the path or the lowest corner of the cycle; by pointer doubling.
-    No fan has more than `most` corners.
-    """
-    edges = triangle_edges.ravel()
-    corners = np.arange(len(edges))
-    order = np.argsort(edges, kind="stable")
-    pairs = np.flatnonzero((edges[order[1:]] == edges[order[:-1]]) & ~is_seam[edges[order[1:]]])
-    one, other = order[pairs], order[pairs + 1]
-    following = corners.copy()
-    following[one], following[other] = _next_side(other), _next_side(one)
-    place, lowest = following, corners
-    for _ in range(most.bit_length()):
-        lowest, place = np.minimum(lowest, lowest[place]), place[place]
-    return np.where(following[place] == place, place, lowest)
-
-
-def _next_side(sides):
-    return np.where(sides % 3 == 2, sides - 2, sides + 1)

@@ -137,17 +137,19 @@ def test_the_map_of_the_same_surface(change, drawn):
     holds()
 
 
+# The lattice comes in another basis, so that another of its points may be taken that is about as near. `most` is what
+# the rounding may cost then; with ten integers of the handles of 200 faces that is much.
 @pytest.mark.parametrize(
-    "mesh",
+    ("mesh", "most"),
     [
-        families.block_with_holes(2, 2, 0.2, 0),
-        families.block_with_holes(5, 1, 0.2, 1),
-        families.torus(24, 12, jitter=0.3, seed=1),
-        families.punched(families.block_with_holes(1, 3, 0.25, 1), 3, 1),
+        (families.block_with_holes(2, 2, 0.2, 0), 1.5),
+        (families.block_with_holes(5, 1, 0.2, 1), 2.5),
+        (families.torus(24, 12, jitter=0.3, seed=1), 1.5),
+        (families.punched(families.block_with_holes(1, 3, 0.25, 1), 3, 1), 1.5),
     ],
     ids=["genus 2", "genus 5", "torus", "three holes"],
 )
-def test_ten_numberings_have_the_same_maps(mesh):
+def test_ten_numberings_have_the_same_maps(mesh, most):
     mesh = families.triangles_of(mesh)
     ratios, tilings = [], []
     for seed in range(10):
@@ -157,9 +159,7 @@ def test_ten_numberings_have_the_same_maps(mesh):
     assert np.ptp(ratios) < SEARCH["numbers"] * min(ratios)
     optimal = [tiling.optimal_density_ratio for tiling in tilings]
     assert np.ptp(optimal) < SEARCH["numbers"] * min(optimal)
-    # The lattice comes in another basis, so that another of its points may be taken that is about as near: with genus 5
-    # and 200 faces it costs a factor of 1.5 to 2.2.
-    assert max(tiling.density_ratio for tiling in tilings) < 2.5 * min(optimal)
+    assert max(tiling.density_ratio for tiling in tilings) < most * min(optimal)
 
 
 @few

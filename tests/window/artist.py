@@ -3,39 +3,20 @@
 import json
 
 import bpy
-from objects import pick
-from screen import area, hover, inside, picture, window
-from sidebar import count_draws, open_tab, press_button
+from objects import look_at, pick
+from screen import area, enter, inside, picture
+from sidebar import open_sidebar, press_button
 
 PATIENCE = 30  # seconds for an object
 seen = {}
 
 
 def prepare():
-    bpy.context.preferences.view.show_splash = False
-    bpy.context.preferences.view.smooth_view = 0
-    window().workspace = bpy.data.workspaces["Layout"]
-    yield 2
-    area("VIEW_3D").spaces.active.show_region_ui = True
-    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
-    yield 1
-    yield from open_tab("VIEW_3D", seen)
+    yield from enter("Layout")
+    yield from open_sidebar(seen)
     for obj in list(bpy.data.objects):
         if obj.name != "Cube":
             bpy.data.objects.remove(obj)
-
-
-def look_at(name):
-    for obj in bpy.data.objects:
-        obj.hide_set(obj.name != name)
-    pick(name)
-    with inside(area("VIEW_3D")):
-        bpy.ops.view3d.view_axis(type="FRONT")
-        bpy.ops.view3d.view_orbit(angle=0.6, type="ORBITLEFT")
-        bpy.ops.view3d.view_orbit(angle=0.4, type="ORBITUP")
-        bpy.ops.view3d.view_selected()
-        bpy.ops.ed.undo_push(message=name)
-    hover(area("VIEW_3D"))
 
 
 def report_of(name):

@@ -7,10 +7,10 @@ from pathlib import Path
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
-from objects import maps, pick, spikes
+from objects import clear, look_at, maps, pick, spikes
 from running import run
-from screen import area, hover, inside, picture, window
-from sidebar import count_draws, open_tab, press_button
+from screen import area, enter, inside, picture
+from sidebar import open_sidebar, press_button
 
 PATIENCE = 60  # seconds for a tiling
 seen = {}
@@ -20,33 +20,14 @@ def shading():
     return area("VIEW_3D").spaces.active.shading
 
 
-def look_at(name):
-    for obj in bpy.data.objects:
-        obj.hide_set(obj.name != name)
-    pick(name)
-    with inside(area("VIEW_3D")):
-        bpy.ops.view3d.view_axis(type="FRONT")
-        bpy.ops.view3d.view_orbit(angle=0.6, type="ORBITLEFT")
-        bpy.ops.view3d.view_selected()
-        bpy.ops.ed.undo_push(message=name)
-    hover(area("VIEW_3D"))
-
-
 def prepare():
-    bpy.context.preferences.view.show_splash = False
-    bpy.context.preferences.view.smooth_view = 0
-    window().workspace = bpy.data.workspaces["Layout"]
-    yield 2
-    for each in list(bpy.data.objects):
-        bpy.data.objects.remove(each)
+    yield from enter("Layout")
+    clear()
     with inside(area("VIEW_3D")):
         bpy.ops.mesh.primitive_monkey_add()
     spikes("Spikes")
-    area("VIEW_3D").spaces.active.show_region_ui = True
     shading().type, shading().color_type = "SOLID", "MATERIAL"
-    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
-    yield 1
-    yield from open_tab("VIEW_3D", seen)
+    yield from open_sidebar(seen)
 
 
 def the_button():

@@ -11,34 +11,27 @@ import bmesh
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
-from objects import maps, pick, sheet, torus
+from objects import clear, maps, pick, sheet, torus
 from running import run
-from screen import area, click, hover, inside, move, picture, region, tap, window
-from sidebar import count_draws, open_tab
+from screen import area, click, enter, hover, inside, move, picture, region, tap
+from sidebar import open_sidebar
 
 TOOLS = 218  # pixels from the top of the sidebar to the header of Tools, before there is a result
 seen = {}
 
 
 def prepare():
-    bpy.context.preferences.view.show_splash = False
-    bpy.context.preferences.view.smooth_view = 0
+    yield from enter("UV Editing")
     bpy.context.preferences.view.pie_animation_timeout = 0
-    window().workspace = bpy.data.workspaces["UV Editing"]
-    yield 2
     bpy.ops.object.mode_set(mode="OBJECT")
-    for obj in list(bpy.data.objects):
-        bpy.data.objects.remove(obj)
+    clear()
     torus("Ring", 48, 24, 0)
     sheet("Sheet", 8, -4)
     pick("Ring")
     with inside(area("VIEW_3D")):
         bpy.ops.view3d.view_all()
-    for kind in ("VIEW_3D", "IMAGE_EDITOR"):
-        area(kind).spaces.active.show_region_ui = True
-    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
-    yield 1
-    yield from open_tab("VIEW_3D", seen)
+    area("IMAGE_EDITOR").spaces.active.show_region_ui = True
+    yield from open_sidebar(seen)
 
 
 def pie():

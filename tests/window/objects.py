@@ -6,6 +6,7 @@ import json
 import bmesh
 import bpy
 import numpy as np
+from screen import area, hover, inside
 
 
 def maps(name):
@@ -17,6 +18,26 @@ def pick(name):
     for obj in bpy.context.view_layer.objects:
         obj.select_set(obj.name == name)
     bpy.context.view_layer.objects.active = bpy.data.objects[name]
+
+
+def look_at(name):
+    """Alone, from the front and a little from above."""
+    for obj in bpy.data.objects:
+        obj.hide_set(obj.name != name)
+    pick(name)
+    with inside(area("VIEW_3D")):
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_orbit(angle=0.6, type="ORBITLEFT")
+        bpy.ops.view3d.view_orbit(angle=0.4, type="ORBITUP")
+        bpy.ops.view3d.view_selected()
+        bpy.ops.ed.undo_push(message=name)
+    hover(area("VIEW_3D"))
+
+
+def clear():
+    """All objects are gone."""
+    for obj in list(bpy.data.objects):
+        bpy.data.objects.remove(obj)
 
 
 def pick_vertices(name, vertices):

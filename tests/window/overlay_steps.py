@@ -11,9 +11,9 @@ import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 sys.path.insert(0, str(Path(__file__).parent))
-from objects import pick, torus
+from objects import clear, pick, torus
 from running import run
-from screen import area, inside, picture, pixels, region, window
+from screen import area, enter, inside, picture, pixels, region
 
 seen = {}
 TOP = (0.0, 1.0, 0.4)  # a point of the torus in the middle between its vertices
@@ -65,12 +65,8 @@ def expected_at_top(quantity):
 
 
 def prepare():
-    bpy.context.preferences.view.show_splash = False
-    bpy.context.preferences.view.smooth_view = 0
-    window().workspace = bpy.data.workspaces["Layout"]
-    yield 2
-    for obj in list(bpy.data.objects):
-        bpy.data.objects.remove(obj)
+    yield from enter("Layout")
+    clear()
     torus("Torus", 49, 25, 0)
     pick("Torus")
     with inside(area("VIEW_3D")):

@@ -15,6 +15,14 @@ def window():
     return bpy.context.window_manager.windows[0]
 
 
+def enter(workspace):
+    """Without the splash screen, and without views that move by themselves."""
+    bpy.context.preferences.view.show_splash = False
+    bpy.context.preferences.view.smooth_view = 0
+    window().workspace = bpy.data.workspaces[workspace]
+    yield 2
+
+
 def area(kind):
     return next(a for a in window().screen.areas if a.type == kind)
 

@@ -1,5 +1,6 @@
 """The add-on's tab in a sidebar, and its buttons."""
 
+import bpy
 from screen import area, click, event, move, region
 
 TABS_STEP = 30  # pixels; a tab is longer
@@ -17,6 +18,14 @@ def count_draws(panel, kind):
         original(self, context)
 
     panel.draw = draw
+
+
+def open_sidebar(seen):
+    """Of the 3D view, with our tab."""
+    area("VIEW_3D").spaces.active.show_region_ui = True
+    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
+    yield 1
+    yield from open_tab("VIEW_3D", seen)
 
 
 def open_tab(kind, seen):

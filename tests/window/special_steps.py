@@ -7,8 +7,8 @@ from pathlib import Path
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
-from artist import look_at, prepare, press, report_of, seen, then
-from objects import figure, pipe, terrain
+from artist import prepare, press, report_of, seen, then
+from objects import figure, look_at, pipe, terrain
 from running import run
 from screen import area, inside, picture
 from sidebar import press_button

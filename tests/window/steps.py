@@ -13,9 +13,9 @@ from pathlib import Path
 import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))
-from objects import maps, part_report, pick, pick_vertices, sheet, torus
+from objects import clear, maps, part_report, pick, pick_vertices, sheet, torus
 from running import run
-from screen import area, click, hover, inside, picture, region, tap, window
+from screen import area, click, enter, hover, inside, picture, region, tap
 from sidebar import count_draws, drawn, open_tab, press_button
 
 PATIENCE = 90  # seconds for a solve
@@ -68,13 +68,9 @@ def wait_for_maps(name):
 
 
 def prepare():
-    bpy.context.preferences.view.show_splash = False
-    bpy.context.preferences.view.smooth_view = 0
-    window().workspace = bpy.data.workspaces["UV Editing"]
-    yield 2
+    yield from enter("UV Editing")
     bpy.ops.object.mode_set(mode="OBJECT")
-    for obj in list(bpy.data.objects):
-        bpy.data.objects.remove(obj)
+    clear()
     torus("Small", 48, 24, 0)
     torus("Big", 850, 700, 3)
     sheet("Sheet", 8, -4)

@@ -11,10 +11,10 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parent))
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-from objects import part_report, pick, torus
+from objects import clear, part_report, pick, torus
 from running import run
-from screen import area, click, event, hover, inside, move, picture, region, tap, window
-from sidebar import count_draws, open_tab, press_button
+from screen import area, click, enter, event, hover, inside, move, picture, region, tap
+from sidebar import open_sidebar, press_button
 
 PATIENCE = 60  # seconds for the texture to follow
 seen = {}
@@ -66,24 +66,17 @@ def wait_until(is_so):
 
 
 def prepare():
-    bpy.context.preferences.view.show_splash = False
-    bpy.context.preferences.view.smooth_view = 0
-    window().workspace = bpy.data.workspaces["Layout"]
-    yield 2
-    for each in list(bpy.data.objects):
-        bpy.data.objects.remove(each)
+    yield from enter("Layout")
+    clear()
     torus(NAME, 96, 48, 0)
     pick(NAME)
     view = area("VIEW_3D").spaces.active
-    view.show_region_ui = True
     view.shading.type, view.shading.color_type = "SOLID", "TEXTURE"
     with inside(area("VIEW_3D")):
         bpy.ops.view3d.view_axis(type="TOP")
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Start")
-    count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
-    yield 1
-    yield from open_tab("VIEW_3D", seen)
+    yield from open_sidebar(seen)
 
 
 def tiling():

@@ -20,8 +20,8 @@ struct GramMatrix {
   int summands = 0;           ///< additions that one product goes through, at most
 };
 
-/// The Gram matrix of each family of forms. Sums go over blocks of edges in a fixed order, so that the bits do not depend
-/// on the number of threads. Blocks without weights cost nothing.
+/// The Gram matrix of each family of forms. Sums go over blocks of edges in a fixed order, so that the bits do not
+/// depend on the number of threads. Blocks without weights cost nothing.
 /// @param errors mesh::energy_errors, or none: then only `value` is set
 /// @param families numbers of forms of consecutive families. @return one for each
 std::vector<GramMatrix> gram_matrices(const mesh::HalfEdges& half_edges, std::span<const double> weights,
@@ -29,8 +29,8 @@ std::vector<GramMatrix> gram_matrices(const mesh::HalfEdges& half_edges, std::sp
                                       const std::vector<int>& families, Execution& execution);
 
 /// By how much the energies of the forms eta_i + d f_i, f_i the very doubles, may be larger on the surface as given
-/// than `value` says: a positive definite matrix E, with G_exact <= value + E as quadratic forms. E bounds the errors of
-/// the weights, the rounding of differences of functions and the rounding of the sums in any order, together.
+/// than `value` says: a positive definite matrix E, with G_exact <= value + E as quadratic forms. E bounds the errors
+/// of the weights, the rounding of differences of functions and the rounding of the sums in any order, together.
 Eigen::MatrixXd gram_errors(const GramMatrix& gram);
 
 }  // namespace holomorph::forms

@@ -25,7 +25,7 @@ constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs
 constexpr int kPhases = 30, kScales = 7;
 constexpr int kNearPhases = 7;  // around a phase that is given
 constexpr double kScaleRange = 0.12;
-constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1;  // terms and bounds for the rank
+constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1, kSize = 0.1;  // terms and bounds for the rank
 // Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
 // mean than the next, or so much less even than the target, is none.
 constexpr double kFlipped = 10, kNoMap = 2, kUneven = 8;
@@ -101,7 +101,8 @@ double TextureLattice::symmetry() const {
 
 void measure(const RoundingProblem& p, Rounding& rounding) {
   const Eigen::ArrayXd A = (p.forms * rounding.y).cwiseAbs().array();
-  rounding.density_ratio = density_ratio(A.square());
+  const Eigen::ArrayXd density = A.square();
+  rounding.density_ratio = density_ratio(density);
   if (p.defects.cols() > 0) {
     const Eigen::ArrayXd mu = (p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs().array() / A;
     const Eigen::ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
@@ -109,14 +110,13 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
   }
   const double even = density_ratio(p.target_density);
   rounding.rank = kConformal * (rounding.distortion - 1) +
-                  kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even)));
+                  kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even))) +
+                  kSize * std::abs(std::log(median(density) / p.median_density));
 }
 
 std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& wishes, Execution& execution) {
   const Eigen::ArrayXd& density = p.target_density;
-  std::vector<double> sorted(density.begin(), density.end());
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-  const double scale = std::sqrt(wishes.tiles / (wishes.area * sorted[sorted.size() / 2]));
+  const double scale = std::sqrt(p.median_density / median(density));
   const VectorXcd weights = mean_weights(density);
   const std::vector<double> phases = phases_of(p, wishes);
   std::map<std::vector<std::int64_t>, Rounding> found;

@@ -35,14 +35,13 @@ struct RoundingProblem {
   Eigen::ArrayXd target_density;       ///< |forms target|^2
   double symmetry = 0;                 ///< radians by which the lattice is turned onto itself
   Eigen::MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
+  double median_density = 1;           ///< that is wanted of |A|^2
 };
 
 /// Upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target, floored: the mean square of |mu|.
 Eigen::MatrixXcd defect_metric(const RoundingProblem& problem);
 
 struct RoundingWishes {
-  double tiles = 64;            ///< over the surface, at its median density
-  double area = 1;              ///< of the surface
   std::optional<double> phase;  ///< of the target, in radians; free where none is given
   double turn = 0;              ///< by which a given phase may change
   int count = 8;                ///< roundings that are wanted
@@ -53,7 +52,9 @@ struct Rounding {
   Eigen::VectorXcd y;        ///< Z z
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
-  double rank = 0;  ///< the less the better: 5 (distortion - 1) + 0.15 log+(density ratio / 1.1 that of the target)
+  /// The less the better: 5 (distortion - 1) + 0.15 log+(density ratio / 1.1 that of the target)
+  /// + 0.1 |log(median of |A|^2 / the wanted one)|.
+  double rank = 0;
 };
 
 /// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere.

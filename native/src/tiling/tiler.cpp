@@ -35,12 +35,13 @@ std::string text(double number) {
 }
 
 // The rounding with the fewest tiles that there is, for the message.
-[[noreturn]] void refuse(const RoundingProblem& problem, RoundingWishes wishes, Execution& execution) {
-  const std::string wished = text(wishes.tiles);
+[[noreturn]] void refuse(RoundingProblem problem, const RoundingWishes& wishes, double tiles, Execution& execution) {
+  const std::string wished = text(tiles);
   do {
-    wishes.tiles *= kMoreTiles;
-  } while (wishes.tiles < kMostTiles && roundings(problem, wishes, execution).empty());
-  throw TopologyError("with " + wished + " tiles no seamless map of this surface is even; " + text(wishes.tiles) +
+    tiles *= kMoreTiles;
+    problem.median_density *= kMoreTiles;
+  } while (tiles < kMostTiles && roundings(problem, wishes, execution).empty());
+  throw TopologyError("with " + wished + " tiles no seamless map of this surface is even; " + text(tiles) +
                       " are enough");
 }
 
@@ -148,10 +149,6 @@ MatrixXd Tiler::parts(PlacedPoles& placed, Execution& execution) {
 
 RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& execution) {
   RoundingWishes result;
-  result.tiles = wishes.tiles > 0
-                     ? wishes.tiles
-                     : std::max(kLeastTiles, kTilesPerHandle * landscape_->structure().topology.type.genus);
-  result.area = landscape_->area();
   result.phase = wishes.turn;
   result.turn = wishes.most_turn;
   if (wishes.direction) {
@@ -165,18 +162,21 @@ RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& exe
 
 Tiling Tiler::tile(const TilingWishes& wishes, Execution& execution) {
   execution.stage("rounding", 0.0, 0.4);
+  const double usual = std::max(kLeastTiles, kTilesPerHandle * landscape_->structure().topology.type.genus);
+  const double tiles = wishes.tiles > 0 ? wishes.tiles : usual;
   PlacedPoles placed{poles_.vertices, {}};
   const MatrixXd C = parts(placed, execution);
   const Leverage* leverage = has_leverage() ? &pole_moves_->leverage() : nullptr;
   RoundingProblem problem = tiling_problem(*landscape_, poles_, kind_, wishes.lattice, C, leverage, execution);
+  problem.median_density = tiles / landscape_->area();
   if (leverage && !chosen_ && C.cols() > 0)
     problem.repairable = kReach * kReach * landscape_->area() * pole_moves_->reach(poles_.vertices, poles_.residues);
   const RoundingWishes rounding = rounding_wishes(wishes, execution);
   const std::vector<Rounding> list = roundings(problem, rounding, execution);
-  if (list.empty()) refuse(problem, rounding, execution);
-  Candidate chosen = best_candidate(problem, list, placed, {pole_moves_.get(), !chosen_, allowed_}, rounding.tiles,
-                                    *landscape_, execution);
-  last_ = {std::move(chosen), std::move(problem), C, wishes.lattice, rounding.tiles};
+  if (list.empty()) refuse(std::move(problem), rounding, tiles, execution);
+  Candidate chosen =
+      best_candidate(problem, list, placed, {pole_moves_.get(), !chosen_, allowed_}, tiles, *landscape_, execution);
+  last_ = {std::move(chosen), std::move(problem), C, wishes.lattice, tiles};
   execution.stage("poles at their places", 0.4, 0.9);
   return map_of(last_->candidate, execution);
 }

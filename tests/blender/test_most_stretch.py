@@ -1,0 +1,73 @@
+"""Islands that are cut open where they would be stretched most."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import module
+from scenes import everything, mesh_object, run, select, stored_report
+from test_headless import headless, our_lines, write_obj
+from test_islands import assert_packed
+
+
+def finger_arrays(n=24):
+    """A square sheet with a finger on it."""
+    i, j = np.divmod(np.arange((n + 1) ** 2), n + 1)
+    x, y = i / n, j / n
+    height = 0.7 * np.exp(-((x - 0.5) ** 2 + (y - 0.6) ** 2) / 0.01)
+    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    faces = np.stack([first, first + n + 1, first + n + 2, first + 1], axis=1)
+    return np.stack([x, y, height], axis=1), faces.tolist()
+
+
+def main_ratio(obj):
+    (part,) = stored_report(obj)["components"]
+    return part["main_map"]["density_ratio"]
+
+
+def test_the_map_becomes_even():
+    obj = mesh_object("Finger", *finger_arrays())
+    select(obj)
+    run(main="ISLANDS")
+    before = main_ratio(obj)
+    assert run(main="ISLANDS", most_stretch=2.0) == {"FINISHED"}
+    assert main_ratio(obj) < 4 and before > 10 * main_ratio(obj)
+    assert_packed(obj)
+
+
+def test_it_is_only_for_islands():
+    obj = mesh_object("Finger", *finger_arrays())
+    select(obj)
+    run(main="BALANCED")
+    before = everything(obj)
+    run(main="BALANCED", most_stretch=2.0)
+    assert everything(obj) == before
+
+
+def test_the_cuts_become_seams():
+    obj = mesh_object("Finger", *finger_arrays())
+    select(obj)
+    run(main="ISLANDS", most_stretch=2.0, seams=True)
+    ends = module("mesh_edges").marked_edges(obj.data, "use_seam")
+    tip = int(np.argmax(finger_arrays()[0][:, 2]))
+    heights = np.array([v.co.z for v in obj.data.vertices])
+    assert len(ends) > 5 and heights[np.unique(ends)].max() > 0.8 * heights[tip]
+
+
+def test_the_command(tmp_path):
+    vertices, faces = finger_arrays()
+    mesh, report = write_obj(tmp_path / "finger.obj", vertices, faces), tmp_path / "report.json"
+    done = headless(mesh, "--main", "islands", "--most-stretch", 2, "--report", report)
+    assert done.returncode == 0, done.stderr
+    (entry,) = json.loads(report.read_text())["objects"]
+    assert entry["components"][0]["main_map"]["density_ratio"] < 4
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [(("--most-stretch", 2), "--main islands"), (("--main", "islands", "--most-stretch", 0.5), "above 1")],
+)
+def test_factors_that_cannot_be_are_refused_by_the_command(tmp_path, options, word):
+    done = headless(write_obj(tmp_path / "finger.obj", *finger_arrays()), *options)
+    (line,) = our_lines(done)
+    assert done.returncode == 1 and word in line
