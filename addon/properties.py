@@ -15,8 +15,8 @@ HARD_EDGES = (
     "seams alone"
 )
 MOST_STRETCH = (
-    "Islands are cut open, from the place that is stretched or squeezed most to its border, until lengths change by less "
-    "than this factor: seams for an even texture. 0: no such cuts"
+    "Islands are cut open, from the place that is stretched or squeezed most to its border, until lengths change by "
+    "less than this factor: seams for an even texture. 0: no such cuts"
 )
 MODIFIERS = (
     "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result becomes an object "
