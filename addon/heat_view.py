@@ -6,19 +6,15 @@ A batch is made when an object is first drawn, and kept until `forget`: meshes d
 
 from dataclasses import dataclass
 
-import blf
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
-from . import distortion, heat
+from . import distortion, heat, on_screen
 
-FONT, TEXT_SIZE = 0, 12
 BAR_WIDTH, BAR_HEIGHT = 280, 12  # pixels, in a user interface of normal size
 BAR_ABOVE = 52  # pixels, from the lower edge of the view
-TEXT_COLOUR = (0.95, 0.95, 0.95, 1.0)
-BACKGROUND = (0.0, 0.0, 0.0, 0.55)
 DEPTH_BIAS = 1e-6  # of the depth from -1 to 1: ten steps of a depth buffer, to lie over the faces as the mesh has them
 LIGHT = np.array((0.35, -0.45, 0.82), np.float32)  # direction to the light
 SHADE = 0.45  # how much darker a face is that is turned away from it
@@ -101,33 +97,17 @@ def draw_legend(context, objects, quantity):
     _, scale = places_and_scale(view.found, quantity)
     width, left, low = BAR_WIDTH * unit, context.region.width / 2 - BAR_WIDTH * unit / 2, BAR_ABOVE * unit
     gpu.state.blend_set("ALPHA")
-    _rectangle(left - 24 * unit, low - 24 * unit, width + 48 * unit, 60 * unit, [BACKGROUND] * 2)
+    on_screen.rectangle(left - 24 * unit, low - 24 * unit, width + 48 * unit, 60 * unit, [on_screen.BACKGROUND] * 2)
     step = width / (len(scale.stops) - 1)
     for index, pair in enumerate(zip(scale.stops, scale.stops[1:])):
-        _rectangle(left + index * step, low, step, BAR_HEIGHT * unit, [(*colour, 1.0) for colour in pair])
+        on_screen.rectangle(left + index * step, low, step, BAR_HEIGHT * unit, [(*colour, 1.0) for colour in pair])
     gpu.state.blend_set("NONE")
     for place, text in scale.ticks:
-        _text(text, left + place * width, low - 16 * unit, unit)
-    _text(_title(view, quantity), left + width / 2, low + 20 * unit, unit)
+        on_screen.text(text, left + place * width, low - 16 * unit, unit)
+    on_screen.text(_title(view, quantity), left + width / 2, low + 20 * unit, unit)
 
 
 def _title(view, quantity):
     if quantity == "DENSITY":
         return f"{view.map_name}: texture density, 95 : 5 % = {view.found.density_text}"
     return f"{view.map_name}: angle distortion s1 / s2, mean {view.found.mean_angle:.4f}"
-
-
-def _rectangle(left, low, width, height, colours):
-    """With one colour at its left edge and one at its right."""
-    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
-    points = [(left, low, 0), (left, low + height, 0), (left + width, low, 0), (left + width, low + height, 0)]
-    first, second = colours
-    corners = {"pos": points, "color": [first, first, second, second]}
-    batch_for_shader(shader, "TRI_STRIP", corners).draw(shader)
-
-
-def _text(text, middle, low, unit):
-    blf.size(FONT, TEXT_SIZE * unit)
-    blf.color(FONT, *TEXT_COLOUR)
-    blf.position(FONT, middle - blf.dimensions(FONT, text)[0] / 2, low, 0)
-    blf.draw(FONT, text)

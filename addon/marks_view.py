@@ -8,7 +8,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from . import mesh_io, report, tile_report
+from . import mesh_io, on_screen, report, tile_report
 
 POLE, ZERO, LIT = (1.0, 0.55, 0.10), (0.95, 0.95, 0.95), (1.0, 0.85, 0.25)  # sRGB
 HOVERED = 1.5  # times as large is the pole under the pointer
@@ -16,15 +16,14 @@ RIM = (0.05, 0.05, 0.05)
 RADIUS, RIM_WIDTH = 6.0, 1.5  # pixels, in a user interface of normal size
 CORNERS = 20  # of a disc
 HIDDEN = 0.25  # opacity behind something
+LEGEND = (24.0, 24.0)  # pixels of its first dot, from the lower left corner of the view
+GAP = 12.0  # pixels between a dot and its words, and half of what is between these and the next dot
 NEARER = 2.0  # radii by which a disc is moved towards the viewer: the faces around its vertex must not cut it
 
 
 def draw(context, objects, dragged):
     """`dragged`: see `overlay.dragged`."""
-    found = [_points(obj, dragged.get(obj.name)) for obj in objects if obj.get(report.PROPERTY)]
-    if not found:
-        return
-    points, is_pole, is_hovered = (np.concatenate(parts) for parts in zip(*found))
+    points, is_pole, is_hovered = _all_points(objects, dragged)
     if not len(points):
         return
     view = context.region_data
@@ -45,6 +44,33 @@ def draw(context, objects, dragged):
     gpu.state.blend_set("NONE")
     gpu.state.depth_test_set("NONE")
     gpu.state.depth_mask_set(True)
+
+
+def draw_legend(context, objects, dragged):
+    """What the dots are, and how many there are of each kind."""
+    _, is_pole, _ = _all_points(objects, dragged)
+    unit = context.preferences.system.ui_scale
+    x, y = LEGEND[0] * unit, LEGEND[1] * unit
+    for count, noun, colour in legend(is_pole):
+        middle, flat = np.array([[x, y, 0.0]]), np.eye(3)[:2]
+        for radius, fill in ((RADIUS + RIM_WIDTH, RIM), (RADIUS, colour)):
+            _draw_discs(discs(middle, np.array([radius * unit]), flat), fill, 1.0, "NONE")
+        words = f"{count} {noun}{'' if count == 1 else 's'}"
+        on_screen.text_from(words, x + GAP * unit, y - on_screen.TEXT_SIZE * unit / 3, unit)
+        x += on_screen.text_width(words, unit) + 3 * GAP * unit
+
+
+def legend(is_pole):
+    """(number, name, colour) of each kind of dot that there is."""
+    kinds = [(int(np.sum(is_pole)), "pole", POLE), (int(np.sum(~is_pole)), "branch point", ZERO)]
+    return [kind for kind in kinds if kind[0]]
+
+
+def _all_points(objects, dragged):
+    """`_points` of all objects."""
+    found = [_points(obj, dragged.get(obj.name)) for obj in objects if obj.get(report.PROPERTY)]
+    nothing = np.empty((0, 3)), np.empty(0, bool), np.empty(0, bool)
+    return tuple(np.concatenate(parts) for parts in zip(nothing, *found))
 
 
 def _points(obj, dragged):

@@ -63,6 +63,10 @@ def _draw_on_screen():
         from . import heat_view
 
         heat_view.draw_legend(context, objects, quantity)
+    if objects and (dragged or getattr(context.window_manager, MARKS)):
+        from . import marks_view
+
+        marks_view.draw_legend(context, objects, dragged)
 
 
 @bpy.app.handlers.persistent

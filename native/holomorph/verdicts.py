@@ -131,7 +131,7 @@ def _percent(part):
 
 def _against_unevenness(poles, is_island):
     if is_island:
-        return "mark a seam up to where it is coarse"
+        return "mark a seam up to where it is coarse, or set Most Stretch"
     return "add poles where it is coarse" if poles else "make a seamless tiling, with poles where it is coarse"
 
 

@@ -73,7 +73,8 @@ def prepare():
         bpy.ops.uv.holomorphic_maps(texture="NUMBERED")
         bpy.ops.view3d.view_axis(type="TOP")
         bpy.ops.view3d.view_selected()
-    area("VIEW_3D").spaces.active.shading.show_specular_highlight = False
+    shading = area("VIEW_3D").spaces.active.shading
+    shading.show_specular_highlight, shading.color_type = False, "SINGLE"  # whatever the texture is
     yield 1
     look_at_heat("nothing", "heat_nothing.png")
 
@@ -118,6 +119,8 @@ def poles():
     tiling = {"poles": [marked["pole"], marked["behind"]], "zeros": [marked["branch point"]]}
     obj[addon("report").PROPERTY] = json.dumps({"components": [{"tiling": tiling}]})
     places = {name: projected(points[vertex]) for name, vertex in marked.items()}
+    unit = bpy.context.preferences.system.ui_scale
+    places["legend"] = tuple(unit * x for x in addon("marks_view").LEGEND)
     for name, state in (("with poles", True), ("without poles", False)):
         setattr(bpy.context.window_manager, addon("overlay").MARKS, state)
         yield 1

@@ -57,6 +57,10 @@ def test_poles_and_branch_points_are_dots(seen):
     assert not any(near(colour, (1.0, 0.55, 0.10)) for colour in seen["without poles"].values())
 
 
+def test_the_dots_have_a_legend(seen):
+    assert near(seen["with poles"]["legend"], (1.0, 0.55, 0.10))
+
+
 def test_a_pole_behind_something_shines_through(seen):
     behind, surface = np.array(seen["with poles"]["behind"]), np.array(seen["without poles"]["behind"])
     red, _, blue = behind - surface
