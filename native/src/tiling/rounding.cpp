@@ -25,7 +25,7 @@ constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs
 constexpr int kPhases = 30, kScales = 7;
 constexpr int kNearPhases = 7;  // around a phase that is given
 constexpr double kScaleRange = 0.12;
-constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1, kSize = 0.1;  // terms and bounds for the rank
+constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1, kSize = 0.05;  // terms and bounds for the rank
 // Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
 // mean than the next, or so much less even than the target, is none.
 constexpr double kFlipped = 10, kNoMap = 2, kUneven = 8;

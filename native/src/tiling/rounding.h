@@ -53,7 +53,7 @@ struct Rounding {
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
   /// The less the better: 5 (distortion - 1) + 0.15 log+(density ratio / 1.1 that of the target)
-  /// + 0.1 |log(median of |A|^2 / the wanted one)|.
+  /// + 0.05 |log(median of |A|^2 / the wanted one)|.
   double rank = 0;
 };
 
