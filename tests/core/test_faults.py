@@ -87,10 +87,9 @@ print(refusals, granted)
 
 def ended(arguments, **variables):
     """The words that a process of its own prints."""
-    # NumPy too: another interpreter in that process looks nowhere else.
-    packages = [Path(holomorph.__file__).parents[1], Path(np.__file__).parents[1], Path(__file__).parent]
+    packages = os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(Path(__file__).parent)])
     command = [sys.executable, *map(str, arguments)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, packages))} | variables
+    environment = os.environ | {"PYTHONPATH": packages} | variables
     child = subprocess.run(command, capture_output=True, text=True, timeout=600, env=environment)
     assert child.returncode == 0, f"{child.returncode}: {child.stderr[-3000:]}"
     return child.stdout.split()
