@@ -1,5 +1,6 @@
 """Put the add-on and its wheels into the zips that Blender installs, one a platform: make_zips.py FOLDER WHEEL..."""
 
+import io
 import re
 import shutil
 import sys
@@ -50,11 +51,22 @@ def with_wheels(manifest, platform, wheels):
     return manifest
 
 
+def uncompressed(wheel):
+    """The bytes of the wheel with its files as they are: compressed once, as a whole, they take a quarter less."""
+    result = io.BytesIO()
+    with zipfile.ZipFile(wheel) as source, zipfile.ZipFile(result, "w") as target:
+        for info in source.infolist():
+            data = source.read(info)
+            info.compress_type = zipfile.ZIP_STORED
+            target.writestr(info, data)
+    return result.getvalue()
+
+
 def write_zip(path, files):
     with zipfile.ZipFile(path, "w") as archive:
         for name in sorted(files):
-            # A wheel is compressed already.
-            method = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
+            # Blender takes a zip apart by its Python, which knows LZMA.
+            method = zipfile.ZIP_LZMA if name.endswith(".whl") else zipfile.ZIP_DEFLATED
             info = zipfile.ZipInfo(f"{FOLDER}/{name}", DATE)
             info.external_attr = 0o644 << 16
             archive.writestr(info, files[name], method)
@@ -65,7 +77,7 @@ def write_extension(folder, version, platform, wheels):
     files = addon_files()
     manifest = files["blender_manifest.toml"].decode()
     files["blender_manifest.toml"] = with_wheels(manifest, platform, wheels).encode()
-    files |= {f"wheels/{wheel.name}": wheel.read_bytes() for wheel in wheels}
+    files |= {f"wheels/{wheel.name}": uncompressed(wheel) for wheel in wheels}
     write_zip(folder / f"holomorph-{version}-{platform.replace('-', '_')}.zip", files)
 
 

@@ -18,6 +18,8 @@ set(CMAKE_RANLIB ${CMAKE_CURRENT_LIST_DIR}/ranlib CACHE FILEPATH "")
 # zig's default is to add what a debugger wants.
 set(CMAKE_CXX_FLAGS_INIT -g0)
 set(CMAKE_MODULE_LINKER_FLAGS_INIT -s)
+# Where this is not said, pybind11 tries link time optimization, and zig compiles its C++ library once more for it.
+set(CMAKE_INTERPROCEDURAL_OPTIMIZATION OFF)
 set(CMAKE_USER_MAKE_RULES_OVERRIDE_CXX ${CMAKE_CURRENT_LIST_DIR}/rules.cmake)
 
 # Nothing of the computer that compiles is used but the templates of Eigen and OpenMesh, which are the same everywhere.

@@ -10,6 +10,7 @@ import pytest
 import tomllib
 from conftest import PLATFORMS, PYTHONS, ROOT, extension, run, wheels
 
+BLENDER = ROOT / "build" / "venv" / "bpy-4.2" / "bin" / "python"  # as a Python module
 MOST_MEGABYTES = 3.0
 TAGS = {
     "windows-x64": "win_amd64",
@@ -58,10 +59,17 @@ def test_the_index_has_all_platforms(repository):
 
 @pytest.mark.parametrize("platform", PLATFORMS)
 def test_blender_finds_the_extension_valid(repository, platform):
-    python = ROOT / "build" / "venv" / "bpy-4.2" / "bin" / "python"
-    (program,) = python.parents[1].glob("lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py")
-    output = run(python, program, "validate", extension(repository, platform))
+    (program,) = BLENDER.parents[1].glob(
+        "lib/python*/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py"
+    )
+    output = run(BLENDER, program, "validate", extension(repository, platform))
     assert "warning" not in output.lower() and "error" not in output.lower(), output
+
+
+def test_blender_installs_the_extension_of_this_computer(repository, tmp_path):
+    install = ROOT / "tests" / "package" / "install_extension.py"
+    output = run(BLENDER, install, extension(repository, "linux-x64"), BLENDER_USER_RESOURCES=tmp_path)
+    assert f"holomorph: {tmp_path}" in output, output
 
 
 @pytest.mark.parametrize("tag", PYTHONS)

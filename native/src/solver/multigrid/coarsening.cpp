@@ -21,7 +21,8 @@ Coarsening coarsening(const Operator& fine) {
     for (const auto [j, w] : fine.A[i]) {
       // without branches, which could not be predicted
       const bool strong = (w > 0) & (w >= kStrong * fine.largest[j]);
-      const bool becomes_F = strong & (number[j] == kUndecided) & (fine.is_fixed(i) || !fine.is_fixed(j));
+      const bool may_follow = fine.is_fixed(i) || !fine.is_fixed(j);
+      const bool becomes_F = strong & (number[j] == kUndecided) & may_follow;
       number[j] = becomes_F ? kFPoint : number[j];
     }
   }

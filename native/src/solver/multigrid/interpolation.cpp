@@ -55,7 +55,8 @@ bool may_follow(const Operator& fine, int i, int j) { return !fine.is_fixed(i) |
 CNeighbours neighbours_of_F_point(const Operator& fine, const Array<int>& coarse, int i) {
   Largest<kCNeighbours> nearest;
   for (const auto [j, w] : fine.A[i]) {
-    const bool counts = (coarse[j] >= 0) & (w > 0) & may_follow(fine, i, j);
+    const bool follows = may_follow(fine, i, j);
+    const bool counts = (coarse[j] >= 0) & (w > 0) & follows;
     nearest.add(counts ? coarse[j] : 0, counts ? w : 0.0F);
   }
   CNeighbours result{{}, {}, 0, 1};
