@@ -16,7 +16,9 @@ RIM = (0.05, 0.05, 0.05)
 RADIUS, RIM_WIDTH = 6.0, 1.5  # pixels, in a user interface of normal size
 CORNERS = 20  # of a disc
 HIDDEN = 0.25  # opacity behind something
-LEGEND = (24.0, 24.0)  # pixels of its first dot, from the lower left corner of the view
+# Pixels of the legend's first dot, from the middle of the view's lower edge: the corners have panels, and above is the
+# heat map's legend.
+LEGEND = (-90.0, 14.0)
 GAP = 12.0  # pixels between a dot and its words, and half of what is between these and the next dot
 NEARER = 2.0  # radii by which a disc is moved towards the viewer: the faces around its vertex must not cut it
 
@@ -50,7 +52,7 @@ def draw_legend(context, objects, dragged):
     """What the dots are, and how many there are of each kind."""
     _, is_pole, _ = _all_points(objects, dragged)
     unit = context.preferences.system.ui_scale
-    x, y = LEGEND[0] * unit, LEGEND[1] * unit
+    x, y = context.region.width / 2 + LEGEND[0] * unit, LEGEND[1] * unit
     for count, noun, colour in legend(is_pole):
         middle, flat = np.array([[x, y, 0.0]]), np.eye(3)[:2]
         for radius, fill in ((RADIUS + RIM_WIDTH, RIM), (RADIUS, colour)):

@@ -119,8 +119,8 @@ def poles():
     tiling = {"poles": [marked["pole"], marked["behind"]], "zeros": [marked["branch point"]]}
     obj[addon("report").PROPERTY] = json.dumps({"components": [{"tiling": tiling}]})
     places = {name: projected(points[vertex]) for name, vertex in marked.items()}
-    unit = bpy.context.preferences.system.ui_scale
-    places["legend"] = tuple(unit * x for x in addon("marks_view").LEGEND)
+    unit, (x, y) = bpy.context.preferences.system.ui_scale, addon("marks_view").LEGEND
+    places["legend"] = (region(area("VIEW_3D"), "WINDOW").width / 2 + unit * x, unit * y)
     for name, state in (("with poles", True), ("without poles", False)):
         setattr(bpy.context.window_manager, addon("overlay").MARKS, state)
         yield 1
