@@ -9,7 +9,7 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import ROOT, run
+from conftest import ROOT, extension, run
 
 sys.path.insert(0, str(ROOT / "tests" / "core"))
 from families import block_with_holes, torus
@@ -81,6 +81,13 @@ def test_some_of_the_core_under_wine(packages):
     options = [f"--deselect={name}" for name in WITHOUT_WINE]
     output = some_of_the_core("windows-x64", WITH_WINE, packages("windows-x64", "cp311"), *options)
     assert passed(output) > 2000, output
+
+
+def test_blender_for_windows_installs_the_extension(repository, tmp_path):
+    install = ROOT / "tests" / "package" / "install_extension.py"
+    command = [FOREIGN_PYTHON, "windows-x64", install, f"Z:{extension(repository, 'windows-x64')}"]
+    output = run(*command, BLENDER_USER_RESOURCES=f"Z:{tmp_path}")
+    assert f"holomorph: Z:{tmp_path}/" in output.replace("\\", "/"), output
 
 
 def test_some_of_the_core_under_qemu(packages):
