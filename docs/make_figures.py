@@ -4,385 +4,38 @@
 They need the package and matplotlib. The command for a fresh checkout is `scripts/figures [NAME ...]`: it builds the
 package, makes build/venv/figures (make_venv of scripts/environment) and runs this script in it.
 
-All surfaces are made here: grids, and isosurfaces of smooth unions of tori and balls. The same versions of NumPy and
-matplotlib draw the same files again.
+The surfaces are in figure_surfaces.py, how they are drawn in figure_views.py. The same versions of NumPy and matplotlib
+draw the same files again.
 """
 
 import itertools
 import sys
-from pathlib import Path
-from types import SimpleNamespace
 
 import holomorph
 import matplotlib
 import numpy as np
-from PIL import Image
-
-matplotlib.use("Agg")
+from figure_surfaces import bean, chain, disk_with_holes, double_torus, eccentric_ring, pretzel, square_ring, torus
+from figure_views import (
+    BLUE,
+    GREEN,
+    GREY,
+    INK,
+    LIGHT_BLUE,
+    ORANGE,
+    RED,
+    PlaneView,
+    View,
+    bands,
+    checker,
+    loop_edges,
+    on_triangles,
+    panels,
+    polygon_edges,
+    rgb,
+    save,
+)
 from matplotlib import pyplot as plt
 from matplotlib.collections import LineCollection, PolyCollection
-
-FOLDER = Path(__file__).parent / "figures"
-BLUE, ORANGE, GREEN, RED, INK = "#2b5f8f", "#d98324", "#4a8f5c", "#b5403c", "#2a2f36"
-LIGHT_BLUE, LIGHT_ORANGE, PAPER, GREY = "#c3d9ec", "#f6dcbb", "#ffffff", "#a9b0b8"
-SAMPLES = 3  # per pixel and direction
-DPI = 200
-plt.rcParams.update(
-    {
-        "font.family": "DejaVu Sans",
-        "font.size": 8,
-        "axes.edgecolor": INK,
-        "axes.labelcolor": INK,
-        "axes.linewidth": 0.7,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "xtick.color": INK,
-        "ytick.color": INK,
-        "mathtext.fontset": "dejavusans",
-        "svg.hashsalt": "holomorph",
-    }
-)
-
-# ---- surfaces --------------------------------------------------------------------------------------------------------
-
-
-def surface_net(field, low, high, step):
-    """Quads around {field < 0}: a vertex in each cell that the surface meets, a quad around each edge that it cuts."""
-    axes = [np.arange(a, b + step, step) for a, b in zip(low, high, strict=True)]
-    inside = field(np.stack(np.meshgrid(*axes, indexing="ij"), -1)) < 0
-    number = -np.ones(np.array(inside.shape) - 1, np.int64)
-    corners = [inside[tuple(slice(i, n - 1 + i) for i, n in zip(o, inside.shape))] for o in np.ndindex(2, 2, 2)]
-    cells = np.argwhere(np.any(corners, axis=0) & ~np.all(corners, axis=0))
-    number[tuple(cells.T)] = np.arange(len(cells))
-    vertices = np.array(low) + step * (cells + 0.5)
-    quads = []
-    for axis in range(3):
-        b, c = (axis + 1) % 3, (axis + 2) % 3
-        first, second = (
-            np.take(inside, range(inside.shape[axis] - 1), axis),
-            np.take(inside, range(1, inside.shape[axis]), axis),
-        )
-        cut = np.argwhere(first != second)
-        around = []
-        for i, j in ((0, 0), (-1, 0), (-1, -1), (0, -1)):
-            cell = cut.copy()
-            cell[:, b] += i
-            cell[:, c] += j
-            around.append(number[tuple(cell.T)])
-        quad = np.stack(around, -1)
-        quads.append(np.where(first[tuple(cut.T)][:, None], quad, quad[:, ::-1]))
-    quads = np.concatenate(quads)
-    for _ in range(12):  # evenly along the surface, then onto it
-        total, count = np.zeros_like(vertices), np.zeros(len(vertices))
-        for side in range(4):
-            a, b = quads[:, side], quads[:, (side + 1) % 4]
-            np.add.at(total, a, vertices[b])
-            np.add.at(count, a, 1)
-            np.add.at(total, b, vertices[a])
-            np.add.at(count, b, 1)
-        vertices = (vertices + total / count[:, None]) / 2
-        for _ in range(3):
-            value, e = field(vertices), 1e-4
-            slope = np.stack([(field(vertices + e * d) - field(vertices - e * d)) / (2 * e) for d in np.eye(3)], -1)
-            vertices = vertices - (value / (slope**2).sum(-1))[:, None] * slope
-    return holomorph.Surface(vertices, quads)
-
-
-def union(parts, sharpness):
-    """Smooth union of solids given by their distances."""
-    return lambda p: -np.log(sum(np.exp(-sharpness * part(p)) for part in parts)) / sharpness
-
-
-def ring(x, y, major, minor):
-    return lambda p: np.hypot(np.hypot(p[..., 0] - x, p[..., 1] - y) - major, p[..., 2]) - minor
-
-
-def ball(x, y, z, radius):
-    return lambda p: np.linalg.norm(p - np.array([x, y, z]), axis=-1) - radius
-
-
-def double_torus(step=0.075):
-    field = union([ring(-0.95, 0, 0.75, 0.27), ring(0.8, 0, 0.6, 0.27)], 9)
-    return surface_net(field, (-2.2, -1.3, -0.6), (1.9, 1.3, 0.6), step)
-
-
-def pretzel(step=0.075):
-    around = [(0.87 * np.cos(a), 0.87 * np.sin(a)) for a in np.pi / 2 + np.array([0, 2, 4]) * np.pi / 3]
-    sizes = [(0.6, 0.27), (0.6, 0.22), (0.6, 0.22)]
-    field = union([ring(x, y, *size) for (x, y), size in zip(around, sizes, strict=True)], 9)
-    return surface_net(field, (-1.9, -1.6, -0.6), (1.9, 2.1, 0.6), step)
-
-
-def chain(step=0.08):
-    field = union([ring(-1.75, 0, 0.72, 0.26), ring(0, 0, 0.62, 0.26), ring(1.5, 0, 0.5, 0.24)], 9)
-    return surface_net(field, (-3.02, -1.31, -0.617), (2.6, 1.3, 0.6), step)
-
-
-def bean(step=0.07):
-    balls = (-0.9, -0.2, 0, 0.55), (-0.25, 0.25, 0, 0.45), (0.5, 0.1, 0.1, 0.42), (1.05, -0.35, 0, 0.4)
-    field = union([ball(*numbers) for numbers in balls], 5)
-    return surface_net(field, (-2.03, -1.31, -1.017), (2, 1.3, 1), step)
-
-
-def torus(m=56, n=28):
-    """A torus whose section is an ellipse, which makes a turn on its way around: tau is not imaginary."""
-    i, j = np.divmod(np.arange(m * n), n)
-    a, b = 2 * np.pi * i / m, 2 * np.pi * j / n
-    x, y = 0.5 * np.cos(b), 0.26 * np.sin(b)
-    x, y = x * np.cos(a) - y * np.sin(a), x * np.sin(a) + y * np.cos(a)
-    vertices = np.stack([(1.1 + x) * np.cos(a), (1.1 + x) * np.sin(a), y], -1)
-    right, up = (i + 1) % m * n, (j + 1) % n
-    return holomorph.Surface(vertices, np.stack([i * n + j, right + j, right + up, i * n + up], -1))
-
-
-def square_ring(n):
-    """[-1, 1]^2 without [-1/2, 1/2]^2, n even cells of each quarter side."""
-    k = 4 * n
-    number = -np.ones((k + 1, k + 1), np.int64)
-    i, j = np.meshgrid(range(k + 1), range(k + 1), indexing="ij")
-    used = (np.abs(i - 2 * n) >= n) | (np.abs(j - 2 * n) >= n)
-    number[used] = np.arange(used.sum())
-    points = np.stack([i[used], j[used], 0 * i[used]], -1) / (2 * n) - [1, 1, 0]
-    cell = np.argwhere((np.abs(i[:-1, :-1] + 0.5 - 2 * n) > n) | (np.abs(j[:-1, :-1] + 0.5 - 2 * n) > n))
-    a, b = cell.T
-    quads = np.stack([number[a, b], number[a + 1, b], number[a + 1, b + 1], number[a, b + 1]], -1)
-    return holomorph.Surface(points, quads)
-
-
-def eccentric_ring(m=72, n=16):
-    """Between the unit circle and a circle of radius 0.3 about 0.38, cells of about equal sides: the Moebius image of a
-    round ring, moved along its circles so that the grid is not the answer."""
-    i, j = np.divmod(np.arange(m * (n + 1)), n + 1)
-    t = j / n
-    angle = 2 * np.pi * (i + 0.8 * t) / m
-    rim, hole = np.exp(1j * angle), 0.38 + 0.3 * np.exp(1j * angle)
-    z = (1 - t) * rim + t * hole
-    right = (i + 1) % m * (n + 1)
-    keep = j < n
-    quads = np.stack([i * (n + 1) + j, right + j, right + j + 1, i * (n + 1) + j + 1], -1)[keep]
-    return holomorph.Surface(np.stack([z.real, z.imag, 0 * z.real], -1), quads)
-
-
-HOLES = ((-0.42, 0.28, 0.24), (0.45, 0.3, 0.18), (0.08, -0.45, 0.27))
-
-
-def disk_with_holes(step=0.05):
-    """The unit disk without three disks: a triangular grid whose boundary vertices are moved onto the circles."""
-    rows = int(1.3 / (step * 3**0.5 / 2))
-    columns = int(1.3 / step)
-    i, j = np.meshgrid(np.arange(-rows, rows + 1), np.arange(-columns, columns + 1), indexing="ij")
-    points = np.stack([step * (j + 0.5 * (i % 2)), step * 3**0.5 / 2 * i], -1).reshape(-1, 2)
-
-    def level(p):
-        holes = [r - np.hypot(p[..., 0] - x, p[..., 1] - y) for x, y, r in HOLES]
-        return np.max([np.hypot(p[..., 0], p[..., 1]) - 1, *holes], axis=0)
-
-    width, triangles = 2 * columns + 1, []
-    for a, b in itertools.product(range(2 * rows), range(2 * columns)):
-        p = a * width + b
-        odd = (a - rows) % 2
-        if odd:
-            triangles += [(p, p + 1, p + width + 1), (p, p + width + 1, p + width)]
-        else:
-            triangles += [(p, p + 1, p + width), (p + 1, p + width + 1, p + width)]
-    triangles = np.array(triangles)
-    triangles = triangles[(level(points)[triangles] < -0.3 * step).all(axis=1)]
-    while True:  # no vertex with two runs of triangles
-        edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-        ends, count = np.unique(edges, axis=0, return_counts=True)
-        on_rim = np.bincount(ends[count == 1].ravel(), minlength=len(points))
-        lonely = (count[np.unique(edges, axis=0, return_inverse=True)[1].reshape(-1, 3)] == 1).sum(1) > 1
-        bad = (on_rim[triangles] > 2).any(axis=1) | lonely
-        if not bad.any():
-            break
-        triangles = triangles[~bad]
-    rim = np.unique(ends[count == 1])
-    for circle in ((0, 0, 1), *HOLES):  # each rim vertex onto its nearest circle
-        middle = np.array(circle[:2])
-        away = points[rim] - middle
-        distance = np.abs(np.linalg.norm(away, axis=1) - circle[2])
-        nearest = distance < 1.6 * step
-        points[rim[nearest]] = middle + circle[2] * away[nearest] / np.linalg.norm(away[nearest], axis=1)[:, None]
-    used, triangles = np.unique(triangles, return_inverse=True)
-    points = points[used]
-    free = ~np.isin(used, rim)
-    triangles = triangles.reshape(-1, 3)
-    for _ in range(20):  # even again
-        total, count = np.zeros_like(points), np.zeros(len(points))
-        for a, b in ((0, 1), (1, 2), (2, 0)):
-            for s, t in ((a, b), (b, a)):
-                np.add.at(total, triangles[:, s], points[triangles[:, t]])
-                np.add.at(count, triangles[:, s], 1)
-        points[free] = (total / count[:, None])[free]
-    return holomorph.Surface(np.column_stack([points, np.zeros(len(points))]), triangles)
-
-
-# ---- pictures of surfaces --------------------------------------------------------------------------------------------
-
-
-def rgb(color):
-    return np.array(matplotlib.colors.to_rgb(color))
-
-
-class View:
-    """A surface seen from afar, light from the upper left. `at_pixels` interpolates values at the corners of triangles;
-    `show` draws colours made of them, `lines`, `edges` and `dots` what lies on the surface."""
-
-    def __init__(self, surface, tilt=-35.0, turn=0.0, width=600, margin=0.03):
-        a, b = np.radians(tilt), np.radians(turn)
-        about_z = np.array([[np.cos(b), -np.sin(b), 0], [np.sin(b), np.cos(b), 0], [0, 0, 1]])
-        about_x = np.array([[1, 0, 0], [0, np.cos(a), -np.sin(a)], [0, np.sin(a), np.cos(a)]])
-        self.surface, self.triangles = surface, surface.triangles
-        self.camera = about_x @ about_z
-        points = surface.vertices @ self.camera.T
-        low, high = points[:, :2].min(0), points[:, :2].max(0)
-        pad = margin * (high - low).max()
-        self.low, span = low - pad, high - low + 2 * pad
-        self.scale = width * SAMPLES / span[0]
-        self.shape = int(np.ceil(span[1] * self.scale / SAMPLES)) * SAMPLES, width * SAMPLES
-        self.flat = np.ptp(points[:, 2]) < 1e-9 and tilt == 0
-        self.points = self.project(surface.vertices)
-        self._rasterise()
-
-    def project(self, vertices):
-        """Column, row and height of points, in samples."""
-        p = vertices @ self.camera.T
-        x, y = (p[:, :2] - self.low).T * self.scale
-        return np.stack([x, self.shape[0] - y, p[:, 2] * self.scale], -1)
-
-    def _rasterise(self):
-        corners = self.points[self.triangles]
-        (ax, ay), (bx, by), (cx, cy) = corners[:, :, :2].transpose(1, 2, 0)
-        area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        front = np.flatnonzero(area < -1e-9)
-        low = np.floor(corners[..., :2].min(1)).astype(int)
-        size = np.ceil(corners[..., :2].max(1)).astype(int) - low + 1
-        best = np.full(self.shape[0] * self.shape[1], -np.inf)
-        owner = np.full(best.size, -1)
-        weights = np.zeros((best.size, 3))
-        for part in np.array_split(front, max(1, len(front) // 2000)):
-            count = size[part].prod(1)
-            t = np.repeat(part, count)
-            k = np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)
-            x, y = low[t, 0] + k % size[t, 0], low[t, 1] + k // size[t, 0]
-            px, py = x + 0.5, y + 0.5
-            w1 = ((px - ax[t]) * (cy[t] - ay[t]) - (py - ay[t]) * (cx[t] - ax[t])) / area[t]
-            w2 = ((bx[t] - ax[t]) * (py - ay[t]) - (by[t] - ay[t]) * (px - ax[t])) / area[t]
-            hit = (w1 >= -1e-9) & (w2 >= -1e-9) & (w1 + w2 <= 1 + 1e-9)
-            hit &= (x >= 0) & (x < self.shape[1]) & (y >= 0) & (y < self.shape[0])
-            t, w = t[hit], np.stack([1 - w1 - w2, w1, w2], -1)[hit]
-            pixel = y[hit] * self.shape[1] + x[hit]
-            depth = (w * corners[t, :, 2]).sum(1)
-            order = np.argsort(depth, kind="stable")
-            order = order[depth[order] > best[pixel[order]]]
-            best[pixel[order]], owner[pixel[order]], weights[pixel[order]] = depth[order], t[order], w[order]
-        self.depth = best.reshape(self.shape)
-        self.pixels = np.flatnonzero(owner >= 0)
-        self.owner, self.weights = owner[self.pixels], weights[self.pixels]
-
-    def at_pixels(self, corner_values):
-        """Values (#T, 3, ...) at triangle corners, interpolated."""
-        return np.einsum("pk,pk...->p...", self.weights, corner_values[self.owner])
-
-    def image(self, colors):
-        """(#pixels, 3) or one colour; shaded."""
-        colors = np.broadcast_to(colors, (len(self.pixels), 3))
-        if not self.flat:
-            p = self.surface.vertices[self.triangles]
-            normal = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
-            at_vertex = np.zeros_like(self.surface.vertices)
-            for corner in range(3):
-                np.add.at(at_vertex, self.triangles[:, corner], normal)
-            n = self.at_pixels(at_vertex[self.triangles] @ self.camera.T)
-            n /= np.linalg.norm(n, axis=1)[:, None]
-            light = np.clip(n @ np.array([-0.35, 0.5, 0.79]), 0, 1)
-            colors = colors * (0.5 + 0.53 * light)[:, None].clip(0, 1)
-        picture = np.ones((self.shape[0] * self.shape[1], 3))
-        picture[self.pixels] = colors
-        h, w = np.array(self.shape) // SAMPLES
-        return picture.reshape(h, SAMPLES, w, SAMPLES, 3).mean((1, 3)).clip(0, 1)
-
-    def show(self, axes, colors):
-        image = self.image(colors)
-        axes.imshow(image, interpolation="antialiased", extent=(0, image.shape[1], image.shape[0], 0))
-        axes.set_axis_off()
-
-    def lines(self, axes, ends, color, width=1.0, hidden=0.0):
-        """Segments on the surface (#S, 2, 3); `hidden` is the opacity of what lies behind."""
-        pieces = 6
-        t = np.linspace(0, 1, pieces + 1)
-        points = ends[:, :1] + t[None, :, None] * (ends[:, 1:] - ends[:, :1])
-        p = self.project(points.reshape(-1, 3)).reshape(len(ends), pieces + 1, 3)
-        visible = self.visible((p[:, 1:] + p[:, :-1]) / 2)
-        segments = np.stack([p[:, :-1, :2], p[:, 1:, :2]], 2) / SAMPLES
-        style = dict(color=color, capstyle="round", joinstyle="round")
-        if hidden:
-            axes.add_collection(LineCollection(segments[~visible], lw=0.6 * width, alpha=hidden, **style))
-        axes.add_collection(LineCollection(segments[visible], lw=width, **style))
-
-    def visible(self, points):
-        """Whether projected points of the surface (..., 3) are seen, with some tolerance."""
-        row = np.clip(points[..., 1].astype(int), 0, self.shape[0] - 1)
-        column = np.clip(points[..., 0].astype(int), 0, self.shape[1] - 1)
-        return points[..., 2] > self.depth[row, column] - 0.03 * self.shape[1]
-
-    def edges(self, axes, edges, color, width=1.0, **options):
-        self.lines(axes, self.surface.vertices[edges], color, width, **options)
-
-    def dots(self, axes, points, size=28):
-        p = self.project(points)
-        p = p[self.visible(p), :2].T / SAMPLES
-        axes.scatter(*p, s=size, c=RED, edgecolors="white", linewidths=1, zorder=5)
-
-
-def on_triangles(surface, uv):
-    return uv[surface.triangle_corners]
-
-
-def bands(values, number, dark, light=PAPER):
-    """Two colours in turn, `number` pairs to a unit."""
-    odd = (np.floor(2 * number * values + 0.5) % 2)[:, None]
-    return odd * rgb(dark) + (1 - odd) * rgb(light)
-
-
-def checker(uv, number, dark=BLUE, light="#eef3f8"):
-    odd = (np.floor(2 * number * uv).sum(-1) % 2)[:, None]
-    return odd * rgb(dark) + (1 - odd) * rgb(light)
-
-
-def polygon_edges(surface):
-    """The edges of the input polygons, (#, 2)."""
-    ends = []
-    for first, last in itertools.pairwise(surface.face_offsets):
-        corners = surface.corner_vertices[first:last]
-        ends.append(np.stack([corners, np.roll(corners, -1)], -1))
-    return np.unique(np.sort(np.concatenate(ends), axis=1), axis=0)
-
-
-def loop_edges(loop):
-    return np.stack([loop, np.roll(loop, -1)], -1)
-
-
-def panels(widths, size=(7.2, 2.6), gap=0.03):
-    return plt.subplots(1, len(widths), figsize=size, gridspec_kw=dict(width_ratios=widths, wspace=gap))
-
-
-def save(figure, name, kind="png", colors=160):
-    FOLDER.mkdir(exist_ok=True)
-    path = FOLDER / f"{name}.{kind}"
-    options = dict(bbox_inches="tight", pad_inches=0.04)
-    if kind == "svg":
-        figure.savefig(path, metadata={"Date": None}, **options)
-    else:
-        figure.savefig(path, dpi=DPI, metadata={"Software": None}, **options)
-        image = Image.open(path).convert("RGB")
-        image = image.quantize(colors, method=Image.Quantize.MEDIANCUT, kmeans=3, dither=Image.Dither.NONE)
-        image.save(path, optimize=True)
-    plt.close(figure)
-    sys.stdout.write(f"{path.relative_to(FOLDER.parent)}  {path.stat().st_size // 1024} KB\n")
-
-
-# ---- the figures -----------------------------------------------------------------------------------------------------
 
 
 def cut_graph():
@@ -535,18 +188,6 @@ def bounds():
     ax.minorticks_off()
     ax.set_xlabel("edge length h")
     save(figure, "bounds", "svg")
-
-
-class PlaneView(View):
-    """Triangles (#T, 3, 2) of a UV map in the plane."""
-
-    def __init__(self, triangles, width):
-        corners = triangles.reshape(-1, 2)
-        plane = SimpleNamespace(
-            vertices=np.column_stack([corners, np.zeros(len(corners))]),
-            triangles=np.arange(len(corners)).reshape(-1, 3),
-        )
-        super().__init__(plane, tilt=0.0, width=width)
 
 
 def annulus():
