@@ -26,7 +26,7 @@ PROCESSORS = {"linux-x64": "Advanced Micro Devices X86-64", "linux-arm64": "AArc
 
 
 def module(packages, platform, tag):
-    (found,) = packages(platform, tag).glob("holomorph/_native*")
+    (found,) = packages(platform, tag).glob("holomorph/_native.c*")  # not its type stubs
     return found
 
 
