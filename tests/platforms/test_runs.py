@@ -18,6 +18,7 @@ FOREIGN_PYTHON = ROOT / "scripts" / "foreign-python"
 MAP_MESHES = ROOT / "tests" / "platforms" / "map_meshes.py"
 # The module calls the C library for sines, logarithms and roots of other orders; libraries round them otherwise.
 ROUNDING = 1e-11
+WITH_BLENDER = ["operator", "tile", "refusals", "faces"]
 WITH_QEMU = ["topology", "surface", "exact_values", "uv", "cut", "rectangle", "boundary_values"]
 WITH_WINE = [
     *WITH_QEMU,
@@ -88,6 +89,13 @@ def test_blender_for_windows_installs_the_extension(repository, tmp_path):
     command = [FOREIGN_PYTHON, "windows-x64", install, f"Z:{extension(repository, 'windows-x64')}"]
     output = run(*command, BLENDER_USER_RESOURCES=f"Z:{tmp_path}")
     assert f"holomorph: Z:{tmp_path}/" in output.replace("\\", "/"), output
+
+
+def test_some_of_the_add_on_in_blender_for_windows(packages):
+    files = [f"tests/blender/test_{name}.py" for name in WITH_BLENDER]
+    command = [FOREIGN_PYTHON, "windows-x64", "-m", "pytest", "-q", "-p", "no:cacheprovider", *files]
+    output = run(*command, PYTHONPATH=packages("windows-x64", "cp311"))
+    assert passed(output) > 100, output
 
 
 def test_some_of_the_core_under_qemu(packages):
