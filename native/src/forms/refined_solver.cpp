@@ -27,7 +27,7 @@ double energy_error(const HarmonicResiduals& residuals, const solver::Solution& 
   double worst = 0;
   for (Eigen::Index j = 0; j < corrections.cols(); ++j) {
     const double square = std::abs(residuals.R.col(j).dot(corrections.col(j)));
-    if (square == 0) continue;  // of no form at all, too
+    if (square == 0) continue;  // an energy of 0, that of no form at all, divides nothing
     const double error = std::sqrt(square / std::abs(residuals.energies[j]));
     if (!(error <= worst)) worst = error;  // std::max would drop a NaN
   }

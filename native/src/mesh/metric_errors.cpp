@@ -11,7 +11,7 @@
 namespace holomorph::mesh {
 namespace {
 
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // of rounding
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // the unit of rounding
 // Of a length from positions: 1 of each difference, 3 of its square, 5 of their sum, half that and 1 of the root. Of a
 // given length: the caller's.
 constexpr double kOfDistance = 3.5 * kUnit, kOfGivenLength = 2.5 * kUnit;
