@@ -65,7 +65,17 @@ Eigen::RowVectorXd AbelJacobi::along(HalfedgeHandle h) const {
   return mesh::sign(h) * forms::edge_values(landscape_.half_edges(), landscape_.harmonic(), e, e + 1);
 }
 
-Eigen::VectorXd AbelJacobi::at(int vertex) const {
+const Eigen::VectorXd& AbelJacobi::at(int vertex) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = found_.find(vertex); known != found_.end()) return known->second;
+  }
+  Eigen::VectorXd value = computed(vertex);
+  const std::lock_guard lock(mutex_);
+  return found_.try_emplace(vertex, std::move(value)).first->second;
+}
+
+Eigen::VectorXd AbelJacobi::computed(int vertex) const {
   const auto& mesh = landscape_.half_edges();
   const auto& lengths = landscape_.lengths();
   const mesh::Star star = mesh::star(mesh, lengths, vertex);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <mutex>
+#include <unordered_map>
 #include <vector>
 
 #include "tiling/landscape.h"
@@ -17,11 +19,13 @@ class AbelJacobi {
   /// The landscape outlives this. Cost: 2g numbers per triangle.
   AbelJacobi(const Landscape& landscape, Execution& execution);
 
+  /// 2g numbers, found once for each vertex; threads may ask side by side.
   /// @param vertex whose star is free (mesh::has_free_star)
   /// @throws SolverError where the rounding of fluxes may change it by more than forms::kEnergyError
-  Eigen::VectorXd at(int vertex) const;
+  const Eigen::VectorXd& at(int vertex) const;
 
  private:
+  Eigen::VectorXd computed(int vertex) const;
   Eigen::RowVectorXd along(mesh::HalfedgeHandle h) const;
   double rounding_of(double weight) const;
 
@@ -30,6 +34,8 @@ class AbelJacobi {
   forms::RowMajorMatrix dual_potentials_;  // #T x 2g: the fluxes of h_j along a dual path to triangle 0
   std::vector<double> rounding_;           // #T: of these
   double largest_ = 0, inverse_ = 0;       // values of functions; the norm of G^-1
+  mutable std::mutex mutex_;
+  mutable std::unordered_map<int, Eigen::VectorXd> found_;
 };
 
 /// `value` plus the integers that bring it nearest to `near`.

@@ -175,9 +175,11 @@ class Moving {
   }
 
   void exchange_pairs() {
+    std::vector<std::vector<Neighbour>> near(held_.size());
     for (int round = 0; round < kRounds; ++round) {
-      std::vector<std::vector<Neighbour>> near;
-      for (std::size_t i = 0; i < held_.size(); ++i) near.push_back(around(i));
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        if (near[i].empty() || near[i].front().vertex != poles_.vertices[i]) near[i] = around(i);
+      }
       bool better = false;
       for (std::size_t i = 0; i < near.size(); ++i) {
         for (std::size_t j = i + 1; j < near.size(); ++j) better |= exchange(i, j, near);

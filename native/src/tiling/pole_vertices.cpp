@@ -33,10 +33,8 @@ std::vector<int> PoleVertices::around(int vertex, std::size_t most) const {
   return queue;
 }
 
-Eigen::VectorXd PoleVertices::part(int vertex, const Eigen::VectorXd& near) {
-  Eigen::VectorXd& part = parts_[vertex];
-  if (part.size() == 0) part = abel_jacobi_.at(vertex);
-  return nearest_representative(part, near);
+Eigen::VectorXd PoleVertices::part(int vertex, const Eigen::VectorXd& near) const {
+  return nearest_representative(abel_jacobi_.at(vertex), near);
 }
 
 bool are_apart(const std::vector<int>& a, const std::vector<int>& b) {

@@ -1,7 +1,6 @@
 // The vertices that poles may go to, and the Abel-Jacobi map there.
 #pragma once
 
-#include <map>
 #include <vector>
 
 #include "tiling/abel_jacobi.h"
@@ -20,13 +19,12 @@ class PoleVertices {
   /// Those that are allowed among about `most` vertices around this one, itself among them, the nearest first.
   std::vector<int> around(int vertex, std::size_t most) const;
   /// C there, 2g, of all its representatives the nearest to another.
-  Eigen::VectorXd part(int vertex, const Eigen::VectorXd& near);
+  Eigen::VectorXd part(int vertex, const Eigen::VectorXd& near) const;
 
  private:
   const Landscape& landscape_;
   const AbelJacobi& abel_jacobi_;
   const std::vector<char>& allowed_;
-  std::map<int, Eigen::VectorXd> parts_;  // found once
 };
 
 /// Whether two ascending lists have nothing in common.

@@ -25,12 +25,13 @@ double unevenness(const Eigen::ArrayXd& density) {
 }
 
 double density_ratio(const Eigen::ArrayXd& density) {
-  std::vector<double> sorted(density.begin(), density.end());
-  std::sort(sorted.begin(), sorted.end());
-  const auto at = [&](double q) {
-    return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+  std::vector<double> values(density.begin(), density.end());
+  const auto quantile = [&](double q) {
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
   };
-  return at(0.95) / at(0.05);
+  return quantile(0.95) / quantile(0.05);
 }
 
 }  // namespace holomorph::tiling

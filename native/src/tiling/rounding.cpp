@@ -100,17 +100,16 @@ double TextureLattice::symmetry() const {
 }
 
 void measure(const RoundingProblem& p, Rounding& rounding) {
-  const Eigen::ArrayXd A = (p.forms * rounding.y).cwiseAbs().array();
-  const Eigen::ArrayXd density = A.square();
+  const Eigen::ArrayXd density = (p.forms * rounding.y).cwiseAbs2().array();
   rounding.density_ratio = density_ratio(density);
   if (p.defects.cols() > 0) {
-    const Eigen::ArrayXd mu = (p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs().array() / A;
+    const Eigen::ArrayXd mu =
+        ((p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs2().array() / density).sqrt();
     const Eigen::ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
     rounding.distortion = K.mean();
   }
-  const double even = density_ratio(p.target_density);
   rounding.rank = kConformal * (rounding.distortion - 1) +
-                  kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * even))) +
+                  kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * p.target_ratio))) +
                   kSize * std::abs(std::log(median(density) / p.median_density));
 }
 
@@ -140,7 +139,7 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingWishes& 
     rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
     measure(p, rounding);
   });
-  const double most = kUneven * density_ratio(density);
+  const double most = kUneven * p.target_ratio;
   std::erase_if(list, [&](const Rounding& r) { return !(r.distortion < kNoMap && r.density_ratio < most); });
   std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });
   if (static_cast<int>(list.size()) > wishes.count) list.resize(wishes.count);

@@ -33,6 +33,7 @@ struct RoundingProblem {
   Eigen::MatrixXcd Z;                  ///< (n + k + l) x D
   Eigen::VectorXcd target;             ///< n + k + l: the form as it would be without rounding, t = 0
   Eigen::ArrayXd target_density;       ///< |forms target|^2
+  double target_ratio = 1;             ///< 95 % over 5 % quantile of it
   double symmetry = 0;                 ///< radians by which the lattice is turned onto itself
   Eigen::MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
   double median_density = 1;           ///< that is wanted of |A|^2

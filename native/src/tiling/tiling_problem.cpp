@@ -99,6 +99,7 @@ RoundingProblem tiling_problem(Landscape& landscape, const Poles& poles, uv::Coe
     }
   }
   p.target_density = (p.forms * p.target).cwiseAbs2().array();
+  p.target_ratio = density_ratio(p.target_density);
   p.symmetry = lattice.symmetry();
   return p;
 }
