@@ -109,11 +109,12 @@ void Landscape::solve(const structure::Options& options, Execution& execution) {
   }
 }
 
-Eigen::MatrixXcd Landscape::poles(const std::vector<int>& vertices, Execution& execution) {
+Eigen::MatrixXcd Landscape::poles(const std::vector<int>& vertices, Execution& execution, int every) {
+  const auto wanted = Eigen::seq(0, Eigen::last, every);
   if (on_level_) {
     std::vector<int> there;
     for (const int v : vertices) there.push_back(level_vertex_[v]);
-    return from_level_.asDiagonal() * on_level_->poles(there, execution);
+    return from_level_(wanted).asDiagonal() * on_level_->poles(there, execution, every);
   }
   std::vector<int> missing;
   for (const int v : vertices) {
@@ -127,9 +128,15 @@ Eigen::MatrixXcd Landscape::poles(const std::vector<int>& vertices, Execution& e
         {missing.begin() + static_cast<std::ptrdiff_t>(first), missing.begin() + static_cast<std::ptrdiff_t>(end)},
         execution);
   }
-  Eigen::MatrixXcd parts(static_cast<Eigen::Index>(samples_.size()), static_cast<Eigen::Index>(vertices.size()));
-  for (Eigen::Index i = 0; i < parts.cols(); ++i) parts.col(i) = pole_parts_.at(vertices[i]);
+  const auto rows = (static_cast<Eigen::Index>(samples_.size()) + every - 1) / every;
+  Eigen::MatrixXcd parts(rows, static_cast<Eigen::Index>(vertices.size()));
+  for (Eigen::Index i = 0; i < parts.cols(); ++i) parts.col(i) = pole_parts_.at(vertices[i])(wanted);
   return parts;
+}
+
+void Landscape::forget_poles() {
+  if (on_level_) on_level_->forget_poles();
+  pole_parts_.clear();
 }
 
 void Landscape::solve_for(const std::vector<int>& vertices, Execution& execution) {

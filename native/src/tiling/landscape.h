@@ -44,8 +44,11 @@ class Landscape {
 
   /// #samples x #vertices: A of the differentials with the residue 1 at each vertex and v single-valued; with boundary
   /// v = 0 there; closed, the residue -1 is spread over the area, so that it cancels where residues sum to 0.
-  /// Solved for once for each vertex and kept. @throws SolverError, Cancelled
-  Eigen::MatrixXcd poles(const std::vector<int>& vertices, Execution& execution);
+  /// Solved for once for each vertex and kept. @param every only so many-th samples are wanted
+  /// @throws SolverError, Cancelled
+  Eigen::MatrixXcd poles(const std::vector<int>& vertices, Execution& execution, int every = 1);
+  /// What was solved for poles is not wanted any more.
+  void forget_poles();
 
   /// What solves on the surface's own triangles; null where nothing had to be solved for.
   const std::shared_ptr<structure::HarmonicSystems>& systems() const { return systems_; }

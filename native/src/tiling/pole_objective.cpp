@@ -14,7 +14,11 @@ using Eigen::VectorXcd;
 constexpr double kLeverage = 0.06, kEnough = 0.4;  // weight of the leverage; singular values that are enough
 constexpr int kSteps = 25;                         // at most, for the minimiser
 
-PoleObjective::PoleObjective(Landscape& landscape, uv::Coefficients kind) : landscape_(landscape), kind_(kind) {
+PoleObjective::PoleObjective(Landscape& landscape, uv::Coefficients kind, int every)
+    : landscape_(landscape),
+      kind_(kind),
+      every_(every),
+      theta_(landscape.holomorphic().M(Eigen::seq(0, Eigen::last, every), Eigen::all)) {
   if (landscape.closed() && landscape.form_count() > 0) leverage_.emplace(landscape);
 }
 
@@ -46,12 +50,11 @@ VectorXcd PoleObjective::form(const Poles& poles, Execution& execution) const {
 
 // theta_j and the forms of the poles; closed: the last pole takes the rest.
 MatrixXcd PoleObjective::columns(const std::vector<int>& vertices, Execution& execution) const {
-  const MatrixXcd& theta = landscape_.holomorphic().M;
-  MatrixXcd poles = landscape_.poles(vertices, execution);
+  MatrixXcd poles = landscape_.poles(vertices, execution, every_);
   if (landscape_.closed() && poles.cols() > 0)
     poles = (poles.leftCols(poles.cols() - 1).colwise() - poles.col(poles.cols() - 1)).eval();
-  MatrixXcd all(theta.rows(), theta.cols() + poles.cols());
-  all << theta, poles;
+  MatrixXcd all(theta_.rows(), theta_.cols() + poles.cols());
+  all << theta_, poles;
   return all;
 }
 
@@ -71,7 +74,7 @@ void PoleObjective::set(const VectorXcd& x, Poles& poles) const {
 
 MatrixXcd PoleObjective::leverage_metric(const Eigen::ArrayXd& density) const {
   if (!leverage_) return {};
-  const Eigen::LLT<MatrixXcd> metric(weighted_gram(landscape_.holomorphic().M, density));
+  const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
   return MatrixXcd(metric.matrixU()) * std::sqrt(landscape_.area());
 }
 

@@ -12,8 +12,8 @@ namespace holomorph::tiling {
 
 class PoleObjective {
  public:
-  /// The landscape outlives this.
-  PoleObjective(Landscape& landscape, uv::Coefficients kind);
+  /// The landscape outlives this. @param every of the samples every so many-th is used
+  PoleObjective(Landscape& landscape, uv::Coefficients kind, int every = 1);
 
   /// The best form with these poles, from the coefficients given, and its value as `variance`; for each of the floors
   /// of the density in turn. @pre `prepare` was called for the poles
@@ -21,7 +21,7 @@ class PoleObjective {
   /// Solves for the forms of poles at these vertices, before threads look them up. @throws SolverError, Cancelled
   void prepare(const std::vector<int>& vertices, Execution& execution);
 
-  /// A on the samples.
+  /// A on the samples used.
   Eigen::VectorXcd form(const Poles& poles, Execution& execution) const;
   /// What the leverage adds to the variance of the density, with the metric of that density.
   Eigen::MatrixXcd leverage_metric(const Eigen::ArrayXd& density) const;
@@ -35,6 +35,8 @@ class PoleObjective {
 
   Landscape& landscape_;
   uv::Coefficients kind_;
+  int every_;
+  Eigen::MatrixXcd theta_;            // A of the theta_j on the samples used
   std::optional<Leverage> leverage_;  // only on a closed surface with handles
   std::map<int, Eigen::VectorXcd> tau_;
 };

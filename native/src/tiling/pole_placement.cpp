@@ -22,17 +22,19 @@ using Eigen::VectorXcd;
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
 constexpr double kEvenWithout = 3, kEvenWith = 6;
 constexpr double kWorth = 0.9;  // more poles are taken where the ratio of the density falls to this part of itself
-constexpr int kThinning = 3;    // every third sample is enough to tell which candidates are worth a trial
+// Of the samples every third is enough to optimise with, and every ninth to tell which candidates are worth it.
+constexpr int kThinning = 3, kThinner = 3 * kThinning;
 constexpr int kTried = 4, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 5;
-constexpr double kGain = 1e-3;  // less is no gain
+constexpr Index kLeastRelocated = 3;  // fewer poles are moved, but none is taken away
+constexpr double kGain = 1e-3;        // less is no gain
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
 const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor}, kFromNear = {uv::kDensityFloor},
                           kWithTrial = {0.03, uv::kDensityFloor};
 
-MatrixXcd thinned(const MatrixXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning), Eigen::all); }
+VectorXcd thinner(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinner / kThinning)); }
 
 class Search {
  public:
@@ -41,12 +43,7 @@ class Search {
         rules_(rules),
         execution_(execution),
         candidates_(landscape, rules.allowed),
-        objective_(landscape, rules.kind) {}
-
-  void refine(Poles& poles) {
-    objective_.prepare(poles.vertices, execution_);
-    objective_.optimise(poles, kFromNear, execution_);
-  }
+        objective_(landscape, rules.kind, kThinning) {}
 
   Poles begin() {
     Poles poles;
@@ -74,13 +71,53 @@ class Search {
     return static_cast<int>(poles.vertices.size()) >= count;
   }
 
-  // The same poles at better places.
+  // The same number of poles at better places.
   Poles settled(Poles poles) {
-    for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
+    do {
+      for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
+    } while (relocate(poles));
     return poles;
   }
 
  private:
+  bool is_fixed(int vertex) const {
+    return std::find(rules_.fixed.begin(), rules_.fixed.end(), vertex) != rules_.fixed.end();
+  }
+
+  // Takes each pole away and adds one where it does best, with a residue of its own. @return whether that was better
+  bool relocate(Poles& poles) {
+    const auto count = static_cast<Index>(poles.vertices.size());
+    bool moved = false;
+    for (Index i = 0; i < count && count >= kLeastRelocated; ++i) {
+      execution_.report(static_cast<double>(i) / static_cast<double>(count));
+      rotate(poles);  // each becomes the last one once
+      if (is_fixed(poles.vertices.back())) continue;
+      Poles other = without_last(poles);
+      objective_.optimise(other, kFromNear, execution_);
+      if (!add_one(other)) continue;
+      exchange(other, count - 1);
+      if (other.variance > poles.variance * (1 - kGain)) continue;
+      poles = std::move(other);
+      moved = true;
+    }
+    return moved;
+  }
+
+  static void rotate(Poles& poles) {
+    std::rotate(poles.vertices.begin(), poles.vertices.begin() + 1, poles.vertices.end());
+    std::rotate(poles.residues.begin(), poles.residues.begin() + 1, poles.residues.end());
+  }
+
+  // The others share its residue on a closed surface.
+  Poles without_last(Poles poles) const {
+    const Index k = poles.residues.size() - 1;
+    const Complex last = poles.residues[k];
+    poles.vertices.pop_back();
+    poles.residues.conservativeResize(k);
+    if (landscape_.closed()) poles.residues.array() += last / static_cast<double>(k);
+    return poles;
+  }
+
   bool add_one(Poles& poles) {
     std::vector<Trial> trials = trials_everywhere(poles);
     std::vector<Poles> tried;
@@ -101,7 +138,7 @@ class Search {
     bool moved = false;
     for (Index i = 0; i < poles.residues.size(); ++i) {
       execution_.report(static_cast<double>(i) / static_cast<double>(poles.residues.size()));
-      if (std::find(rules_.fixed.begin(), rules_.fixed.end(), poles.vertices[i]) != rules_.fixed.end()) continue;
+      if (is_fixed(poles.vertices[i])) continue;
       moved |= exchange(poles, i);
     }
     return moved;
@@ -129,8 +166,8 @@ class Search {
   // All candidates with all trial residues beside the form as it is, the best first.
   std::vector<Trial> trials_everywhere(const Poles& poles) {
     const std::vector<int> candidates = candidates_.everywhere(poles.vertices);
-    const MatrixXcd green = thinned(landscape_.poles(candidates, execution_));
-    const VectorXcd A = thinned(objective_.form(poles, execution_));
+    const MatrixXcd green = landscape_.poles(candidates, execution_, kThinner);
+    const VectorXcd A = thinner(objective_.form(poles, execution_));
     const double scale = std::sqrt(A.cwiseAbs2().mean() * landscape_.area());
     const int phases = rules_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
     std::vector<Trial> trials;
@@ -166,9 +203,10 @@ class Search {
     others.erase(others.begin() + i);
     const std::vector<int> candidates = candidates_.for_move(poles.vertices[i], others);
     if (candidates.empty()) return false;
-    const MatrixXcd green = thinned(landscape_.poles(candidates, execution_));
+    const MatrixXcd green = landscape_.poles(candidates, execution_, kThinner);
     const VectorXcd A = objective_.form(poles, execution_);
-    const VectorXcd without = thinned(A - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_).col(0));
+    const VectorXcd without =
+        thinner(A) - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_, kThinner).col(0);
     objective_.prepare(candidates, execution_);
     objective_.prepare(poles.vertices, execution_);
     const MatrixXcd metric = objective_.leverage_metric(A.cwiseAbs2().array());
@@ -213,7 +251,7 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count,
     throw TopologyError("there is room for " + std::to_string(poles.vertices.size()) + " poles, not for " +
                         std::to_string(count) + ": their stars must be apart; take fewer, or subdivide the mesh");
   }
-  return search.settled(std::move(poles));
+  return optimised(landscape, rules, search.settled(std::move(poles)), execution);
 }
 
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
@@ -228,11 +266,13 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution&
     least = ratio;
     best = std::move(settled);
   }
-  return best;
+  return optimised(landscape, rules, std::move(best), execution);
 }
 
 Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {
-  Search(landscape, rules, execution).refine(start);
+  PoleObjective objective(landscape, rules.kind);
+  objective.prepare(start.vertices, execution);
+  objective.optimise(start, kFromNear, execution);
   return start;
 }
 

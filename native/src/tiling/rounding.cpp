@@ -103,8 +103,7 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
   const Eigen::ArrayXd density = (p.forms * rounding.y).cwiseAbs2().array();
   rounding.density_ratio = density_ratio(density);
   if (p.defects.cols() > 0) {
-    const Eigen::ArrayXd mu =
-        ((p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs2().array() / density).sqrt();
+    const Eigen::ArrayXd mu = ((p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs2().array() / density).sqrt();
     const Eigen::ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
     rounding.distortion = K.mean();
   }

@@ -79,6 +79,7 @@ void Tiler::place(const PoleWishes& wishes, Execution& execution) {
     adopt(std::move(landscape), std::move(poles), execution);
   else
     transfer(std::move(landscape), level, std::move(poles), execution);
+  landscape_->forget_poles();
   execution.finish();
 }
 

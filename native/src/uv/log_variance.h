@@ -42,13 +42,13 @@ Eigen::VectorXd as_unknowns(const Eigen::VectorXcd& c, Coefficients kind);
 /// good map; without it |A| may be even where B, the discretisation error, exceeds it and the map is flipped.
 class LogVariance {
  public:
-  LogVariance(const SampledParts& parts, Coefficients kind, double floor) : parts_(parts), kind_(kind), floor_(floor) {}
+  LogVariance(const SampledParts& parts, Coefficients kind);
+  void set_floor(double floor) { floor_ = floor; }
   double operator()(const Eigen::VectorXd& x, Eigen::VectorXd& gradient) const;
 
  private:
-  const SampledParts& parts_;
-  Coefficients kind_;
-  double floor_;
+  Eigen::MatrixXd M_, N_;  // real parts of A and B above imaginary ones, of each unknown
+  double floor_ = 0;
 };
 
 /// The last floor under the density, relative to its mean.
