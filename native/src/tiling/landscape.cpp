@@ -1,6 +1,8 @@
 #include "tiling/landscape.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 #include <cmath>
 
 #include "mesh/intrinsic_triangulation.h"
@@ -30,6 +32,15 @@ std::vector<int> largest_triangles(const mesh::Surface& surface) {
     }
   }
   return result;
+}
+
+// The lengths and weights of the edges.
+std::pair<Array<double>, Array<double>> measured(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                                                 Execution& execution) {
+  auto triangulation =
+      mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
+  auto weights = mesh::cotangent_weights(triangulation, execution);
+  return {std::move(triangulation.lengths), std::move(weights)};
 }
 
 // The ends of edges of large weight, and their neighbours.
@@ -73,10 +84,7 @@ Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structu
 
 void Landscape::solve(const structure::Options& options, Execution& execution) {
   half_edges_ = mesh::half_edges(surface(), execution);
-  auto triangulation =
-      mesh::intrinsic_triangulation(surface(), half_edges_.copy(execution.workers()), execution.workers());
-  weights_ = mesh::cotangent_weights(triangulation, execution);
-  lengths_ = std::move(triangulation.lengths);
+  std::tie(lengths_, weights_) = measured(surface(), half_edges_, execution);
   uncertain_ = uncertain_vertices(surface(), weights_);
   vertex_share_ = mesh::vertex_areas(surface(), lengths_);
   for (const double a : vertex_share_) area_ += a;
