@@ -6,7 +6,8 @@ import re
 import bpy
 from bpy.props import StringProperty
 
-from . import native, overlay
+from . import overlay
+from .availability import Explained
 from .modal import TIMER_SECONDS
 
 NAVIGATION = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION"}
@@ -16,7 +17,7 @@ GIVE_UP = {"ESC", "RIGHTMOUSE"}
 HELP = "Drag the poles, the orange dots   (Enter keeps, ESC takes everything back)"
 
 
-class HOLOMORPH_OT_drag_poles(bpy.types.Operator):
+class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
     """Drag the poles of the active object's seamless tiling to other places: the texture follows"""
 
     bl_idname = "uv.holomorphic_drag_poles"
@@ -31,14 +32,7 @@ class HOLOMORPH_OT_drag_poles(bpy.types.Operator):
     )
 
     @classmethod
-    def poll(cls, context):
-        sentence = native.problem() or cls._why_not(context)
-        if sentence:
-            cls.poll_message_set(sentence)
-        return not sentence
-
-    @classmethod
-    def _why_not(cls, context):
+    def why_not(cls, context):
         from . import report, tile_report
 
         obj = context.active_object

@@ -3,7 +3,7 @@
 
 import bpy
 
-from . import native
+from .availability import Explained
 
 MODAL_FACES = 20_000  # below, a solve is too short to be worth a progress display
 MODAL_TILED_FACES = 2_000  # likewise a tiling
@@ -17,10 +17,9 @@ def _redraw():
             area.tag_redraw()
 
 
-class WorkOperator:
-    """A mixin for operators. One of them defines
+class WorkOperator(Explained):
+    """A mixin for operators. One of them defines, beside `why_not`,
 
-    why_not(context) : class method; why it cannot run here, one sentence, or ""
     draw_options(layout, obj) : its options in the redo panel, with the active object
     prepare(context) : reads what the work needs, returns whether there is work
     make_work(progress) : a `jobs.Work` of what was read
@@ -30,13 +29,6 @@ class WorkOperator:
 
     def modal_faces(self):
         return MODAL_FACES
-
-    @classmethod
-    def poll(cls, context):
-        sentence = native.problem() or cls.why_not(context)
-        if sentence:
-            cls.poll_message_set(sentence)
-        return not sentence
 
     def draw(self, context):
         self.layout.use_property_split = True

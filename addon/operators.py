@@ -7,24 +7,13 @@ import bpy
 from bpy.props import EnumProperty, FloatProperty
 
 from . import native
+from .availability import Explained, OnMeshes
 from .modal import MODAL_FACES, MODAL_TILED_FACES, WorkOperator
 from .properties import HARD_EDGE, HARD_EDGES, MAIN_MAPS, MOST_STRETCH, MapProperties
 
-CONVERTIBLE = {"FONT", "CURVE", "SURFACE", "META"}
-CONVERT = "Object > Convert > Mesh makes this a mesh"
 
-
-class _MapsOperator(MapProperties, WorkOperator):
+class _MapsOperator(MapProperties, OnMeshes, WorkOperator):
     """What the operators that make maps share."""
-
-    @classmethod
-    def why_not(cls, context):
-        if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return "Go to Object Mode or Edit Mode"
-        selected = context.view_layer.objects.selected
-        if context.mode == "OBJECT" and not any(o.type == "MESH" for o in selected):
-            return CONVERT if any(o.type in CONVERTIBLE for o in selected) else "Select a mesh"
-        return ""
 
     def prepare(self, context):
         from . import faces, targets
@@ -114,7 +103,7 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
         return {"FINISHED"} if any(restored) else {"CANCELLED"}
 
 
-class HOLOMORPH_OT_heat(bpy.types.Operator):
+class HOLOMORPH_OT_heat(Explained, bpy.types.Operator):
     """Write how the active UV map distorts, as attributes of the faces of the selected meshes: "Holomorphic Density",
     the binary logarithm of UV area per surface area over its median, and "Holomorphic Angle", s1 / s2"""
 
@@ -123,14 +112,7 @@ class HOLOMORPH_OT_heat(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, context):
-        sentence = native.problem() or cls._why_not(context)
-        if sentence:
-            cls.poll_message_set(sentence)
-        return not sentence
-
-    @classmethod
-    def _why_not(cls, context):
+    def why_not(cls, context):
         if context.mode not in {"OBJECT", "EDIT_MESH"}:
             return "Go to Object Mode or Edit Mode"
         selected = context.view_layer.objects.selected

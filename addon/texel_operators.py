@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
-from . import native
+from .availability import OnMeshes
 
 TEXELS, IMAGE = "holomorphic_texels", "holomorphic_image"  # properties of the window manager
 TEXELS_TEXT = "Texels of the image on a metre of the surface"
@@ -12,21 +12,12 @@ IMAGE_TEXT = "Width of the image in texels"
 DEFAULT_IMAGE = 2048
 
 
-class _TexelOperator:
+class _TexelOperator(OnMeshes):
     """A mixin: on the active UV maps of the selected meshes, in edit mode on their selected faces."""
 
     bl_options = {"REGISTER", "UNDO"}
 
     image: IntProperty(name="Image", description=IMAGE_TEXT, default=DEFAULT_IMAGE, min=1)
-
-    @classmethod
-    def poll(cls, context):
-        from .operators import HOLOMORPH_OT_maps
-
-        sentence = native.problem() or HOLOMORPH_OT_maps.why_not(context)
-        if sentence:
-            cls.poll_message_set(sentence)
-        return not sentence
 
     def invoke(self, context, _event):
         for name, stored in (("texels", TEXELS), ("image", IMAGE)):

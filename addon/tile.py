@@ -5,22 +5,18 @@ from functools import partial
 
 import bpy
 
+from .availability import OnMeshes
 from .modal import MODAL_TILED_FACES, WorkOperator
-from .operators import HOLOMORPH_OT_maps
 from .tile_properties import TileProperties
 
 
-class HOLOMORPH_OT_tile(TileProperties, WorkOperator, bpy.types.Operator):
+class HOLOMORPH_OT_tile(TileProperties, OnMeshes, WorkOperator, bpy.types.Operator):
     """Make a UV map on which a texture that tiles shows no seam, keeps its angles and has about the same size
     everywhere. Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
 
     bl_idname = "uv.holomorphic_tile"
     bl_label = "Seamless Tiling"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
-
-    @classmethod
-    def why_not(cls, context):
-        return HOLOMORPH_OT_maps.why_not(context)
 
     def prepare(self, context):
         from . import faces, targets

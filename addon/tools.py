@@ -4,8 +4,7 @@
 import bpy
 from bpy.props import EnumProperty
 
-from . import native
-from .operators import HOLOMORPH_OT_maps
+from .availability import OnMeshes
 
 KINDS = (
     ("REFUSED", "Refused", "Edges with more than two faces; the faces of parts that are one-sided"),
@@ -16,7 +15,7 @@ KINDS = (
 )
 
 
-class HOLOMORPH_OT_remove_maps(bpy.types.Operator):
+class HOLOMORPH_OT_remove_maps(OnMeshes, bpy.types.Operator):
     """Remove all maps named "Holomorphic" from the selected meshes, with their report, their material and the empties
     of their poles. Your materials and the UV map that was active before come back; seams and levels of detail stay"""
 
@@ -24,12 +23,7 @@ class HOLOMORPH_OT_remove_maps(bpy.types.Operator):
     bl_label = "Remove Maps"
     bl_options = {"REGISTER", "UNDO"}
 
-    @classmethod
-    def poll(cls, context):
-        sentence = HOLOMORPH_OT_maps.why_not(context)
-        if sentence:
-            cls.poll_message_set(sentence)
-        return not sentence
+    needs_library = False
 
     def execute(self, context):
         from . import restore, run, targets, viewport
@@ -47,7 +41,7 @@ class HOLOMORPH_OT_remove_maps(bpy.types.Operator):
         return {"FINISHED"} if removed else {"CANCELLED"}
 
 
-class HOLOMORPH_OT_select_bad(bpy.types.Operator):
+class HOLOMORPH_OT_select_bad(OnMeshes, bpy.types.Operator):
     """Go to edit mode and select what keeps parts of the selected meshes from being mapped, or spoils a map"""
 
     bl_idname = "mesh.holomorphic_select_bad"
@@ -61,13 +55,6 @@ class HOLOMORPH_OT_select_bad(bpy.types.Operator):
         options={"ENUM_FLAG"},
         default={"REFUSED", "NO_AREA"},
     )
-
-    @classmethod
-    def poll(cls, context):
-        sentence = native.problem() or HOLOMORPH_OT_maps.why_not(context)
-        if sentence:
-            cls.poll_message_set(sentence)
-        return not sentence
 
     def draw(self, _context):
         self.layout.column().prop(self, "kinds")

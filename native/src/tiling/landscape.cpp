@@ -1,9 +1,9 @@
 #include "tiling/landscape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
-#include <cmath>
 
 #include "mesh/intrinsic_triangulation.h"
 #include "mesh/triangle_geometry.h"
