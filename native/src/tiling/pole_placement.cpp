@@ -22,11 +22,10 @@ using Eigen::VectorXcd;
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
 constexpr double kEvenWithout = 3, kEvenWith = 6;
 constexpr double kWorth = 0.9;  // more poles are taken where the ratio of the density falls to this part of itself
-// Of the samples every third is enough to optimise with, and every ninth to tell which candidates are worth it.
-constexpr int kThinning = 3, kThinner = 3 * kThinning;
+constexpr int kFew = 4;         // so many poles are optimised on all samples
+constexpr int kThinning = 3;    // more of them on every third one; and a third of these tells what is worth a trial
 constexpr int kTried = 4, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 5;
-constexpr Index kLeastRelocated = 3;  // fewer poles are moved, but none is taken away
 constexpr double kGain = 1e-3;        // less is no gain
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
@@ -34,16 +33,21 @@ constexpr int kTrialPhases = 6;
 const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor}, kFromNear = {uv::kDensityFloor},
                           kWithTrial = {0.03, uv::kDensityFloor};
 
-VectorXcd thinner(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinner / kThinning)); }
+VectorXcd thinned(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning)); }
+
+// The least number of poles that a form needs.
+int least_count(const Landscape& landscape) { return landscape.form_count() > 0 ? 0 : landscape.closed() ? 2 : 1; }
 
 class Search {
  public:
-  Search(Landscape& landscape, const PlacementRules& rules, Execution& execution)
+  /// @param every of the samples every so many-th is used
+  Search(Landscape& landscape, const PlacementRules& rules, int every, Execution& execution)
       : landscape_(landscape),
         rules_(rules),
         execution_(execution),
         candidates_(landscape, rules.allowed),
-        objective_(landscape, rules.kind, kThinning) {}
+        every_(every),
+        objective_(landscape, rules.kind, every) {}
 
   Poles begin() {
     Poles poles;
@@ -88,7 +92,7 @@ class Search {
   bool relocate(Poles& poles) {
     const auto count = static_cast<Index>(poles.vertices.size());
     bool moved = false;
-    for (Index i = 0; i < count && count >= kLeastRelocated; ++i) {
+    for (Index i = 0; i < count && count > least_count(landscape_); ++i) {
       execution_.report(static_cast<double>(i) / static_cast<double>(count));
       rotate(poles);  // each becomes the last one once
       if (is_fixed(poles.vertices.back())) continue;
@@ -166,8 +170,8 @@ class Search {
   // All candidates with all trial residues beside the form as it is, the best first.
   std::vector<Trial> trials_everywhere(const Poles& poles) {
     const std::vector<int> candidates = candidates_.everywhere(poles.vertices);
-    const MatrixXcd green = landscape_.poles(candidates, execution_, kThinner);
-    const VectorXcd A = thinner(objective_.form(poles, execution_));
+    const MatrixXcd green = landscape_.poles(candidates, execution_, every_ * kThinning);
+    const VectorXcd A = thinned(objective_.form(poles, execution_));
     const double scale = std::sqrt(A.cwiseAbs2().mean() * landscape_.area());
     const int phases = rules_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
     std::vector<Trial> trials;
@@ -203,10 +207,10 @@ class Search {
     others.erase(others.begin() + i);
     const std::vector<int> candidates = candidates_.for_move(poles.vertices[i], others);
     if (candidates.empty()) return false;
-    const MatrixXcd green = landscape_.poles(candidates, execution_, kThinner);
+    const MatrixXcd green = landscape_.poles(candidates, execution_, every_ * kThinning);
     const VectorXcd A = objective_.form(poles, execution_);
-    const VectorXcd without =
-        thinner(A) - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_, kThinner).col(0);
+    const VectorXcd without = thinned(A) - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_,
+                                                                                every_ * kThinning).col(0);
     objective_.prepare(candidates, execution_);
     objective_.prepare(poles.vertices, execution_);
     const MatrixXcd metric = objective_.leverage_metric(A.cwiseAbs2().array());
@@ -233,19 +237,19 @@ class Search {
   const PlacementRules& rules_;
   Execution& execution_;
   PoleCandidates candidates_;
+  int every_;
   PoleObjective objective_;
 };
 
 }  // namespace
 
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count, Execution& execution) {
-  const int least = landscape.form_count() > 0 ? 0 : landscape.closed() ? 2 : 1;
-  if (count < least || (count == 1 && landscape.closed())) {
+  if (count < least_count(landscape) || (count == 1 && landscape.closed())) {
     throw TopologyError(std::to_string(count) + (count == 1 ? " pole is" : " poles are") + " not enough: " +
                         (landscape.closed() ? "on a closed surface the residues sum to 0, so two or more are needed"
                                             : "a disk needs one or more"));
   }
-  Search search(landscape, rules, execution);
+  Search search(landscape, rules, count <= kFew ? 1 : kThinning, execution);
   Poles poles = search.begin();
   if (!search.add(poles, count)) {
     throw TopologyError("there is room for " + std::to_string(poles.vertices.size()) + " poles, not for " +
@@ -255,10 +259,11 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count,
 }
 
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
-  Search search(landscape, rules, execution);
-  Poles added = search.begin(), best = added;
+  Search few(landscape, rules, 1, execution), more(landscape, rules, kThinning, execution);
+  Poles added = few.begin(), best = added;
   double least = density_ratio(density(landscape, best, execution));
   for (const int count : kCounts) {
+    Search& search = count <= kFew ? few : more;
     if (least <= (best.vertices.empty() ? kEvenWithout : kEvenWith) || !search.add(added, count)) break;
     Poles settled = search.settled(added);
     const double ratio = density_ratio(density(landscape, settled, execution));
