@@ -265,11 +265,11 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution&
   for (const int count : kCounts) {
     Search& search = count <= kFew ? few : more;
     if (least <= (best.vertices.empty() ? kEvenWithout : kEvenWith) || !search.add(added, count)) break;
-    Poles settled = search.settled(added);
-    const double ratio = density_ratio(density(landscape, settled, execution));
+    added = search.settled(std::move(added));
+    const double ratio = density_ratio(density(landscape, added, execution));
     if (ratio > kWorth * least) continue;
     least = ratio;
-    best = std::move(settled);
+    best = added;
   }
   return optimised(landscape, rules, std::move(best), execution);
 }
