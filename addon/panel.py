@@ -4,12 +4,11 @@
 import bpy
 
 from . import lines, native, overlay, tools_panel
+from .availability import CONVERT, CONVERTIBLE
 from .compare import HOLOMORPH_OT_compare
 from .drag import HOLOMORPH_OT_drag_poles
 from .lod import HOLOMORPH_OT_levels
 from .operators import (
-    CONVERT,
-    CONVERTIBLE,
     HOLOMORPH_OT_heat,
     HOLOMORPH_OT_islands,
     HOLOMORPH_OT_maps,

@@ -26,7 +26,7 @@ constexpr int kFew = 4;         // so many poles are optimised on all samples
 constexpr int kThinning = 3;    // more of them on every third one; and a third of these tells what is worth a trial
 constexpr int kTried = 4, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kSweeps = 5;
-constexpr double kGain = 1e-3;        // less is no gain
+constexpr double kGain = 1e-3;  // less is no gain
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
@@ -209,8 +209,8 @@ class Search {
     if (candidates.empty()) return false;
     const MatrixXcd green = landscape_.poles(candidates, execution_, every_ * kThinning);
     const VectorXcd A = objective_.form(poles, execution_);
-    const VectorXcd without = thinned(A) - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_,
-                                                                                every_ * kThinning).col(0);
+    const VectorXcd without =
+        thinned(A) - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_, every_ * kThinning).col(0);
     objective_.prepare(candidates, execution_);
     objective_.prepare(poles.vertices, execution_);
     const MatrixXcd metric = objective_.leverage_metric(A.cwiseAbs2().array());
