@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native, arrays
-from ._native import InvalidMesh
+from ._native import InvalidMesh, TopologyError
 from .array_types import Complexes, Integers, Progress, Reals
 from .checks import own_vertices, real_number
 from .quality import Quality
@@ -110,7 +110,7 @@ class Tiler:
         surface.require_connected()
         self._surface, self._component, self._basis = surface, surface.components[0], None
         count, chosen = wished_poles(poles)
-        vertices, labels = own_vertices(surface, self._component, chosen, "pole")
+        vertices, labels = _own_poles(surface, self._component, chosen)
         self._native = _native.Tiler(self._component._native, boundary == "straight", labels, solver, threads or 0)
         self._native.place(count, vertices, _allowed(allowed, surface, self._component), progress)
 
@@ -156,7 +156,7 @@ class Tiler:
         """
         if self._basis is None:
             raise ValueError("with_poles_moved moves the poles of a tiling; call tile first")
-        own, _ = own_vertices(self._surface, self._component, list(moves.values()), "pole")
+        own, _ = _own_poles(self._surface, self._component, list(moves.values()))
         return self._tiling(self._native.with_poles_moved(list(zip(moves, own)), progress))
 
     def _tiling(self, made):
@@ -194,8 +194,8 @@ def place_poles(
 ) -> PlacedPoles:
     """`PlacedPoles` of a connected surface: where poles make the texture density most even. Arguments as in `Tiler`.
 
-    A greedy start, then exchanges of one pole at a time, on a level of the progressive mesh of about 10,000 triangles.
-    Deterministic."""
+    A greedy start, then moves of one pole at a time, and poles taken away and added anew where they do best, on a level of
+    the progressive mesh of about 10,000 triangles. Deterministic."""
     return Tiler(surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress).poles
 
 
@@ -211,6 +211,15 @@ def wished_poles(poles):
         return int(poles), []
     vertices = arrays.integer(poles, "poles")
     return len(vertices), vertices
+
+
+def _own_poles(surface, component, vertices):
+    """As `own_vertices`; each only once."""
+    own = own_vertices(surface, component, vertices, "pole")
+    given, times = np.unique(np.asarray(vertices, int), return_counts=True)
+    for vertex in given[times > 1]:
+        raise TopologyError(f"pole {vertex} is given twice")
+    return own
 
 
 def _allowed(allowed, surface, component):

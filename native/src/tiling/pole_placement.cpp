@@ -20,12 +20,12 @@ using Eigen::VectorXcd;
 
 // Poles by themselves.
 constexpr int kCounts[] = {2, 4, 8, 12, 16};
-constexpr double kEvenWithout = 3, kEvenWith = 6;
+constexpr double kEvenWithout = 3, kEvenWith = 5;
 constexpr double kWorth = 0.9;  // more poles are taken where the ratio of the density falls to this part of itself
 constexpr int kFew = 4;         // so many poles are optimised on all samples
 constexpr int kThinning = 3;    // more of them on every third one; and a third of these tells what is worth a trial
 constexpr int kTried = 4, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
-constexpr int kSweeps = 5;
+constexpr int kRounds = 3, kSweeps = 5;
 constexpr double kGain = 1e-3;  // less is no gain
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
@@ -77,9 +77,9 @@ class Search {
 
   // The same number of poles at better places.
   Poles settled(Poles poles) {
-    do {
+    for (int round = 0; round == 0 || (round < kRounds && relocate(poles)); ++round) {
       for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
-    } while (relocate(poles));
+    }
     return poles;
   }
 
