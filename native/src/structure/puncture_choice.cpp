@@ -108,7 +108,7 @@ int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edg
   const std::vector<double> distance = mesh::graph_distances(half_edges, surface.edge_lengths, boundary);
   const int deepest = farthest(surface, half_edges, distance, std::vector<char>(surface.vertex_count, 0));
   if (deepest < 0)
-    throw TopologyError("every vertex is next to the boundary: none can be a puncture; subdivide the mesh");
+    throw TopologyError("every vertex is next to the boundary: there is no room for a pole; subdivide the mesh");
   return deepest;
 }
 

@@ -54,12 +54,30 @@ CoarseLevel level_of(const mesh::Surface& surface, const std::vector<int>& order
   return {std::move(level), std::move(vertex), std::move(collapsed)};
 }
 
+std::vector<std::vector<int>> large_polygons(const mesh::Surface& surface, const std::vector<int>& level_vertex) {
+  std::vector<int> place(surface.vertex_count, -1);
+  for (std::size_t v = 0; v < level_vertex.size(); ++v) place[level_vertex[v]] = static_cast<int>(v);
+  std::vector<std::vector<int>> result;
+  const auto& [positions, corner_vertices, offsets] = surface.polygons;
+  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
+    if (offsets[f + 1] - offsets[f] <= 4) continue;
+    std::vector<int> corners;
+    for (auto c = offsets[f]; c < offsets[f + 1]; ++c) {
+      if (const int v = place[corner_vertices[c]]; v >= 0) corners.push_back(v);
+    }
+    if (corners.size() > 1) result.push_back(std::move(corners));
+  }
+  return result;
+}
+
 }  // namespace
 
 CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution) {
   if (surface->intrinsic()) return the_surface_itself(surface);
   try {
-    return level_of(*surface, mesh::spatial_order(surface->polygons.vertices), execution);
+    CoarseLevel level = level_of(*surface, mesh::spatial_order(surface->polygons.vertices), execution);
+    level.large_polygons = large_polygons(*surface, level.vertex);
+    return level;
   } catch (const InvalidMesh&) {  // edges with the same ends in any triangulation of its polygons: it has no levels
     return the_surface_itself(surface);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/errors.h"
 #include "mesh/graph_distances.h"
@@ -24,19 +25,32 @@ std::vector<int> evenly(const std::vector<int>& list, int count) {
 
 }  // namespace
 
+PoleCandidates::PoleCandidates(const Landscape& landscape, const std::vector<char>& allowed,
+                               const std::vector<std::vector<int>>& polygons)
+    : landscape_(landscape), allowed_(allowed), polygons_(polygons) {
+  for (int p = 0; p < static_cast<int>(polygons.size()); ++p) {
+    for (const int v : polygons[p]) polygons_at_[v].push_back(p);
+  }
+}
+
 std::vector<int> PoleCandidates::first() {
-  if (!allowed_.empty()) return first_allowed();
-  if (landscape_.closed()) return structure::far_apart(landscape_.surface(), landscape_.half_edges());
-  return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
+  if (!allowed_.empty()) return first_candidates();
+  if (!landscape_.closed()) return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
+  std::vector<int> pair = structure::far_apart(landscape_.surface(), landscape_.half_edges());
+  return free_ones({pair[1]}, {pair[0]}).empty() ? first_candidates() : pair;
 }
 
 // Candidates far from each other.
-std::vector<int> PoleCandidates::first_allowed() {
+std::vector<int> PoleCandidates::first_candidates() {
   std::vector<int> poles;
   for (const std::size_t count = landscape_.closed() ? 2 : 1; poles.size() < count;) {
     const std::vector<int> candidates = everywhere(poles);
-    if (candidates.empty())
-      throw TopologyError("the vertices where poles may be have no room for " + std::to_string(count));
+    if (candidates.empty()) {
+      throw TopologyError(
+          (allowed_.empty() ? "the vertices of the mesh" : "the vertices where poles may be") +
+          std::string(" have no room for ") + std::to_string(count) +
+          " poles: their stars must be apart, and no two may be corners of one face; subdivide the mesh");
+    }
     const auto& distance = distances(poles.empty() ? candidates.front() : poles.front());
     poles.push_back(*std::max_element(candidates.begin(), candidates.end(),
                                       [&](int a, int b) { return distance[a] < distance[b]; }));
@@ -88,7 +102,11 @@ std::vector<int> PoleCandidates::free_ones(std::vector<int> candidates, const st
   const auto& mesh = landscape_.half_edges();
   const double apart = kApart * std::sqrt(landscape_.area());
   std::vector<char> taken(surface.vertex_count, 0);
+  std::set<int> opposite;  // in the large polygons of the others
   for (const int pole : others) {
+    if (const auto found = polygons_at_.find(pole); found != polygons_at_.end()) {
+      for (const int polygon : found->second) opposite.insert(polygons_[polygon].begin(), polygons_[polygon].end());
+    }
     for (const int v : mesh::corners_around(surface, mesh, pole)) taken[v] = 1;
     const auto& distance = distances(pole);
     for (std::size_t v = 0; v < taken.size(); ++v) {
@@ -97,7 +115,9 @@ std::vector<int> PoleCandidates::free_ones(std::vector<int> candidates, const st
   }
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-  std::erase_if(candidates, [&](int v) { return taken[v] || !mesh::has_free_star(surface, mesh, v, taken); });
+  std::erase_if(candidates, [&](int v) {
+    return taken[v] || opposite.contains(v) || !mesh::has_free_star(surface, mesh, v, taken);
+  });
   return candidates;
 }
 

@@ -12,9 +12,10 @@ namespace holomorph::tiling {
 /// near to them.
 class PoleCandidates {
  public:
-  /// @param allowed #V; empty: anywhere. Both outlive this
-  PoleCandidates(const Landscape& landscape, const std::vector<char>& allowed)
-      : landscape_(landscape), allowed_(allowed) {}
+  /// @param allowed #V; empty: anywhere
+  /// @param polygons vertices of which one may be a pole, as of each face of the landscape. All three outlive this
+  PoleCandidates(const Landscape& landscape, const std::vector<char>& allowed,
+                 const std::vector<std::vector<int>>& polygons);
 
   /// Where a surface without forms has its first poles: two far apart on a closed one, one deep inside another.
   /// @throws TopologyError if there is no room
@@ -25,7 +26,7 @@ class PoleCandidates {
   std::vector<int> for_move(int vertex, const std::vector<int>& others);
 
  private:
-  std::vector<int> first_allowed();
+  std::vector<int> first_candidates();
   std::vector<int> spread() const;
   std::vector<int> near(int vertex);
   std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);
@@ -34,6 +35,8 @@ class PoleCandidates {
 
   const Landscape& landscape_;
   const std::vector<char>& allowed_;
+  const std::vector<std::vector<int>>& polygons_;
+  std::map<int, std::vector<int>> polygons_at_;   // of their vertices
   std::map<int, std::vector<double>> distances_;  // along edges, from poles there have been
 };
 

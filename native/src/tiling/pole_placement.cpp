@@ -45,7 +45,7 @@ class Search {
       : landscape_(landscape),
         rules_(rules),
         execution_(execution),
-        candidates_(landscape, rules.allowed),
+        candidates_(landscape, rules.allowed, rules.polygons),
         every_(every),
         objective_(landscape, rules.kind, every) {}
 

@@ -10,8 +10,9 @@ namespace holomorph::tiling {
 
 struct PlacementRules {
   uv::Coefficients kind = uv::Coefficients::complex;
-  std::vector<char> allowed;  ///< #V of the landscape: may a pole be there; empty: anywhere
-  std::vector<int> fixed;     ///< poles that stay where they are
+  std::vector<char> allowed;                    ///< #V of the landscape: may a pole be there; empty: anywhere
+  std::vector<int> fixed;                       ///< poles that stay where they are
+  std::vector<std::vector<int>> polygons = {};  ///< vertices of which one may be a pole, beside faces of the landscape
 };
 
 /// Poles are added one by one where they help most, until there are `count`; then each in turn moves to where the

@@ -67,7 +67,7 @@ void Tiler::place(const PoleWishes& wishes, Execution& execution) {
   const CoarseLevel level = chosen_ ? CoarseLevel{surface_, {}, {}} : coarse_level(surface_, execution);
   execution.stage("forms for the poles", 0.2, 0.25);
   auto landscape = std::make_unique<Landscape>(level.surface, options_, execution);
-  PlacementRules rules{kind_, {}, wishes.vertices};
+  PlacementRules rules{kind_, {}, wishes.vertices, level.large_polygons};
   for (const int v : level.vertex) {
     if (!wishes.allowed.empty()) rules.allowed.push_back(wishes.allowed[v]);
   }
