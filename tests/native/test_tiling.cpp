@@ -73,6 +73,23 @@ TEST(AbelJacobi, FollowsItsDerivative) {
   EXPECT_LT((exact - step).norm(), 0.1 * step.norm());
 }
 
+// In any direction: the steps of Newton's method go there.
+TEST(Leverage, FollowsThePole) {
+  Execution execution(1);
+  const Landscape landscape(wavy_torus(60, 40), {}, execution);
+  const Leverage leverage(landscape);
+  const auto split = leverage.split().bottomRows(landscape.form_count());
+  for (const int triangle : {0, 1000, 3000}) {
+    const Complex tau = leverage.tau({triangle})(0, 0);
+    for (int i = 0; i < 8; ++i) {
+      const Complex dz = std::polar(1.0, 0.8 * i);
+      const Eigen::VectorXd lost = (leverage.abel_jacobi_derivatives({triangle}).col(0) * dz).real();
+      const Complex t = -(split * lost.cast<Complex>())[0];
+      EXPECT_LT(std::abs(t - tau * dz), 0.1 * std::abs(tau));
+    }
+  }
+}
+
 TEST(ClosedMaps, OneFormIsTheCombinationOfTheBasis) {
   Execution execution(1);
   const auto surface = wavy_torus(30, 20);

@@ -29,7 +29,8 @@ Eigen::MatrixXcd Leverage::abel_jacobi_derivatives(const std::vector<int>& trian
   return inverse_wedge_ * landscape_.derivatives(triangles).transpose();
 }
 
-// X loses r Pi: Re and Im of dz move it by -r Re and r Im of the derivative, and t follows conj(dz) alone.
+// X loses r Re(D dz), D the derivative. The pairing of a class with theta_j is linear in its (0,1) part, and that of
+// J^-1 h(dz) is theta_j(dz): so t follows dz alone, and conj(D) is in the span of the theta_j.
 Eigen::MatrixXcd Leverage::tau(const std::vector<int>& triangles) const {
   const auto g = landscape_.form_count();
   return -(split_.bottomRows(g) * abel_jacobi_derivatives(triangles).real().cast<Complex>());

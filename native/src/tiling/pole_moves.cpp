@@ -103,10 +103,10 @@ class Moving {
       const Index g = e.size();
       MatrixXd J(2 * g, 2 * static_cast<Index>(free.size()));
       for (std::size_t f = 0; f < free.size(); ++f) {
-        const VectorXcd l = lever(free[f]);  // changes by l conj(dz)
+        const VectorXcd l = lever(free[f]);  // changes by l dz
         const auto column = 2 * static_cast<Index>(f);
         J.col(column) << l.real(), l.imag();
-        J.col(column + 1) << l.imag(), -l.real();
+        J.col(column + 1) << -l.imag(), l.real();
       }
       VectorXd residual(2 * g);
       residual << e.real(), e.imag();
