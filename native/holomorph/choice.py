@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 EVEN = 2.0  # 95 : 5 % ratio of the density below which a balanced map stays: the squares' sizes hardly differ
 LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
 MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
-MOST_FLIPPED = 0.01  # of its area
+MOST_FLIPPED = 0.02  # of its area: what flips is beside branch points, and few are seen
 
 
 def is_uneven(density_ratio: float | None) -> bool:

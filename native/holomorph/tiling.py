@@ -194,8 +194,9 @@ def place_poles(
 ) -> PlacedPoles:
     """`PlacedPoles` of a connected surface: where poles make the texture density most even. Arguments as in `Tiler`.
 
-    A greedy start, then moves of one pole at a time, and poles taken away and added anew where they do best, on a level
-    of the progressive mesh of about 10,000 triangles. Deterministic."""
+    A greedy start, then moves of one pole at a time, poles taken away and added anew where they do best, and a few more
+    than asked for of which those stay that matter, on a level of the progressive mesh of about 10,000 triangles.
+    Deterministic."""
     return Tiler(surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress).poles
 
 

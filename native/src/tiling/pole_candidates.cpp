@@ -25,16 +25,15 @@ std::vector<int> evenly(const std::vector<int>& list, int count) {
 
 }  // namespace
 
-PoleCandidates::PoleCandidates(const Landscape& landscape, const std::vector<char>& allowed,
-                               const std::vector<std::vector<int>>& polygons)
-    : landscape_(landscape), allowed_(allowed), polygons_(polygons) {
-  for (int p = 0; p < static_cast<int>(polygons.size()); ++p) {
-    for (const int v : polygons[p]) polygons_at_[v].push_back(p);
+PoleCandidates::PoleCandidates(const Landscape& landscape, const PlacementRules& rules)
+    : landscape_(landscape), rules_(rules) {
+  for (int p = 0; p < static_cast<int>(rules.polygons.size()); ++p) {
+    for (const int v : rules.polygons[p]) polygons_at_[v].push_back(p);
   }
 }
 
 std::vector<int> PoleCandidates::first() {
-  if (!allowed_.empty()) return first_candidates();
+  if (!rules_.allowed.empty()) return first_candidates();
   if (!landscape_.closed()) return {structure::deepest_vertex(landscape_.surface(), landscape_.half_edges())};
   std::vector<int> pair = structure::far_apart(landscape_.surface(), landscape_.half_edges());
   return free_ones({pair[1]}, {pair[0]}).empty() ? first_candidates() : pair;
@@ -47,7 +46,7 @@ std::vector<int> PoleCandidates::first_candidates() {
     const std::vector<int> candidates = everywhere(poles);
     if (candidates.empty()) {
       throw TopologyError(
-          (allowed_.empty() ? "the vertices of the mesh" : "the vertices where poles may be") +
+          (rules_.allowed.empty() ? "the vertices of the mesh" : "the vertices where poles may be") +
           std::string(" have no room for ") + std::to_string(count) +
           " poles: their stars must be apart, and no two may be corners of one face; subdivide the mesh");
     }
@@ -105,7 +104,8 @@ std::vector<int> PoleCandidates::free_ones(std::vector<int> candidates, const st
   std::set<int> opposite;  // in the large polygons of the others
   for (const int pole : others) {
     if (const auto found = polygons_at_.find(pole); found != polygons_at_.end()) {
-      for (const int polygon : found->second) opposite.insert(polygons_[polygon].begin(), polygons_[polygon].end());
+      for (const int polygon : found->second)
+        opposite.insert(rules_.polygons[polygon].begin(), rules_.polygons[polygon].end());
     }
     for (const int v : mesh::corners_around(surface, mesh, pole)) taken[v] = 1;
     const auto& distance = distances(pole);

@@ -8,14 +8,19 @@
 
 namespace holomorph::tiling {
 
+struct PlacementRules {
+  uv::Coefficients kind = uv::Coefficients::complex;
+  std::vector<char> allowed;                    ///< #V of the landscape: may a pole be there; empty: anywhere
+  std::vector<int> fixed;                       ///< poles that stay where they are
+  std::vector<std::vector<int>> polygons = {};  ///< vertices of which one may be a pole, beside faces of the landscape
+};
+
 /// Vertices are candidates where a pole is allowed, its star is apart from those of the other poles, and it is not too
 /// near to them.
 class PoleCandidates {
  public:
-  /// @param allowed #V; empty: anywhere
-  /// @param polygons vertices of which one may be a pole, as of each face of the landscape. All three outlive this
-  PoleCandidates(const Landscape& landscape, const std::vector<char>& allowed,
-                 const std::vector<std::vector<int>>& polygons);
+  /// @pre both outlive this
+  PoleCandidates(const Landscape& landscape, const PlacementRules& rules);
 
   /// Where a surface without forms has its first poles: two far apart on a closed one, one deep inside another.
   /// @throws TopologyError if there is no room
@@ -31,11 +36,12 @@ class PoleCandidates {
   std::vector<int> near(int vertex);
   std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);
   const std::vector<double>& distances(int vertex);
-  bool is_allowed(int vertex) const { return (allowed_.empty() || allowed_[vertex]) && landscape_.is_certain(vertex); }
+  bool is_allowed(int vertex) const {
+    return (rules_.allowed.empty() || rules_.allowed[vertex]) && landscape_.is_certain(vertex);
+  }
 
   const Landscape& landscape_;
-  const std::vector<char>& allowed_;
-  const std::vector<std::vector<int>>& polygons_;
+  const PlacementRules& rules_;
   std::map<int, std::vector<int>> polygons_at_;   // of their vertices
   std::map<int, std::vector<double>> distances_;  // along edges, from poles there have been
 };

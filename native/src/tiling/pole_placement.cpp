@@ -1,245 +1,25 @@
 #include "tiling/pole_placement.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <iterator>
 
-#include "base/chunks.h"
 #include "base/errors.h"
-#include "tiling/pole_candidates.h"
 #include "tiling/pole_objective.h"
-#include "uv/balance.h"
+#include "tiling/pole_search.h"
 
 namespace holomorph::tiling {
 namespace {
 
-using Complex = std::complex<double>;
-using Eigen::Index;
-using Eigen::MatrixXcd;
-using Eigen::VectorXcd;
-
-// Poles by themselves.
-constexpr int kCounts[] = {2, 4, 8, 12, 16};
+constexpr int kCounts[] = {2, 4, 8, 12, 16};  // of poles by themselves
+constexpr int kFew = 4;                       // so many are placed by all samples,
+constexpr int kEvery = 3;                     // more of them by every third one
 constexpr double kEvenWithout = 3, kEvenWith = 5;
+constexpr double kHopeful = 2 * kEvenWith;  // only with a lower ratio a count is worth a search for the best places
 constexpr double kWorth = 0.9;  // more poles are taken where the ratio of the density falls to this part of itself
-constexpr int kFew = 4;         // so many poles are optimised on all samples
-constexpr int kThinning = 3;    // more of them on every third one; and a third of these tells what is worth a trial
-constexpr int kTried = 4, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
-constexpr int kRounds = 3, kSweeps = 5;
-constexpr double kGain = 1e-3;  // less is no gain
-// Residues that a new pole is tried with, relative to the root of mean density times area.
-constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
-constexpr int kTrialPhases = 6;
-const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor}, kFromNear = {uv::kDensityFloor},
-                          kWithTrial = {0.03, uv::kDensityFloor};
 
-VectorXcd thinned(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning)); }
-
-// The least number of poles that a form needs.
-int least_count(const Landscape& landscape) { return landscape.form_count() > 0 ? 0 : landscape.closed() ? 2 : 1; }
-
-class Search {
- public:
-  /// @param every of the samples every so many-th is used
-  Search(Landscape& landscape, const PlacementRules& rules, int every, Execution& execution)
-      : landscape_(landscape),
-        rules_(rules),
-        execution_(execution),
-        candidates_(landscape, rules.allowed, rules.polygons),
-        every_(every),
-        objective_(landscape, rules.kind, every) {}
-
-  Poles begin() {
-    Poles poles;
-    poles.vertices = rules_.fixed;
-    if (poles.vertices.empty() && landscape_.form_count() == 0) poles.vertices = candidates_.first();
-    const auto k = static_cast<Index>(poles.vertices.size());
-    poles.residues = VectorXcd::Ones(k);
-    if (landscape_.closed() && k > 0) poles.residues[k - 1] = -static_cast<double>(k - 1);
-    poles.coefficients = VectorXcd::Zero(landscape_.form_count());
-    if (landscape_.form_count() > 0 && k == 0) {
-      poles.coefficients = landscape_.form_count() == 1
-                               ? VectorXcd::Ones(1)
-                               : uv::lowest_variance(landscape_.surface(), landscape_.samples(),
-                                                     landscape_.holomorphic(), rules_.kind, execution_.workers());
-    }
-    objective_.prepare(poles.vertices, execution_);
-    objective_.optimise(poles, kFromAfar, execution_);
-    return poles;
-  }
-
-  // Up to `count`. @return whether there was room for so many
-  bool add(Poles& poles, int count) {
-    while (static_cast<int>(poles.vertices.size()) < count && add_one(poles)) {
-    }
-    return static_cast<int>(poles.vertices.size()) >= count;
-  }
-
-  // The same number of poles at better places.
-  Poles settled(Poles poles) {
-    for (int round = 0; round == 0 || (round < kRounds && relocate(poles)); ++round) {
-      for (int i = 0; i < kSweeps && sweep(poles); ++i) execution_.report(static_cast<double>(i) / kSweeps);
-    }
-    return poles;
-  }
-
- private:
-  bool is_fixed(int vertex) const {
-    return std::find(rules_.fixed.begin(), rules_.fixed.end(), vertex) != rules_.fixed.end();
-  }
-
-  // Takes each pole away and adds one where it does best, with a residue of its own. @return whether that was better
-  bool relocate(Poles& poles) {
-    const auto count = static_cast<Index>(poles.vertices.size());
-    bool moved = false;
-    for (Index i = 0; i < count && count > least_count(landscape_); ++i) {
-      execution_.report(static_cast<double>(i) / static_cast<double>(count));
-      rotate(poles);  // each becomes the last one once
-      if (is_fixed(poles.vertices.back())) continue;
-      Poles other = without_last(poles);
-      objective_.optimise(other, kFromNear, execution_);
-      if (!add_one(other)) continue;
-      exchange(other, count - 1);
-      if (other.variance > poles.variance * (1 - kGain)) continue;
-      poles = std::move(other);
-      moved = true;
-    }
-    return moved;
-  }
-
-  static void rotate(Poles& poles) {
-    std::rotate(poles.vertices.begin(), poles.vertices.begin() + 1, poles.vertices.end());
-    std::rotate(poles.residues.begin(), poles.residues.begin() + 1, poles.residues.end());
-  }
-
-  // The others share its residue on a closed surface.
-  Poles without_last(Poles poles) const {
-    const Index k = poles.residues.size() - 1;
-    const Complex last = poles.residues[k];
-    poles.vertices.pop_back();
-    poles.residues.conservativeResize(k);
-    if (landscape_.closed()) poles.residues.array() += last / static_cast<double>(k);
-    return poles;
-  }
-
-  bool add_one(Poles& poles) {
-    std::vector<Trial> trials = trials_everywhere(poles);
-    std::vector<Poles> tried;
-    for (const Trial& trial : trials) {
-      if (static_cast<int>(tried.size()) == kTried) break;
-      const bool known =
-          std::any_of(tried.begin(), tried.end(), [&](const Poles& p) { return p.vertices.back() == trial.vertex; });
-      if (!known) tried.push_back(joined(poles, trial));
-    }
-    if (tried.empty()) return false;
-    objective_.prepare(vertices_of(tried), execution_);
-    poles = best_optimised(std::move(tried), kWithTrial);
-    return true;
-  }
-
-  // One sweep over all poles; whether one moved.
-  bool sweep(Poles& poles) {
-    bool moved = false;
-    for (Index i = 0; i < poles.residues.size(); ++i) {
-      execution_.report(static_cast<double>(i) / static_cast<double>(poles.residues.size()));
-      if (is_fixed(poles.vertices[i])) continue;
-      moved |= exchange(poles, i);
-    }
-    return moved;
-  }
-
-  struct Trial {
-    double value;
-    int vertex;
-    Complex residue;
-  };
-
-  static std::vector<int> vertices_of(const std::vector<Poles>& list) {
-    std::vector<int> all;
-    for (const Poles& poles : list) all.insert(all.end(), poles.vertices.begin(), poles.vertices.end());
-    return all;
-  }
-
-  Poles best_optimised(std::vector<Poles> list, const std::vector<double>& floors) {
-    run_throwing(execution_.workers(), static_cast<int>(list.size()),
-                 [&](int i) { objective_.optimise(list[i], floors, execution_); });
-    return *std::min_element(list.begin(), list.end(),
-                             [](const Poles& a, const Poles& b) { return a.variance < b.variance; });
-  }
-
-  // All candidates with all trial residues beside the form as it is, the best first.
-  std::vector<Trial> trials_everywhere(const Poles& poles) {
-    const std::vector<int> candidates = candidates_.everywhere(poles.vertices);
-    const MatrixXcd green = landscape_.poles(candidates, execution_, every_ * kThinning);
-    const VectorXcd A = thinned(objective_.form(poles, execution_));
-    const double scale = std::sqrt(A.cwiseAbs2().mean() * landscape_.area());
-    const int phases = rules_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
-    std::vector<Trial> trials;
-    for (const int v : candidates) {
-      for (const double size : kTrialSizes) {
-        for (int j = 0; j < phases; ++j)
-          trials.push_back({0, v, std::polar(size * scale, 2 * std::numbers::pi * j / phases)});
-      }
-    }
-    const int each = static_cast<int>(std::size(kTrialSizes)) * phases;
-    run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int i) {
-      for (int j = i * each; j < (i + 1) * each; ++j)
-        trials[j].value = unevenness((A + trials[j].residue * green.col(i)).cwiseAbs2().array());
-    });
-    std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.value < b.value; });
-    return trials;
-  }
-
-  // With the trial's pole; the others share what it needs on a closed surface.
-  Poles joined(const Poles& poles, const Trial& trial) const {
-    Poles more = poles;
-    const Index k = poles.residues.size();
-    if (landscape_.closed() && k > 0) more.residues.array() -= trial.residue / static_cast<double>(k);
-    more.vertices.push_back(trial.vertex);
-    more.residues.conservativeResize(k + 1);
-    more.residues[k] = landscape_.closed() && k == 0 ? 0 : trial.residue;
-    return more;
-  }
-
-  // Scores all candidates for pole i with everything else as it is, and optimises the best ones.
-  bool exchange(Poles& poles, Index i) {
-    std::vector<int> others = poles.vertices;
-    others.erase(others.begin() + i);
-    const std::vector<int> candidates = candidates_.for_move(poles.vertices[i], others);
-    if (candidates.empty()) return false;
-    const MatrixXcd green = landscape_.poles(candidates, execution_, every_ * kThinning);
-    const VectorXcd A = objective_.form(poles, execution_);
-    const VectorXcd without =
-        thinned(A) - poles.residues[i] * landscape_.poles({poles.vertices[i]}, execution_, every_ * kThinning).col(0);
-    objective_.prepare(candidates, execution_);
-    objective_.prepare(poles.vertices, execution_);
-    const MatrixXcd metric = objective_.leverage_metric(A.cwiseAbs2().array());
-    std::vector<std::pair<double, int>> scores(candidates.size());
-    run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
-      std::vector<int> vertices = poles.vertices;
-      vertices[i] = candidates[j];
-      const Eigen::ArrayXd density = (without + poles.residues[i] * green.col(j)).cwiseAbs2().array();
-      scores[j] = {unevenness(density) + objective_.leverage_term(vertices, poles.residues, metric), candidates[j]};
-    });
-    std::sort(scores.begin(), scores.end());
-    std::vector<Poles> tried;
-    for (int j = 0; j < std::min<int>(kRefined, static_cast<int>(scores.size())); ++j) {
-      tried.push_back(poles);
-      tried.back().vertices[i] = scores[j].second;
-    }
-    Poles found = best_optimised(std::move(tried), kFromNear);
-    if (found.variance > poles.variance * (1 - kGain)) return false;
-    poles = std::move(found);
-    return true;
-  }
-
-  Landscape& landscape_;
-  const PlacementRules& rules_;
-  Execution& execution_;
-  PoleCandidates candidates_;
-  int every_;
-  PoleObjective objective_;
-};
+Poles at_the_best_places(PoleSearch& search, Poles poles) {
+  poles = search.settled(std::move(poles));
+  return static_cast<int>(poles.vertices.size()) > kFew ? search.pruned(std::move(poles)) : poles;
+}
 
 }  // namespace
 
@@ -249,24 +29,27 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count,
                         (landscape.closed() ? "on a closed surface the residues sum to 0, so two or more are needed"
                                             : "a disk needs one or more"));
   }
-  Search search(landscape, rules, count <= kFew ? 1 : kThinning, execution);
+  PoleSearch search(landscape, rules, count <= kFew ? 1 : kEvery, execution);
   Poles poles = search.begin();
   if (!search.add(poles, count)) {
     throw TopologyError("there is room for " + std::to_string(poles.vertices.size()) + " poles, not for " +
                         std::to_string(count) + ": their stars must be apart; take fewer, or subdivide the mesh");
   }
-  return optimised(landscape, rules, search.settled(std::move(poles)), execution);
+  if (static_cast<int>(rules.fixed.size()) < count) poles = at_the_best_places(search, std::move(poles));
+  return optimised(landscape, rules, std::move(poles), execution);
 }
 
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
-  Search few(landscape, rules, 1, execution), more(landscape, rules, kThinning, execution);
+  PoleSearch few(landscape, rules, 1, execution), more(landscape, rules, kEvery, execution);
   Poles added = few.begin(), best = added;
-  double least = density_ratio(density(landscape, best, execution));
+  double least = few.ratio(best);
   for (const int count : kCounts) {
-    Search& search = count <= kFew ? few : more;
+    PoleSearch& search = count <= kFew ? few : more;
     if (least <= (best.vertices.empty() ? kEvenWithout : kEvenWith) || !search.add(added, count)) break;
-    added = search.settled(std::move(added));
-    const double ratio = density_ratio(density(landscape, added, execution));
+    search.sweep(added);
+    if (count == *std::rbegin(kCounts) || search.ratio(added) < kHopeful)
+      added = at_the_best_places(search, std::move(added));
+    const double ratio = search.ratio(added);
     if (ratio > kWorth * least) continue;
     least = ratio;
     best = added;
@@ -277,7 +60,7 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution&
 Poles optimised(Landscape& landscape, const PlacementRules& rules, Poles start, Execution& execution) {
   PoleObjective objective(landscape, rules.kind);
   objective.prepare(start.vertices, execution);
-  objective.optimise(start, kFromNear, execution);
+  objective.optimise(start, {uv::kDensityFloor}, execution);
   return start;
 }
 

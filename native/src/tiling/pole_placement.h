@@ -4,19 +4,14 @@
 #include <vector>
 
 #include "tiling/landscape.h"
+#include "tiling/pole_candidates.h"
 #include "tiling/poles.h"
 
 namespace holomorph::tiling {
 
-struct PlacementRules {
-  uv::Coefficients kind = uv::Coefficients::complex;
-  std::vector<char> allowed;                    ///< #V of the landscape: may a pole be there; empty: anywhere
-  std::vector<int> fixed;                       ///< poles that stay where they are
-  std::vector<std::vector<int>> polygons = {};  ///< vertices of which one may be a pole, beside faces of the landscape
-};
-
 /// Poles are added one by one where they help most, until there are `count`; then each in turn moves to where the
-/// density becomes more even, or is taken away and added anew, until nothing is gained. On a closed surface with
+/// density becomes more even, or is taken away and added anew, until nothing is gained; then some more are added, and
+/// those that matter least taken away again. On a closed surface with
 /// handles a small term keeps them where moving them can take up the rounding of the periods (leverage.h). The fixed
 /// ones are among them.
 /// @throws TopologyError for a single pole on a closed surface, a surface of genus 0 without any, or where no vertex is
@@ -24,7 +19,7 @@ struct PlacementRules {
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count, Execution& execution);
 
 /// As many as the density asks for: none where its 95 % over 5 % quantile is at most 3 without; else the first of 2, 4,
-/// 8, 12, 16 with which it is at most 5.
+/// 8, 12, 16 with which it is at most 5, or the last with which it fell.
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution);
 
 /// With the best coefficients and residues near those given.

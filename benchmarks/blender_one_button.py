@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The one button beside Smart UV Project and Unwrap along Smart UV's seams, on every mesh object of files.
+
+    blender -b --factory-startup --python-exit-code 1 --python benchmarks/blender_one_button.py -- \\
+        FILE... [--json FILE] [--only-button]
+
+A FILE is a mesh file that the library reads or a .blend. For each object: what the button took (the report's
+verdict), and of each of the three active UV maps the 95 : 5 % ratio of the texture's density by area, mean s1/s2 by
+area (each triangle 10 at most, flipped ones count as 10), the edges along which the map is cut, and those of them
+across which a tiling texture jumps, because the two sides do not differ by integers.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+import addon
+from addon import mesh_io, native
+
+LARGEST_STRETCH = 10.0
+SAME = 1e-4  # of the UV square: coordinates that differ by less agree in single precision
+
+
+def triangle_measures(mesh, uv):
+    """Areas in space, densities (area in UVs by area in space) and s1/s2 of the mesh's triangles."""
+    mesh.calc_loop_triangles()
+    corners = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("loops", corners)
+    vertices = np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("vertex_index", vertices)
+    position = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", position)
+    x = position.reshape(-1, 3).astype(np.float64)[vertices[corners]].reshape(-1, 3, 3)
+    z = uv[corners].reshape(-1, 3, 2) @ [1, 1j]
+    a, b = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
+    area = np.linalg.norm(np.cross(a, b), axis=1) / 2
+    keep = area > 1e-12 * area.sum()
+    a, b, z, area = a[keep], b[keep], z[keep], area[keep]
+    length = np.linalg.norm(a, axis=1)
+    along = (a * b).sum(1) / length
+    height = 2 * area / length
+    du, dv = z[:, 1] - z[:, 0], z[:, 2] - z[:, 0]
+    by_x = du / length
+    by_y = (dv - by_x * along) / height
+    holomorphic, other = np.abs(by_x - 1j * by_y) / 2, np.abs(by_x + 1j * by_y) / 2
+    less = np.abs(holomorphic - other)
+    stretch = np.divide(holomorphic + other, less, out=np.full(len(less), LARGEST_STRETCH), where=less > 0)
+    stretch[holomorphic <= other] = LARGEST_STRETCH
+    return area, np.abs(holomorphic**2 - other**2), np.minimum(stretch, LARGEST_STRETCH)
+
+
+def density_ratio(area, density):
+    order = np.argsort(density)
+    part = np.cumsum(area[order]) / area.sum()
+    low, high = density[order][np.searchsorted(part, [0.05, 0.95])]
+    return float(high / low) if low > 0 else float("inf")
+
+
+def cut_edges(mesh, uv):
+    """How many edges the map is cut along, and how many of these a tiling texture does not run across."""
+    edge, vertex = np.empty(len(mesh.loops), np.int32), np.empty(len(mesh.loops), np.int32)
+    mesh.loops.foreach_get("edge_index", edge)
+    mesh.loops.foreach_get("vertex_index", vertex)
+    start, total = np.empty(len(mesh.polygons), np.int32), np.empty(len(mesh.polygons), np.int32)
+    mesh.polygons.foreach_get("loop_start", start)
+    mesh.polygons.foreach_get("loop_total", total)
+    following = np.arange(1, len(mesh.loops) + 1)
+    following[start + total - 1] = start
+    forward = vertex < vertex[following]
+    z = uv @ [1, 1j]
+    first, second = np.where(forward, z, z[following]), np.where(forward, z[following], z)
+    order = np.argsort(edge, kind="stable")
+    inner = np.flatnonzero(edge[order][1:] == edge[order][:-1])
+    one, other = order[inner], order[inner + 1]
+    jumps = np.stack([first[one] - first[other], second[one] - second[other]], -1)
+    is_cut = (np.abs(jumps) > SAME).any(1)
+    broken = jumps - np.round(jumps.real) - 1j * np.round(jumps.imag)
+    return int(is_cut.sum()), int((is_cut & (np.abs(broken) > SAME).any(1)).sum())
+
+
+def measured(mesh):
+    uv = np.empty(2 * len(mesh.loops), np.float32)
+    mesh.uv_layers.active.data.foreach_get("uv", uv)
+    uv = uv.reshape(-1, 2).astype(np.float64)
+    area, density, stretch = triangle_measures(mesh, uv)
+    cut, broken = cut_edges(mesh, uv)
+    return {
+        "95:5": density_ratio(area, density),
+        "s1/s2": float((area * stretch).sum() / area.sum()),
+        "seams": cut,
+        "visible": broken,
+    }
+
+
+def in_edit_mode(*operators):
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.context.scene.tool_settings.use_uv_select_sync = True
+    for operator, options in operators:
+        operator(**options)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def choose(obj):
+    for other in bpy.context.view_layer.objects:
+        other.select_set(False)
+    obj.select_set(True)
+    bpy.context.view_layer.objects.active = obj
+
+
+def compare(obj, only_button):
+    choose(obj)
+    row = {"object": obj.name, "faces": len(obj.data.polygons)}
+    try:
+        bpy.ops.uv.holomorphic_maps(checker=False)
+    except RuntimeError as error:
+        return row | {"refused": " ".join(str(error).split())}
+    row["button"] = measured(obj.data)
+    if only_button:
+        return row
+    obj.data.uv_layers.active = obj.data.uv_layers.new(name="Smart UV Project")
+    in_edit_mode((bpy.ops.uv.smart_project, {}), (bpy.ops.uv.seams_from_islands, {}))
+    row["smart"] = measured(obj.data)
+    in_edit_mode((bpy.ops.uv.unwrap, {"method": "ANGLE_BASED"}))
+    row["unwrap"] = measured(obj.data)
+    return row
+
+
+def objects_of(path):
+    if path.suffix == ".blend":
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        return [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH"]
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    surface = native.load().Surface.read(str(path))
+    mesh = mesh_io.new_mesh(path.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
+    obj = bpy.data.objects.new(path.stem, mesh)
+    bpy.context.scene.collection.objects.link(obj)
+    return [obj]
+
+
+def rows_of(path, only_button):
+    try:
+        found = objects_of(path)
+    except native.load().Error as error:
+        return [{"object": path.stem, "refused": str(error)}]
+    names = [obj.name for obj in found]
+    return [compare(bpy.data.objects[name], only_button) for name in names]
+
+
+def lines(rows):
+    yield f"{'object':28} {'':8} {'95:5':>9} {'s1/s2':>7} {'seams':>7} {'visible':>8}"
+    for row in rows:
+        if "refused" in row:
+            yield f"{row['object']:28} refused: {row['refused']}"
+        for name in ("button", "smart", "unwrap"):
+            if name in row:
+                of = row[name]
+                numbers = f"{of['95:5']:9.4g} {of['s1/s2']:7.4f} {of['seams']:7} {of['visible']:8}"
+                yield f"{row['object'] if name == 'button' else '':28} {name:8} {numbers}"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("files", nargs="+", type=Path)
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--only-button", action="store_true")
+    options = parser.parse_args(sys.argv[sys.argv.index("--") + 1 :])
+    addon.register()
+    rows = [row for path in options.files for row in rows_of(path, options.only_button)]
+    print("\n".join(lines(rows)))
+    if options.json:
+        options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+
+
+main()
