@@ -30,7 +30,7 @@ def part_report(part):
                     "density_ratio": float(made.density_ratio),
                     "left_over": float(made.left_over),
                     "poles": part.vertices(made.poles),
-                    "residues": package.complex_pairs(made.residues),
+                    "residues": made.residues,
                     "zeros": part.vertices(zeros),
                     "orders": np.asarray(orders),
                     "periods": np.asarray(made.periods),

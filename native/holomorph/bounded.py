@@ -11,7 +11,7 @@ from .array_types import Bounds, Integers, Reals
 from .certificate import certain_text
 from .checks import NoInvariant
 from .form_structure import CertifiedStructure
-from .report import bound_lists, complex_pairs
+from .plain_data import plain
 from .results import BoundedResiduals
 
 
@@ -144,14 +144,14 @@ class BoundedStructure(CertifiedStructure):
         surface = self._component
         values = {
             "conventions": "Omega is the period matrix of the double, a_i.b_j = delta_ij; loop 0 is the longest",
-            "period_matrix": complex_pairs(self.period_matrix),
-            "period_bounds": bound_lists(self.period_bounds),
+            "period_matrix": self.period_matrix,
+            "period_bounds": self.period_bounds,
             "collapsed_triangles": len(self.collapsed_triangles),
         }
         if surface.genus == 0:
-            values["capacity_matrix"] = self.capacity_matrix.tolist()
-            values["capacity_bounds"] = bound_lists(self.capacity_bounds)
+            values["capacity_matrix"] = self.capacity_matrix
+            values["capacity_bounds"] = self.capacity_bounds
         if (surface.genus, surface.boundary_count) == (0, 2):
-            values["modulus"], values["modulus_bounds"] = self.modulus, bound_lists(self.modulus_bounds)
+            values["modulus"], values["modulus_bounds"] = self.modulus, self.modulus_bounds
             values["modulus_text"] = None if self.modulus_bounds is None else certain_text(*self.modulus_bounds)
-        return values
+        return plain(values)

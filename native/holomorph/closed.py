@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from .array_types import Integers, Reals
 from .form_structure import CertifiedStructure
-from .report import bound_lists, complex_pairs
+from .plain_data import plain
 from .results import ClosedResiduals
 
 
@@ -61,8 +61,9 @@ class ConformalStructure(CertifiedStructure):
 
     def invariants(self) -> dict[str, Any]:
         """The period matrix with its bounds, as plain data."""
-        return {
+        values = {
             "conventions": "a_i.b_j = delta_ij; theta_j has period 1 over a_j; Omega_ij is its integral over b_i",
-            "period_matrix": complex_pairs(self.period_matrix),
-            "period_bounds": bound_lists(self.period_bounds),
+            "period_matrix": self.period_matrix,
+            "period_bounds": self.period_bounds,
         }
+        return plain(values)

@@ -6,7 +6,7 @@ import sys
 
 from . import Error, Surface
 from .equivalence import VERDICTS, conformally_equivalent
-from .report import plain
+from .plain_data import plain
 
 EXIT_CODES = dict(zip(VERDICTS, (0, 3, 4, 5), strict=True))
 """Of a verdict. 1: not compared, one sentence says why; 2: the command was misspelled."""

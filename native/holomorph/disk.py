@@ -13,9 +13,9 @@ from .array_types import Complexes, Integers, Progress, Reals
 from .checks import checked_coefficients, own_vertices
 from .edges import boundary_corners
 from .overlap import overlapping_part
+from .plain_data import plain
 from .punctured import PuncturedStructure
 from .quality import Quality
-from .report import bound_lists, finite_or_none
 from .results import SolverReport, Structure, result
 
 UNEVEN = 100.0  # density ratio of a disk map, ten in length, above which others are tried
@@ -86,7 +86,7 @@ class DiskMap(PlaneMap):
 
     def invariants(self) -> dict[str, Any]:
         """The centre, as plain data: all disks are alike."""
-        return {"punctures": self.punctures.tolist()}
+        return plain({"punctures": self.punctures})
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -133,11 +133,8 @@ class RectangleMap(PlaneMap):
 
     def invariants(self) -> dict[str, Any]:
         """The corners, and the modulus with its bounds, as plain data."""
-        return {
-            "rectangle_corners": self.corners.tolist(),
-            "modulus": finite_or_none(self.modulus),
-            "modulus_bounds": bound_lists(self.modulus_bounds),
-        }
+        values = {"rectangle_corners": self.corners, "modulus": self.modulus, "modulus_bounds": self.modulus_bounds}
+        return plain(values)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

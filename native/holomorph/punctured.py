@@ -9,7 +9,7 @@ import numpy as np
 from . import arrays
 from .array_types import Complexes, Integers, Reals
 from .form_structure import FormStructure
-from .report import complex_pairs
+from .plain_data import plain
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -66,7 +66,7 @@ class PuncturedStructure(FormStructure):
 
     def invariants(self) -> dict[str, Any]:
         """The punctures and their residues, as plain data: no other invariants are computed."""
-        return {"punctures": self.punctures.tolist(), "residues": complex_pairs(self.residues)}
+        return plain({"punctures": self.punctures, "residues": self.residues})
 
 
 def _text(residue):

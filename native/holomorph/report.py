@@ -1,12 +1,12 @@
-"""Reports as plain data, ready for JSON. Complex numbers are pairs [real, imaginary]; JSON knows no infinity."""
+"""What was found out about surfaces, structures and maps, as plain data, ready for JSON."""
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .plain_data import plain
 from .verdicts import Verdict, overall
 
 if TYPE_CHECKING:
@@ -16,35 +16,6 @@ if TYPE_CHECKING:
     from .surface import Surface
 
 LISTED = 20  # elements of a repair that a report names
-
-
-def complex_pairs(matrix: ArrayLike) -> list[Any]:
-    """Nested lists in which each complex number is [real, imaginary]."""
-    matrix = np.asarray(matrix)
-    return np.stack([matrix.real, matrix.imag], axis=-1).tolist()
-
-
-def bound_lists(bounds: tuple[ArrayLike, ArrayLike] | None) -> list[Any] | None:
-    """[lower, upper] as lists or numbers; None for none."""
-    return None if bounds is None else [np.asarray(bound).tolist() for bound in bounds]
-
-
-def finite_or_none(number: float) -> float | None:
-    """None for an infinite number."""
-    return number if math.isfinite(number) else None
-
-
-def plain(value: object) -> Any:
-    """Dictionaries, sequences, arrays and numbers as JSON has them: None for what is not finite."""
-    if isinstance(value, dict):
-        return {str(name): plain(entry) for name, entry in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [plain(entry) for entry in value]
-    if isinstance(value, (np.ndarray, np.generic)):
-        return plain(value.tolist())
-    if isinstance(value, complex):
-        return [finite_or_none(value.real), finite_or_none(value.imag)]
-    return finite_or_none(value) if isinstance(value, float) else value
 
 
 def component_report(

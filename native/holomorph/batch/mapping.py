@@ -7,7 +7,8 @@ import numpy as np
 
 from .. import choice
 from .._native import Error, TopologyError
-from ..report import complex_pairs, component_report, map_report, plain, refused_report, skipped_report
+from ..plain_data import plain
+from ..report import component_report, map_report, refused_report, skipped_report
 from ..structure import conformal_structure
 from ..surface import Surface
 
@@ -164,7 +165,7 @@ def _tiling_report(part):
             "left_over": float(made.left_over),
             "tiles": float(made.tiles),
             "poles": index[made.poles],
-            "residues": complex_pairs(made.residues),
+            "residues": made.residues,
             "zeros": index[zeros],
             "orders": np.asarray(orders),
             "periods": np.asarray(made.periods),
