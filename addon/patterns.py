@@ -81,8 +81,8 @@ def bricks(size):
 
 
 def scales(size):
-    """Eight scales by sixteen rows, tips downwards, each row over the one below it."""
-    across, rows, radius = 8, 16, 0.66
+    """Four scales by eight rows, tips downwards, each row over the one below it."""
+    across, rows, radius = 4, 8, 0.66
     x, y = grid(size)
     x, y = np.broadcast_arrays(x * across, y * across)
     depth, at, angle = np.full((size, size), -1.0), np.zeros((size, size), int), np.zeros((size, size))
@@ -96,7 +96,7 @@ def scales(size):
         depth, angle = np.where(covers, inside / radius, depth), np.where(covers, dx, angle)
         at = np.where(covers, _cell(x - dx, row, across, rows), at)
     tint = chance(21, rows * across)[at]
-    grain = noise(size, 22, 30, 60, 2)
+    grain = noise(size, 22, 15, 30, 2)
     ridge = np.exp(-((angle / 0.035) ** 2))
     body = mix(mix((0.012, 0.085, 0.075), (0.03, 0.17, 0.12), tint), (0.20, 0.30, 0.09), smoothstep(0.45, 0.0, depth))
     body = mix(body, (0.55, 0.47, 0.17), 0.85 * smoothstep(0.14, 0.03, depth))
@@ -198,7 +198,7 @@ class Texture(NamedTuple):
 TEXTURES = {
     "NUMBERED": Texture(numbered, CELLS, 0.6),
     "BRICKS": Texture(bricks, 4, 0.85, 0.012),
-    "SCALES": Texture(scales, 8, 0.35, 0.02),
+    "SCALES": Texture(scales, 4, 0.35, 0.04),
     "WEAVE": Texture(weave, 16, 0.9, 0.010),
     "PLANKS": Texture(planks, 8, 0.55, 0.006),
     "HEXAGONS": Texture(hexagons, 7, 0.18, 0.006),

@@ -134,6 +134,8 @@ def compare(obj, only_button):
 def objects_of(path):
     if path.suffix == ".blend":
         bpy.ops.wm.open_mainfile(filepath=str(path))
+        if bpy.context.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
         return [obj for obj in bpy.context.view_layer.objects if obj.type == "MESH"]
     bpy.ops.wm.read_factory_settings(use_empty=True)
     surface = native.load().Surface.read(str(path))

@@ -145,7 +145,7 @@ def hide_poles():
     bpy.ops.object.mode_set(mode="WEIGHT_PAINT")
     yield from show("group", view())
     bpy.ops.object.mode_set(mode="OBJECT")
-    call(bpy.ops.uv.holomorphic_tile, texture="SCALES", tiles=24, pole_group="Hidden")
+    call(bpy.ops.uv.holomorphic_tile, texture="SCALES", tiles=96, pole_group="Hidden")
     seen["poles in the group"] = part_report(critter.name)["tiling"]["poles"]
     seen["sentence with the group"] = part_report(critter.name)["main_map"]["verdict"]["sentence"]
     yield from show("hidden", view())

@@ -1,4 +1,4 @@
-// The Abel-Jacobi map against the forms it foretells, and walks.
+// The Abel-Jacobi map against the forms it foretells, walks, and measures of evenness.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -12,6 +12,7 @@
 #include "tiling/abel_jacobi.h"
 #include "tiling/closed_maps.h"
 #include "tiling/leverage.h"
+#include "tiling/poles.h"
 #include "tiling/rounding.h"
 #include "tiling/seamless_map.h"
 
@@ -88,6 +89,15 @@ TEST(Leverage, FollowsThePole) {
       EXPECT_LT(std::abs(t - tau * dz), 0.1 * std::abs(tau));
     }
   }
+}
+
+TEST(Spread, SeesSmallParts) {
+  Eigen::ArrayXd density = Eigen::ArrayXd::Ones(1000);
+  density.head(20) = 0.01;  // toes: 2 % of the area
+  EXPECT_DOUBLE_EQ(density_ratio(density), 1);
+  EXPECT_DOUBLE_EQ(spread(density), 50);
+  density.head(200) = 0.01;
+  EXPECT_DOUBLE_EQ(spread(density), 100);
 }
 
 TEST(ClosedMaps, OneFormIsTheCombinationOfTheBasis) {

@@ -9,12 +9,12 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr int kCounts[] = {2, 4, 8, 12, 16};  // of poles by themselves
-constexpr int kFew = 4;                       // so many are placed by all samples,
-constexpr int kEvery = 3;                     // more of them by every third one
-constexpr double kEvenWithout = 3, kEvenWith = 5;
-constexpr double kHopeful = 2 * kEvenWith;  // only with a lower ratio a count is worth a search for the best places
-constexpr double kWorth = 0.9;  // more poles are taken where the ratio of the density falls to this part of itself
+constexpr int kCounts[] = {2, 4, 8, 12, 16};       // of poles by themselves
+constexpr int kFew = 4;                            // so many are placed by all samples,
+constexpr int kEvery = 3;                          // more of them by every third one
+constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
+constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
+constexpr double kWorth = 0.9;              // more poles are taken where the spread falls to this part of itself
 
 Poles at_the_best_places(PoleSearch& search, Poles poles) {
   poles = search.settled(std::move(poles));
@@ -42,16 +42,16 @@ Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count,
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution) {
   PoleSearch few(landscape, rules, 1, execution), more(landscape, rules, kEvery, execution);
   Poles added = few.begin(), best = added;
-  double least = few.ratio(best);
+  double least = few.spread_of(best);
   for (const int count : kCounts) {
     PoleSearch& search = count <= kFew ? few : more;
     if (least <= (best.vertices.empty() ? kEvenWithout : kEvenWith) || !search.add(added, count)) break;
     search.sweep(added);
-    if (count == *std::rbegin(kCounts) || search.ratio(added) < kHopeful)
+    if (count == *std::rbegin(kCounts) || search.spread_of(added) < kHopeful)
       added = at_the_best_places(search, std::move(added));
-    const double ratio = search.ratio(added);
-    if (ratio > kWorth * least) continue;
-    least = ratio;
+    const double spread = search.spread_of(added);
+    if (spread > kWorth * least) continue;
+    least = spread;
     best = added;
   }
   return optimised(landscape, rules, std::move(best), execution);

@@ -18,8 +18,8 @@ namespace holomorph::tiling {
 /// left whose star is apart from those of the others; SolverError; Cancelled
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, int count, Execution& execution);
 
-/// As many as the density asks for: none where its 95 % over 5 % quantile is at most 3 without; else the first of 2, 4,
-/// 8, 12, 16 with which it is at most 5, or the last with which it fell.
+/// As many as the density asks for: none where its spread is at most 3 without; else the first of 2, 4, 8, 12, 16 with
+/// which it is at most 5, or the last with which it fell.
 Poles placed_poles(Landscape& landscape, const PlacementRules& rules, Execution& execution);
 
 /// With the best coefficients and residues near those given.

@@ -106,7 +106,7 @@ Poles PoleSearch::pruned(Poles poles) {
     other = best_optimised(std::move(tried), kFromNear);
   }
   sweep_to_the_end(other);
-  return ratio(other) < ratio(poles) ? other : poles;
+  return spread_of(other) < spread_of(poles) ? other : poles;
 }
 
 bool PoleSearch::is_fixed(int vertex) const {

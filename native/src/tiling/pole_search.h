@@ -29,8 +29,7 @@ class PoleSearch {
   /// Of some more poles those that matter, where that is more even: another optimum, which relocating one pole after
   /// the other does not reach. @pre more than a few poles
   Poles pruned(Poles poles);
-  /// 95 % over 5 % quantile of the density.
-  double ratio(const Poles& poles) const { return density_ratio(density(landscape_, poles, execution_)); }
+  double spread_of(const Poles& poles) const { return spread(density(landscape_, poles, execution_)); }
 
  private:
   struct Trial {

@@ -3,8 +3,17 @@
 #include <algorithm>
 
 namespace holomorph::tiling {
+namespace {
 
 constexpr double kLeast = 1e-200;  // relative
+
+double quantile(std::vector<double>& values, double q) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+}  // namespace
 
 Eigen::ArrayXd density(Landscape& landscape, const Poles& poles, Execution& execution) {
   return (landscape.holomorphic().M * poles.coefficients + landscape.poles(poles.vertices, execution) * poles.residues)
@@ -26,12 +35,12 @@ double unevenness(const Eigen::ArrayXd& density) {
 
 double density_ratio(const Eigen::ArrayXd& density) {
   std::vector<double> values(density.begin(), density.end());
-  const auto quantile = [&](double q) {
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), place, values.end());
-    return *place;
-  };
-  return quantile(0.95) / quantile(0.05);
+  return quantile(values, 0.95) / quantile(values, 0.05);
+}
+
+double spread(const Eigen::ArrayXd& density) {
+  std::vector<double> values(density.begin(), density.end());
+  return std::max(quantile(values, 0.95) / quantile(values, 0.05), quantile(values, 0.5) / quantile(values, 0.01) / 2);
 }
 
 }  // namespace holomorph::tiling

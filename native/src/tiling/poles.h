@@ -28,4 +28,8 @@ double unevenness(const Eigen::ArrayXd& density);
 /// 95 % over 5 % quantile.
 double density_ratio(const Eigen::ArrayXd& density);
 
+/// That, or half of the median over the 1 % quantile where it is larger: toes and horns have little area, and are seen
+/// all the same where one square covers them.
+double spread(const Eigen::ArrayXd& density);
+
 }  // namespace holomorph::tiling
