@@ -91,13 +91,16 @@ def test_bounded_surfaces(name, image):
 
 
 def test_pants_are_mapped_loop_onto_loop():
-    """They are their own mirror images: whichever map is found, it keeps angles and harmonic measures."""
+    """They have twelve conformal maps to themselves, and the last bits decide which is found first. It keeps angles and
+    harmonic measures; at the worst vertex, which lies elsewhere in each, to a tenth of an edge's length."""
     mesh = twisted(families.punched(families.block_with_holes(0, refine=5, jitter=0.2), 3, seed=2))
     a, b = structures(mesh, moebius_image(mesh))
     found = conformal_map(a, b)
     expected = potentials(a) @ found.equivalence.matrix.T
     images = found.of(potentials(b))
-    assert min(np.ptp(images - sign * expected, axis=0).max() for sign in (1, -1)) < 0.01
+    errors = min((images - sign * expected for sign in (1, -1)), key=lambda each: np.ptp(each, axis=0).max())
+    assert np.ptp(errors, axis=0).max() < 0.02
+    assert np.std(errors, axis=0).max() < 0.002
     assert np.median(angles(found, a, b)) < 1.2
 
 
