@@ -60,10 +60,9 @@ def tiled(solved, options, progress=None, density=0.0):
     total, done, made = sum(c.area for c in asked), 0.0, {}
     for component in asked:
         share = component.area / total
-        wanted = tiling.TileOptions(tiles=density * component.area)
-        part = tiling.tile_part(component, wanted, tiling.scaled(progress, done, share))
+        part = _part(component, options, density * component.area, tiling.scaled(progress, done, share))
         done += share
-        if _is_taken(part, options):
+        if part is not None:
             made[id(component)] = part
             density = density or (part.tiling.tiles / component.area if part.tiling else 0.0)
     return tiling.TiledObject(solved, tuple(made[id(c)] for c in solved.components if id(c) in made))
@@ -74,17 +73,24 @@ def _asks_for_one(component, options):
         return options.main == maps.SEAMLESS
     if not options.are_plain or component.is_chosen or component.area == 0:
         return False
-    return native.load().choice.is_uneven(maps.main_map(component, options).report["density_ratio"])
+    balanced = maps.main_map(component, options).report
+    return native.load().choice.is_worth_a_tiling(component.structure, balanced["density_ratio"])
 
 
-def _is_taken(part, options):
-    """Whether the tiling of a part, or its refusal, takes the place of the balanced map."""
+def _part(component, options, tiles, progress):
+    """The `tiling.TiledPart` that takes the place of the balanced map, or refuses to where it was asked for; None where
+    the balanced map stays."""
+
+    wanted = tiling.TileOptions(tiles=tiles)
     if options.main == maps.SEAMLESS:
-        return True
-    if part.tiling is None:
-        return False
-    balanced = maps.main_map(part.component, options).report
-    return native.load().choice.is_better(part.tiling, balanced["density_ratio"], balanced["capped_mean_angle"])
+        return tiling.tile_part(component, wanted, progress)
+    choice, balanced = native.load().choice, maps.main_map(component, options).report
+    for index, poles in enumerate(choice.POLES):
+        own = tiling.scaled(progress, index / len(choice.POLES), 1 / len(choice.POLES))
+        part = tiling.tile_part(component, replace(wanted, poles=poles), own)
+        if part.tiling and choice.is_better(part.tiling, balanced["density_ratio"], balanced["capped_mean_angle"]):
+            return part
+    return None
 
 
 def map_values(solved, options, tiled):

@@ -46,7 +46,7 @@ def _parser():
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
-    text = "with --output default automatic: a seamless tiling where that is more even; else balanced"
+    text = "with --output default automatic: a seamless tiling where that is no less even; else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")

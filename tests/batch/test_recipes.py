@@ -59,20 +59,21 @@ def test_density_of_a_tiling(torus):
         assert part.tiling.tiles == pytest.approx(2.0 * part.surface.area, rel=1e-9)
 
 
-def test_a_tiling_is_compared_where_the_map_is_uneven(torus):
-    """A slender torus is even by itself. A fat one gets whichever is better; either when the recipe says so."""
+def test_a_tiling_is_compared_where_the_map_is_uneven_or_has_seams(torus):
+    """A slender torus is even by itself, and becomes seamless without poles, as does one that poles make less even."""
     radius = np.linalg.norm(torus.vertices[:, [0, 2]], axis=1)
     slender = torus.vertices * np.stack([1 + 18 / radius, np.ones_like(radius), 1 + 18 / radius], axis=1)
     even = holomorph.Surface.from_polygons(slender, torus.corner_vertices, torus.face_offsets)
     (part,), _ = mapped(even)
-    assert part.tiling is None and part.quality.density_ratio < holomorph.choice.EVEN
+    assert len(part.tiling.poles) == 0 and part.quality.density_ratio < holomorph.choice.EVEN
     (balanced,), _ = mapped(torus, maps={"main": "balanced"})
-    (seamless,), _ = mapped(torus, maps={"main": "seamless"})
     (chosen,), _ = mapped(torus)
     assert balanced.quality.density_ratio > holomorph.choice.EVEN
+    tried = [mapped(torus, maps={"main": "seamless"}, tiling={"poles": p})[0][0] for p in holomorph.choice.POLES]
     ratio, angle = balanced.quality.density_ratio, balanced.quality.capped_mean_angle
-    assert bool(chosen.tiling) == holomorph.choice.is_better(seamless.tiling, ratio, angle)
-    assert balanced.tiling is None and seamless.tiling is not None
+    better = [p.tiling for p in tried if holomorph.choice.is_better(p.tiling, ratio, angle)]
+    assert balanced.tiling is None
+    assert np.array_equal(chosen.uv, better[0].uv if better else balanced.uv)
 
 
 def test_punctures_of_the_part_they_lie_on(torus):

@@ -6,10 +6,15 @@ import json
 import bmesh
 import bpy
 import numpy as np
+from conftest import ROOT
 
 mesh_edges = importlib.import_module("holomorph_addon.mesh_edges")
 mesh_io = importlib.import_module("holomorph_addon.mesh_io")
 native = importlib.import_module("holomorph_addon.native")
+
+
+def open_example(name):
+    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "blend_examples" / f"{name}.blend"))
 
 
 def select(*objects):
@@ -78,6 +83,14 @@ def two_parts(name, first, second):
     vertices = [*first[0], *(np.asarray(second[0]) + (0, 0, 3))]
     faces = [tuple(f) for f in first[1]] + [tuple(i + len(first[0]) for i in f) for f in second[1]]
     return mesh_object(name, vertices, faces)
+
+
+def grid_arrays(count=6):
+    """Quads of a square that is hardly bent: its map is even, and has no seams."""
+    i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij")
+    vertices = np.stack([i, j, 0.1 * i * j], -1).reshape(-1, 3).astype(float)
+    a = (i * (count + 1) + j)[:-1, :-1].ravel()
+    return vertices, np.stack([a, a + count + 1, a + count + 2, a + 1], -1)
 
 
 def sphere_arrays(subdivisions=2):

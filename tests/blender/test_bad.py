@@ -4,8 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_io, mesh_object, run, select, torus, torus_arrays, two_parts
-from test_choices import grid_arrays
+from scenes import grid_arrays, mesh_io, mesh_object, run, select, torus, torus_arrays, two_parts
 from test_faces import pick_faces
 from test_refusals import moebius
 

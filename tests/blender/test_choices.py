@@ -4,16 +4,9 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_edges, mesh_object, pick, sphere_arrays, torus, torus_arrays
+from scenes import grid_arrays, mesh_edges, mesh_object, pick, sphere_arrays, torus, torus_arrays
 
 choices, native, targets = module("choices"), module("native"), module("targets")
-
-
-def grid_arrays(count=6):
-    i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1), indexing="ij")
-    vertices = np.stack([i, j, 0.1 * i * j], -1).reshape(-1, 3).astype(float)
-    a = (i * (count + 1) + j)[:-1, :-1].ravel()
-    return vertices, np.stack([a, a + count + 1, a + count + 2, a + 1], -1)
 
 
 def part_of(*arrays):

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import edge_mismatch, mesh_edges, parts_of, run, select, stored_report, straightness, uv
+from scenes import edge_mismatch, mesh_edges, open_example, parts_of, run, select, stored_report, straightness, uv
 
 # name: object, (genus, boundary loops) of its parts
 EXAMPLES = {
@@ -45,7 +45,7 @@ def face_sizes(mesh):
 def test_examples_are_what_an_artist_makes():
     sizes = {}
     for name in EXAMPLES:
-        bpy.ops.wm.open_mainfile(filepath=str(ROOT / "blend_examples" / f"{name}.blend"))
+        open_example(name)
         sizes[name] = face_sizes(bpy.context.view_layer.objects.active.data)
     for name in ("torus", "mug", "chain", "knot", "lantern", "hand", "pipe", "mask"):
         assert np.all(sizes[name] == 4), name
@@ -55,7 +55,7 @@ def test_examples_are_what_an_artist_makes():
 
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_example(name):
-    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "blend_examples" / f"{name}.blend"))
+    open_example(name)
     objects = [bpy.data.objects[n] for n in EXAMPLES[name]]
     select(*objects)
     assert run(main="BALANCED", seams=True) == {"FINISHED"}
@@ -91,7 +91,7 @@ def check_map(obj, values, found, least_extent):
 
 
 def test_the_hand_has_the_five_forms_of_the_papers_figure():
-    bpy.ops.wm.open_mainfile(filepath=str(ROOT / "blend_examples" / "hand.blend"))
+    open_example("hand")
     hand = bpy.data.objects["Hand"]
     assert run() == {"FINISHED"}
     assert [m["name"] for m in stored_report(hand)["maps"]] == [

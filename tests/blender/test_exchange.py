@@ -6,8 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_io, select, torus, torus_arrays
-from test_choices import grid_arrays
+from scenes import grid_arrays, mesh_io, select, torus, torus_arrays
 from test_faces import add_own_map
 from test_headless import headless, our_lines, write_obj
 

@@ -7,6 +7,7 @@ import pytest
 from conftest import module
 from scenes import (
     everything,
+    grid_arrays,
     mesh_edges,
     mesh_io,
     mesh_object,
@@ -18,7 +19,6 @@ from scenes import (
     torus_arrays,
     uv,
 )
-from test_choices import grid_arrays
 
 ACROSS = 12  # of the torus of the scenes
 

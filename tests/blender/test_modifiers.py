@@ -4,8 +4,19 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import edge_mismatch, everything, mesh_object, pick, run, select, stored_report, torus, torus_arrays, uv
-from test_choices import grid_arrays
+from scenes import (
+    edge_mismatch,
+    everything,
+    grid_arrays,
+    mesh_object,
+    pick,
+    run,
+    select,
+    stored_report,
+    torus,
+    torus_arrays,
+    uv,
+)
 from test_faces import pick_faces
 
 

@@ -28,5 +28,8 @@ def test_a_tiling_is_to_be_about_as_even_and_hardly_more_sheared(made, balanced,
     assert choice.is_better(made, *balanced) == is_better
 
 
-def test_an_even_map_is_not_compared():
-    assert [choice.is_uneven(ratio) for ratio in (1.9, 2.1, None)] == [False, True, True]
+def test_an_even_map_without_seams_is_not_compared():
+    for seams in ([], [3]):
+        structure = SimpleNamespace(seams=seams)
+        asked = [choice.is_worth_a_tiling(structure, ratio) for ratio in (1.9, 2.1, None)]
+        assert asked == [bool(seams), True, True]

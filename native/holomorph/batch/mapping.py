@@ -108,15 +108,13 @@ def _tile(parts, recipe):
     for part in asked:
         tiles = recipe.tiling.tiles * part.surface.area / total if total > 0 else 0.0
         try:
-            made = _tiling(part, recipe.tiling, tiles or None, None if tiles else density)
+            made = _taken_tiling(part, recipe, tiles or None, None if tiles else density)
         except MemoryError:
             raise
         except Error as error:
-            if recipe.maps.main == "seamless":
-                part.structure, part.reason = None, str(error)
+            part.structure, part.reason = None, str(error)
             continue
-        quality = part.quality
-        if recipe.maps.main == "seamless" or choice.is_better(made, quality.density_ratio, quality.capped_mean_angle):
+        if made is not None:
             part.tiling, part.uv, part.quality, part.coefficients = made, made.uv, made.quality, ()
             density = density or made.tiles / part.surface.area
 
@@ -127,13 +125,31 @@ def _asks_for_tiling(part, maps):
     if maps.main == "seamless":
         return True
     is_plain = maps.density == 1 and maps.rotation == 0 and not (maps.punctures or maps.rectangle_corners)
-    return is_plain and choice.is_uneven(part.quality.density_ratio)
+    return is_plain and choice.is_worth_a_tiling(part.structure, part.quality.density_ratio)
 
 
-def _tiling(part, wanted, tiles, density):
+def _taken_tiling(part, recipe, tiles, density):
+    """The tiling that takes the place of the balanced map; None where that stays. @throws Error where a tiling was asked
+    for"""
+    wanted = recipe.tiling
     poles = wanted.poles
     if isinstance(poles, tuple):
         poles = _own(part.surface, poles)[0] or "auto"
+    if recipe.maps.main == "seamless":
+        return _tiling(part, wanted, poles, tiles, density)
+    for tried in choice.POLES if poles == "auto" else (poles,):
+        try:
+            made = _tiling(part, wanted, tried, tiles, density)
+        except MemoryError:
+            raise
+        except Error:
+            continue
+        if choice.is_better(made, part.quality.density_ratio, part.quality.capped_mean_angle):
+            return made
+    return None
+
+
+def _tiling(part, wanted, poles, tiles, density):
     return part.structure.tile(
         tiles,
         density,
