@@ -1,4 +1,4 @@
-"""Which map of a part is shown first: the balanced one of its forms, or a seamless tiling where that is no less even."""
+"""Which map of a part is shown first: the balanced one of its forms, or a tiling where that is no less even."""
 
 import math
 from typing import TYPE_CHECKING

@@ -129,8 +129,9 @@ def _asks_for_tiling(part, maps):
 
 
 def _taken_tiling(part, recipe, tiles, density):
-    """The tiling that takes the place of the balanced map; None where that stays. @throws Error where a tiling was asked
-    for"""
+    """The tiling that takes the place of the balanced map; None where that stays.
+
+    @throws Error where a tiling was asked for and cannot be made"""
     wanted = recipe.tiling
     poles = wanted.poles
     if isinstance(poles, tuple):
