@@ -106,7 +106,8 @@ Poles PoleSearch::pruned(Poles poles) {
     other = best_optimised(std::move(tried), kFromNear);
   }
   sweep_to_the_end(other);
-  return spread_of(other) < spread_of(poles) ? other : poles;
+  const auto ratio = [&](const Poles& each) { return density_ratio(density(landscape_, each, execution_)); };
+  return ratio(other) < ratio(poles) ? other : poles;
 }
 
 bool PoleSearch::is_fixed(int vertex) const {
