@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the files of blend_examples/seamless: examples with a finished seamless tiling, to be looked at as they open.
+Run it with Blender 3.4, after scripts/build (scripts/seamless_examples does):
+
+blender -b --factory-startup --python-exit-code 1 --python blend_examples/make_seamless.py -- PICTURES [name...]
+
+A picture of each goes to the folder PICTURES. The textures of the add-on lie beside the files, once for all of them, at a
+size that is enough there.
+"""
+
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import addon
+from addon import mesh_io, studio
+from modeling import subdivide
+
+HERE = Path(__file__).resolve().parent
+FOLDER = HERE / "seamless"
+TEXTURES = FOLDER / "textures"
+SIZE = 512  # pixels across an image
+VIEW = (0.87, 0.37, 0.12, 0.29)  # quaternion: three quarters, from above
+DISTANCE = 1.6  # of the view from the object, in diagonals of its bounding box
+RESOLUTION, SAMPLES = 420, 24  # of a picture
+
+
+class Tiling(NamedTuple):
+    """What *Seamless Tiling* is asked for."""
+
+    texture: str
+    tiles: int
+    direction: str = "NONE"
+    quarters: int = 0
+
+
+FILES = {
+    "critter": Tiling("SCALES", 96),
+    "mug": Tiling("BRICKS", 24, "Z", 1),
+    "suzanne": Tiling("WEAVE", 40),
+    "hand": Tiling("WEAVE", 24),
+    "pretzel": Tiling("BRICKS", 24),
+    "pipe": Tiling("HEXAGONS", 24),
+    "armadillo": Tiling("SCALES", 96),
+    "text": Tiling("PLANKS", 60),
+}
+
+
+def suzanne():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.mesh.primitive_monkey_add()
+    monkey = bpy.context.object
+    monkey.data.uv_layers.remove(monkey.data.uv_layers[0])
+    subdivide(monkey, 1)
+    bpy.ops.object.shade_smooth()
+    return monkey
+
+
+def opened(name):
+    if name == "suzanne":
+        return suzanne()
+    bpy.ops.wm.open_mainfile(filepath=str(HERE / f"{name}.blend"))
+    return bpy.context.view_layer.objects.active
+
+
+def share_images():
+    """Images that are packed become files of the folder with the textures, which all examples read."""
+    for packed in [image for image in bpy.data.images if image.packed_file]:
+        ending = "png" if packed.colorspace_settings.name == "Non-Color" else "jpg"  # heights are exact numbers
+        path = TEXTURES / f"{packed.name.removeprefix('Holomorph ').lower().replace(' ', '_')}.{ending}"
+        if not path.exists():
+            packed.scale(SIZE, SIZE)
+            packed.filepath_raw, packed.file_format = str(path), {"png": "PNG", "jpg": "JPEG"}[ending]
+            packed.save()
+        shared = bpy.data.images.load(str(path))
+        shared.colorspace_settings.name = packed.colorspace_settings.name
+        shared.filepath = f"//textures/{path.name}"
+        packed.user_remap(shared)
+        bpy.data.images.remove(packed)
+
+
+def show(obj):
+    """In every view of the file: with its texture, from a side on which there is something to see."""
+    points = mesh_io.world_points(obj)
+    low, high = points.min(axis=0), points.max(axis=0)
+    for area in (area for screen in bpy.data.screens for area in screen.areas if area.type == "VIEW_3D"):
+        space = area.spaces.active
+        space.shading.type = "MATERIAL"
+        view = space.region_3d
+        view.view_location, view.view_rotation = (low + high) / 2, VIEW
+        view.view_distance = DISTANCE * float(((high - low) ** 2).sum() ** 0.5)
+
+
+def make(name, tiling, pictures):
+    obj = opened(name)
+    bpy.ops.uv.holomorphic_tile(**tiling._asdict())
+    share_images()
+    show(obj)
+    bpy.ops.outliner.orphans_purge(do_recursive=True)
+    bpy.context.preferences.filepaths.save_version = 0
+    path = FOLDER / f"{name}.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True, relative_remap=False)
+    studio.render([obj], str(pictures / f"{name}.png"), RESOLUTION, SAMPLES)
+
+
+def main():
+    pictures, *wanted = sys.argv[sys.argv.index("--") + 1 :]
+    TEXTURES.mkdir(parents=True, exist_ok=True)
+    addon.register()
+    for name in wanted or FILES:
+        make(name, FILES[name], Path(pictures).resolve())
+
+
+if __name__ == "__main__":
+    main()
