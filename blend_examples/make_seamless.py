@@ -4,8 +4,8 @@ Run it with Blender 3.4, after scripts/build (scripts/seamless_examples does):
 
 blender -b --factory-startup --python-exit-code 1 --python blend_examples/make_seamless.py -- PICTURES [name...]
 
-A picture of each goes to the folder PICTURES. The textures of the add-on lie beside the files, once for all of them, at a
-size that is enough there.
+A picture of each goes to the folder PICTURES. The textures of the add-on lie beside the files, once for all of them, at
+a size that is enough there.
 """
 
 import sys
@@ -16,9 +16,10 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from modeling import subdivide
+
 import addon
 from addon import mesh_io, studio
-from modeling import subdivide
 
 HERE = Path(__file__).resolve().parent
 FOLDER = HERE / "seamless"
