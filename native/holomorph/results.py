@@ -166,6 +166,7 @@ class Structure(Value):
         boundary: str = "straight",
         max_turn: float = 0.2,
         turn: float | None = None,
+        max_added: float | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
@@ -184,11 +185,13 @@ class Structure(Value):
         direction : (3,) vector in space along which u runs, as far as it can; turn : radians, rotates the texture
             beside it; max_turn : by how many radians the rounding may turn away from that
         boundary : "straight" or "free", see `Tiler`
+        max_added : the largest `added_distortion` that is wanted; default any
 
         Raises
         ------
         TopologyError
-            poles that do not fit; fewer tiles than the surface needs (names how many are enough)
+            poles that do not fit; fewer tiles than the surface needs (names how many are enough); more added distortion
+            than `max_added` (names what can be had)
 
         Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
         """
@@ -204,7 +207,13 @@ class Structure(Value):
                 self._component, poles, boundary=boundary, threads=self._threads, progress=progress
             )
         return self._tilers[key].tile(
-            tiles, lattice=lattice, direction=direction, turn=turn, max_turn=max_turn, progress=progress
+            tiles,
+            lattice=lattice,
+            direction=direction,
+            turn=turn,
+            max_turn=max_turn,
+            max_added=max_added,
+            progress=progress,
         )
 
     @cached_property

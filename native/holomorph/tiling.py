@@ -134,16 +134,22 @@ class Tiler:
         direction: ArrayLike | None = None,
         turn: float | None = None,
         max_turn: float = 0.2,
+        max_added: float | None = None,
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
+        if max_added is not None and real_number(max_added, "max_added") < 1:
+            raise ValueError(f"max_added is {max_added!r}; a mean s1 / s2 of at least 1 is needed")
         tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
         turn = None if turn is None else real_number(turn, "turn")
         max_turn = real_number(max_turn, "max_turn")
         a, b = _lattice(lattice)
         along = None if direction is None else _direction(direction, self._component)
         self._basis = np.array([[a.real, b.real], [a.imag, b.imag]])
-        return self._tiling(self._native.tile(tiles, a, b, turn, along, max_turn, progress))
+        made = self._tiling(self._native.tile(tiles, a, b, turn, along, max_turn, progress))
+        if max_added is not None and made.added_distortion > max_added:
+            raise TopologyError(_too_sheared(made, max_added, self._surface.genus))
+        return made
 
     def with_poles_moved(self, moves: Mapping[int, int], *, progress: Progress | None = None) -> Tiling:
         """The `Tiling` that `tile` gave last with some of its poles elsewhere; changes nothing of the tiler.
@@ -234,6 +240,16 @@ def _allowed(allowed, surface, component):
     if not own.any():
         raise ValueError("allowed leaves no vertex for a pole")
     return own.tolist()
+
+
+def _too_sheared(made, max_added, genus):
+    """What can be had instead."""
+    poles = counted(len(made.poles), "pole")
+    advice = "take more tiles" if len(made.poles) >= genus else f"take {genus} poles or more, or more tiles"
+    return (
+        f"with {poles} and {made.tiles:.4g} tiles the added distortion is {made.added_distortion:.5g}, more than "
+        f"max_added, {max_added:.5g}: {advice}"
+    )
 
 
 def _lattice(lattice):

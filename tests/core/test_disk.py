@@ -259,8 +259,8 @@ def test_they_are_conformal(mesh, punctures):
 
 DISK = flat(6)
 REFUSED = {
-    "on the boundary": (DISK, {"punctures": [126]}, "puncture 126 lies on the boundary"),
-    "next to the boundary": (DISK, {"punctures": [80]}, "star of puncture 80 touches the boundary at vertex"),
+    "on the boundary": (DISK, {"punctures": [126]}, "vertex 126 lies on the boundary"),
+    "next to the boundary": (DISK, {"punctures": [80]}, "star of vertex 80 touches the boundary at vertex"),
     "out of range": (DISK, {"punctures": [127]}, "puncture 127 is no vertex: there are 127"),
     "repeated": (DISK, {"punctures": [3, 3]}, "given twice"),
     "stars": (DISK, {"punctures": [0, 10]}, "share vertex|corners of one face"),

@@ -209,6 +209,10 @@ REFUSED = [
     (SPHERE, {"boundary": "round"}, ValueError, "boundary is 'round'"),
     (DOUBLE, {"tiles": 0.01, "poles": 0}, TopologyError, "are enough"),
     (DISK, {"poles": [len(DISK.vertices) - 1]}, TopologyError, "boundary"),
+    (DOUBLE, {"tiles": 32, "poles": 0, "max_added": 1.0}, TopologyError, "take 2 poles or more, or more tiles"),
+    (DOUBLE, {"tiles": 32, "poles": 8, "max_added": 1.0}, TopologyError, "max_added, 1: take more tiles"),
+    (SPHERE, {"max_added": 0.9}, ValueError, "at least 1"),
+    (SPHERE, {"max_added": np.nan}, ValueError, "max_added is nan"),
 ]
 
 

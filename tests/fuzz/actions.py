@@ -130,6 +130,7 @@ def tiling_options(random, count):
         "direction": ([0, 0, 1], [1e300, 1, -1e300], [1e-300, 0, 0], [0, 0, 0], "up"),
         "turn": (0.3, 1e300, float("nan")),
         "max_turn": (0.0, 1.0, -1.0, 1e300, float("nan")),
+        "max_added": (1.0, 1.5, 0.5, float("nan")),
     }
     chosen = {name: random.choice(values) for name, values in drawn.items() if random.random() < 0.3}
     own = {name: chosen.pop(name) for name in ("poles", "boundary") if name in chosen}

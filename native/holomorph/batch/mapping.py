@@ -160,6 +160,7 @@ def _tiling(part, wanted, poles, tiles, density):
         wanted.boundary,
         wanted.max_turn,
         wanted.turn,
+        wanted.max_added,
     )
 
 

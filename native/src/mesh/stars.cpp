@@ -31,13 +31,13 @@ bool on_boundary(const HalfEdges& mesh, int vertex) {
 
 // Marks the vertices of a star with its centre. Refuses those of another star, of the boundary, and any twice.
 void claim(const HalfEdges& mesh, const Star& star, const Labels& label, std::vector<int>& owner) {
-  const std::string itself = "the star of puncture " + label(star.vertex);
+  const std::string itself = "the star of vertex " + label(star.vertex);
   const auto take = [&](int v) {
     if (owner[v] == star.vertex)
       throw TopologyError(itself + " meets itself at vertex " + label(v) + ": the mesh is too coarse there");
     if (owner[v] >= 0) {
-      throw TopologyError("the stars of the punctures " + label(owner[v]) + " and " + label(star.vertex) +
-                          " share vertex " + label(v) + ": take punctures farther apart, or subdivide the mesh");
+      throw TopologyError("the stars of the vertices " + label(owner[v]) + " and " + label(star.vertex) +
+                          " share vertex " + label(v) + ": take vertices farther apart, or subdivide the mesh");
     }
     owner[v] = star.vertex;
   };
@@ -79,8 +79,8 @@ std::vector<char> refuse_shared_polygons(const Surface& surface, const std::vect
       const int v = surface.polygons.corner_vertices[c];
       if (!chosen[v]) continue;
       if (first >= 0 && first != v) {
-        throw TopologyError("the punctures " + label(first) + " and " + label(v) +
-                            " are corners of one face: take punctures farther apart, or subdivide the mesh");
+        throw TopologyError("the vertices " + label(first) + " and " + label(v) +
+                            " are corners of one face: take vertices farther apart, or subdivide the mesh");
       }
       first = v;
     }
@@ -118,11 +118,11 @@ Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, co
   Star result;
   result.vertex = vertex;
   const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
-  if (!start.is_valid()) throw TopologyError("puncture " + label(vertex) + " is a vertex of no face");
+  if (!start.is_valid()) throw TopologyError("vertex " + label(vertex) + " belongs to no face");
   HalfedgeHandle h = start;
   do {  // h leaves the vertex; the face to its left is the next one counter-clockwise
     if (!mesh.face_handle(h).is_valid())
-      throw TopologyError("puncture " + label(vertex) + " lies on the boundary; an interior vertex is needed");
+      throw TopologyError("vertex " + label(vertex) + " lies on the boundary; an interior one is needed");
     const HalfedgeHandle outer = next(mesh, h);
     result.link.push_back(outer);
     result.faces.push_back(face_of(mesh, outer));
