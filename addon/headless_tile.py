@@ -19,7 +19,7 @@ def add_options(parser):
     group.add_argument("--poles", default="automatic", help="automatic, selected (in the .blend), or a number per part")
     group.add_argument("--pole-group", default="", help="the vertex group in which poles may be")
     group.add_argument("--lattice", choices=_names(tile_properties.LATTICES), default="square")
-    group.add_argument("--direction", choices=_names(tile_properties.DIRECTIONS), default="none", help="of the rows")
+    group.add_argument("--direction", choices=_names(tile_properties.DIRECTIONS), default="upright", help="of the rows")
 
 
 def make(context, options, found):
@@ -52,5 +52,6 @@ def _properties(options):
         lattice=options.lattice,
         direction=options.direction.upper(),
         turn=math.radians(options.rotation),
+        quarters=0,
         boundary=options.boundary if options.boundary in _names(tile_properties.BOUNDARIES) else "straight",
     )

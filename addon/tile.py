@@ -48,11 +48,11 @@ class HOLOMORPH_OT_tile(TileProperties, OnMeshes, WorkOperator, bpy.types.Operat
         return MODAL_TILED_FACES
 
     def finish(self, context, work, time_has_passed):
-        from . import targets, tile_run
+        from . import targets, tile_choices, tile_run
 
         results = targets.align(self._targets, work.results)
         options = tile_run.TileWriteOptions(
-            self.quarters,
+            tile_choices.written_quarters(self),
             self.checker,
             self.texture,
             self.repeats,

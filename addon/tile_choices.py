@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the properties of the tile operator mean for one object, with its selection."""
 
+import math
+
 import numpy as np
 
 from . import mesh_edges, mesh_io, report, tile_report, tiling
@@ -14,15 +16,23 @@ def options(properties, target):
     obj = target.find()
     if target.makes_object and _are_on_the_mesh(properties):
         raise ValueError(f"{obj.name}: poles and edges are chosen on the mesh itself, not on what its modifiers make")
+    direction, turn = _direction(properties, obj)
+    turn += (properties.quarters - written_quarters(properties)) * math.pi / 2
     return tiling.TileOptions(
         float(properties.tiles),
         _poles(properties, obj),
         properties.lattice,
-        _direction(properties, obj),
+        direction,
         properties.boundary,
-        properties.turn,
+        turn + properties.turn,
         allowed(properties.pole_group, obj),
     )
+
+
+def written_quarters(properties):
+    """Quarter turns of a map that is made: they leave only the square lattice as it is, and so the texture whole. On
+    other lattices it is turned before its jumps are rounded."""
+    return properties.quarters if properties.lattice == "square" else 0
 
 
 def _are_on_the_mesh(properties):
@@ -76,19 +86,22 @@ def allowed(name, obj):
 
 
 def _direction(properties, obj):
-    """In the frame of the polygons: as the object stands in space, without its translation."""
+    """(direction, turn) of `tiling.TileOptions`, in the frame of the polygons: as the object stands in space, without
+    its translation."""
     if properties.direction == "NONE":
-        return None
+        return None, 0.0
+    if properties.direction == "UPRIGHT":
+        return tiling.UPRIGHT["direction"], tiling.UPRIGHT["turn"]
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     if properties.direction in AXES:
         axis = linear[:, AXES.index(properties.direction)]
         if not _has_length(axis):
             raise ValueError(f"{obj.name}: its scale leaves nothing of its {properties.direction} axis")
-        return tuple(axis.tolist())
+        return tuple(axis.tolist()), 0.0
     edges = mesh_edges.edge_vectors(obj.data, mesh_edges.marked_edges(obj.data, "select")) @ linear.T
     if not _has_length(edges):
         raise ValueError(f"{obj.name}: select edges along which the rows are to run")
-    return mean_direction(edges)
+    return mean_direction(edges), 0.0
 
 
 def _has_length(vectors):

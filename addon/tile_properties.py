@@ -25,6 +25,7 @@ LATTICES = (
     ("hex", "Hexagonal", "The texture repeats in three directions, 60 degrees apart"),
 )
 DIRECTIONS = (
+    ("UPRIGHT", "Upright", "The texture stands as the object does: its rows run level, as far as they can"),
     ("NONE", "Any", "The one that is most even"),
     ("X", "X", "Rows run along the object's X axis, as far as they can"),
     ("Y", "Y", "Rows run along the object's Y axis, as far as they can"),
@@ -76,7 +77,7 @@ class TileProperties:
     modifiers: BoolProperty(name="With Modifiers", description=MODIFIERS, default=False, options={"SKIP_SAVE"})
     lattice: EnumProperty(name="Lattice", description="How the texture repeats", items=LATTICES, default="square")
     direction: EnumProperty(
-        name="Direction", description="Where the rows of the texture run", items=DIRECTIONS, default="NONE"
+        name="Direction", description="Where the rows of the texture run", items=DIRECTIONS, default="UPRIGHT"
     )
     turn: FloatProperty(
         name="Rotation",

@@ -15,6 +15,7 @@ from . import native
 AUTOMATIC = "auto"
 PLACING_SHARE = 0.6  # of the work on a tiling, for finding the poles
 MANTISSA = 24  # bits of a float32
+UPRIGHT = {"direction": (0.0, 0.0, 1.0), "turn": math.pi / 2}  # u runs along Z, turned by a right angle: v does
 QUARTER = np.array([[0, 1], [-1, 0]])  # rows times it: a quarter turn counter-clockwise
 
 

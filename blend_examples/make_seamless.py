@@ -10,7 +10,6 @@ a size that is enough there.
 
 import sys
 from pathlib import Path
-from typing import NamedTuple
 
 import bpy
 
@@ -30,24 +29,15 @@ DISTANCE = 1.6  # of the view from the object, in diagonals of its bounding box
 RESOLUTION, SAMPLES = 420, 24  # of a picture
 
 
-class Tiling(NamedTuple):
-    """What *Seamless Tiling* is asked for."""
-
-    texture: str
-    tiles: int
-    direction: str = "NONE"
-    quarters: int = 0
-
-
-FILES = {
-    "critter": Tiling("SCALES", 96),
-    "mug": Tiling("BRICKS", 24, "Z", 1),
-    "suzanne": Tiling("WEAVE", 40),
-    "hand": Tiling("WEAVE", 24),
-    "pretzel": Tiling("BRICKS", 24),
-    "pipe": Tiling("HEXAGONS", 24),
-    "armadillo": Tiling("SCALES", 96),
-    "text": Tiling("PLANKS", 60),
+FILES = {  # texture and number of tiles
+    "critter": ("SCALES", 96),
+    "mug": ("BRICKS", 24),
+    "suzanne": ("WEAVE", 40),
+    "hand": ("WEAVE", 24),
+    "pretzel": ("BRICKS", 48),
+    "pipe": ("HEXAGONS", 24),
+    "armadillo": ("SCALES", 96),
+    "text": ("PLANKS", 60),
 }
 
 
@@ -96,9 +86,10 @@ def show(obj):
         view.view_distance = DISTANCE * float(((high - low) ** 2).sum() ** 0.5)
 
 
-def make(name, tiling, pictures):
+def make(name, pictures):
     obj = opened(name)
-    bpy.ops.uv.holomorphic_tile(**tiling._asdict())
+    texture, tiles = FILES[name]
+    bpy.ops.uv.holomorphic_tile(texture=texture, tiles=tiles)
     share_images()
     show(obj)
     bpy.ops.outliner.orphans_purge(do_recursive=True)
@@ -113,7 +104,7 @@ def main():
     TEXTURES.mkdir(parents=True, exist_ok=True)
     addon.register()
     for name in wanted or FILES:
-        make(name, FILES[name], Path(pictures).resolve())
+        make(name, Path(pictures).resolve())
 
 
 if __name__ == "__main__":

@@ -120,7 +120,7 @@ def dials():
     hud = region(view(), "HUD")
     click(hud.x + 30, hud.y + hud.height / 2)
     yield 1
-    set_dials(texture="BRICKS", tiles=24, direction="Z", quarters=1)
+    set_dials(texture="BRICKS", tiles=24)
     yield from show("dials", view())
 
 
@@ -209,7 +209,7 @@ def baked():
     """The tiling of bricks, baked to the islands."""
     mug = bpy.context.view_layer.objects.active
     mug.data.uv_layers.active.name = "Bake"
-    call(bpy.ops.uv.holomorphic_tile, texture="BRICKS", tiles=24, direction="Z", quarters=1)
+    call(bpy.ops.uv.holomorphic_tile, texture="BRICKS", tiles=24)
     seen["maps"] = maps(mug.name)
     image = bpy.data.images.new("Baked", BAKED, BAKED)
     nodes = mug.active_material.node_tree.nodes

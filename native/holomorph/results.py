@@ -182,8 +182,8 @@ class Structure(Value):
         poles : "auto" for none where the density is even without, else as many as it asks for, up to 16; a number; or a
             list of vertices, which stay where they are. Two at least on a closed surface of genus 0
         lattice : "square", "brick" (rows shifted by half), "hex", or a 2 x 2 matrix whose columns are the translations
-        direction : (3,) vector in space along which u runs, as far as it can; turn : radians, rotates the texture
-            beside it; max_turn : by how many radians the rounding may turn away from that
+        direction : (3,) vector in space along which u runs, as far as it can; any where that is normal to a plane.
+            turn : radians, rotates the texture beside it; max_turn : radians by which the rounding may turn it away
         boundary : "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
 

@@ -15,10 +15,14 @@ from scenes import (
     edge_jumps,
     everything,
     frame,
+    limb_arrays,
     mesh_edges,
     mesh_io,
+    mesh_object,
     native,
+    next_corner,
     pick,
+    polygon_arrays,
     run,
     select,
     sphere_arrays,
@@ -98,9 +102,36 @@ def test_what_is_asked_of_the_library(calls):
     plain = dict(
         tiles=None, poles="auto", lattice="square", direction=None, turn=None, boundary="straight", allowed=None
     )
-    assert calls == [plain]
-    tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", turn=0.25)
+    assert calls == [plain | dict(direction=(0, 0, 1), turn=np.pi / 2)]
+    tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", turn=0.25, direction="NONE")
     assert calls[1:] == [plain | dict(tiles=120.0, poles=3, lattice="hex", boundary="free", turn=0.25)]
+
+
+def risen(obj):
+    """(#C, 2) along each edge: how far it rises in space, times u's and v's shares of its length in the plane."""
+    corners, offsets = polygon_arrays(obj.data)
+    following, heights = next_corner(offsets), mesh_io.world_points(obj)[:, 2]
+    steps = uv(obj)[following] - uv(obj)
+    rise = heights[corners[following]] - heights[corners]
+    return steps / np.linalg.norm(steps, axis=1, keepdims=True) * rise[:, None]
+
+
+@pytest.mark.parametrize("lattice", ["square", "brick", "hex"])
+def test_the_texture_is_upright(lattice):
+    obj = mesh_object("Limb", *limb_arrays())
+    tile(lattice=lattice)
+    across, along = (risen(obj) ** 2).sum(axis=0)
+    assert along > 3 * across and risen(obj)[:, 1].sum() > 0
+
+
+def test_quarter_turns_of_other_lattices_keep_the_texture_whole():
+    """Once the map was turned after its jumps were rounded, and bricks broke off at the cut."""
+    obj = torus()
+    for quarters in range(4):
+        tile(lattice="brick", quarters=quarters)
+        rows = whole_jumps(obj)[..., 1]
+        shifts = whole_jumps(obj)[..., 0] - rows / 2
+        assert np.array_equal(rows, np.round(rows)) and np.array_equal(shifts, np.round(shifts))
 
 
 def test_the_direction_is_the_objects_axis(calls):

@@ -133,14 +133,34 @@ def test_tiles_are_counted_at_the_median_density():
     assert made.quality.median_density * surface.area == pytest.approx(60, rel=0.4)
 
 
+def shares_along(tiling, mesh, axis):
+    """Mean squares of u and v along an axis that is projected to the triangles."""
+    points, uv = mesh.vertices[np.asarray(mesh.corners).reshape(-1, 3)], tiling.uv.reshape(-1, 3, 2)
+    sides, images = (np.swapaxes(values[:, 1:] - values[:, :1], 1, 2) for values in (points, uv))
+    return np.mean((images @ (np.linalg.pinv(sides) @ axis)[..., None]) ** 2, axis=0).ravel()
+
+
 def test_direction_turns_the_texture():
-    """On a long tube u runs along the axis that was asked for, or across it."""
-    tube = surface_of(families.torus(60, 12, R=3.0, r=0.3, shape="triangles"))
-    for axis in ([0, 0, 1], [1, 0, 0]):
-        made = conformal_structure(tube).tile(400, poles=0, direction=axis)
-        assert np.isfinite(made.uv).all()
+    """On a thin ring, along its axis and across it; turned by a right angle, v does."""
+    ring = families.torus(60, 12, R=3.0, r=0.3, shape="triangles")
+    structure = conformal_structure(surface_of(ring))
+    axis = np.eye(3)[np.argmin(np.ptp(ring.vertices, axis=0))]
+    for direction, turn in ((axis, None), (axis, np.pi / 2), (axis[[1, 2, 0]], None)):
+        along_u, along_v = shares_along(structure.tile(400, poles=0, direction=direction, turn=turn), ring, direction)
+        assert along_v > 1.5 * along_u if turn else along_u > 1.5 * along_v, (direction, along_u, along_v)
     with pytest.raises(ValueError, match="direction is"):
-        conformal_structure(tube).tile(direction=[0, 0, 0])
+        structure.tile(direction=[0, 0, 0])
+
+
+def test_a_direction_normal_to_a_plane_is_none():
+    angle, radius = np.meshgrid(2 * np.pi * np.arange(24) / 24, [1.0, 1.4, 2.0, 2.7], indexing="ij")
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0 * angle], axis=-1).reshape(-1, 3)
+    i, j = np.meshgrid(np.arange(24), np.arange(3), indexing="ij")
+    following = (i + 1) % 24
+    quads = np.stack([4 * i + j, 4 * i + j + 1, 4 * following + j + 1, 4 * following + j], axis=-1).reshape(-1, 4)
+    flat = conformal_structure(holomorph.Surface(points, quads))
+    free = {"tiles": 60, "poles": 0, "boundary": "free"}
+    assert np.array_equal(flat.tile(direction=(0, 0, 1), **free).uv, flat.tile(**free).uv)
 
 
 def test_chosen_poles_stay():

@@ -12,11 +12,15 @@ using Eigen::Index;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 
-double phase_along(const std::array<double, 3>& axis, const MatrixXcd& frames, const VectorXcd& A) {
+constexpr double kNoLine = 1e-6;  // mean square of the cosine, below which it is rounding
+
+std::optional<double> phase_along(const std::array<double, 3>& axis, const MatrixXcd& frames, const VectorXcd& A) {
   const Eigen::RowVector3cd direction = Eigen::RowVector3d(axis[0], axis[1], axis[2]).cast<Complex>();
   const Eigen::ArrayXcd along = (direction * frames).transpose().array() * A.array() /
                                 A.array().abs().max(std::numeric_limits<double>::min()).cast<Complex>();
-  const Complex turn = std::polar(1.0, -std::arg(along.square().sum()) / 2);
+  const Complex line = along.square().mean();  // as a line, without a sense
+  if (std::abs(line) <= kNoLine * direction.squaredNorm()) return std::nullopt;
+  const Complex turn = std::polar(1.0, -std::arg(line) / 2);
   return std::arg((turn * along.sum()).real() < 0 ? -turn : turn);
 }
 

@@ -155,8 +155,8 @@ RoundingWishes Tiler::rounding_wishes(const TilingWishes& wishes, Execution& exe
   if (wishes.direction) {
     const VectorXcd A = landscape_->holomorphic().M * poles_.coefficients +
                         landscape_->poles(poles_.vertices, execution) * poles_.residues;
-    result.phase = wishes.turn.value_or(0) +
-                   phase_along(*wishes.direction, uv::tangent_frames(*surface_, landscape_->samples()), A);
+    result.phase = phase_along(*wishes.direction, uv::tangent_frames(*surface_, landscape_->samples()), A);
+    if (result.phase) *result.phase += wishes.turn.value_or(0);
   }
   return result;
 }

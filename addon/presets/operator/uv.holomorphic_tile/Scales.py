@@ -5,7 +5,7 @@ op = bpy.context.active_operator
 
 op.tiles = 100
 op.lattice = "square"
-op.direction = "NONE"
+op.direction = "UPRIGHT"
 op.boundary = "free"
 op.checker = True
 op.texture = "SCALES"
