@@ -80,7 +80,6 @@ def _asks_for_one(component, options):
 def _part(component, options, tiles, progress):
     """The `tiling.TiledPart` that takes the place of the balanced map, or refuses to where it was asked for; None where
     the balanced map stays."""
-
     wanted = tiling.TileOptions(tiles=tiles, **tiling.UPRIGHT)
     if options.main == maps.SEAMLESS:
         return tiling.tile_part(component, wanted, progress)

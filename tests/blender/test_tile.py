@@ -124,6 +124,16 @@ def test_the_texture_is_upright(lattice):
     assert along > 3 * across and risen(obj)[:, 1].sum() > 0
 
 
+@pytest.mark.parametrize("turn", [0, np.pi])
+def test_the_texture_of_a_tube_is_upright(turn):
+    """Its rows lie along the rims in any case; they might be upside down."""
+    bpy.ops.mesh.primitive_cylinder_add(vertices=24, end_fill_type="NOTHING", rotation=(turn, 0, 0))
+    obj = bpy.context.object
+    tile()
+    across, along = risen(obj).T
+    assert np.abs(across).max() < 1e-3 and along.min() > -1e-3 and along.max() > 0.9
+
+
 def test_quarter_turns_of_other_lattices_keep_the_texture_whole():
     """Once the map was turned after its jumps were rounded, and bricks broke off at the cut."""
     obj = torus()

@@ -65,7 +65,8 @@ MatrixXcd measure_rows(const RoundingProblem& p, const VectorXcd& weights, doubl
 
 // The rotations of the texture that are tried.
 std::vector<double> phases_of(const RoundingProblem& p, const RoundingWishes& wishes) {
-  if (p.kind == uv::Coefficients::real) return {0};
+  if (p.kind == uv::Coefficients::real)
+    return {wishes.phase && std::cos(*wishes.phase) < 0 ? std::numbers::pi : 0};  // u runs along boundaries either way
   std::vector<double> phases;
   for (int i = 0; !wishes.phase && i < kPhases; ++i) phases.push_back(p.symmetry * i / kPhases);
   for (int i = 0; wishes.phase && i < kNearPhases; ++i)
