@@ -26,16 +26,15 @@ LARGEST_STRETCH = 10.0
 SAME = 1e-4  # of the UV square: coordinates that differ by less agree in single precision
 
 
-def triangle_measures(mesh, uv):
-    """Areas in space, densities (area in UVs by area in space) and s1/s2 of the mesh's triangles."""
+def triangle_measures(obj, uv):
+    """Areas in space, densities (area in UVs by area in space) and s1/s2 of the object's triangles."""
+    mesh = obj.data
     mesh.calc_loop_triangles()
     corners = np.empty(3 * len(mesh.loop_triangles), np.int32)
     mesh.loop_triangles.foreach_get("loops", corners)
     vertices = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", vertices)
-    position = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", position)
-    x = position.reshape(-1, 3).astype(np.float64)[vertices[corners]].reshape(-1, 3, 3)
+    x = mesh_io.world_points(obj)[vertices[corners]].reshape(-1, 3, 3)
     z = uv[corners].reshape(-1, 3, 2) @ [1, 1j]
     a, b = x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]
     area = np.linalg.norm(np.cross(a, b), axis=1) / 2
@@ -83,11 +82,12 @@ def cut_edges(mesh, uv):
     return int(is_cut.sum()), int((is_cut & (np.abs(broken) > SAME).any(1)).sum())
 
 
-def measured(mesh):
+def measured(obj):
+    mesh = obj.data
     uv = np.empty(2 * len(mesh.loops), np.float32)
     mesh.uv_layers.active.data.foreach_get("uv", uv)
     uv = uv.reshape(-1, 2).astype(np.float64)
-    area, density, stretch = triangle_measures(mesh, uv)
+    area, density, stretch = triangle_measures(obj, uv)
     cut, broken = cut_edges(mesh, uv)
     return {
         "95:5": density_ratio(area, density),
@@ -120,14 +120,14 @@ def compare(obj, only_button):
         bpy.ops.uv.holomorphic_maps(checker=False)
     except RuntimeError as error:
         return row | {"refused": " ".join(str(error).split())}
-    row["button"] = measured(obj.data)
+    row["button"] = measured(obj)
     if only_button:
         return row
     obj.data.uv_layers.active = obj.data.uv_layers.new(name="Smart UV Project")
     in_edit_mode((bpy.ops.uv.smart_project, {}), (bpy.ops.uv.seams_from_islands, {}))
-    row["smart"] = measured(obj.data)
+    row["smart"] = measured(obj)
     in_edit_mode((bpy.ops.uv.unwrap, {"method": "ANGLE_BASED"}))
-    row["unwrap"] = measured(obj.data)
+    row["unwrap"] = measured(obj)
     return row
 
 
