@@ -91,15 +91,15 @@ def test_bounded_surfaces(name, image):
 
 
 def test_pants_are_mapped_loop_onto_loop():
-    """They have twelve conformal maps to themselves, and the last bits decide which is found first. It keeps angles and
-    harmonic measures; at the worst vertex, which lies elsewhere in each, to a tenth of an edge's length."""
-    mesh = twisted(families.punched(families.block_with_holes(0, refine=5, jitter=0.2), 3, seed=2))
+    """They have twelve conformal maps to themselves, and the last bits decide which is found first: whichever it is, it
+    keeps angles and harmonic measures."""
+    mesh = twisted(families.punched(families.block_with_holes(0, refine=6, jitter=0.2), 3, seed=2))
     a, b = structures(mesh, moebius_image(mesh))
     found = conformal_map(a, b)
     expected = potentials(a) @ found.equivalence.matrix.T
     images = found.of(potentials(b))
     errors = min((images - sign * expected for sign in (1, -1)), key=lambda each: np.ptp(each, axis=0).max())
-    assert np.ptp(errors, axis=0).max() < 0.02
+    assert np.ptp(errors, axis=0).max() < 0.01
     assert np.std(errors, axis=0).max() < 0.002
     assert np.median(angles(found, a, b)) < 1.2
 
