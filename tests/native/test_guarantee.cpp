@@ -13,8 +13,8 @@ using Eigen::MatrixXd;
 const MatrixXd kGram{{2.0, 1.0}, {1.0, 3.0}};
 
 TEST(Guarantee, CertainGramMatricesHaveTheirErrorsAdded) {
-  EXPECT_EQ(certain_gram({kGram}, {})[0], kGram);
-  EXPECT_EQ(certain_gram({kGram}, {1e-9 * kGram})[0], kGram + 1e-9 * kGram);
+  EXPECT_EQ(certain_gram({kGram}, {}).certain[0], kGram);
+  EXPECT_EQ(certain_gram({kGram}, {1e-9 * kGram}).certain[0], kGram + 1e-9 * kGram);
 }
 
 TEST(Guarantee, EnergiesWithoutACertainDigitAreRefused) {
@@ -38,11 +38,11 @@ TEST(Guarantee, BoundsAreFinite) {
 
 TEST(Guarantee, ASystemThatWasNotSolvedIsRefused) {
   Structure structure;
-  structure.mollification = 1;
+  structure.record.mollification = 1;
   EXPECT_NO_THROW(require_guaranteed(structure));
-  structure.solver.residual = 1e-3;
+  structure.record.solver.residual = 1e-3;
   EXPECT_THROW(require_guaranteed(structure), SolverError);
-  structure.solver.residual = std::numeric_limits<double>::quiet_NaN();
+  structure.record.solver.residual = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(require_guaranteed(structure), SolverError);
 }
 

@@ -172,7 +172,7 @@ TEST_F(BalancedMaps, OfASphereHasPunctures) {
     }
   }
   const auto result = map(mesh);
-  EXPECT_EQ(result.structure.punctures.vertices.size(), 2U);
+  EXPECT_EQ(result.structure.poles->chosen.vertices.size(), 2U);
   EXPECT_EQ(result.coefficients, Eigen::VectorXcd::Unit(1, 0));
   EXPECT_FALSE(result.structure.topology.seams.empty());
 }

@@ -8,7 +8,7 @@
 
 #include "mesh/make_surface.h"
 #include "mesh/surface_walk.h"
-#include "structure/punctured_structure.h"
+#include "structure/pole_structure.h"
 #include "tiling/abel_jacobi.h"
 #include "tiling/closed_maps.h"
 #include "tiling/leverage.h"
@@ -50,10 +50,10 @@ TEST(AbelJacobi, ForetellsTheHarmonicPartOfEveryPole) {
   const Landscape landscape(surface, {}, execution);
   const AbelJacobi map(landscape, execution);
   for (const auto& [p, q] : {std::pair{5, 300}, {47, 411}, {220, 590}}) {
-    const auto s = structure::punctured_structure(surface, {{p, q}, {1.0, -1.0}, {}}, {}, execution);
+    const auto s = structure::pole_structure(surface, {{p, q}, {1.0, -1.0}, {}}, {}, execution);
     const Eigen::MatrixXd N = change_of_basis(landscape.structure().topology.classes, s);
     EXPECT_NEAR(std::abs(N.determinant()), 1, 1e-12);
-    const Eigen::VectorXd foretold = N * (map.at(p) - map.at(q)), found = s.pole_parts.col(0);
+    const Eigen::VectorXd foretold = N * (map.at(p) - map.at(q)), found = s.poles->harmonic_part.col(0);
     EXPECT_LT((found - nearest_representative(foretold, found)).cwiseAbs().maxCoeff(), 1e-10);
   }
 }
@@ -106,7 +106,7 @@ TEST(ClosedMaps, OneFormIsTheCombinationOfTheBasis) {
   const std::vector<int> vertices{5, 300, 470};
   const Landscape landscape(surface, {}, execution);
   ClosedMaps maps(landscape, vertices, {}, {}, execution);
-  const auto s = structure::punctured_structure(surface, {vertices, {1.0, 1.0, -2.0}, {}}, {}, execution);
+  const auto s = structure::pole_structure(surface, {vertices, {1.0, 1.0, -2.0}, {}}, {}, execution);
   const AbelJacobi map(landscape, execution);
   const Eigen::VectorXcd r{{Complex(2, -1), Complex(1, 3)}};
   Eigen::VectorXcd X = r[0] * (map.at(5) - map.at(470)) + r[1] * (map.at(300) - map.at(470));

@@ -27,7 +27,7 @@
 #include "structure/balanced_map.h"
 #include "structure/conformal_structure.h"
 #include "structure/options.h"
-#include "structure/punctured_structure.h"
+#include "structure/pole_structure.h"
 #include "structure/structure.h"
 #include "structure/uv_forms.h"
 #include "uv/quality.h"

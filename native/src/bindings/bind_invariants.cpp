@@ -18,40 +18,45 @@ py::list matrices(const std::vector<Eigen::MatrixXd>& list) {
 }  // namespace
 
 void bind_invariants(py::class_<Structure, StructurePointer>& type) {
-  type.def("gram_matrices", [](const Structure& s) { return matrices(s.value.gram); })
-      .def("certain_gram_matrices", [](const Structure& s) { return matrices(s.value.certain_gram); })
+  type.def("gram_matrices", [](const Structure& s) { return matrices(s.value.harmonic.invariants.energies.gram); })
+      .def("certain_gram_matrices",
+           [](const Structure& s) { return matrices(s.value.harmonic.invariants.energies.certain); })
       .def("projected",
            [](const Structure& s) {
-             const auto& star = s.value.holomorphic.star;
+             const auto& star = s.value.holomorphic().star;
              return py::make_tuple(copy(star.natural_gram), copy(star.dirichlet_gram), copy(star.star));
            })
-      .def("period_matrix", [](const Structure& s) { return copy(s.value.holomorphic.period_matrix); })
+      .def("period_matrix", [](const Structure& s) { return copy(s.value.holomorphic().period_matrix); })
       .def("period_bounds",
            [](const Structure& s) {
-             const auto& bounds = s.value.holomorphic.bounds;
+             const auto& bounds = s.value.holomorphic().bounds;
              return py::make_tuple(copy(bounds.lower), copy(bounds.upper));
            })
       .def("real_period_bounds",
            [](const Structure& s) {
-             const auto& bounds = s.value.holomorphic.bounds;
+             const auto& bounds = s.value.holomorphic().bounds;
              return py::make_tuple(copy(bounds.real_lower), copy(bounds.real_upper));
            })
       .def("inverse_gram_bounds",
            [](const Structure& s) {
              std::vector<Eigen::MatrixXd> below;
-             for (const auto& gram : s.value.certain_gram) below.push_back(conformal::below_inverse(gram));
+             for (const auto& gram : s.value.harmonic.invariants.energies.certain)
+               below.push_back(conformal::below_inverse(gram));
              return matrices(below);
            })
       .def("certificate",
            [](const Structure& s) {
-             const auto& [residuals, periods, pairing, asymmetry, metric] = s.value.certificate;
+             const auto& [residuals, periods, pairing, asymmetry, metric] = s.value.harmonic.certificate;
              return py::make_tuple(residuals.closedness, residuals.harmonicity, periods, pairing, asymmetry);
            })
       .def("side_classes", [](const Structure& s) { return copy(structure::side_classes(s.value)); })
-      .def("narrow", [](Structure& s, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain,
-                        double metric) { structure::narrow(s.value, std::move(gram), std::move(certain), metric); })
+      .def("narrow",
+           [](Structure& s, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain, double metric) {
+             s.value = structure::narrowed(std::move(s.value), {std::move(gram), std::move(certain)}, metric);
+           })
       .def("intrinsic", [](const Structure& s) {
-        return py::make_tuple(s.value.flip_count, s.value.mollification, s.value.certificate.metric);
+        return py::make_tuple(s.value.record.flip_count, s.value.record.mollification,
+                              s.value.harmonic.certificate.metric);
       });
 }
 

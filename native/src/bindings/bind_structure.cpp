@@ -14,7 +14,7 @@
 #include "plane/sphere_map.h"
 #include "structure/balanced_map.h"
 #include "structure/conformal_structure.h"
-#include "structure/punctured_structure.h"
+#include "structure/pole_structure.h"
 #include "structure/uv_forms.h"
 
 namespace holomorph::bindings {
@@ -49,7 +49,7 @@ Pointer punctured(const SurfacePointer& surface, const std::vector<int>& vertice
                   const std::vector<std::complex<double>>& residues, const std::vector<int>& names,
                   const std::string& solver, int threads, std::int64_t memory_limit, const py::object& progress) {
   return make({solver, memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
-    return structure::punctured_structure(surface, {vertices, residues, names}, options, execution);
+    return structure::pole_structure(surface, {vertices, residues, names}, options, execution);
   });
 }
 
@@ -131,7 +131,9 @@ py::array sphere_map(Structure& s) {
 }
 
 void cut_along(Structure& s, const std::vector<int>& edges, const std::vector<int>& names) {
-  s.with_forms([&](auto&, Execution& execution) { structure::cut_along(s.value, edges, names, execution); });
+  s.with_forms([&](auto&, Execution& execution) {
+    s.value = structure::cut_along(std::move(s.value), edges, names, execution);
+  });
 }
 
 py::list loops_of_vertices(const mesh::EdgeEnds& ends, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
@@ -174,8 +176,12 @@ void bind_values(py::class_<Structure, Pointer>& type) {
       .def("intersection_matrix", [](const Structure& s) { return copy(s.value.topology.canonical.intersection); })
       .def("canonical_basis", [](const Structure& s) { return copy(s.value.topology.canonical.cycles); })
       .def("seams", [](const Structure& s) { return copy(s.value.topology.seams); })
-      .def("punctures", [](const Structure& s) { return copy(s.value.punctures.vertices); })
-      .def("residues", [](const Structure& s) { return copy(s.value.punctures.residues); })
+      .def("punctures",
+           [](const Structure& s) { return copy(s.value.poles ? s.value.poles->chosen.vertices : std::vector<int>()); })
+      .def("residues",
+           [](const Structure& s) {
+             return copy(s.value.poles ? s.value.poles->chosen.residues : std::vector<std::complex<double>>());
+           })
       .def("spokes", [](const Structure& s) { return copy(structure::spokes(s.value)); })
       .def("collapsed_triangles",
            [](const Structure& s) {
@@ -183,10 +189,11 @@ void bind_values(py::class_<Structure, Pointer>& type) {
            })
       .def("memory",
            [](const Structure& s) {
-             return py::make_tuple(s.value.memory.keep_forms, s.value.memory.block, s.value.memory.bytes);
+             const auto& memory = s.value.record.memory;
+             return py::make_tuple(memory.keep_forms, memory.block, memory.bytes);
            })
-      .def("solver", [](const Structure& s) { return report(s.value.solver); })
-      .def("timings", [](const Structure& s) { return s.value.seconds; })
+      .def("solver", [](const Structure& s) { return report(s.value.record.solver); })
+      .def("timings", [](const Structure& s) { return s.value.record.seconds; })
       .def_readonly("threads", &Structure::threads);
 }
 

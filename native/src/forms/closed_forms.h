@@ -11,11 +11,12 @@ namespace holomorph::forms {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A family of closed forms eta_i + d f_i, kept as classes and functions: #forms numbers per vertex instead of per
+/// A family of closed forms eta_i + d f_i as a view of classes and functions: #forms numbers per vertex instead of per
 /// edge. Where memory is short, only a block of the functions is present at a time, and #forms below counts those.
+/// @pre classes and functions outlive this
 struct ClosedForms {
-  topology::IntegerForms classes;
-  RowMajorMatrix functions;  ///< #V x #forms, for the classes first, first + 1, ...
+  const topology::IntegerForms& classes;
+  const RowMajorMatrix& functions;  ///< #V x #forms, for the classes first, first + 1, ...
   int first = 0;
 };
 

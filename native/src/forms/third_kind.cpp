@@ -30,7 +30,7 @@ void leaving_links(const HalfEdges& mesh, const std::vector<mesh::Star>& stars, 
 }
 
 // -d^T (k d f) over the faces outside the stars, f supported on the links: #V x m.
-Eigen::MatrixXd codifferential_of_links(const HalfEdges& mesh, const Poles& poles,
+Eigen::MatrixXd codifferential_of_links(const HalfEdges& mesh, const PoleForms& poles,
                                         const Eigen::SparseMatrix<double>& f) {
   const RowMajorMatrix values = f * poles.residues;
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(values.rows(), values.cols());
@@ -43,7 +43,7 @@ Eigen::MatrixXd codifferential_of_links(const HalfEdges& mesh, const Poles& pole
 }
 
 // The right-hand sides, u in the first m columns, v in the others.
-Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Poles& poles, Workers& workers) {
+Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const PoleForms& poles, Workers& workers) {
   const auto m = poles.residues.cols();
   Eigen::MatrixXd B(poles.part.u.rows(), 2 * m);
   B.leftCols(m) = poles.part.b_u * poles.residues + codifferential_of_links(mesh, poles, poles.part.u) +
@@ -53,7 +53,7 @@ Eigen::MatrixXd right_hand_sides(const HalfEdges& mesh, const Poles& poles, Work
 }
 
 // Of what the right-hand sides are fluxes, m columns of u, then of v, each with the coefficients `of_u`, `of_v`.
-FluxTerms pole_terms(const HalfEdges& mesh, const Poles& poles, const Eigen::MatrixXd& of_u,
+FluxTerms pole_terms(const HalfEdges& mesh, const PoleForms& poles, const Eigen::MatrixXd& of_u,
                      const Eigen::MatrixXd& of_v) {
   const Eigen::MatrixXd r_u = poles.residues * of_u, r_v = poles.residues * of_v;
   FluxTerms terms = function_terms(mesh, poles.part.u * r_u + poles.part.v * r_v);
@@ -93,7 +93,8 @@ Eigen::VectorXd along(const HalfEdges& mesh, const ClosedForms& forms, Eigen::In
 }
 
 // n x m: b_u . (values of h_j measured from the puncture).
-Eigen::MatrixXd flux_products(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic, Eigen::Index n) {
+Eigen::MatrixXd flux_products(const HalfEdges& mesh, const PoleForms& poles, const ClosedForms& harmonic,
+                              Eigen::Index n) {
   const RowMajorMatrix b_u = poles.part.b_u * poles.residues;
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(n, b_u.cols());
   for (const mesh::Star& star : poles.stars) {
@@ -111,7 +112,7 @@ Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed) {
   return residues;
 }
 
-PoleFunctions pole_functions(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
+PoleFunctions pole_functions(const HalfEdges& mesh, std::span<const double> weights, const PoleForms& poles,
                              RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution) {
   const auto m = poles.residues.cols();
   const Eigen::MatrixXd B = right_hand_sides(mesh, poles, execution.workers());
@@ -124,7 +125,7 @@ PoleFunctions pole_functions(const HalfEdges& mesh, std::span<const double> weig
           relative_residual(mesh, weights, B, X, fixed)};
 }
 
-RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
+RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double> weights, const PoleForms& poles,
                                    const topology::IntegerForms& natural, const Eigen::VectorXcd& p,
                                    const Eigen::VectorXcd& r, RefinedSolver& solver, Execution& execution) {
   Eigen::MatrixXd periods(p.size(), 2), of_u(r.size(), 2), of_v(r.size(), 2);
@@ -144,7 +145,7 @@ RowMajorMatrix function_with_poles(const HalfEdges& mesh, std::span<const double
   return X + poles.part.u * (poles.residues * of_u) + poles.part.v * (poles.residues * of_v);
 }
 
-Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Poles& poles, const ClosedForms& harmonic,
+Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const PoleForms& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix) {
   const auto n = gram_matrix.rows();
   Eigen::MatrixXd P = class_products(mesh, poles.outer_weights, poles.classes, harmonic).leftCols(n).transpose();
@@ -155,7 +156,7 @@ Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, const Poles& poles, const C
   return gram_matrix.llt().solve(P - flux_products(mesh, poles, harmonic, n));
 }
 
-Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, std::span<const double> weights, const Poles& poles,
+Eigen::MatrixXd harmonic_part(const HalfEdges& mesh, std::span<const double> weights, const PoleForms& poles,
                               const RowMajorMatrix& u, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix) {
   const auto n = gram_matrix.rows();

@@ -18,11 +18,11 @@ namespace holomorph::forms {
 
 /// m pole forms, each with the residue 1 at a puncture of its own. Outside the stars u_s = d(part.u residues) +
 /// classes.
-struct Poles {
+struct PoleForms {
   std::vector<mesh::Star> stars;
   Eigen::MatrixXd
       residues;  ///< #stars x m: with boundary the identity; closed, where they sum to 0, -1 at the last star
-  topology::IntegerForms classes;  ///< m classes, from topology::puncture_classes
+  topology::IntegerForms classes;  ///< m classes, from topology::pole_classes
   SingularPart part;
   Array<double> outer_weights;  ///< #E, as in singular_part.h
 };
@@ -41,7 +41,7 @@ struct PoleFunctions {
 /// closed surface
 /// @return pairs whose u has the periods of the classes: where there are harmonic forms not yet conjugate, see
 /// harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
-PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const double> weights, const Poles& poles,
+PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const double> weights, const PoleForms& poles,
                              RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution);
 
 /// Of sum_j p_j h_j + sum_i r_i (u_i + i v_i) on a closed surface, the one form with these periods and residues alone:
@@ -50,18 +50,20 @@ PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const 
 /// @param p #natural, r #poles
 /// Cost: 2 solves. @throws SolverError, Cancelled
 RowMajorMatrix function_with_poles(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                   const Poles& poles, const topology::IntegerForms& natural, const Eigen::VectorXcd& p,
-                                   const Eigen::VectorXcd& r, RefinedSolver& solver, Execution& execution);
+                                   const PoleForms& poles, const topology::IntegerForms& natural,
+                                   const Eigen::VectorXcd& p, const Eigen::VectorXcd& r, RefinedSolver& solver,
+                                   Execution& execution);
 
 /// C, #forms x m: u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v is.
 /// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the puncture).
 /// @param harmonic,gram_matrix on the same triangulation; with boundary the natural forms, the first of `harmonic`
-Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const Poles& poles, const ClosedForms& harmonic,
+Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const PoleForms& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);
 
 /// The same where weights are large, from the u that were solved for, #V x m. Outside the stars <u_s, h_j> is <u, h_j>,
 /// as <df, h_j> is 0: a sum over all edges, of products of which both factors are small where the weight is not.
-Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, std::span<const double> weights, const Poles& poles,
-                              const RowMajorMatrix& u, const ClosedForms& harmonic, const Eigen::MatrixXd& gram_matrix);
+Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, std::span<const double> weights,
+                              const PoleForms& poles, const RowMajorMatrix& u, const ClosedForms& harmonic,
+                              const Eigen::MatrixXd& gram_matrix);
 
 }  // namespace holomorph::forms

@@ -9,7 +9,7 @@
 #include "forms/refined_solver.h"
 #include "mesh/boundary_loops.h"
 #include "mesh/components.h"
-#include "mesh/intrinsic_triangulation.h"
+#include "mesh/discretisation.h"
 
 namespace holomorph::multiresolution {
 namespace {
@@ -106,19 +106,18 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
     edge_values.row(static_cast<Eigen::Index>(e)) -= start.row(surface.edges[e][1]) - start.row(surface.edges[e][0]);
   }
-  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
-  const auto weights = mesh::cotangent_weights(plain, execution);
+  const auto input = mesh::on_input(surface, std::move(half_edges), execution);
 
   execution.stage("harmonic map of the level", 0.2, 1.0);
   const auto choice = solver::choose_method(options.solver, surface.vertex_count, edge_values.cols());
-  forms::RefinedSolver solver(plain.half_edges, weights, fixed, choice, execution);
+  forms::RefinedSolver solver(input.half_edges, input.weights, fixed, choice, execution);
   HarmonicMap result;
   result.moves =
       solver.solve(
-          forms::codifferentials(surface, weights, edge_values, execution.workers()),
+          forms::codifferentials(surface, input.weights, edge_values, execution.workers()),
           conditions_of(edge_values.cols(), !fixed.empty()), [&] { return terms_of(edge_values); }, execution) -
       start;
-  const auto weights_of_mean = mesh::vertex_areas(surface, plain.lengths);
+  const auto weights_of_mean = mesh::vertex_areas(surface, input.lengths);
   const Eigen::Map<const Eigen::VectorXd> areas(weights_of_mean.data(), surface.vertex_count);
   Eigen::RowVectorXd mean = areas.transpose() * result.moves / areas.sum();
   if (!fixed.empty()) mean(Eigen::seq(1, Eigen::last, 2)).setZero();

@@ -102,15 +102,15 @@ std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& optio
   return {splits.rbegin(), splits.rend()};
 }
 
-HarmonicFunctions paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution) {
+PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution) {
   PaperSolve solve(levels, options, execution);
-  HarmonicFunctions result{solve.estimate(), {}};
+  PaperForms result{solve.estimate(), {}};
   result.solver = solve.report({});
   return result;
 }
 
-HarmonicFunctions paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
-                              const PaperOptions& options, Execution& execution) {
+PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
+                       const PaperOptions& options, Execution& execution) {
   PaperSolve solve(levels, options, execution);
   Eigen::MatrixXd X = solve.estimate();
   auto report = solve.report(solve.improve_surface(laplacian, B, X));

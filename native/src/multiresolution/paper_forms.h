@@ -16,7 +16,7 @@
 #include "base/execution.h"
 #include "multiresolution/paper_levels.h"
 #include "solver/conjugate_gradients.h"
-#include "structure/harmonic_systems.h"
+#include "structure/solver_report.h"
 
 namespace holomorph::multiresolution {
 
@@ -31,16 +31,19 @@ struct PaperOptions {
 /// Numbers of splits of M0 and of the thresholds, ascending, without that of M.
 std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options);
 
-using structure::HarmonicFunctions;
+struct PaperForms {
+  forms::RowMajorMatrix functions;  ///< #V x #forms
+  structure::SolverReport solver;
+};
 
 /// Steps 4 and 5: the initial guess on M; its report has all levels but M. A threshold's residual need not be small:
 /// simplification changes the solution by some thousandths from one level to the next.
-HarmonicFunctions paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
+PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
 
 /// Steps 4 to 6: functions f of the harmonic forms eta + df, eta the classes of `levels.bases`.
 /// @param laplacian,B of the surface, in its own numbering: L f = B
 /// @throws SolverError if the residual is not reached; Cancelled
-HarmonicFunctions paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
-                              const PaperOptions& options, Execution& execution);
+PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
+                       const PaperOptions& options, Execution& execution);
 
 }  // namespace holomorph::multiresolution

@@ -3,11 +3,8 @@
 #include "base/errors.h"
 #include "forms/codifferential.h"
 #include "forms/laplacian.h"
-#include "mesh/intrinsic_triangulation.h"
-#include "mesh/metric_errors.h"
 #include "multiresolution/paper_forms.h"
 #include "structure/guarantee.h"
-#include "structure/invariants.h"
 
 namespace holomorph::multiresolution {
 namespace {
@@ -19,9 +16,7 @@ structure::MemoryPlan planned(const mesh::Surface& surface, const structure::Opt
     throw TopologyError("the paper's solver is for closed surfaces of genus 1 or more; the surface has " + type.text() +
                         "; take one of auto, direct, multigrid");
   }
-  auto plan =
-      structure::plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), type.form_count()},
-                             "multigrid", options.memory_limit, structure::Keeping::all);
+  auto plan = structure::plan_memory(surface, type, {"multigrid", options.memory_limit}, structure::Keeping::all);
   plan.choice.reason = "asked for";
   return plan;
 }
@@ -54,7 +49,8 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
                                      Execution& execution, std::optional<PaperLevels> levels) {
   structure::Structure result;
   result.surface = std::move(surface);
-  result.memory = planned(*result.surface, options);
+  structure::SolveRecord& record = result.record;
+  record.memory = planned(*result.surface, options);
 
   execution.stage("progressive mesh", 0.0, 0.1);
   if (!levels) levels = paper_levels(*result.surface, execution);
@@ -64,31 +60,29 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   result.topology = structure::find_topology(*result.surface, half_edges, execution, std::move(levels->bases));
 
   execution.stage("Laplacian", 0.2, 0.3);
-  const auto triangulation = mesh::intrinsic_triangulation(*result.surface, std::move(half_edges), execution.workers());
-  result.mollification = triangulation.mollification;
-  const auto weights = mesh::cotangent_weights(triangulation, execution);
-  const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
-  result.certificate.metric = mesh::largest_error(triangulation.metric());
-  const auto laplacian = forms::laplacian(triangulation.half_edges, weights, execution);
+  const auto input = mesh::on_input(*result.surface, std::move(half_edges), execution);
+  record.mollification = input.mollification;
+  const auto laplacian = forms::laplacian(input.half_edges, input.weights, execution);
 
   execution.stage("harmonic forms", 0.3, 0.85);
   const auto& classes = result.topology.classes;
-  const auto B = forms::codifferentials(triangulation.half_edges, weights, classes, execution.workers());
-  auto solved = paper_forms(*levels, laplacian, B, {}, execution);
-  result.functions.swap(solved.functions);
-  result.solver = std::move(solved.solver);
-  forms::RefinedSolver refined(triangulation.half_edges, weights, {}, result.memory.choice,
+  const auto B = forms::codifferentials(input.half_edges, input.weights, classes, execution.workers());
+  auto [functions, report] = paper_forms(*levels, laplacian, B, {}, execution);
+  record.solver = std::move(report);
+  forms::RefinedSolver refined(input.half_edges, input.weights, {}, record.memory.choice,
                                std::make_unique<Gradients>(laplacian), execution.workers());
   refined.refine(
-      result.functions, std::vector<solver::Condition>(classes.form_count, solver::Condition::natural),
+      functions, std::vector<solver::Condition>(classes.form_count, solver::Condition::natural),
       [&] { return forms::class_terms(classes, 0, classes.form_count); }, execution);
-  if (refined.is_stiff()) result.solver.residual = refined.residual();
+  if (refined.is_stiff()) record.solver.residual = refined.residual();
 
   execution.stage("certificates", 0.85, 1.0);
-  structure::complete(triangulation.half_edges, weights, errors, classes, result, execution);
+  result.harmonic =
+      structure::measured(*result.surface, result.topology, input, classes, std::move(functions), execution);
+  result.differentials = result.holomorphic().differentials;
   structure::require_guaranteed(result);
   execution.finish();
-  result.seconds = execution.seconds();
+  record.seconds = execution.seconds();
   return result;
 }
 

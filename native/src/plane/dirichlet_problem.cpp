@@ -5,12 +5,12 @@
 namespace holomorph::plane {
 namespace {
 
-forms::RefinedSolver refined_solver(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                    const std::vector<int>& fixed, solver::Laplacian laplacian, int columns,
-                                    const structure::Options& options, Execution& execution) {
+forms::RefinedSolver refined_solver(const mesh::Discretisation& discretisation, const std::vector<int>& fixed,
+                                    solver::Laplacian laplacian, int columns, const structure::Options& options,
+                                    Execution& execution) {
   const auto choice = solver::choose_method(options.solver, laplacian.size(), columns);
-  return {half_edges,
-          weights,
+  return {discretisation.half_edges,
+          discretisation.weights,
           fixed,
           choice,
           solver::make_solver(choice.method, std::move(laplacian), fixed, execution),
@@ -30,27 +30,25 @@ Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const doub
   return result;
 }
 
-DirichletProblem::DirichletProblem(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                   const std::vector<int>& fixed, int columns, const structure::Options& options,
-                                   Execution& execution)
-    : half_edges_(half_edges),
-      weights_(weights),
+DirichletProblem::DirichletProblem(const mesh::Discretisation& discretisation, const std::vector<int>& fixed,
+                                   int columns, const structure::Options& options, Execution& execution)
+    : discretisation_(discretisation),
       fixed_(fixed),
-      laplacian_(forms::laplacian(half_edges, weights, execution)),
-      solver_(refined_solver(half_edges, weights, fixed, laplacian_, columns, options, execution)) {}
+      laplacian_(forms::laplacian(discretisation.half_edges, discretisation.weights, execution)),
+      solver_(refined_solver(discretisation, fixed, laplacian_, columns, options, execution)) {}
 
 DirichletSolution DirichletProblem::harmonic(const Eigen::MatrixXd& values, Execution& execution) {
   const auto L = laplacian_.matrix();
   DirichletSolution result;
   result.functions = values + solver_.solve(
                                   -(L * values), solver::Condition::dirichlet,
-                                  [&] { return forms::function_terms(half_edges_, values); }, execution);
+                                  [&] { return forms::function_terms(discretisation_.half_edges, values); }, execution);
   result.solver = structure::solver_report(solver_);
   for (const int v : fixed_) result.functions.row(v) = values.row(v);  // exactly
   Eigen::MatrixXd flux = L * result.functions;
   const double largest = (L.cwiseAbs() * result.functions.cwiseAbs()).maxCoeff();
   result.energies = solver_.is_stiff()
-                        ? energies(half_edges_, weights_, result.functions)
+                        ? energies(discretisation_.half_edges, discretisation_.weights, result.functions)
                         : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());
   for (const int v : fixed_) flux.row(v).setZero();
   result.harmonicity = flux.cwiseAbs().maxCoeff() / largest;
@@ -62,10 +60,10 @@ Eigen::MatrixXd DirichletProblem::poisson(const Eigen::MatrixXd& sources, Execut
       sources, solver::Condition::dirichlet, [&] { return forms::FluxTerms{.sources = sources}; }, execution);
 }
 
-DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                  const std::vector<int>& fixed, const Eigen::MatrixXd& values,
-                                  const structure::Options& options, Execution& execution) {
-  DirichletProblem problem(half_edges, weights, fixed, static_cast<int>(values.cols()), options, execution);
+DirichletSolution solve_dirichlet(const mesh::Discretisation& discretisation, const std::vector<int>& fixed,
+                                  const Eigen::MatrixXd& values, const structure::Options& options,
+                                  Execution& execution) {
+  DirichletProblem problem(discretisation, fixed, static_cast<int>(values.cols()), options, execution);
   return problem.harmonic(values, execution);
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/execution.h"
 #include "forms/refined_solver.h"
-#include "mesh/half_edges.h"
+#include "mesh/discretisation.h"
 #include "structure/options.h"
 #include "structure/solver_report.h"
 
@@ -29,9 +29,9 @@ Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const doub
 class DirichletProblem {
  public:
   /// @param columns about how many right-hand sides there will be, for the choice of the solver
-  /// @pre the triangulation and its weights outlive this. @throws SolverError, Cancelled
-  DirichletProblem(const mesh::HalfEdges& half_edges, std::span<const double> weights, const std::vector<int>& fixed,
-                   int columns, const structure::Options& options, Execution& execution);
+  /// @pre the discretisation outlives this. @throws SolverError, Cancelled
+  DirichletProblem(const mesh::Discretisation& discretisation, const std::vector<int>& fixed, int columns,
+                   const structure::Options& options, Execution& execution);
 
   /// L f = 0 at the free vertices, f = `values` at the fixed ones.
   /// @param values #V x m, 0 at the free vertices
@@ -44,16 +44,15 @@ class DirichletProblem {
   Eigen::MatrixXd poisson(const Eigen::MatrixXd& sources, Execution& execution);
 
  private:
-  const mesh::HalfEdges& half_edges_;
-  std::span<const double> weights_;
+  const mesh::Discretisation& discretisation_;
   std::vector<int> fixed_;
   solver::Laplacian laplacian_;
   forms::RefinedSolver solver_;
 };
 
 /// `DirichletProblem::harmonic` of a problem with no other right-hand sides.
-DirichletSolution solve_dirichlet(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                  const std::vector<int>& fixed, const Eigen::MatrixXd& values,
-                                  const structure::Options& options, Execution& execution);
+DirichletSolution solve_dirichlet(const mesh::Discretisation& discretisation, const std::vector<int>& fixed,
+                                  const Eigen::MatrixXd& values, const structure::Options& options,
+                                  Execution& execution);
 
 }  // namespace holomorph::plane

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "base/errors.h"
 #include "base/finite.h"
@@ -12,7 +13,7 @@
 #include "mesh/boundary_loops.h"
 #include "mesh/components.h"
 #include "mesh/delaunay.h"
-#include "mesh/intrinsic_triangulation.h"
+#include "mesh/discretisation.h"
 #include "plane/dirichlet_problem.h"
 
 namespace holomorph::plane {
@@ -66,7 +67,7 @@ std::vector<std::complex<double>> closed_curve(const std::vector<double>& length
 }
 
 // #V x 2: the vertices of the flattened boundary, 0 in the interior. @param turns #V, the exterior angle at each
-Eigen::MatrixXd flattened_boundary(const IntrinsicTriangulation& t, const std::vector<HalfedgeHandle>& loop,
+Eigen::MatrixXd flattened_boundary(const mesh::Discretisation& t, const std::vector<HalfedgeHandle>& loop,
                                    const Eigen::VectorXd& turns) {
   std::vector<double> lengths;
   std::vector<std::complex<double>> tangents;
@@ -94,24 +95,24 @@ PlaneMap free_boundary_map(const mesh::Surface& surface, const Options& options,
   execution.stage("intrinsic Delaunay", 0.1, 0.3);
   auto triangulation = mesh::given_triangulation(surface, std::move(half_edges), execution.workers());
   mesh::make_delaunay(triangulation, execution);
-  result.flip_count = static_cast<int>(triangulation.flips.size());
-  result.mollification = triangulation.mollification;
   const Eigen::VectorXd K = curvatures(triangulation);
+  const auto delaunay = mesh::discretised(std::move(triangulation), execution);
+  result.flip_count = static_cast<int>(delaunay.flips.size());
+  result.mollification = delaunay.mollification;
 
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(surface.vertex_count, 1), z;
   if (static_cast<std::size_t>(surface.vertex_count) == loop.size()) {  // every vertex is on the boundary
-    z = flattened_boundary(triangulation, loop, K);
+    z = flattened_boundary(delaunay, loop, K);
     result.solver.name = "none";
     result.solver.reason = "every vertex lies on the boundary";
   } else {
     execution.stage("scale factors", 0.3, 0.7);
-    const HalfEdges& mesh = triangulation.half_edges;
-    const auto weights = mesh::cotangent_weights(triangulation, execution);
-    DirichletProblem problem(mesh, weights, mesh::boundary_vertices(mesh), 3, options, execution);
+    DirichletProblem problem(delaunay, mesh::boundary_vertices(delaunay.half_edges), 3, options, execution);
     u = problem.poisson(-K, execution);
-    const auto minus_Lu = forms::harmonic_residuals(mesh, weights, {}, u, execution.workers()).R;
+    const auto minus_Lu =
+        forms::harmonic_residuals(delaunay.half_edges, delaunay.weights, {}, u, execution.workers()).R;
     execution.stage("harmonic extension", 0.7, 1.0);
-    auto solved = problem.harmonic(flattened_boundary(triangulation, loop, K - minus_Lu.col(0)), execution);
+    auto solved = problem.harmonic(flattened_boundary(delaunay, loop, K - minus_Lu.col(0)), execution);
     z = std::move(solved.functions);
     result.harmonicity = solved.harmonicity;
     result.solver = std::move(solved.solver);

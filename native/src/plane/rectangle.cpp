@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/finite.h"
 #include "conformal/certain_bounds.h"
-#include "forms/gram_matrices.h"
-#include "mesh/delaunay.h"
-#include "mesh/intrinsic_triangulation.h"
-#include "mesh/metric_errors.h"
+#include "mesh/discretisation.h"
 #include "plane/dirichlet_problem.h"
 #include "plane/rectangle_corners.h"
-#include "structure/guarantee.h"
+#include "structure/energies.h"
 
 namespace holomorph::plane {
 namespace {
@@ -19,32 +17,37 @@ namespace {
 // u: 0 on side 3, 1 on side 1; v: 0 on side 0, 1 on side 2. Each has conditions, and so a system, of its own.
 struct Coordinates {
   DirichletSolution u, v;
-  std::vector<Eigen::MatrixXd> energies, errors;  // of u and v; and by how much rounding may change them
   double harmonicity() const { return std::max(u.harmonicity, v.harmonicity); }
 };
 
-Coordinates coordinates(const mesh::IntrinsicTriangulation& triangulation, const Sides& sides, const Options& options,
+Coordinates coordinates(const mesh::Discretisation& discretisation, const Sides& sides, const Options& options,
                         double from, double to, Execution& execution) {
-  const auto weights = mesh::cotangent_weights(triangulation, execution);
+  const auto& [half_edges, lengths, weights, errors, metric_error, mollification, flips] = discretisation;
   const auto one = [&](int zero_side, int one_side) {
     std::vector<int> fixed = sides[zero_side];
     fixed.insert(fixed.end(), sides[one_side].begin(), sides[one_side].end());
-    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(triangulation.half_edges.n_vertices()), 1);
+    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(half_edges.n_vertices()), 1);
     for (const int v : sides[one_side]) f(v, 0) = 1;
-    return solve_dirichlet(triangulation.half_edges, weights, fixed, f, options, execution);
+    return solve_dirichlet(discretisation, fixed, f, options, execution);
   };
   execution.stage("width", from, (from + to) / 2);
-  Coordinates result{one(3, 1), {}, {}, {}};
+  Coordinates result{one(3, 1), {}};
   execution.stage("height", (from + to) / 2, to);
   result.v = one(0, 2);
-  const auto errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
+  return result;
+}
+
+// The energies of u and of v.
+structure::CertainGram energies(const mesh::Discretisation& discretisation, const Coordinates& coordinates,
+                                Execution& execution) {
   topology::IntegerForms no_classes;
-  no_classes.rows.resize(weights.size());
-  for (const DirichletSolution* f : {&result.u, &result.v}) {
-    const forms::ClosedForms df{no_classes, f->functions};
-    const auto gram = forms::gram_matrices(triangulation.half_edges, weights, errors, df, {1}, execution)[0];
-    result.energies.push_back(gram.value);
-    if (!errors.empty()) result.errors.push_back(forms::gram_errors(gram));
+  no_classes.rows.resize(discretisation.weights.size());
+  structure::CertainGram result;
+  for (const DirichletSolution* f : {&coordinates.u, &coordinates.v}) {
+    const forms::RowMajorMatrix functions = f->functions;
+    auto one = structure::certain_energies(discretisation, {no_classes, functions}, {1}, execution);
+    result.gram.push_back(std::move(one.gram[0]));
+    result.certain.push_back(std::move(one.certain[0]));
   }
   return result;
 }
@@ -61,22 +64,22 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   result.collapsed_triangles = collapsed_triangles(surface, sides);
 
   execution.stage("intrinsic Delaunay", 0.1, 0.2);
-  auto delaunay = mesh::given_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
-  const auto plain = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
-  mesh::make_delaunay(delaunay, execution);
+  const auto delaunay = mesh::on_delaunay(surface, half_edges.copy(execution.workers()), execution);
   result.flip_count = static_cast<int>(delaunay.flips.size());
   result.mollification = delaunay.mollification;
   const bool flipped = result.flip_count > 0;
   const Coordinates sharp = coordinates(delaunay, sides, options, 0.2, flipped ? 0.6 : 1.0, execution);
-  result.modulus = std::sqrt(sharp.u.energies[0] * (1 / sharp.v.energies[0]));
-  result.metric = mesh::largest_error(delaunay.metric());
-  const auto certain = structure::certain_gram(sharp.energies, sharp.errors);
+  const auto [gram, certain] = energies(delaunay, sharp, execution);
+  result.modulus = std::sqrt(gram[0](0, 0) * (1 / gram[1](0, 0)));
+  result.metric = delaunay.metric_error;
   const Eigen::MatrixXd lower = conformal::below_inverse(certain[1]);
   if (result.mollification == 0) structure::require_ordered(lower, certain[0]);
   result.lower = lower(0, 0);
   result.upper = certain[0](0, 0);
 
-  const Coordinates drawn = flipped ? coordinates(plain, sides, options, 0.6, 1.0, execution) : sharp;
+  const Coordinates drawn = flipped ? coordinates(mesh::on_input(surface, std::move(half_edges), execution), sides,
+                                                  options, 0.6, 1.0, execution)
+                                    : sharp;
   result.points.resize(surface.vertex_count);
   result.points.real() = drawn.u.functions.col(0);
   result.points.imag() = result.modulus * drawn.v.functions.col(0);

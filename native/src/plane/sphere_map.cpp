@@ -21,18 +21,18 @@ double balancing_shift(const Eigen::VectorXd& x, const Eigen::VectorXd& areas) {
 }  // namespace
 
 void require_sphere(const structure::Structure& s) {
-  if (s.topology.type.closed() && s.topology.type.genus == 0 && s.stars.size() == 2) return;
+  if (s.topology.type.closed() && s.topology.type.genus == 0 && s.stars().size() == 2) return;
   throw TopologyError("only a closed surface of genus 0 with two punctures has a map to the sphere here");
 }
 
 PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {
   // -log |z| = 2 pi v, and the height (1 - |z|^2) / (1 + |z|^2) is its hyperbolic tangent.
-  const Eigen::VectorXcd angle =
-      2 * std::numbers::pi / s.punctures.residues[0] * (function.col(0) + std::complex<double>(0, 1) * function.col(1));
+  const Eigen::VectorXcd angle = 2 * std::numbers::pi / s.poles->chosen.residues[0] *
+                                 (function.col(0) + std::complex<double>(0, 1) * function.col(1));
   const Eigen::VectorXd turn = angle.real();
   Eigen::VectorXd rise = angle.imag();
   auto areas = mesh::vertex_areas(*s.surface, s.surface->edge_lengths);
-  for (const mesh::Star& star : s.stars) {  // where no height is known
+  for (const mesh::Star& star : s.stars()) {  // where no height is known
     areas[star.vertex] = 0;
     rise[star.vertex] = rise[mesh::from_vertex(*s.surface, mesh::opposite(star.link[0]))];
   }
@@ -40,8 +40,8 @@ PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function
   PointArray points(rise.size(), 3);
   const Eigen::ArrayXd radius = rise.array().cosh().inverse();
   points << radius * turn.array().cos(), radius * turn.array().sin(), rise.array().tanh();
-  points.row(s.stars[0].vertex) << 0, 0, 1;
-  points.row(s.stars[1].vertex) << 0, 0, -1;
+  points.row(s.stars()[0].vertex) << 0, 0, 1;
+  points.row(s.stars()[1].vertex) << 0, 0, -1;
   require_finite(points, "vertex", workers);
   return points;
 }

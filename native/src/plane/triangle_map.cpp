@@ -5,8 +5,8 @@
 #include "base/errors.h"
 #include "base/finite.h"
 #include "mesh/boundary_loops.h"
+#include "mesh/discretisation.h"
 #include "mesh/edge_ends.h"
-#include "mesh/intrinsic_triangulation.h"
 #include "mesh/triangle_geometry.h"
 #include "plane/dirichlet_problem.h"
 
@@ -20,10 +20,10 @@ PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Exec
   const auto& loop = boundary.loops[0];  // the hole on its left: clockwise around the surface
   if (loop.size() != 3)
     throw TopologyError("the boundary has " + std::to_string(loop.size()) + " edges; three are needed");
-  const auto triangulation = mesh::intrinsic_triangulation(surface, std::move(half_edges), execution.workers());
-  result.mollification = triangulation.mollification;
+  const auto input = mesh::on_input(surface, std::move(half_edges), execution);
+  result.mollification = input.mollification;
   const auto vertex = [&](int i) { return mesh::from_vertex(surface, loop[i]); };
-  const auto length = [&](int i) { return triangulation.lengths[mesh::edge_of(loop[i])]; };
+  const auto length = [&](int i) { return input.lengths[mesh::edge_of(loop[i])]; };
   // vertices 0, 2, 1 are counter-clockwise; a runs from 0 to 2, b from 2 to 1, c from 1 to 0
   const double a = length(2), b = length(1), c = length(0), scale = 1 / std::max({a, b, c});
   Eigen::MatrixXd z = Eigen::MatrixXd::Zero(surface.vertex_count, 2);
@@ -35,9 +35,7 @@ PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Exec
 
   execution.stage("harmonic map", 0.3, 1.0);
   if (surface.vertex_count > 3) {
-    const auto weights = mesh::cotangent_weights(triangulation, execution);
-    auto solved =
-        solve_dirichlet(triangulation.half_edges, weights, {vertex(0), vertex(1), vertex(2)}, z, options, execution);
+    auto solved = solve_dirichlet(input, {vertex(0), vertex(1), vertex(2)}, z, options, execution);
     z = solved.functions;
     result.harmonicity = solved.harmonicity;
     result.solver = std::move(solved.solver);

@@ -12,7 +12,7 @@ namespace holomorph::solver {
 enum class Method { direct, multigrid };
 
 struct Choice {
-  Method method;
+  Method method = Method::direct;
   std::string reason;  ///< one phrase, e.g. "asked for"
 };
 

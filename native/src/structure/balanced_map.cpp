@@ -5,7 +5,7 @@
 
 #include "mesh/components.h"
 #include "structure/conformal_structure.h"
-#include "structure/punctured_structure.h"
+#include "structure/pole_structure.h"
 
 namespace holomorph::structure {
 
@@ -30,7 +30,7 @@ BalancedMap balanced_map(std::shared_ptr<const mesh::Surface> surface, const Opt
   const auto type = mesh::topological_type(*surface);
   const bool has_forms = type.form_count() > 0;
   BalancedMap map{has_forms ? conformal_structure(std::move(surface), options, execution)
-                            : punctured_structure(std::move(surface), Punctures{}, options, execution),
+                            : pole_structure(std::move(surface), Poles{}, options, execution),
                   {},
                   {}};
   const auto forms = uv_forms(map.structure, options);

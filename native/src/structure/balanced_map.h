@@ -10,8 +10,8 @@
 
 namespace holomorph::structure {
 
-/// One coefficient of each differential. Without punctures those of uv::balanced_coefficients, real on a surface with
-/// boundary, scaled so that the UV area of the surface is 1; with punctures theta_0 alone, so that its residues stay.
+/// One coefficient of each differential. Without poles those of uv::balanced_coefficients, real on a surface with
+/// boundary, scaled so that the UV area of the surface is 1; with poles theta_0 alone, so that its residues stay.
 /// @throws SolverError, Cancelled
 Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& forms, Execution& execution);
 
@@ -22,15 +22,15 @@ Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& form
 uv::UvArray uv_map(const Structure& structure, UvForms& forms, const Eigen::VectorXcd& c, Execution& execution);
 
 struct BalancedMap {
-  Structure structure;            ///< its functions are used up
+  Structure structure;
   Eigen::VectorXcd coefficients;  ///< of its differentials
   uv::UvArray uv;                 ///< #C x 2
 };
 
-/// Conformal structure, balanced coefficients and UVs of any connected surface. A sphere or a disk gets the punctures
-/// that punctured_structure takes by itself, and its log map; plane/disk_map.h maps a disk to the round one.
+/// Conformal structure, balanced coefficients and UVs of any connected surface. A sphere or a disk gets the poles
+/// that pole_structure takes by itself, and its log map; plane/disk_map.h maps a disk to the round one.
 /// @pre connected, no isolated vertices (mesh::component makes it so)
-/// @throws TopologyError for a sphere or a disk too small for its punctures; SolverError; Cancelled
+/// @throws TopologyError for a sphere or a disk too small for its poles; SolverError; Cancelled
 BalancedMap balanced_map(std::shared_ptr<const mesh::Surface> surface, const Options& options, Execution& execution);
 
 }  // namespace holomorph::structure

@@ -1,16 +1,25 @@
 #include "structure/double_cover.h"
 
-#include "mesh/double_cover.h"
-
 namespace holomorph::structure {
-namespace {
 
 using mesh::DoubleCover;
 using mesh::edge_of;
 using mesh::HalfedgeHandle;
 using topology::IntegerForms;
 
-// Each form on both copies: the same along dual half-edges for the natural ones, the negative for the others.
+DoubledSurface doubled(const mesh::Discretisation& surface, Execution& execution) {
+  DoubledSurface result{mesh::double_cover(surface.half_edges, execution), {}};
+  const auto& [half_edges, dual_vertex, first, second] = result.cover;
+  result.weights.resize(half_edges.n_edges(), 0.0);
+  for (int e = 0; e < static_cast<int>(surface.weights.size()); ++e) {
+    const bool is_outside = surface.half_edges.is_boundary(HalfedgeHandle(2 * e));
+    const int h = is_outside ? 2 * e + 1 : 2 * e;
+    result.weights[edge_of(first[h])] += surface.weights[e];
+    result.weights[edge_of(second[h])] += surface.weights[e];
+  }
+  return result;
+}
+
 IntegerForms extended(const mesh::HalfEdges& half_edges, const DoubleCover& cover, const IntegerForms& forms,
                       int natural) {
   static const IntegerForms::Row kZero;
@@ -30,18 +39,6 @@ IntegerForms extended(const mesh::HalfEdges& half_edges, const DoubleCover& cove
   return both;
 }
 
-Array<double> weights_of_double(const mesh::HalfEdges& half_edges, const DoubleCover& cover,
-                                std::span<const double> weights) {
-  Array<double> both(cover.half_edges.n_edges(), 0.0);
-  for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
-    const HalfedgeHandle h(half_edges.is_boundary(HalfedgeHandle(2 * e)) ? 2 * e + 1 : 2 * e);
-    both[edge_of(cover.first[h.idx()])] += weights[e];
-    both[edge_of(cover.second[h.idx()])] += weights[e];
-  }
-  return both;
-}
-
-// (f(v) + f(v*)) / 2 of the natural functions, (f(v) - f(v*)) / 2 of the others.
 forms::RowMajorMatrix symmetrised(const forms::RowMajorMatrix& f, const DoubleCover& cover, int natural) {
   const auto count = static_cast<Eigen::Index>(cover.dual_vertex.size());
   Eigen::RowVectorXd parity = Eigen::RowVectorXd::Constant(f.cols(), -1);
@@ -50,22 +47,6 @@ forms::RowMajorMatrix symmetrised(const forms::RowMajorMatrix& f, const DoubleCo
   for (Eigen::Index v = 0; v < count; ++v)
     result.row(v) = (f.row(v) + parity.cwiseProduct(f.row(cover.dual_vertex[v]))) / 2;
   return result;
-}
-
-}  // namespace
-
-HarmonicFunctions solve_on_double(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                  const IntegerForms& classes, int natural, const Options& options,
-                                  Execution& execution) {
-  const DoubleCover cover = mesh::double_cover(half_edges, execution);
-  const auto double_weights = weights_of_double(half_edges, cover, weights);
-  const int count = classes.form_count;
-  const MemoryPlan plan = plan_memory({static_cast<std::int64_t>(cover.half_edges.n_vertices()),
-                                       static_cast<std::int64_t>(double_weights.size()), count},
-                                      options.solver, options.memory_limit, Keeping::all);
-  HarmonicSystems systems(cover.half_edges, double_weights, {}, plan.choice, execution);
-  auto solved = systems.solve(extended(half_edges, cover, classes, natural), count, plan.block, execution);
-  return {symmetrised(solved.functions, cover, natural), std::move(solved.solver)};
 }
 
 }  // namespace holomorph::structure

@@ -1,22 +1,26 @@
-// The forms of a surface with boundary by way of its double: the paper's own path (§ 8), the reference for the other.
+// The double of a surface as something to solve on: the paper's own path to forms with boundary (§ 8).
 #pragma once
 
-#include <span>
-
 #include "base/execution.h"
-#include "structure/harmonic_systems.h"
-#include "structure/options.h"
+#include "forms/closed_forms.h"
+#include "mesh/discretisation.h"
+#include "mesh/double_cover.h"
 
 namespace holomorph::structure {
 
-/// As HarmonicSystems::solve, but every form is solved for on the closed double: the symmetric extension of each
-/// natural class and the antisymmetric one of each Dirichlet class. The solutions are symmetrised (Eq. 12), f(v) +
-/// f(v*) and f(v) - f(v*), v* the dual vertex, and restricted to the surface. They are those of the surface itself to
-/// solver accuracy, at twice the size. The double has the edge weights of the surface: edges of the boundary count
-/// twice.
-/// @throws SolverError, Cancelled
-HarmonicFunctions solve_on_double(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                                  const topology::IntegerForms& classes, int natural, const Options& options,
-                                  Execution& execution);
+struct DoubledSurface {
+  mesh::DoubleCover cover;
+  Array<double> weights;  ///< #E of the double, those of the surface: edges of the boundary count twice
+};
+
+DoubledSurface doubled(const mesh::Discretisation& surface, Execution& execution);
+
+/// The symmetric extension of the first `natural` classes to the double, and the antisymmetric one of the others.
+topology::IntegerForms extended(const mesh::HalfEdges& half_edges, const mesh::DoubleCover& cover,
+                                const topology::IntegerForms& classes, int natural);
+
+/// (f(v) + f(v*)) / 2 of the first `natural` functions, (f(v) - f(v*)) / 2 of the others, v* the dual vertex (Eq. 12):
+/// #V of the surface x #forms.
+forms::RowMajorMatrix symmetrised(const forms::RowMajorMatrix& functions, const mesh::DoubleCover& cover, int natural);
 
 }  // namespace holomorph::structure

@@ -1,21 +1,18 @@
 #include "structure/laplace_problem.h"
 
 #include "forms/laplacian.h"
-#include "mesh/delaunay.h"
-#include "mesh/intrinsic_triangulation.h"
+#include "mesh/discretisation.h"
 #include "solver/solver_choice.h"
 
 namespace holomorph::structure {
 
 LaplaceProblem laplace_problem(const mesh::Surface& surface, const std::vector<int>& fixed, const Options& options,
                                Execution& execution) {
-  auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
-  mesh::make_delaunay(triangulation, execution);
-  const mesh::HalfEdges& half_edges = triangulation.half_edges;
+  auto delaunay = mesh::on_delaunay(surface, mesh::half_edges(surface, execution), execution);
+  const mesh::HalfEdges& half_edges = delaunay.half_edges;
   LaplaceProblem result;
   result.threads = execution.threads();
-  result.weights = mesh::cotangent_weights(triangulation, execution);
-  triangulation.forget_metric();
+  result.weights = std::move(delaunay.weights);
   for (int e = 0; e < static_cast<int>(half_edges.n_edges()); ++e) {
     result.ends.push_back({mesh::to_vertex(half_edges, mesh::HalfedgeHandle(2 * e + 1)),
                            mesh::to_vertex(half_edges, mesh::HalfedgeHandle(2 * e))});

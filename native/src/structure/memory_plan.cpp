@@ -73,7 +73,8 @@ std::string solving_for(const Extent& extent) {
 
 }  // namespace
 
-MemoryPlan plan_memory(const Extent& extent, const std::string& solver, std::int64_t memory_limit, Keeping keeping) {
+MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping keeping) {
+  const auto& [solver, memory_limit, boundary] = options;
   const auto n = static_cast<double>(extent.vertices);
   const double kept = 8 * n * static_cast<double>(extent.forms), column = kPerColumn * n;
   MemoryPlan plan;
@@ -85,6 +86,8 @@ MemoryPlan plan_memory(const Extent& extent, const std::string& solver, std::int
     return plan;
   }
   plan.choice = choice_that_fits(extent, solver, 2 * column, memory_limit);
+  // A complex combination of forms is two right-hand sides.
+  plan.map_choice = choice_that_fits({extent.vertices, extent.edges, 2}, solver, 2 * column, memory_limit);
   const double limit = static_cast<double>(memory_limit), fixed = fixed_bytes(plan.choice.method, extent);
   if (memory_limit <= 0) {
     plan.keep_forms = kept <= static_cast<double>(kKeptBytes);
@@ -104,6 +107,20 @@ MemoryPlan plan_memory(const Extent& extent, const std::string& solver, std::int
   const double others = plan.keep_forms && plan.block < extent.forms ? kept : 0;
   plan.bytes = static_cast<std::int64_t>(fixed + others + plan.block * column);
   return plan;
+}
+
+MemoryPlan plan_memory(const mesh::Surface& surface, const mesh::TopologicalType& type, const Options& options,
+                       Keeping keeping) {
+  Extent extent{surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), type.form_count()};
+  if (type.closed()) return plan_memory(extent, options, keeping);
+  extent.forms *= 2;
+  if (options.boundary == Boundary::double_cover) {
+    // The double shares the edges of the boundary, and as many vertices.
+    const auto shared = std::count(surface.edge_face_count.begin(), surface.edge_face_count.end(), 1);
+    extent.vertices = 2 * extent.vertices - shared;
+    extent.edges = 2 * extent.edges - shared;
+  }
+  return plan_memory(extent, options, Keeping::all);
 }
 
 void require_memory(const std::string& what, std::int64_t bytes, std::int64_t memory_limit) {

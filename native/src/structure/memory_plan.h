@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
+#include "mesh/components.h"
 #include "solver/solver_choice.h"
+#include "structure/options.h"
 
 namespace holomorph::structure {
 
@@ -16,23 +18,29 @@ struct Extent {
 };
 
 struct MemoryPlan {
-  bool keep_forms =
-      true;       ///< all functions stay in memory, #V x #forms numbers; else each block goes when it was measured
+  /// Whether all functions stay in memory, #V x #forms numbers; else each block goes when it was measured.
+  bool keep_forms = true;
   int block = 0;  ///< right-hand sides solved for at a time
-  std::int64_t bytes = 0;  ///< estimate of the most memory in use at once, beside the surface itself: at least that,
-                           ///< and up to 2.5 times, of small surfaces 30 MB more
-  solver::Choice choice;   ///< of the solver: one that fits
+  /// Estimate of the most memory in use at once, beside the surface itself: at least that, and up to 2.5 times, of
+  /// small surfaces 30 MB more.
+  std::int64_t bytes = 0;
+  solver::Choice choice;      ///< of the solver: one that fits
+  solver::Choice map_choice;  ///< of the solver for a single map of forms that are not kept
 };
 
 /// Whether a computation can do with a few forms at a time.
 enum class Keeping { all, as_many_as_fit };
 
-/// Without a limit the forms are kept up to kKeptBytes of functions, and nothing is refused. With one they are kept
-/// where all fits, else solved for in blocks of the largest size that fits; the direct solver, where it was not asked
-/// for by name, gives way to multigrid if its factor does not fit.
-/// @param solver "auto", "direct", ...; @param memory_limit bytes, 0 for none
+/// Plans a computation. Without a limit the forms are kept up to kKeptBytes of functions, and nothing is refused. With
+/// one they are kept where all fits, else solved for in blocks of the largest size that fits; the direct solver, where
+/// it was not asked for by name, gives way to multigrid if its factor does not fit.
 /// @throws SolverError if not even two right-hand sides fit, or not all where all must be kept, naming the bytes
-MemoryPlan plan_memory(const Extent& extent, const std::string& solver, std::int64_t memory_limit, Keeping keeping);
+MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping keeping);
+
+/// Plans for all harmonic forms of a surface, on its double where the options say so, before anything large is made.
+/// Those of a surface with boundary are kept.
+MemoryPlan plan_memory(const mesh::Surface& surface, const mesh::TopologicalType& type, const Options& options,
+                       Keeping keeping);
 
 /// @throws SolverError where `what`, e.g. "the 4 harmonic forms on 300 edges", takes more than a limit that is set
 void require_memory(const std::string& what, std::int64_t bytes, std::int64_t memory_limit);

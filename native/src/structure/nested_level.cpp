@@ -1,14 +1,10 @@
 #include "structure/nested_level.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "mesh/boundary_loops.h"
 #include "mesh/delaunay.h"
-#include "mesh/metric_errors.h"
 #include "structure/guarantee.h"
-#include "structure/harmonic_systems.h"
-#include "structure/invariants.h"
 #include "topology/integer_forms.h"
 
 namespace holomorph::structure {
@@ -43,52 +39,36 @@ void write_side(const IntegerForms& forms, HalfedgeHandle h, int t, int i, SideC
     sides(t, static_cast<Eigen::Index>(i) * forms.form_count + form) = mesh::sign(h) * value;
 }
 
-void write_triangulation(const mesh::IntrinsicTriangulation& triangulation, const IntegerForms& classes,
-                         NestedLevel& level) {
-  const mesh::HalfEdges& mesh = triangulation.half_edges;
-  const auto count = static_cast<int>(mesh.n_faces());
+void write_triangulation(const mesh::HalfEdges& half_edges, const IntegerForms& classes, NestedLevel& level) {
+  const auto count = static_cast<int>(half_edges.n_faces());
   level.triangles.resize(count);
   level.triangle_edges.resize(count);
-  level.errors.assign(count, 1);
   level.classes = SideClasses::Zero(count, 3 * static_cast<Eigen::Index>(classes.form_count));
-  level.lengths.assign(triangulation.lengths.begin(), triangulation.lengths.end());
   for (int t = 0; t < count; ++t) {
-    HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(t));
-    for (int i = 0; i < 3; ++i, h = mesh::next(mesh, h)) {
-      level.triangles[t][i] = mesh::from_vertex(mesh, h);
+    HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(t));
+    for (int i = 0; i < 3; ++i, h = mesh::next(half_edges, h)) {
+      level.triangles[t][i] = mesh::from_vertex(half_edges, h);
       level.triangle_edges[t][i] = edge_of(h);
       write_side(classes, h, t, i, level.classes);
     }
-    if (!triangulation.metric_errors.empty()) level.errors[t] = triangulation.metric_errors[t].largest;
   }
 }
 
-// The Delaunay triangulation of a surface with all that energies on it are made of.
-struct Triangulated {
-  mesh::IntrinsicTriangulation triangulation;
-  std::vector<int> fixed;
-  Array<double> weights, errors;
-  IntegerForms classes;
+IntegerForms classes_on_delaunay(const mesh::Surface& surface, const SideClasses& sides,
+                                 const mesh::Discretisation& delaunay) {
+  auto classes = edge_classes(surface, sides, static_cast<int>(sides.cols() / 3));
+  topology::pull_back(delaunay.flips, classes);
+  return classes;
+}
 
-  Triangulated(const mesh::Surface& surface, const SideClasses& sides, Execution& execution)
-      : triangulation(mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers())),
-        fixed(mesh::boundary_vertices(triangulation.half_edges)),
-        classes(edge_classes(surface, sides, static_cast<int>(sides.cols() / 3))) {
-    mesh::make_delaunay(triangulation, execution);
-    weights = mesh::cotangent_weights(triangulation, execution);
-    errors = mesh::energy_errors(triangulation.metric(), weights, execution.workers());
-    topology::pull_back(triangulation.flips, classes);
-  }
-
-  CertainGram measure(const forms::RowMajorMatrix& functions, int natural, Execution& execution) const {
-    const int dirichlet = classes.form_count - natural;
-    forms::ClosedForms forms{classes, functions};
-    forms.functions(fixed, Eigen::lastN(dirichlet)).setZero();
-    std::vector<int> families{natural};
-    if (dirichlet > 0) families.push_back(dirichlet);
-    return certain_energies(triangulation.half_edges, weights, errors, forms, families, execution);
-  }
-};
+CertainGram energies(const mesh::Discretisation& delaunay, const IntegerForms& classes, int natural,
+                     forms::RowMajorMatrix functions, Execution& execution) {
+  const int dirichlet = classes.form_count - natural;
+  functions(mesh::boundary_vertices(delaunay.half_edges), Eigen::lastN(dirichlet)).setZero();
+  std::vector<int> families{natural};
+  if (dirichlet > 0) families.push_back(dirichlet);
+  return certain_energies(delaunay, {classes, functions}, families, execution);
+}
 
 }  // namespace
 
@@ -96,9 +76,7 @@ SideClasses side_classes(const Structure& s) {
   const mesh::Surface& surface = *s.surface;
   Execution silent;
   const auto half_edges = mesh::half_edges(surface, silent);
-  const int natural = s.topology.families.natural;
-  const auto classes =
-      harmonic_classes(s.topology, half_edges, topology::first_forms(s.topology.classes, natural, natural));
+  const auto classes = classes_on(s.topology, half_edges, {});
   const auto count = static_cast<Eigen::Index>(surface.triangles.size());
   SideClasses sides = SideClasses::Zero(count, 3 * static_cast<Eigen::Index>(classes.form_count));
   const mesh::Sides half_edge(surface);
@@ -110,39 +88,44 @@ SideClasses side_classes(const Structure& s) {
 
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, int natural, const Options& options,
                         Execution& execution) {
-  const int count = static_cast<int>(sides.cols() / 3);
   NestedLevel level;
   execution.stage("refined triangulation", 0.0, 0.3);
-  const Triangulated t(surface, sides, execution);
-  level.mollification = t.triangulation.mollification;
-  write_triangulation(t.triangulation, t.classes, level);
+  auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  mesh::make_delaunay(triangulation, execution);
+  level.errors.assign(surface.triangles.size(), 1);
+  for (std::size_t t = 0; t < triangulation.metric_errors.size(); ++t)
+    level.errors[t] = triangulation.metric_errors[t].largest;
+  const auto delaunay = mesh::discretised(std::move(triangulation), execution);
+  level.lengths.assign(delaunay.lengths.begin(), delaunay.lengths.end());
+  level.mollification = delaunay.mollification;
+  const auto classes = classes_on_delaunay(surface, sides, delaunay);
+  write_triangulation(delaunay.half_edges, classes, level);
 
   execution.stage("refined forms", 0.3, 0.9);
-  const auto plan = plan_memory({surface.vertex_count, static_cast<std::int64_t>(surface.edges.size()), count},
-                                options.solver, options.memory_limit, Keeping::all);
   execution.part(0, 0.5);
-  HarmonicSystems systems(t.triangulation.half_edges, t.weights, t.fixed, plan.choice, execution);
+  HarmonicSolver solver(delaunay, classes.form_count, options, execution);
   execution.part(0.5, 1);
-  level.functions = systems.solve(t.classes, natural, plan.block, execution).functions;
+  level.functions = solver.solve(classes, natural, execution);
 
   execution.stage("refined bounds", 0.9, 1.0);
-  level.energies = t.measure(level.functions, natural, execution);
+  level.energies = energies(delaunay, classes, natural, level.functions, execution);
   execution.finish();
   return level;
 }
 
 CertainGram measure(const mesh::Surface& surface, const SideClasses& sides, int natural,
                     const forms::RowMajorMatrix& functions, Execution& execution) {
-  return Triangulated(surface, sides, execution).measure(functions, natural, execution);
+  const auto delaunay = mesh::on_delaunay(surface, mesh::half_edges(surface, execution), execution);
+  return energies(delaunay, classes_on_delaunay(surface, sides, delaunay), natural, functions, execution);
 }
 
-void narrow(Structure& structure, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain_gram,
-            double metric) {
-  structure.gram = std::move(gram);
-  structure.certain_gram = std::move(certain_gram);
-  structure.certificate.metric = metric;
-  set_holomorphic_basis(structure);
+Structure narrowed(Structure structure, CertainGram energies, double metric) {
+  auto& harmonic = structure.harmonic;
+  harmonic.invariants = invariants(structure.topology, std::move(energies));
+  harmonic.certificate.metric = metric;
+  structure.differentials = structure.holomorphic().differentials;
   require_guaranteed(structure);
+  return structure;
 }
 
 }  // namespace holomorph::structure

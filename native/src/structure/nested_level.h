@@ -8,7 +8,6 @@
 #include "base/execution.h"
 #include "forms/closed_forms.h"
 #include "mesh/surface.h"
-#include "structure/invariants.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 
@@ -39,14 +38,14 @@ struct NestedLevel {
 NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes, int natural, const Options& options,
                         Execution& execution);
 
-/// Those of the forms eta_i + d f_i with any functions, on the Delaunay triangulation of the surface: admissible ones,
+/// Measures the forms eta_i + d f_i with any functions on the Delaunay triangulation of the surface: admissible ones,
 /// whatever they are, so that bounds hold.
 /// @param functions #V x m; those of Dirichlet forms count as 0 on the boundary
 CertainGram measure(const mesh::Surface& surface, const SideClasses& classes, int natural,
                     const forms::RowMajorMatrix& functions, Execution& execution);
 
-/// Gram matrices of the same forms from a finer level, and what follows from them.
-void narrow(Structure& structure, std::vector<Eigen::MatrixXd> gram, std::vector<Eigen::MatrixXd> certain_gram,
-            double metric);
+/// The structure with Gram matrices of the same forms from a finer level, and what follows from them.
+/// @throws SolverError
+Structure narrowed(Structure structure, CertainGram energies, double metric);
 
 }  // namespace holomorph::structure

@@ -1,55 +1,48 @@
 #include "structure/streamed_forms.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "forms/codifferential.h"
 #include "forms/gram_matrices.h"
-#include "structure/guarantee.h"
-#include "structure/invariants.h"
-#include "uv/balance.h"
 
 namespace holomorph::structure {
 
-void measure_in_blocks(const mesh::HalfEdges& triangulation, std::span<const double> weights,
-                       std::span<const double> errors, HarmonicSystems& systems, topology::IntegerForms&& classes,
-                       Structure& result, Execution& execution) {
-  const int n = classes.form_count;
-  const mesh::Surface& surface = *result.surface;
+HarmonicForms streamed_forms(const mesh::Surface& surface, const Topology& topology, HarmonicSolver& solver,
+                             const topology::IntegerForms& classes, Execution& execution) {
+  const auto& [half_edges, lengths, weights, errors, metric_error, mollification, flips] = solver.discretisation();
+  const int n = classes.form_count, block = solver.plan().block, blocks = (n + block - 1) / block;
+  HarmonicForms result;
   Certificate& certificate = result.certificate;
-  forms::ClosedForms solved{std::move(classes), {}}, on_surface{result.topology.classes, {}};
+  certificate.metric = metric_error;
   Eigen::MatrixXd G(n, n);
   std::vector<Eigen::MatrixXd> uncertain;
   if (!errors.empty()) uncertain = {Eigen::MatrixXd::Zero(n, n)};
-  const int blocks = (n + result.memory.block - 1) / result.memory.block;
-  result.samples.triangles = uv::sample_triangles(surface);
-  result.samples.on_sides.resize(2 * static_cast<Eigen::Index>(result.samples.triangles.size()), n);
+  const mesh::Sides side(surface);
+  auto& [triangles, on_sides] = result.samples;
+  triangles = uv::sample_triangles(surface);
+  on_sides.resize(2 * static_cast<Eigen::Index>(triangles.size()), n);
   const auto measure = [&](int first, forms::RowMajorMatrix&& functions) {
     const auto width = functions.cols();
-    solved.first = on_surface.first = first;
-    solved.functions.swap(functions);
-    G.middleCols(first, width) = forms::class_products(triangulation, weights, solved.classes, solved);
+    const forms::ClosedForms solved{classes, functions, first}, on_surface{topology.classes, functions, first};
+    G.middleCols(first, width) = forms::class_products(half_edges, weights, classes, solved);
     // A positive matrix is at most the number of its diagonal blocks times these.
     if (!errors.empty()) {
       uncertain[0].block(first, first, width, width) =
-          blocks *
-          forms::gram_matrices(triangulation, errors, {}, solved, {static_cast<int>(width)}, execution)[0].value;
+          blocks * forms::gram_matrices(half_edges, errors, {}, solved, {static_cast<int>(width)}, execution)[0].value;
     }
     const auto [closedness, harmonicity] =
-        forms::residuals(triangulation, weights, solved, execution, static_cast<int>(width), {});
+        forms::residuals(half_edges, weights, solved, execution, static_cast<int>(width), {});
     certificate.residuals.closedness = std::max(certificate.residuals.closedness, closedness);
     certificate.residuals.harmonicity = std::max(certificate.residuals.harmonicity, harmonicity);
-    on_surface.functions.swap(solved.functions);
     certificate.periods =
-        std::max(certificate.periods, forms::period_residual(surface, on_surface, result.topology.homology_basis));
-    result.samples.on_sides.middleCols(first, width) =
-        uv::values_on_sides(surface, mesh::Sides(surface), on_surface, result.samples.triangles);
+        std::max(certificate.periods, forms::period_residual(surface, on_surface, topology.homology_basis));
+    on_sides.middleCols(first, width) = uv::values_on_sides(surface, side, on_surface, triangles);
   };
-  systems.solve_in_blocks(solved.classes, n, result.memory.block, execution, measure);
-  result.solver = systems.report();
+  solver.solve_in_blocks(classes, n, execution, measure);
   certificate.asymmetry = (G - G.transpose()).cwiseAbs().maxCoeff() / G.cwiseAbs().maxCoeff();
-  result.gram = {(G + G.transpose()) / 2};
-  result.certain_gram = certain_gram(result.gram, uncertain);
-  set_holomorphic_basis(result);
+  result.invariants = invariants(topology, certain_gram({(G + G.transpose()) / 2}, uncertain));
+  return result;
 }
 
 }  // namespace holomorph::structure

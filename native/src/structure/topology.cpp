@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "topology/fundamental_domain.h"
-#include "topology/puncture_classes.h"
+#include "topology/pole_classes.h"
 
 namespace holomorph::structure {
 namespace {
@@ -53,7 +53,7 @@ IntegerForms all_classes(const mesh::HalfEdges& half_edges, const FundamentalDom
   if (families.dirichlet > 0)
     natural = topology::concatenated(natural, topology::first_forms(natural, handles, families.dirichlet));
   if (stars.empty()) return natural;
-  const auto poles = topology::puncture_classes(half_edges, domain, stars);
+  const auto poles = topology::pole_classes(half_edges, domain, stars);
   families.poles = poles.form_count;
   return topology::concatenated(natural, topology::first_forms(poles, families.poles, 2 * families.poles));
 }
@@ -88,9 +88,12 @@ Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half
   return result;
 }
 
-IntegerForms harmonic_classes(const Topology& topology, const mesh::HalfEdges& half_edges,
-                              const IntegerForms& natural) {
-  if (topology.families.dirichlet == 0) return natural;
+IntegerForms classes_on(const Topology& topology, const mesh::HalfEdges& half_edges,
+                        const std::vector<mesh::Flip>& flips) {
+  const Families& families = topology.families;
+  auto natural = topology::first_forms(topology.classes, families.natural, families.natural);
+  topology::pull_back(flips, natural);
+  if (families.dirichlet == 0) return natural;
   const int handles = 2 * topology.type.genus;
   auto relative = topology::first_forms(natural, handles, handles);
   topology::add_loop_indicators(half_edges, topology.boundary, relative);

@@ -47,9 +47,9 @@ Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half
 
 /// The classes whose harmonic forms are solved for, on any triangulation of the same vertices: the natural ones, and
 /// with boundary the Dirichlet ones, those of the handles and d(1 on loop k, 0 elsewhere).
-/// @param natural on that triangulation
-topology::IntegerForms harmonic_classes(const Topology& topology, const mesh::HalfEdges& half_edges,
-                                        const topology::IntegerForms& natural);
+/// @param half_edges,flips of that triangulation, flipped from the surface's own
+topology::IntegerForms classes_on(const Topology& topology, const mesh::HalfEdges& half_edges,
+                                  const std::vector<mesh::Flip>& flips);
 
 /// The loops' harmonic measures: adds 1 on boundary loop k to the functions of its Dirichlet form, whose class in
 /// `Topology::classes` is 0.

@@ -1,11 +1,9 @@
 #include "structure/uv_forms.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "base/chunks.h"
 #include "forms/codifferential.h"
-#include "mesh/intrinsic_triangulation.h"
-#include "structure/double_cover.h"
 #include "uv/balance.h"
 
 namespace holomorph::structure {
@@ -14,26 +12,16 @@ namespace {
 // Largest relative gain in energy that is given away; it bounds the squared relative distance between the forms.
 constexpr double kNegligibleGain = 1e-9;
 
-// The surface's own triangles and their weights.
-struct OwnTriangles {
-  mesh::IntrinsicTriangulation triangulation;
-  Array<double> weights;
-
-  OwnTriangles(const mesh::Surface& surface, Execution& execution)
-      : triangulation(
-            mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers())),
-        weights(mesh::cotangent_weights(triangulation, execution)) {
-    triangulation.forget_metric();
-  }
-};
+mesh::Discretisation on_own_triangles(const mesh::Surface& surface, Execution& execution) {
+  return mesh::on_input(surface, mesh::half_edges(surface, execution), execution);
+}
 
 class KeptForms final : public UvForms {
  public:
-  KeptForms(Structure& structure, const Options& options)
-      : structure_(structure), options_(options), forms_{structure.topology.classes, {}} {
-    forms_.functions.swap(structure.functions);
-    report_ = structure.solver;
-    ready_ = structure.flip_count == 0;
+  KeptForms(const Structure& structure, const Options& options)
+      : structure_(structure), options_(options), functions_(structure.harmonic.functions) {
+    report_ = structure.record.solver;
+    ready_ = structure.record.flip_count == 0;
   }
 
   void prepare(Execution& execution) override {
@@ -48,33 +36,34 @@ class KeptForms final : public UvForms {
     prepare(execution);
     Eigen::Matrix<double, Eigen::Dynamic, 2> coefficients(p.size(), 2);
     coefficients << p.real(), p.imag();
-    uv::UvArray result(forms_.functions.rows(), 2);
+    uv::UvArray result(functions_->rows(), 2);
     for_rows(execution.workers(), static_cast<int>(result.rows()),
-             [&](int v) { result.row(v).noalias() = forms_.functions.row(v) * coefficients; });
+             [&](int v) { result.row(v).noalias() = functions_->row(v) * coefficients; });
     return result;
   }
 
   void write_edge_values(Eigen::Ref<forms::RowMajorMatrix> rows, Execution& execution) override {
     prepare(execution);
-    forms::write_edge_values(*structure_.surface, forms_, rows);
+    forms::write_edge_values(*structure_.surface, forms(), rows);
   }
 
   uv::FormSamples samples(Execution& execution) override {
     prepare(execution);
     auto triangles = uv::sample_triangles(*structure_.surface);
-    auto values = uv::values_on_sides(*structure_.surface, mesh::Sides(*structure_.surface), forms_, triangles);
+    auto values = uv::values_on_sides(*structure_.surface, mesh::Sides(*structure_.surface), forms(), triangles);
     return {std::move(triangles), std::move(values)};
   }
 
  private:
+  forms::ClosedForms forms() const { return {structure_.topology.classes, *functions_}; }
+
   // Whether the energies on the own triangles, none of them degenerate, leave nothing to be gained over the least ones.
-  // The functions are given up where they do, and a call that was cancelled since then solves at once.
-  bool is_negligible(Execution& execution) {
-    if (forms_.functions.size() == 0 || !structure_.surface->repairs.zero_area_faces.empty()) return false;
-    const Eigen::VectorXd here = forms::energies(*structure_.surface, forms_, execution);
+  bool is_negligible(Execution& execution) const {
+    if (!structure_.surface->repairs.zero_area_faces.empty()) return false;
+    const Eigen::VectorXd here = forms::energies(*structure_.surface, forms(), execution);
     Eigen::VectorXd least(here.size());
     Eigen::Index first = 0;
-    for (const Eigen::MatrixXd& G : structure_.gram) {
+    for (const Eigen::MatrixXd& G : structure_.harmonic.invariants.energies.gram) {
       least.segment(first, G.rows()) = G.diagonal();
       first += G.rows();
     }
@@ -82,33 +71,17 @@ class KeptForms final : public UvForms {
   }
 
   void solve_again(Execution& execution) {
-    forms_.functions.resize(0, 0);
-    const Topology& topology = structure_.topology;
-    const OwnTriangles own(*structure_.surface, execution);
-    const auto& half_edges = own.triangulation.half_edges;
-    const int natural = topology.families.natural;
-    const auto classes =
-        harmonic_classes(topology, half_edges, topology::first_forms(topology.classes, natural, natural));
+    const auto own = on_own_triangles(*structure_.surface, execution);
     execution.stage("harmonic forms of the input triangulation", 0.2, 1.0);
-    auto solved = solve(half_edges, own.weights, classes, execution);
-    add_loop_indicators(topology, solved.functions);
-    forms_.functions.swap(solved.functions);
-    report_ = std::move(solved.solver);
+    HarmonicSolver solver(own, structure_.record.memory, options_.boundary, execution);
+    functions_ =
+        std::make_shared<const forms::RowMajorMatrix>(harmonic_functions(structure_.topology, solver, execution));
+    report_ = solver.report();
   }
 
-  HarmonicFunctions solve(const mesh::HalfEdges& half_edges, std::span<const double> weights,
-                          const topology::IntegerForms& classes, Execution& execution) const {
-    const int natural = structure_.topology.families.natural;
-    if (options_.boundary == Boundary::double_cover)
-      return solve_on_double(half_edges, weights, classes, natural, options_, execution);
-    HarmonicSystems systems(half_edges, weights, mesh::boundary_vertices(structure_.topology.boundary),
-                            structure_.memory.choice, execution);
-    return systems.solve(classes, natural, structure_.memory.block, execution);
-  }
-
-  Structure& structure_;
+  const Structure& structure_;
   const Options& options_;
-  forms::ClosedForms forms_;
+  std::shared_ptr<const forms::RowMajorMatrix> functions_;
   bool ready_ = false;
 };
 
@@ -118,18 +91,16 @@ class StreamedForms final : public UvForms {
   StreamedForms(const Structure& structure, const Options& options) : structure_(structure), options_(options) {}
 
   void prepare(Execution& execution) override {
-    if (systems_) return;
+    if (solver_) return;
     execution.stage("input triangulation", 0.0, 0.3);
-    own_ = std::make_unique<OwnTriangles>(*structure_.surface, execution);
+    own_ = std::make_unique<const mesh::Discretisation>(on_own_triangles(*structure_.surface, execution));
     execution.stage("solver of the input triangulation", 0.3, 1.0);
-    // A complex combination of forms is two right-hand sides.
-    const Extent extent{structure_.surface->vertex_count, static_cast<std::int64_t>(own_->weights.size()), 2};
-    const auto choice = plan_memory(extent, options_.solver, options_.memory_limit, Keeping::as_many_as_fit).choice;
-    auto systems = std::make_unique<HarmonicSystems>(own_->triangulation.half_edges, own_->weights, std::vector<int>{},
-                                                     choice, execution);
+    MemoryPlan plan = structure_.record.memory;
+    plan.choice = plan.map_choice;
+    auto solver = std::make_unique<HarmonicSolver>(*own_, std::move(plan), Boundary::natural, execution);
     execution.finish();
-    systems_ = std::move(systems);
-    report_ = systems_->report();
+    solver_ = std::move(solver);
+    report_ = solver_->report();
   }
 
   uv::UvArray function(const Eigen::VectorXcd& p, Execution& execution) override {
@@ -139,10 +110,10 @@ class StreamedForms final : public UvForms {
     execution.stage("harmonic forms of the map", 0.0, 1.0);
     const auto B = forms::codifferentials(*structure_.surface, own_->weights, structure_.topology.classes, parts,
                                           execution.workers());
-    uv::UvArray result = systems_->solver().solve(
+    uv::UvArray result = solver_->systems().solve(
         B, solver::Condition::natural, [&] { return forms::class_terms(structure_.topology.classes, parts); },
         execution);
-    report_ = systems_->report();
+    report_ = solver_->report();
     execution.finish();
     return result;
   }
@@ -150,30 +121,29 @@ class StreamedForms final : public UvForms {
   void write_edge_values(Eigen::Ref<forms::RowMajorMatrix> rows, Execution& execution) override {
     prepare(execution);
     execution.stage("harmonic forms", 0.0, 1.0);
-    forms::ClosedForms block{structure_.topology.classes, {}};
+    const auto& classes = structure_.topology.classes;
     const auto write = [&](int first, forms::RowMajorMatrix&& functions) {
-      block.first = first;
-      block.functions.swap(functions);
-      forms::write_edge_values(*structure_.surface, block, rows.middleRows(first, block.functions.cols()));
+      forms::write_edge_values(*structure_.surface, {classes, functions, first},
+                               rows.middleRows(first, functions.cols()));
     };
-    systems_->solve_in_blocks(block.classes, block.classes.form_count, structure_.memory.block, execution, write);
-    report_ = systems_->report();
+    solver_->solve_in_blocks(classes, classes.form_count, execution, write);
+    report_ = solver_->report();
     execution.finish();
   }
 
-  uv::FormSamples samples(Execution&) override { return structure_.samples; }
+  uv::FormSamples samples(Execution&) override { return structure_.harmonic.samples; }
 
  private:
   const Structure& structure_;
   const Options& options_;
-  std::unique_ptr<OwnTriangles> own_;
-  std::unique_ptr<HarmonicSystems> systems_;
+  std::unique_ptr<const mesh::Discretisation> own_;
+  std::unique_ptr<HarmonicSolver> solver_;
 };
 
 }  // namespace
 
-std::unique_ptr<UvForms> uv_forms(Structure& structure, const Options& options) {
-  if (structure.memory.keep_forms) return std::make_unique<KeptForms>(structure, options);
+std::unique_ptr<UvForms> uv_forms(const Structure& structure, const Options& options) {
+  if (structure.record.memory.keep_forms) return std::make_unique<KeptForms>(structure, options);
   return std::make_unique<StreamedForms>(structure, options);
 }
 

@@ -33,9 +33,9 @@ class UvForms {
   SolverReport report_;
 };
 
-/// The functions of `structure` are taken over. Where its plan keeps no forms, each call solves for what it is asked
-/// for; the factor or hierarchy is kept between calls, and samples are those of the intrinsic triangulation.
+/// The UV forms of a structure, whose functions are shared. Where its plan keeps no forms, each call solves for what it
+/// is asked for; the factor or hierarchy is kept between calls, and samples are those of the intrinsic triangulation.
 /// @param structure,options outlive the result
-std::unique_ptr<UvForms> uv_forms(Structure& structure, const Options& options);
+std::unique_ptr<UvForms> uv_forms(const Structure& structure, const Options& options);
 
 }  // namespace holomorph::structure

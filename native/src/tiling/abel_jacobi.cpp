@@ -20,7 +20,7 @@ using mesh::opposite;
 
 AbelJacobi::AbelJacobi(const Landscape& landscape, Execution& execution)
     : landscape_(landscape),
-      gram_(landscape.structure().gram[0]),
+      gram_(landscape.structure().harmonic.invariants.energies.gram[0]),
       largest_(landscape.harmonic().functions.cwiseAbs().maxCoeff() + 1) {
   const auto& mesh = landscape.half_edges();
   const auto count = static_cast<int>(mesh.n_faces());

@@ -41,45 +41,39 @@ IntegerForms on_flipped(IntegerForms classes, const mesh::Surface& before, const
 ClosedMaps::ClosedMaps(const Landscape& landscape, const std::vector<int>& vertices, const std::vector<int>& names,
                        const structure::Options& options, Execution& execution)
     : landscape_(landscape) {
-  structure::Punctures punctures{vertices, std::vector<Complex>(vertices.size(), 1.0), names};
-  punctures.residues.back() = -static_cast<double>(vertices.size() - 1);
-  poles_ = make_structure(landscape, std::move(punctures), execution);
+  structure::Poles poles{vertices, std::vector<Complex>(vertices.size(), 1.0), names};
+  poles.residues.back() = -static_cast<double>(vertices.size() - 1);
+  poles_ = make_structure(landscape, std::move(poles), execution);
   const structure::Structure& s = *structure_;
   execution.stage("solver", 0.3, 0.6);
-  systems_ = flipped_ ? nullptr : landscape.systems();
-  if (!systems_) {
-    const structure::Extent extent{s.surface->vertex_count, static_cast<std::int64_t>(s.surface->edges.size()), 2};
-    const auto plan = structure::plan_memory(extent, options.solver, options.memory_limit, structure::Keeping::all);
-    systems_ = std::make_shared<structure::HarmonicSystems>(half_edges(), weights(), std::vector<int>{}, plan.choice,
-                                                            execution);
-  }
+  solver_ = flipped_ ? nullptr : landscape.solver();
+  if (!solver_) solver_ = std::make_shared<structure::HarmonicSolver>(discretisation(), 2, options, execution);
   const structure::Structure& plain = landscape.structure();
   change_ = change_of_basis(plain.topology.classes, s);
   pole_parts_.resize(change_.rows(), s.topology.families.poles);
   if (change_.rows() == 0) return;
   // Away from the flipped diagonals the harmonic forms are those of the landscape, and integers are all that is wanted.
-  const forms::ClosedForms harmonic{on_flipped(plain.topology.classes, *plain.surface, *s.surface, half_edges()),
-                                    landscape.harmonic().functions};
-  pole_parts_ = forms::harmonic_part(half_edges(), poles_, harmonic, plain.gram[0]);
+  const auto& half_edges = discretisation().half_edges;
+  const auto classes = on_flipped(plain.topology.classes, *plain.surface, *s.surface, half_edges);
+  pole_parts_ = forms::harmonic_part(half_edges, poles_, {classes, *plain.harmonic.functions},
+                                     plain.harmonic.invariants.energies.gram[0]);
 }
 
-forms::Poles ClosedMaps::make_structure(const Landscape& landscape, structure::Punctures punctures,
-                                        Execution& execution) {
+forms::PoleForms ClosedMaps::make_structure(const Landscape& landscape, structure::Poles poles, Execution& execution) {
   if (landscape.surface().has_diagonals()) {
-    auto made = structure::punctured_surface(landscape.structure().surface, std::move(punctures), execution);
-    flipped_ = {std::move(made.half_edges), std::move(made.weights)};
+    auto made = structure::surface_with_poles(landscape.structure().surface, std::move(poles), execution);
+    flipped_ = std::move(made.discretisation);
     structure_ = std::make_shared<structure::Structure>(std::move(made.structure));
-    return std::move(made.poles);
+    return std::move(made.pole_forms);
   }
   structure::Structure s;
   s.surface = landscape.structure().surface;
-  s.punctures = std::move(punctures);
-  structure::check_punctures(s.punctures, s.surface->vertex_count, true);
-  s.stars = mesh::stars(landscape.half_edges(), landscape.lengths(), s.punctures.vertices, s.punctures.names);
-  auto poles =
-      structure::cut_at_punctures(s, landscape.half_edges(), landscape.lengths(), landscape.weights(), execution);
+  structure::check_poles(poles, s.surface->vertex_count, true);
+  auto stars = mesh::stars(discretisation().half_edges, discretisation().lengths, poles.vertices, poles.labels);
+  s.poles = structure::PoleData{std::move(poles), std::move(stars), {}};
+  auto pole_forms = structure::cut_at_poles(s, discretisation(), execution);
   structure_ = std::make_shared<structure::Structure>(std::move(s));
-  return poles;
+  return pole_forms;
 }
 
 SeamlessForm ClosedMaps::form(const VectorXcd& X, const VectorXcd& r, const TextureLattice& lattice) const {
@@ -96,9 +90,9 @@ uv::UvArray ClosedMaps::function(const SeamlessForm& form, Execution& execution)
   const auto& topology = structure_->topology;
   const auto& families = topology.families;
   const auto natural = topology::first_forms(topology.classes, families.natural, families.natural);
-  return forms::function_with_poles(half_edges(), weights(), poles_, natural, form.periods,
-                                    form.coefficients.segment(families.natural, families.poles), systems_->solver(),
-                                    execution);
+  return forms::function_with_poles(discretisation().half_edges, discretisation().weights, poles_, natural,
+                                    form.periods, form.coefficients.segment(families.natural, families.poles),
+                                    solver_->systems(), execution);
 }
 
 }  // namespace holomorph::tiling

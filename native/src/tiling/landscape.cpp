@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
-#include "mesh/intrinsic_triangulation.h"
 #include "mesh/triangle_geometry.h"
-#include "structure/invariants.h"
 #include "tiling/flow.h"
 #include "uv/vector_fields.h"
 
@@ -32,15 +29,6 @@ std::vector<int> largest_triangles(const mesh::Surface& surface) {
     }
   }
   return result;
-}
-
-// The lengths and weights of the edges.
-std::pair<Array<double>, Array<double>> measured(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
-                                                 Execution& execution) {
-  auto triangulation =
-      mesh::intrinsic_triangulation(surface, half_edges.copy(execution.workers()), execution.workers());
-  auto weights = mesh::cotangent_weights(triangulation, execution);
-  return {std::move(triangulation.lengths), std::move(weights)};
 }
 
 // The ends of edges of large weight, and their neighbours.
@@ -83,36 +71,31 @@ Landscape::Landscape(std::shared_ptr<const mesh::Surface> surface, const structu
 }
 
 void Landscape::solve(const structure::Options& options, Execution& execution) {
-  half_edges_ = mesh::half_edges(surface(), execution);
-  std::tie(lengths_, weights_) = measured(surface(), half_edges_, execution);
-  uncertain_ = uncertain_vertices(surface(), weights_);
-  vertex_share_ = mesh::vertex_areas(surface(), lengths_);
+  discretisation_ = mesh::on_input(surface(), mesh::half_edges(surface(), execution), execution);
+  discretisation_.errors = {};  // no bounds are wanted
+  const mesh::HalfEdges& half_edges = discretisation_.half_edges;
+  uncertain_ = uncertain_vertices(surface(), discretisation_.weights);
+  vertex_share_ = mesh::vertex_areas(surface(), discretisation_.lengths);
   for (const double a : vertex_share_) area_ += a;
   for (double& a : vertex_share_) a /= area_;
   sides_.emplace(surface());
 
-  structure_.topology = structure::find_topology(surface(), half_edges_, execution);
+  structure_.topology = structure::find_topology(surface(), half_edges, execution);
   const auto& topology = structure_.topology;
   const int natural = topology.families.natural;
-  harmonic_.classes = topology.classes;
+  structure_.harmonic.functions = std::make_shared<const forms::RowMajorMatrix>(surface().vertex_count, 0);
   holomorphic_.M.resize(static_cast<Eigen::Index>(samples_.size()), 0);
   holomorphic_.N = holomorphic_.M;
   if (natural == 0 && on_level_) return;
   const int pole_columns = on_level_ ? 0 : kBlock;
-  structure_.memory = structure::plan_memory({surface().vertex_count, static_cast<std::int64_t>(surface().edges.size()),
-                                              topology.families.count() + pole_columns},
-                                             options.solver, options.memory_limit, structure::Keeping::all);
-  systems_ = std::make_shared<structure::HarmonicSystems>(
-      half_edges_, weights_, mesh::boundary_vertices(topology.boundary), structure_.memory.choice, execution);
+  solver_ = std::make_shared<structure::HarmonicSolver>(discretisation_, topology.families.count() + pole_columns,
+                                                        options, execution);
   if (natural > 0) {
-    const auto classes =
-        structure::harmonic_classes(topology, half_edges_, topology::first_forms(topology.classes, natural, natural));
-    structure_.functions = systems_->solve(classes, natural, structure_.memory.block, execution).functions;
-    structure::complete(half_edges_, weights_, {}, classes, structure_, execution);
-    harmonic_.functions.swap(structure_.functions);
+    structure_.harmonic = structure::harmonic_forms(surface(), topology, *solver_, execution);
+    structure_.differentials = structure_.holomorphic().differentials;
     // Maps of polygons have triangles of their own (closed_maps.h), and poles are solved for on the level.
-    if (on_level_ && surface().has_diagonals()) systems_.reset();
-    const auto values = uv::values_on_sides(surface(), *sides_, harmonic_, samples_);
+    if (on_level_ && surface().has_diagonals()) solver_.reset();
+    const auto values = uv::values_on_sides(surface(), *sides_, harmonic(), samples_);
     holomorphic_ = uv::sampled_parts(surface(), {samples_, values}, structure_.differentials);
   }
 }
@@ -154,7 +137,7 @@ void Landscape::solve_for(const std::vector<int>& vertices, Execution& execution
   else
     B.setZero();
   for (Eigen::Index i = 0; i < B.cols(); ++i) B(vertices[i], i) += 1;
-  const auto v = systems_->solver().solve(
+  const auto v = solver_->systems().solve(
       B, closed() ? solver::Condition::natural : solver::Condition::dirichlet,
       [&] { return forms::FluxTerms{.sources = B}; }, execution);
   const Eigen::MatrixXcd parts = uv::parts_of_imaginary(*structure_.surface, samples_, v);
@@ -162,8 +145,8 @@ void Landscape::solve_for(const std::vector<int>& vertices, Execution& execution
 }
 
 Eigen::MatrixXcd Landscape::derivatives(const std::vector<int>& triangles) const {
-  const auto count = harmonic_.functions.cols();
-  return 2 * uv::sampled_parts(surface(), {triangles, uv::values_on_sides(surface(), *sides_, harmonic_, triangles)},
+  const auto count = structure_.harmonic.functions->cols();
+  return 2 * uv::sampled_parts(surface(), {triangles, uv::values_on_sides(surface(), *sides_, harmonic(), triangles)},
                                Eigen::MatrixXcd::Identity(count, count))
                  .M;
 }

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "structure/harmonic_systems.h"
+#include "structure/harmonic_solver.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 #include "tiling/coarse_level.h"
@@ -27,15 +27,16 @@ class Landscape {
   Landscape& operator=(const Landscape&) = delete;
 
   const mesh::Surface& surface() const { return *structure_.surface; }
-  const mesh::HalfEdges& half_edges() const { return half_edges_; }
-  const Array<double>& lengths() const { return lengths_; }
-  const Array<double>& weights() const { return weights_; }
+  const mesh::Discretisation& discretisation() const { return discretisation_; }
+  const mesh::HalfEdges& half_edges() const { return discretisation_.half_edges; }
+  const Array<double>& lengths() const { return discretisation_.lengths; }
+  const Array<double>& weights() const { return discretisation_.weights; }
   double area() const { return area_; }
   bool closed() const { return structure_.topology.type.closed(); }
 
   /// Harmonic forms, differentials theta_j and period matrix of the surface without poles.
   const structure::Structure& structure() const { return structure_; }
-  const forms::ClosedForms& harmonic() const { return harmonic_; }
+  forms::ClosedForms harmonic() const { return {structure_.topology.classes, *structure_.harmonic.functions}; }
   int form_count() const { return static_cast<int>(structure_.differentials.cols()); }
 
   /// theta_j on the samples: A, and B of the discretisation (uv/log_variance.h).
@@ -51,7 +52,7 @@ class Landscape {
   void forget_poles();
 
   /// What solves on the surface's own triangles; null where nothing had to be solved for.
-  const std::shared_ptr<structure::HarmonicSystems>& systems() const { return systems_; }
+  const std::shared_ptr<structure::HarmonicSolver>& solver() const { return solver_; }
 
   /// Whether rounding is not seen in the fluxes beside a vertex: its neighbours have no large weights. Elsewhere no
   /// pole is placed.
@@ -66,13 +67,11 @@ class Landscape {
   void solve_for(const std::vector<int>& vertices, Execution& execution);
 
   structure::Structure structure_;
-  mesh::HalfEdges half_edges_;
+  mesh::Discretisation discretisation_;  // on the surface's own triangles
   std::optional<mesh::Sides> sides_;
-  Array<double> lengths_, weights_;
   std::vector<double> vertex_share_;  // #V of the area
   double area_ = 0;
-  std::shared_ptr<structure::HarmonicSystems> systems_;
-  forms::ClosedForms harmonic_;
+  std::shared_ptr<structure::HarmonicSolver> solver_;
   std::vector<int> samples_;
   uv::SampledParts holomorphic_;
   std::unordered_map<int, Eigen::VectorXcd> pole_parts_;

@@ -53,7 +53,7 @@ void follow_with_leverage(const Choice& before, const AbelJacobi& abel_jacobi, c
 void follow_with_boundary(const Choice& before, const Landscape& landscape, const structure::Structure& now, bool real,
                           Candidate& c) {
   const structure::Structure& plain = landscape.structure();
-  const MatrixXd parts = change_of_basis(plain.topology.classes, now).inverse() * now.pole_parts;
+  const MatrixXd parts = change_of_basis(plain.topology.classes, now).inverse() * now.poles->harmonic_part;
   VectorXcd change = VectorXcd::Zero(parts.rows());
   const std::vector<Index> used = c.used();
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -64,7 +64,7 @@ void follow_with_boundary(const Choice& before, const Landscape& landscape, cons
   c.X += change;
   c.rounding.y.head(c.X.size()) = c.X;
   const Index defects = before.problem.defects.cols();
-  c.rounding.y.tail(defects) -= (plain.holomorphic.star.star.transpose() * change.real()).head(defects);
+  c.rounding.y.tail(defects) -= (plain.holomorphic().star.star.transpose() * change.real()).head(defects);
 }
 
 }  // namespace holomorph::tiling

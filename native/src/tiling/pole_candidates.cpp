@@ -6,7 +6,7 @@
 
 #include "base/errors.h"
 #include "mesh/graph_distances.h"
-#include "structure/puncture_choice.h"
+#include "structure/pole_choice.h"
 
 namespace holomorph::tiling {
 namespace {

@@ -33,14 +33,15 @@ SeamlessForm seamless_form(const structure::Structure& s, const VectorXcd& X, co
   auto& p = form.coefficients;
   p.segment(families.harmonic(), families.poles) = r;
   p.tail(families.poles) = Complex(0, 1) * r;
-  const VectorXcd from_poles = s.pole_parts * r;
+  const VectorXcd from_poles =
+      s.poles ? VectorXcd(s.poles->harmonic_part * r) : VectorXcd(VectorXcd::Zero(families.natural));
   for (Index j = 0; j < form.periods.size(); ++j) {
     const Complex period = X[j] - from_poles[j];
     form.periods[j] =
         straight ? Complex(std::round(period.real() / lattice.a.real()) * lattice.a.real()) : lattice.nearest(period);
   }
   if (!s.topology.type.closed())
-    p.head(families.harmonic()) = s.holomorphic.differentials * (form.periods + from_poles);
+    p.head(families.harmonic()) = s.holomorphic().differentials * (form.periods + from_poles);
   p.head(families.natural) = form.periods;
   // The v-periods of the handles.
   const int handles = straight ? 2 * s.topology.type.genus : 0;
@@ -56,9 +57,10 @@ SeamlessForm seamless_form(const structure::Structure& s, const VectorXcd& X, co
 uv::UvArray function_of(const structure::Structure& s, const SeamlessForm& form, Execution& execution) {
   Eigen::Matrix<double, Eigen::Dynamic, 2> parts(form.coefficients.size(), 2);
   parts << form.coefficients.real(), form.coefficients.imag();
-  uv::UvArray function(s.functions.rows(), 2);
+  const forms::RowMajorMatrix& functions = *s.harmonic.functions;
+  uv::UvArray function(functions.rows(), 2);
   for_rows(execution.workers(), static_cast<int>(function.rows()),
-           [&](int v) { function.row(v).noalias() = s.functions.row(v) * parts; });
+           [&](int v) { function.row(v).noalias() = functions.row(v) * parts; });
   return function;
 }
 

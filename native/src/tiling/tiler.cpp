@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/errors.h"
-#include "structure/punctured_structure.h"
+#include "structure/pole_structure.h"
 #include "tiling/flow.h"
 #include "tiling/pole_placement.h"
 #include "tiling/seamless_map.h"
@@ -120,14 +120,12 @@ std::shared_ptr<structure::Structure> Tiler::structure_at(const std::vector<int>
   if (structure_ && structure_poles_ == vertices) return structure_;
   if (vertices.empty()) {
     structure_ = std::make_shared<structure::Structure>(landscape_->structure());
-    structure_->functions = landscape_->harmonic().functions;
-    structure_->pole_parts.resize(structure_->topology.families.natural, 0);
   } else {
-    structure::Punctures punctures{vertices, std::vector<Complex>(vertices.size(), 1.0), names_};
-    if (landscape_->closed()) punctures.residues.back() = -static_cast<double>(vertices.size() - 1);
+    structure::Poles poles{vertices, std::vector<Complex>(vertices.size(), 1.0), names_};
+    if (landscape_->closed()) poles.residues.back() = -static_cast<double>(vertices.size() - 1);
     const Execution::Within within(execution);
     structure_ = std::make_shared<structure::Structure>(
-        structure::punctured_structure(surface_, std::move(punctures), options_, execution));
+        structure::pole_structure(surface_, std::move(poles), options_, execution));
   }
   structure_poles_ = vertices;
   return structure_;
@@ -138,8 +136,10 @@ std::shared_ptr<structure::Structure> Tiler::structure_at(const std::vector<int>
 MatrixXd Tiler::parts(PlacedPoles& placed, Execution& execution) {
   if (!has_leverage()) {
     const auto s = structure_at(poles_.vertices, execution);
-    if (s->pole_parts.size() == 0) return s->pole_parts;
-    return change_of_basis(landscape_->structure().topology.classes, *s).inverse() * s->pole_parts;
+    if (!s->poles) return MatrixXd(s->topology.families.natural, 0);
+    const MatrixXd& C = s->poles->harmonic_part;
+    if (C.size() == 0) return C;
+    return change_of_basis(landscape_->structure().topology.classes, *s).inverse() * C;
   }
   for (const int v : poles_.vertices) placed.parts.push_back(abel_jacobi_->at(v));
   const Index k = std::max<Index>(0, static_cast<Index>(placed.parts.size()) - 1);

@@ -34,7 +34,7 @@ void set_integers(const TextureLattice& lattice, const Sizes& size, bool real, R
 // The Dirichlet forms of the handles, those of the loops subtracted that lower their energy: A on the samples, up to i.
 MatrixXcd handle_forms(const Landscape& landscape, const Sizes& size) {
   if (size.handles == 0) return MatrixXcd(static_cast<Index>(landscape.samples().size()), 0);
-  const MatrixXd& G = landscape.structure().holomorphic.star.dirichlet_gram;
+  const MatrixXd& G = landscape.structure().holomorphic().star.dirichlet_gram;
   const Index holes = size.n - size.handles;
   MatrixXd q = MatrixXd::Zero(size.n, size.handles);
   q.topRows(size.handles).setIdentity();
@@ -92,7 +92,7 @@ RoundingProblem tiling_problem(Landscape& landscape, const Poles& poles, uv::Coe
     p.forms << landscape.holomorphic().M, at_poles, Complex(0, 1) * of_handles;
     p.defects = Complex(0, 1) * of_handles.conjugate();
     p.Z.topRows(size.n) = real ? MatrixXcd(X.real().cast<Complex>()) : X;
-    const MatrixXd& star = landscape.structure().holomorphic.star.star;
+    const MatrixXd& star = landscape.structure().holomorphic().star.star;
     if (size.l > 0) {
       p.Z.bottomRows(size.l) =
           (p.periods.topRows(size.l).imag() - (star.transpose() * X.real()).topRows(size.l)).cast<Complex>();

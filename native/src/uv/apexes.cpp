@@ -6,7 +6,7 @@ namespace holomorph::uv {
 
 using Complex = std::complex<double>;
 
-void place_apexes(const mesh::Surface& surface, const std::vector<mesh::Star>& stars, Eigen::Ref<UvArray> uv) {
+void place_apexes(const mesh::Surface& surface, std::span<const mesh::Star> stars, Eigen::Ref<UvArray> uv) {
   for (const mesh::Star& star : stars) {
     for (std::size_t j = 0; j < star.size(); ++j) {
       const int t = star.faces[j];

@@ -1,7 +1,7 @@
 // UVs at punctures, which lie at infinity.
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include "mesh/stars.h"
 #include "uv/uv_map.h"
@@ -13,6 +13,6 @@ namespace holomorph::uv {
 /// are exact, their UVs finite, and the spokes are seams.
 /// @param surface the triangulation of the stars, in which no diagonal ends at a puncture
 /// @param uv #C x 2, changed at the corners of the punctures only
-void place_apexes(const mesh::Surface& surface, const std::vector<mesh::Star>& stars, Eigen::Ref<UvArray> uv);
+void place_apexes(const mesh::Surface& surface, std::span<const mesh::Star> stars, Eigen::Ref<UvArray> uv);
 
 }  // namespace holomorph::uv

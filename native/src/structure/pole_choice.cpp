@@ -1,4 +1,4 @@
-#include "structure/puncture_choice.h"
+#include "structure/pole_choice.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,29 +42,29 @@ int farthest(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, co
   return -1;
 }
 
-std::string label(const Punctures& punctures, int vertex) {
-  return std::to_string(punctures.names.empty() ? vertex : punctures.names[vertex]);
+std::string label(const Poles& poles, int vertex) {
+  return std::to_string(poles.labels.empty() ? vertex : poles.labels[vertex]);
 }
 
-void check_vertices(const Punctures& punctures, int vertex_count, bool closed) {
-  const auto& vertices = punctures.vertices;
+void check_vertices(const Poles& poles, int vertex_count, bool closed) {
+  const auto& vertices = poles.vertices;
   std::vector<char> met(vertex_count, 0);
   for (const int v : vertices) {
     if (v < 0 || v >= vertex_count)
       throw TopologyError("puncture " + std::to_string(v) + " is no vertex: there are " + std::to_string(vertex_count));
-    if (std::exchange(met[v], 1)) throw TopologyError("puncture " + label(punctures, v) + " is given twice");
+    if (std::exchange(met[v], 1)) throw TopologyError("puncture " + label(poles, v) + " is given twice");
   }
   if (closed && vertices.size() == 1) {
-    throw TopologyError("puncture " + label(punctures, vertices[0]) +
+    throw TopologyError("puncture " + label(poles, vertices[0]) +
                         " is the only one: a closed surface needs two or more, as the residues sum to 0");
   }
 }
 
-void check_residues(const Punctures& punctures, bool closed) {
-  const auto& residues = punctures.residues;
-  if (residues.size() != punctures.vertices.size()) {
+void check_residues(const Poles& poles, bool closed) {
+  const auto& residues = poles.residues;
+  if (residues.size() != poles.vertices.size()) {
     throw TopologyError("there are " + std::to_string(residues.size()) + " residues for " +
-                        std::to_string(punctures.vertices.size()) + " punctures");
+                        std::to_string(poles.vertices.size()) + " punctures");
   }
   std::complex<double> sum = 0;
   double size = 0;
@@ -131,9 +131,9 @@ std::vector<std::complex<double>> default_residues(const mesh::Surface& surface,
   return residues;
 }
 
-void check_punctures(const Punctures& punctures, int vertex_count, bool closed) {
-  check_vertices(punctures, vertex_count, closed);
-  if (!punctures.residues.empty()) check_residues(punctures, closed);
+void check_poles(const Poles& poles, int vertex_count, bool closed) {
+  check_vertices(poles, vertex_count, closed);
+  if (!poles.residues.empty()) check_residues(poles, closed);
 }
 
 }  // namespace holomorph::structure

@@ -1,4 +1,4 @@
-// Which vertices become punctures, with which residues.
+// Which vertices become poles, with which residues.
 #pragma once
 
 #include <complex>
@@ -10,10 +10,10 @@
 namespace holomorph::structure {
 
 /// theta has the residue residues[i] / (2 pi i) at vertices[i]: UV changes by residues[i] around it, counter-clockwise.
-struct Punctures {
+struct Poles {
   std::vector<int> vertices;
   std::vector<std::complex<double>> residues;
-  std::vector<int> names;  ///< #V what a vertex is called in messages; empty: its index
+  std::vector<int> labels;  ///< #V what a vertex is called in messages; empty: its index
 };
 
 /// Two vertices far apart: the one farthest from vertex 0 along the edges, the one farthest from that, and on as long
@@ -25,15 +25,15 @@ std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& 
 /// @throws TopologyError if there is none
 int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
 
-/// The residues meant by none: 1 and -1 for two punctures of a closed surface; for more of them 1 everywhere but at the
+/// Default residues: 1 and -1 for two poles of a closed surface; for more of them 1 everywhere but at the
 /// one with the largest sum of distances to the others, which takes the rest. With a boundary, which takes the rest, 1.
 /// @throws Cancelled
 /// Cost: of more than two on a closed surface, a search over the whole surface from each.
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                                                    const std::vector<int>& vertices, bool closed, Execution& execution);
 
-/// @throws TopologyError for vertices repeated or out of range, a single puncture of a closed surface, a number of
+/// @throws TopologyError for vertices repeated or out of range, a single pole of a closed surface, a number of
 /// residues that is not theirs, a residue that is 0 or not finite, or a sum that is not 0 on a closed surface
-void check_punctures(const Punctures& punctures, int vertex_count, bool closed);
+void check_poles(const Poles& poles, int vertex_count, bool closed);
 
 }  // namespace holomorph::structure

@@ -1,4 +1,4 @@
-#include "topology/puncture_classes.h"
+#include "topology/pole_classes.h"
 
 namespace holomorph::topology {
 
@@ -7,8 +7,8 @@ using mesh::face_of;
 using mesh::opposite;
 using mesh::sign;
 
-IntegerForms puncture_classes(const HalfEdges& mesh, const FundamentalDomain& domain,
-                              const std::vector<mesh::Star>& stars) {
+IntegerForms pole_classes(const HalfEdges& mesh, const FundamentalDomain& domain,
+                          const std::vector<mesh::Star>& stars) {
   const bool closed = domain.gaps.empty();
   const HalfedgeHandle out = closed ? stars.back().link[0] : opposite(domain.gaps[0]);
   IntegerForms forms;

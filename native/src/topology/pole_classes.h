@@ -11,7 +11,7 @@ namespace holomorph::topology {
 /// surface: one class for each star but the last, -1 around the last, where its path ends. With boundary: one for each
 /// star, its path leaves through the gap of boundary loop 0.
 /// @param domain made with these stars
-IntegerForms puncture_classes(const HalfEdges& half_edges, const FundamentalDomain& domain,
-                              const std::vector<mesh::Star>& stars);
+IntegerForms pole_classes(const HalfEdges& half_edges, const FundamentalDomain& domain,
+                          const std::vector<mesh::Star>& stars);
 
 }  // namespace holomorph::topology

@@ -1,0 +1,59 @@
+// The linear systems of harmonic forms on one discretisation: L f_j = -d* eta_j (paper § 6, Eq. 8).
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "base/execution.h"
+#include "forms/refined_solver.h"
+#include "mesh/discretisation.h"
+#include "structure/double_cover.h"
+#include "structure/memory_plan.h"
+#include "structure/options.h"
+#include "structure/solver_report.h"
+
+namespace holomorph::structure {
+
+/// Set up before the classes are known. With Boundary::double_cover every form is solved for on the closed double, with
+/// the symmetric extension of each natural class and the antisymmetric one of each Dirichlet class; the solutions are
+/// symmetrised (Eq. 12) and restricted to the surface. They are those of the surface to solver accuracy, at twice the
+/// size.
+class HarmonicSolver {
+ public:
+  /// @param plan made for this discretisation, or for its double
+  /// @pre the discretisation outlives this. @throws SolverError, Cancelled
+  HarmonicSolver(const mesh::Discretisation& discretisation, MemoryPlan plan, Boundary boundary, Execution& execution);
+
+  /// Plans memory for this many right-hand sides, all of them kept.
+  HarmonicSolver(const mesh::Discretisation& discretisation, int right_hand_sides, const Options& options,
+                 Execution& execution);
+
+  /// Is given the functions of the forms first, first + 1, ..., #V x #block.
+  using TakeFunctions = std::function<void(int first, forms::RowMajorMatrix&& functions)>;
+
+  /// Solves for as many forms at a time as the plan says, in order, and hands each block on.
+  /// @param classes on the discretisation. @param natural how many of them are; the others are Dirichlet
+  /// @throws SolverError, Cancelled
+  void solve_in_blocks(const topology::IntegerForms& classes, int natural, Execution& execution,
+                       const TakeFunctions& take);
+  /// The functions of all classes, #V x #forms.
+  forms::RowMajorMatrix solve(const topology::IntegerForms& classes, int natural, Execution& execution);
+
+  const mesh::Discretisation& discretisation() const { return discretisation_; }
+  const MemoryPlan& plan() const { return plan_; }
+  /// For other right-hand sides; on the double with Boundary::double_cover.
+  forms::RefinedSolver& systems() { return systems_; }
+  SolverReport report() const { return solver_report(systems_); }
+
+ private:
+  const mesh::HalfEdges& half_edges() const { return double_ ? double_->cover.half_edges : discretisation_.half_edges; }
+  std::span<const double> weights() const { return double_ ? double_->weights : discretisation_.weights; }
+
+  const mesh::Discretisation& discretisation_;
+  MemoryPlan plan_;
+  std::unique_ptr<const DoubledSurface> double_;  // what is solved on instead
+  forms::RefinedSolver systems_;
+};
+
+}  // namespace holomorph::structure
