@@ -4,22 +4,11 @@
 #include "forms/codifferential.h"
 #include "forms/laplacian.h"
 #include "multiresolution/paper_forms.h"
+#include "structure/conformal_structure.h"
 #include "structure/guarantee.h"
 
 namespace holomorph::multiresolution {
 namespace {
-
-// All forms are refined together, level by level, in about the memory of multigrid.
-structure::MemoryPlan planned(const mesh::Surface& surface, const structure::Options& options) {
-  const auto type = mesh::topological_type(surface);
-  if (!type.closed() || type.genus == 0) {
-    throw TopologyError("the paper's solver is for closed surfaces of genus 1 or more; the surface has " + type.text() +
-                        "; take one of auto, direct, multigrid");
-  }
-  auto plan = structure::plan_memory(surface, type, {"multigrid", options.memory_limit}, structure::Keeping::all);
-  plan.choice.reason = "asked for";
-  return plan;
-}
 
 // Corrections by the paper's conjugate gradients.
 class Gradients final : public solver::LaplaceSolver {
@@ -47,10 +36,16 @@ class Gradients final : public solver::LaplaceSolver {
 
 structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
                                      Execution& execution, std::optional<PaperLevels> levels) {
-  structure::Structure result;
-  result.surface = std::move(surface);
+  const auto type = mesh::topological_type(*surface);
+  if (!type.closed() || type.genus == 0) {
+    throw TopologyError("the paper's solver is for closed surfaces of genus 1 or more; the surface has " + type.text() +
+                        "; take one of auto, direct, multigrid");
+  }
+  // All forms are refined together, level by level, in about the memory of multigrid.
+  const structure::Options sizes{"multigrid", options.memory_limit};
+  auto result = structure::planned_structure(std::move(surface), sizes, structure::Keeping::all);
   structure::SolveRecord& record = result.record;
-  record.memory = planned(*result.surface, options);
+  record.memory.choice.reason = "asked for";
 
   execution.stage("progressive mesh", 0.0, 0.1);
   if (!levels) levels = paper_levels(*result.surface, execution);

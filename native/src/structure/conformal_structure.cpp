@@ -7,26 +7,25 @@
 #include "structure/guarantee.h"
 
 namespace holomorph::structure {
-namespace {
 
-mesh::TopologicalType checked_type(const mesh::Surface& surface) {
-  const auto type = mesh::topological_type(surface);
-  if (type.form_count() > 0) return type;
-  throw TopologyError("the surface has " + type.text() +
-                      "; a handle, or a second boundary loop, is needed for harmonic forms");
+Structure planned_structure(std::shared_ptr<const mesh::Surface> surface, const Options& options, Keeping keeping) {
+  const auto type = mesh::topological_type(*surface);
+  if (type.form_count() == 0) {
+    throw TopologyError("the surface has " + type.text() +
+                        "; a handle, or a second boundary loop, is needed for harmonic forms");
+  }
+  Structure result;
+  result.record.memory = plan_memory(*surface, type, options, keeping);
+  result.surface = std::move(surface);
+  return result;
 }
-
-}  // namespace
 
 Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface, const Options& options,
                               Execution& execution, std::optional<topology::DualBases> given) {
-  Structure result;
-  result.surface = std::move(given_surface);
-  const mesh::Surface& surface = *result.surface;
-  SolveRecord& record = result.record;
-
+  const mesh::Surface& surface = *given_surface;
   execution.stage("half-edges", 0.0, 0.05);
-  record.memory = plan_memory(surface, checked_type(surface), options, Keeping::as_many_as_fit);
+  Structure result = planned_structure(given_surface, options, Keeping::as_many_as_fit);
+  SolveRecord& record = result.record;
   auto half_edges = mesh::half_edges(surface, execution);
   auto flipped = half_edges.copy(execution.workers());
 

@@ -124,11 +124,26 @@ std::vector<int> indices(const mesh::Surface& surface, const std::vector<double>
 
 // What touches: inside, and on the boundary, where an order is half as much.
 struct Cluster {
-  int vertex = kNone;
+  int vertex = kNone;  // that it is said to be at: on the boundary where there is one, then of the largest index
   bool is_boundary = false;
   int inside = 0, on_boundary = 0;
 
   int order() const { return is_boundary ? on_boundary + 2 * inside : inside; }
+
+  void add(int v, bool is_on_boundary, const std::vector<int>& index) {
+    (is_on_boundary ? on_boundary : inside) += index[v];
+    const bool is_first = vertex == kNone || (is_on_boundary && !is_boundary);
+    if (is_first || (is_on_boundary == is_boundary && index[v] > index[vertex])) vertex = v;
+    is_boundary = is_boundary || is_on_boundary;
+  }
+
+  void add_flipped(int v, bool is_on_boundary, int turns) {
+    if (vertex == kNone) {
+      vertex = v;
+      is_boundary = is_on_boundary;
+    }
+    inside += turns;
+  }
 };
 
 Clusters touching(const mesh::Surface& surface, const std::vector<int>& index,
@@ -156,21 +171,11 @@ std::vector<Zero> zeros(const mesh::Surface& surface, const Eigen::Ref<const UvA
   Clusters clusters = touching(surface, index, flipped);
   std::map<int, Cluster> found;
   for (int v = 0; v < surface.vertex_count; ++v) {
-    if (index[v] == 0) continue;
-    Cluster& cluster = found[clusters.root(v)];
-    (is_boundary[v] ? cluster.on_boundary : cluster.inside) += index[v];
-    const bool is_first = cluster.vertex == kNone || (is_boundary[v] && !cluster.is_boundary);
-    if (is_first || (is_boundary[v] == cluster.is_boundary && index[v] > index[cluster.vertex])) cluster.vertex = v;
-    cluster.is_boundary = cluster.is_boundary || is_boundary[v];
+    if (index[v] != 0) found[clusters.root(v)].add(v, is_boundary[v], index);
   }
   for (const auto& [t, turns] : flipped) {
     const int v = surface.triangles[t][0];
-    Cluster& cluster = found[clusters.root(v)];
-    if (cluster.vertex == kNone) {
-      cluster.vertex = v;
-      cluster.is_boundary = is_boundary[v];
-    }
-    cluster.inside += turns;
+    found[clusters.root(v)].add_flipped(v, is_boundary[v], turns);
   }
   std::vector<Zero> result;
   for (const auto& [root, cluster] : found) {
