@@ -5,10 +5,12 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 
 #include "mesh/make_surface.h"
 #include "mesh/surface_walk.h"
 #include "structure/pole_structure.h"
+#include "tiling/greens/greens_functions.h"
 #include "tiling/greens/jacobian.h"
 #include "tiling/inversion/abel_jacobi.h"
 #include "tiling/maps/seamless_maps.h"
@@ -41,6 +43,23 @@ std::shared_ptr<const mesh::Surface> wavy_torus(int n, int m, int missing = 0) {
     polygons.face_offsets.push_back(static_cast<int>(c));
   Execution execution(1);
   return std::make_shared<mesh::Surface>(mesh::make_surface(std::move(polygons), execution));
+}
+
+TEST(GreensFunctions, AreKeptAndHaveDifferencesForAClosedSurface) {
+  Execution execution(1);
+  const auto basis = std::make_shared<const PoleBasis>(wavy_torus(30, 20), structure::Options{}, execution);
+  GreensFunctions greens(basis), others(basis);
+  greens.solve_at({5, 300}, execution);
+  const Eigen::MatrixXcd before = greens.at({300, 5});
+  greens.solve_at({300, 470, 5}, execution);
+  EXPECT_EQ(greens.at({300, 5}), before);
+  EXPECT_THROW(greens.at({7}), std::out_of_range);
+  others.solve_at({470}, execution);
+  EXPECT_LT((others.at({470}) - greens.at({470})).norm(), 1e-9 * before.norm());
+  const Eigen::MatrixXcd all = greens.at({5, 300, 470}, 3), forms = greens.pole_forms({5, 300, 470}, 3);
+  EXPECT_EQ(all.rows(), (static_cast<Eigen::Index>(basis->samples().size()) + 2) / 3);
+  ASSERT_EQ(forms.cols(), 2);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(forms.col(i), all.col(i) - all.col(2));
 }
 
 TEST(AbelJacobi, ForetellsTheHarmonicPartOfEveryPole) {
