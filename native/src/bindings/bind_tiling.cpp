@@ -65,9 +65,9 @@ Tiling move_poles(const Placement& placement, const RoundedForm& form, const std
 void bind_tiling(py::module_& m) {
   py::class_<Zeros>(m, "Zeros").def_readonly("vertices", &Zeros::vertices).def_readonly("orders", &Zeros::orders);
   py::class_<RoundedForm, std::shared_ptr<RoundedForm>>(m, "RoundedForm")
-      .def_readonly("tiles", &RoundedForm::tiles)
-      .def("lattice", [](const RoundedForm& f) {
-        return copy(std::vector{f.lattice.a, f.lattice.b});
+      .def_property_readonly("tiles", [](const RoundedForm& form) { return form.problem->tiles; })
+      .def("lattice", [](const RoundedForm& form) {
+        return copy(std::vector{form.problem->lattice.a, form.problem->lattice.b});
       });
   py::class_<Tiling, std::shared_ptr<Tiling>>(m, "Tiling")
       .def("form", [](const Tiling& t) { return std::const_pointer_cast<RoundedForm>(t.form); })

@@ -65,4 +65,26 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   return result;
 }
 
+std::shared_ptr<const SeamlessMaps> maps_at(const Placement& placement, const std::vector<int>& poles,
+                                            Execution& execution) {
+  return placement.maps->get(poles, [&] {
+    const Execution::Within within(execution);
+    return std::make_shared<SeamlessMaps>(placement.basis, placement.kind == uv::Coefficients::real, poles,
+                                          placement.options.labels, placement.options.solving, execution);
+  });
+}
+
+LiftedPoles lifted_poles(const Placement& placement, Execution& execution) {
+  LiftedPoles lifted{placement.form.poles, std::vector<VectorXd>(placement.form.poles.size())};
+  if (placement.inversion) {
+    for (std::size_t i = 0; i < lifted.parts.size(); ++i)
+      lifted.parts[i] = placement.inversion->abel_jacobi.at(lifted.vertices[i]);
+  } else if (!lifted.parts.empty()) {
+    const auto maps = maps_at(placement, lifted.vertices, execution);
+    const MatrixXd& parts = maps->pole_parts();
+    for (Index i = 0; i < parts.cols(); ++i) lifted.parts[i] = parts.col(i);
+  }
+  return lifted;
+}
+
 }  // namespace holomorph::tiling

@@ -43,4 +43,12 @@ struct Placement {
 /// @pre connected, no isolated vertices. @throws TopologyError for poles that do not fit; SolverError; Cancelled
 Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution);
 
+/// The seamless maps with poles at these vertices. @throws TopologyError for poles that do not fit; SolverError;
+/// Cancelled
+std::shared_ptr<const SeamlessMaps> maps_at(const Placement& placement, const std::vector<int>& poles,
+                                            Execution& execution);
+
+/// The placed poles and their harmonic parts. The same errors.
+LiftedPoles lifted_poles(const Placement& placement, Execution& execution);
+
 }  // namespace holomorph::tiling

@@ -11,8 +11,7 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kReach = 0.05;     // how far poles are expected to move, in square roots of the area
-constexpr double kFollowing = 0.1;  // likewise, how far those may go that follow one that is moved
+constexpr double kReach = 0.05;  // how far poles are expected to move, in square roots of the area
 constexpr double kLeastTiles = 100, kTilesPerHandle = 64;
 constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;
 
@@ -24,37 +23,14 @@ std::string text(double number) {
 }
 
 // Names the fewest tiles for which there is a rounding.
-[[noreturn]] void refuse(RoundingProblem problem, const RoundingOptions& options, double tiles, Execution& execution) {
-  const std::string asked = text(tiles);
+[[noreturn]] void refuse(RoundingProblem problem, const RoundingOptions& options, Execution& execution) {
+  const std::string asked = text(problem.tiles);
   do {
-    tiles *= kMoreTiles;
+    problem.tiles *= kMoreTiles;
     problem.median_density *= kMoreTiles;
-  } while (tiles < kMostTiles && roundings(problem, options, execution).empty());
-  throw TopologyError("with " + asked + " tiles no seamless map of this surface is even; " + text(tiles) +
+  } while (problem.tiles < kMostTiles && roundings(problem, options, execution).empty());
+  throw TopologyError("with " + asked + " tiles no seamless map of this surface is even; " + text(problem.tiles) +
                       " are enough");
-}
-
-std::shared_ptr<const SeamlessMaps> maps_at(const Placement& placement, const std::vector<int>& poles,
-                                            Execution& execution) {
-  return placement.maps->get(poles, [&] {
-    const Execution::Within within(execution);
-    return std::make_shared<SeamlessMaps>(placement.basis, placement.kind == uv::Coefficients::real, poles,
-                                          placement.options.labels, placement.options.solving, execution);
-  });
-}
-
-// @throws TopologyError for poles that do not fit
-LiftedPoles lifted_poles(const Placement& placement, Execution& execution) {
-  LiftedPoles lifted{placement.form.poles, std::vector<VectorXd>(placement.form.poles.size())};
-  if (placement.inversion) {
-    for (std::size_t i = 0; i < lifted.parts.size(); ++i)
-      lifted.parts[i] = placement.inversion->abel_jacobi.at(lifted.vertices[i]);
-  } else if (!lifted.parts.empty()) {
-    const auto maps = maps_at(placement, lifted.vertices, execution);
-    const MatrixXd& parts = maps->pole_parts();
-    for (Index i = 0; i < parts.cols(); ++i) lifted.parts[i] = parts.col(i);
-  }
-  return lifted;
 }
 
 // #natural x #free residues: the harmonic parts; closed, each against the last pole's.
@@ -83,22 +59,21 @@ RoundingOptions rounding_options(const Placement& placement, const TilingOptions
 
 Tiling tiling_of(const Placement& placement, RoundedForm form, Execution& execution) {
   Tiling result;
-  const Candidate& candidate = form.candidate;
-  for (const Index i : candidate.used()) {
-    result.poles.push_back(candidate.poles.vertices[i]);
-    result.residues.push_back(candidate.residues[i]);
+  const RoundingProblem& problem = *form.problem;
+  for (const Index i : form.candidate.used()) {
+    result.poles.push_back(form.candidate.poles.vertices[i]);
+    result.residues.push_back(form.candidate.residues[i]);
   }
-  result.distortion = candidate.rounding.distortion;
-  if (const Index defects = form.problem->defects.cols(); defects > 0) {
-    const VectorXcd t = candidate.rounding.y.tail(defects);
-    result.beltrami_rms = (defect_metric(*form.problem) * t).norm() / std::sqrt(form.tiles);
-  }
-  result.form = std::make_shared<const RoundedForm>(std::move(form));
+  const Rounding& rounding = form.candidate.rounding;
+  result.distortion = rounding.distortion;
+  if (const Index defects = problem.defects.cols(); defects > 0)
+    result.beltrami_rms = (defect_metric(problem) * rounding.y.tail(defects)).norm() / std::sqrt(problem.tiles);
   const VectorXcd residues = Eigen::Map<const VectorXcd>(result.residues.data(), std::ssize(result.residues));
   const auto maps = maps_at(placement, result.poles, execution);
-  const SeamlessForm seamless = maps->form(result.form->candidate.X, residues, result.form->lattice);
+  const SeamlessForm seamless = maps->form(form.candidate.X, residues, problem.lattice);
   uv::UvArray function = maps->function(seamless, execution);
   execution.stage("UV map", 0.9, 1.0);
+  result.form = std::make_shared<const RoundedForm>(std::move(form));
   result.structure = maps->structure();
   result.periods = seamless.periods;
   result.uv = seamless_uv(*result.structure, seamless, std::move(function), execution);
@@ -112,48 +87,30 @@ Tiling tile(const Placement& placement, const TilingOptions& options, Execution&
   execution.stage("rounding", 0.0, 0.4);
   const PoleBasis& basis = *placement.basis;
   const JacobiInversion* inversion = placement.inversion.get();
-  const bool movable = !placement.options.is_chosen();
-  const double usual = std::max(kLeastTiles, kTilesPerHandle * basis.structure().topology.type.genus);
-  const double tiles = options.tiles > 0 ? options.tiles : usual;
   const LiftedPoles lifted = lifted_poles(placement, execution);
   RoundingProblem problem = rounding_problem(placement.form, placement.greens, placement.kind, options.lattice,
                                              parts_of(lifted, basis), inversion ? &inversion->jacobian : nullptr);
-  problem.median_density = tiles / basis.area();
-  if (inversion && movable && problem.residues.rows() > 0) {
+  const double usual = std::max(kLeastTiles, kTilesPerHandle * basis.structure().topology.type.genus);
+  problem.tiles = options.tiles > 0 ? options.tiles : usual;
+  problem.median_density = problem.tiles / basis.area();
+  if (inversion && !placement.options.is_chosen() && problem.residues.rows() > 0) {
     problem.repairable =
         kReach * kReach * basis.area() * inversion->reach(placement.form.poles, placement.form.residues);
   }
   const RoundingOptions rounding = rounding_options(placement, options);
   const std::vector<Rounding> list = roundings(problem, rounding, execution);
-  if (list.empty()) refuse(std::move(problem), rounding, tiles, execution);
-  Candidate best = best_candidate(problem, list, lifted, {inversion, movable, placement.options.allowed}, tiles,
-                                  placement.greens, execution);
+  if (list.empty()) refuse(std::move(problem), rounding, execution);
+  Candidate best = best_candidate(placement, problem, list, lifted, execution);
   execution.stage("poles at their places", 0.4, 0.9);
-  RoundedForm form{options.lattice, tiles, std::make_shared<const RoundingProblem>(std::move(problem)),
-                   std::move(best)};
-  return tiling_of(placement, std::move(form), execution);
+  return tiling_of(placement, {std::make_shared<const RoundingProblem>(std::move(problem)), std::move(best)},
+                   execution);
 }
 
 Tiling move_poles(const Placement& placement, RoundedForm form, const std::vector<PoleMove>& moves,
                   Execution& execution) {
   execution.stage("poles at their places", 0.0, 0.9);
-  if (moves.empty()) return tiling_of(placement, std::move(form), execution);
-  const PoleBasis& basis = *placement.basis;
-  Candidate& candidate = form.candidate;
-  const std::vector<char> moved = place_at(moves, basis, placement.options.labels, candidate);
-  if (placement.inversion) {
-    const bool stay = placement.options.is_chosen();
-    const MoveOptions options{placement.options.allowed, kFollowing, stay ? std::vector<char>(moved.size(), 1) : moved};
-    const MatrixXcd metric = defect_metric(*form.problem) / std::sqrt(form.tiles);
-    follow_by_inversion(*placement.inversion, metric, options, moved, candidate);
-  } else if (basis.form_count() > 0) {
-    std::vector<int> vertices;
-    for (const Index i : candidate.used()) vertices.push_back(candidate.poles.vertices[i]);
-    follow_with_boundary(basis, *form.problem, maps_at(placement, vertices, execution)->pole_parts(), candidate);
-  }
-  GreensFunctions greens = placement.greens;
-  greens.solve_at(candidate.poles.vertices, execution);
-  measure(*form.problem, greens, candidate);
+  if (!moves.empty())
+    form.candidate = with_poles_moved(placement, *form.problem, moves, std::move(form.candidate), execution);
   return tiling_of(placement, std::move(form), execution);
 }
 

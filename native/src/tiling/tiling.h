@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "tiling/inversion/candidate.h"
-#include "tiling/placement.h"
+#include "tiling/candidate.h"
 
 namespace holomorph::tiling {
 
@@ -19,10 +18,8 @@ struct TilingOptions {
   double max_turn = 0.2;                           ///< largest change of these by the rounding, in radians
 };
 
-/// A form whose periods and residues are points of the lattice, with its poles at vertices.
+/// A form whose periods and residues are points of the problem's lattice, with its poles at vertices.
 struct RoundedForm {
-  TextureLattice lattice;
-  double tiles = 0;  ///< as asked for, or the number that suits
   std::shared_ptr<const RoundingProblem> problem;
   Candidate candidate;
 };

@@ -16,8 +16,11 @@ namespace {
 constexpr double kChange = 0.2;                               // relative change of the form that costs 1
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
 constexpr int kPhases = 30, kScales = 7;
-constexpr int kNearPhases = 7;  // around a phase that is given
+constexpr std::size_t kWanted = 8;  // roundings at most
+constexpr int kNearPhases = 7;      // around a phase that is given
 constexpr double kScaleRange = 0.12;
+constexpr double kSame = 1e-9;      // relative distance of points of a lattice that are one
+constexpr double kRegular = 1e-12;  // of the largest diagonal entry: keeps a Gram matrix definite in spite of rounding
 constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1, kSize = 0.05;  // terms and bounds for the rank
 // Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
 // mean than the next, or so much less even than the target, is none.
@@ -30,10 +33,10 @@ MatrixXd as_real(const MatrixXcd& rows) {
   return result;
 }
 
-// Upper R with R^H R = H; a small multiple of the identity keeps it regular.
+// Upper R with R^H R = H.
 MatrixXcd root(MatrixXcd H) {
   if (H.rows() == 0) return H;
-  H += 1e-12 * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
+  H += kRegular * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
   return Eigen::LLT<MatrixXcd>(H).matrixU();
 }
 
@@ -62,7 +65,7 @@ std::vector<double> phases_of(const RoundingProblem& p, const RoundingOptions& o
     return {options.phase && std::cos(*options.phase) < 0 ? std::numbers::pi
                                                           : 0};  // u runs along boundaries either way
   std::vector<double> phases;
-  for (int i = 0; !options.phase && i < kPhases; ++i) phases.push_back(p.symmetry * i / kPhases);
+  for (int i = 0; !options.phase && i < kPhases; ++i) phases.push_back(p.lattice.symmetry() * i / kPhases);
   for (int i = 0; options.phase && i < kNearPhases; ++i)
     phases.push_back(*options.phase + options.max_turn * (2.0 * i / (kNearPhases - 1) - 1));
   return phases;
@@ -88,7 +91,7 @@ MatrixXcd defect_metric(const RoundingProblem& p) {
 double TextureLattice::symmetry() const {
   for (const int part : {3, 2}) {
     const Complex turn = std::polar(1.0, std::numbers::pi / part);
-    const auto is_kept = [&](Complex z) { return std::abs(turn * z - nearest(turn * z)) < 1e-9 * std::abs(z); };
+    const auto is_kept = [&](Complex z) { return std::abs(turn * z - nearest(turn * z)) < kSame * std::abs(z); };
     if (is_kept(a) && is_kept(b)) return std::numbers::pi / part;
   }
   return std::numbers::pi;
@@ -136,7 +139,7 @@ std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingOptions&
   const double most = kUneven * p.target_ratio;
   std::erase_if(list, [&](const Rounding& r) { return !(r.distortion < kNoMap && r.density_ratio < most); });
   std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });
-  if (static_cast<int>(list.size()) > options.count) list.resize(options.count);
+  if (list.size() > kWanted) list.resize(kWanted);
   return list;
 }
 

@@ -34,18 +34,18 @@ struct RoundingProblem {
   VectorXcd target;             ///< n + k + l: the form as it would be without rounding, t = 0
   ArrayXd target_density;       ///< |forms target|^2
   double target_ratio = 1;      ///< 95 % over 5 % quantile of it
-  double symmetry = 0;          ///< radians by which the lattice is turned onto itself
+  TextureLattice lattice;       ///< of the periods and residues
   MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
-  double median_density = 1;    ///< that is wanted of |A|^2
+  double tiles = 1;             ///< over the surface at its median density, which are wanted
+  double median_density = 1;    ///< of |A|^2, likewise
 };
 
-/// Upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target, floored: the mean square of |mu|.
+/// Upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target, floored.
 MatrixXcd defect_metric(const RoundingProblem& problem);
 
 struct RoundingOptions {
   std::optional<double> phase;  ///< of the target, in radians; none: free
   double max_turn = 0;          ///< largest change of a given phase, in radians
-  int count = 8;                ///< number of roundings wanted
 };
 
 struct Rounding {

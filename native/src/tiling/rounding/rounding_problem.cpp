@@ -48,6 +48,7 @@ RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFuncti
   size.l = closed ? size.n : size.handles;
   RoundingProblem p;
   p.kind = kind;
+  p.lattice = lattice;
   set_integers(lattice, size, real, p);
 
   const MatrixXcd at_poles = greens.pole_forms(form.poles);
@@ -80,7 +81,6 @@ RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFuncti
   }
   p.target_density = (p.forms * p.target).cwiseAbs2().array();
   p.target_ratio = density_ratio(p.target_density);
-  p.symmetry = lattice.symmetry();
   return p;
 }
 
