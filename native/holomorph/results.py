@@ -14,7 +14,7 @@ from .checks import real_number
 from .quality import Quality
 from .surface import Surface
 from .tiling import Tiler, Tiling
-from .tiling_options import Poles, wished_poles
+from .tiling_options import Poles, asked_poles
 from .value import Value, counted
 
 
@@ -200,7 +200,7 @@ class Structure(Value):
             if tiles is not None:
                 raise ValueError("a density is given without tiles: either says how many there are")
             tiles = real_number(density, "density", positive=True) * self._component.area
-        count, chosen = wished_poles(poles)
+        count, chosen = asked_poles(poles)
         key = count, tuple(chosen), str(boundary)
         tiler = self._tilers.get(key)
         if tiler is None:

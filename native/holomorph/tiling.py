@@ -13,7 +13,7 @@ from .array_types import Complexes, Integers, Progress, Reals
 from .checks import real_number
 from .quality import Quality
 from .surface import Surface
-from .tiling_options import BOUNDARIES, Poles, checked_direction, generators, own_allowed, own_poles, wished_poles
+from .tiling_options import BOUNDARIES, Poles, asked_poles, checked_direction, generators, own_allowed, own_poles
 from .value import Value, counted
 from .verdicts import Verdict, verdict
 
@@ -105,7 +105,7 @@ class Tiler:
             raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
         surface.require_connected()
         self._surface, self._component, self._threads = surface, surface.components[0], threads or 0
-        count, chosen = wished_poles(poles)
+        count, chosen = asked_poles(poles)
         vertices, labels = own_poles(surface, self._component, chosen)
         self._placement = _native.place_poles(
             self._component._native,

@@ -17,7 +17,7 @@ BOUNDARIES = ("straight", "free")
 Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
 
 
-def wished_poles(poles):
+def asked_poles(poles):
     """(count or None, chosen vertices). @throws ValueError or InvalidMesh for anything else"""
     if isinstance(poles, str):
         if poles != "auto":

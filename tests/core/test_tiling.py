@@ -1,4 +1,4 @@
-"""Seamless tilings: jumps on the lattice (exact), nothing left over (solver), even density (discretisation)."""
+"""Seamless tilings: jumps on the lattice (exact), holomorphic (solver), even density (discretisation)."""
 
 import families
 import holomorph

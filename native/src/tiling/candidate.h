@@ -12,7 +12,7 @@ namespace holomorph::tiling {
 struct Candidate {
   Rounding rounding;
   LiftedPoles poles;
-  VectorXcd residues;  ///< of all poles
+  VectorXcd residues;  ///< for all poles
   VectorXcd X;         ///< periods besides the poles; with boundary c
 
   std::vector<Index> used() const;  ///< the poles of the tiling: a rounding may need fewer than there are

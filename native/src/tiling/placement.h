@@ -20,7 +20,7 @@ struct PoleOptions {
   bool straight = true;        ///< boundary loops become lines of constant v; with handles they do in any case, since
                                ///< free ones would leave the map less conformal
   std::vector<int> labels;     ///< #V: what a vertex is called in messages; empty: its index
-  structure::Options solving;  ///< of the linear systems
+  structure::Options solving;  ///< how the linear systems are solved
 
   bool is_chosen() const { return !vertices.empty(); }
 };
@@ -28,9 +28,9 @@ struct PoleOptions {
 /// The poles of a surface, and what tilings with them are made of. Threads may use one side by side.
 struct Placement {
   PoleOptions options;
-  std::shared_ptr<const PoleBasis> basis;  ///< of the surface
+  std::shared_ptr<const PoleBasis> basis;  ///< on the surface
   uv::Coefficients kind;                   ///< real: straight loops
-  GreensFunctions greens;                  ///< of the poles
+  GreensFunctions greens;                  ///< at the poles
   MeromorphicForm form;                    ///< the most even one with these poles, before its periods are rounded
   double optimal_density_ratio = 1;        ///< 95 % over 5 % quantile of its density
   std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null

@@ -29,7 +29,7 @@ struct Tiling {
   std::shared_ptr<const RoundedForm> form;                ///< what the map was made of
   std::shared_ptr<const structure::Structure> structure;  ///< with the poles, its forms and its cut
   std::vector<int> poles;                                 ///< vertices
-  std::vector<Complex> residues;                          ///< of the poles
+  std::vector<Complex> residues;                          ///< points of the lattice
   VectorXcd periods;                                      ///< over the homology basis of the structure
   uv::UvArray uv;                                         ///< #C x 2
   double distortion = 1;                                  ///< by the rounding alone: mean s1 / s2

@@ -44,13 +44,13 @@ CoarseLevel level_of(const mesh::Surface& surface, const std::vector<int>& order
   auto all = std::make_shared<mesh::Surface>(renumbered(surface, order, execution));
   if (all->triangles.size() <= kLevelTriangles) return {std::move(all), order, inverse(order)};
   const Execution::Within within(execution);
-  const auto mesh = progressive::progressive_mesh(*all, progressive::Order::quadric, execution);
-  const int splits = progressive::split_count(mesh, kLevelTriangles);
-  auto level = std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(mesh, splits), execution));
+  const auto levels = progressive::progressive_mesh(*all, progressive::Order::quadric, execution);
+  const int splits = progressive::split_count(levels, kLevelTriangles);
+  auto level = std::make_shared<mesh::Surface>(mesh::make_surface(progressive::level(levels, splits), execution));
   std::vector<int> vertex, collapsed(surface.vertex_count);
-  for (int v = 0; v < level->vertex_count; ++v) vertex.push_back(order[mesh.vertex_index[v]]);
-  const std::vector<int> map = progressive::vertex_map(mesh, splits);
-  for (std::size_t v = 0; v < map.size(); ++v) collapsed[order[mesh.vertex_index[v]]] = map[v];
+  for (int v = 0; v < level->vertex_count; ++v) vertex.push_back(order[levels.vertex_index[v]]);
+  const std::vector<int> map = progressive::vertex_map(levels, splits);
+  for (std::size_t v = 0; v < map.size(); ++v) collapsed[order[levels.vertex_index[v]]] = map[v];
   return {std::move(level), std::move(vertex), std::move(collapsed)};
 }
 

@@ -16,7 +16,7 @@ struct CoarseLevel {
   std::shared_ptr<const mesh::Surface> surface;
   std::vector<int> vertex;     ///< #V of the level: the same vertex of the surface
   std::vector<int> collapsed;  ///< #V of the surface: the vertex of the level that it was collapsed into
-  /// Of each polygon of the surface with more than four corners, those that are vertices of the level.
+  /// The corners that are vertices of the level, for each polygon of the surface with more than four.
   std::vector<std::vector<int>> large_polygons = {};
 
   /// Whether the level has all triangles of the surface.

@@ -14,7 +14,7 @@ namespace holomorph::tiling {
 /// The form whose periods are points of the lattice.
 struct SeamlessForm {
   VectorXcd periods;       ///< over the homology basis of its structure
-  VectorXcd coefficients;  ///< of the harmonic forms
+  VectorXcd coefficients;  ///< for the harmonic forms
 };
 
 /// The maps with poles at given vertices. On a closed surface the function of each is solved for, and no basis of

@@ -34,17 +34,17 @@ struct RoundingProblem {
   VectorXcd target;             ///< n + k + l: the form as it would be without rounding, t = 0
   ArrayXd target_density;       ///< |forms target|^2
   double target_ratio = 1;      ///< 95 % over 5 % quantile of it
-  TextureLattice lattice;       ///< of the periods and residues
+  TextureLattice lattice;       ///< which periods and residues are rounded to
   MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
   double tiles = 1;             ///< over the surface at its median density, which are wanted
-  double median_density = 1;    ///< of |A|^2, likewise
+  double median_density = 1;    ///< the same number over the area
 };
 
 /// Upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target, floored.
 MatrixXcd defect_metric(const RoundingProblem& problem);
 
 struct RoundingOptions {
-  std::optional<double> phase;  ///< of the target, in radians; none: free
+  std::optional<double> phase;  ///< which the target is given, in radians; none: any
   double max_turn = 0;          ///< largest change of a given phase, in radians
 };
 
