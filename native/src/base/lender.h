@@ -20,21 +20,15 @@ class Lender {
 
   explicit Lender(Make make) : make_(std::move(make)) {}
 
-  struct GiveBack {
-    const Lender* lender;
-    void operator()(T* lent) const { lender->take_back(std::unique_ptr<T>(lent)); }
-  };
-  /// Gives it back at the end of its life. @pre the lender outlives it
-  using Loan = std::unique_ptr<T, GiveBack>;
-
-  Loan borrow(Execution& execution) const {
+  /// It comes back when nobody holds the pointer any more. @pre the lender outlives that
+  std::shared_ptr<T> borrow(Execution& execution) const {
     std::unique_ptr<T> lent;
     {
       const std::lock_guard lock(mutex_);
       lent = std::move(kept_);
     }
     if (!lent) lent = make_(execution);
-    return Loan(lent.release(), {this});
+    return {lent.release(), [this](T* back) { take_back(std::unique_ptr<T>(back)); }};
   }
 
  private:

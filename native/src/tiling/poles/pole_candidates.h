@@ -8,6 +8,7 @@
 
 namespace holomorph::tiling {
 
+/// Where the search may place poles.
 struct PlaceOptions {
   uv::Coefficients kind = uv::Coefficients::complex;
   std::vector<char> allowed;                    ///< #V of the basis: may a pole be there; empty: anywhere
@@ -42,7 +43,7 @@ class PoleCandidates {
 
   const PoleBasis& basis_;
   const PlaceOptions& options_;
-  std::map<int, std::vector<int>> polygons_at_;   // of their vertices
+  std::map<int, std::vector<int>> polygons_at_;   // by vertex
   std::map<int, std::vector<double>> distances_;  // along edges, from poles there have been
 };
 
