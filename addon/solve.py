@@ -50,7 +50,7 @@ class SolvedComponent:
     tilings: dict = field(
         default_factory=dict, compare=False
     )  # `tiling.TiledPart` by `tiling.TileOptions`, newest last
-    last_rounded: dict = field(default_factory=dict, compare=False)  # `tiling.TileOptions` by the tiler that rounded
+    last_rounded: dict = field(default_factory=dict, compare=False)  # (`tiling.TileOptions`, its tiling) by the tiler
 
     @property
     def form_count(self):

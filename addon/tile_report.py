@@ -28,7 +28,7 @@ def part_report(part):
                 {
                     "added_distortion": float(made.added_distortion),
                     "density_ratio": float(made.density_ratio),
-                    "left_over": float(made.left_over),
+                    "beltrami_rms": float(made.beltrami_rms),
                     "poles": part.vertices(made.poles),
                     "residues": made.residues,
                     "zeros": part.vertices(zeros),

@@ -118,7 +118,8 @@ def _made(component, options, progress):
     """The library's `Tiling`; what it rounded last is not rounded again for poles that are dragged."""
     tiler = component.tiler(options.poles, options.boundary, options.allowed, scaled(progress, 0.0, PLACING_SHARE))
     rounded = replace(options, moved=())
-    if not options.moved or component.last_rounded.get(tiler) != rounded:
+    asked_before, made = component.last_rounded.get(tiler, (None, None))
+    if not options.moved or asked_before != rounded:
         made = tiler.tile(
             options.tiles or None,
             lattice=options.lattice,
@@ -127,8 +128,8 @@ def _made(component, options, progress):
             progress=scaled(progress, PLACING_SHARE, 1 - PLACING_SHARE),
         )
         component.last_rounded.clear()
-        component.last_rounded[tiler] = rounded
-    return tiler.with_poles_moved(dict(options.moved), progress=progress) if options.moved else made
+        component.last_rounded[tiler] = rounded, made
+    return tiler.move_poles(made, dict(options.moved), progress=progress) if options.moved else made
 
 
 def _own_options(component, options, share):

@@ -13,7 +13,8 @@ from .array_types import Integers, Progress, Reals
 from .checks import real_number
 from .quality import Quality
 from .surface import Surface
-from .tiling import Poles, Tiler, Tiling, wished_poles
+from .tiling import Tiler, Tiling
+from .tiling_options import Poles, asked_poles
 from .value import Value, counted
 
 
@@ -172,8 +173,8 @@ class Structure(Value):
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
 
         All jumps of the UVs are translations that leave the texture as it is. Poles, around which the texture closes up
-        by whole tiles, make the density even, and on surfaces with handles they move until nothing of the rounding is
-        left over (Jacobi inversion), so that the map is conformal and its periods are integers at once.
+        by whole tiles, make the density even, and on surfaces with handles they move until the rounded form is
+        holomorphic (Jacobi inversion), so that the map is conformal and its periods are integers at once.
 
         Parameters
         ----------
@@ -199,14 +200,14 @@ class Structure(Value):
             if tiles is not None:
                 raise ValueError("a density is given without tiles: either says how many there are")
             tiles = real_number(density, "density", positive=True) * self._component.area
-        count, chosen = wished_poles(poles)
+        count, chosen = asked_poles(poles)
         key = count, tuple(chosen), str(boundary)
-        if key not in self._tilers:
+        tiler = self._tilers.get(key)
+        if tiler is None:
+            tiler = Tiler(self._component, poles, boundary=boundary, threads=self._threads, progress=progress)
             self._tilers.clear()
-            self._tilers[key] = Tiler(
-                self._component, poles, boundary=boundary, threads=self._threads, progress=progress
-            )
-        return self._tilers[key].tile(
+            self._tilers[key] = tiler
+        return tiler.tile(
             tiles,
             lattice=lattice,
             direction=direction,

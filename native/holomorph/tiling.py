@@ -1,26 +1,21 @@
 """Seamless tilings: UV maps whose jumps all are translations of the texture, of even density."""
 
-import math
-import numbers
-from collections.abc import Mapping, Sequence
+import weakref
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native, arrays
-from ._native import InvalidMesh, TopologyError
+from ._native import TopologyError
 from .array_types import Complexes, Integers, Progress, Reals
-from .checks import own_vertices, real_number
+from .checks import real_number
 from .quality import Quality
 from .surface import Surface
+from .tiling_options import BOUNDARIES, Poles, asked_poles, checked_direction, generators, own_allowed, own_poles
 from .value import Value, counted
 from .verdicts import Verdict, verdict
-
-LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
-BOUNDARIES = ("straight", "free")
-Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,7 +30,7 @@ class Tiling(Value):
     residues : (k,) complex points of the lattice: by how much the UVs change around each pole, counter-clockwise
     zeros : ((k,) vertices, (k,) orders): where the texture branches, around 2 pi (order + 1)
     added_distortion : mean s1 / s2 over the area that the rounding to integers alone would give; 1 where it costs none
-    left_over : root mean square of |mu|, the Beltrami coefficient of the rounding
+    beltrami_rms : root mean square of the Beltrami coefficient of the rounding
     optimal_density_ratio : 95 % over 5 % quantile of the density that these poles allow without integers
     tiles : the number of tiles that was aimed at: area times median density
     quality : `Quality` on the triangles of the surface, diagonals flipped away from the poles
@@ -48,7 +43,7 @@ class Tiling(Value):
     residues: Complexes
     zeros: tuple[Integers, Integers]
     added_distortion: float
-    left_over: float
+    beltrami_rms: float
     optimal_density_ratio: float
     tiles: float
     quality: Quality
@@ -83,6 +78,7 @@ class PlacedPoles(Value):
 
 class Tiler:
     """The poles of a surface and what tilings with them are made of; changing tiles, lattice or direction is quick.
+    It does not change: threads may ask it side by side, and so may a progress function.
 
     Parameters
     ----------
@@ -108,11 +104,21 @@ class Tiler:
         if boundary not in BOUNDARIES:
             raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
         surface.require_connected()
-        self._surface, self._component, self._basis = surface, surface.components[0], None
-        count, chosen = wished_poles(poles)
-        vertices, labels = _own_poles(surface, self._component, chosen)
-        self._native = _native.Tiler(self._component._native, boundary == "straight", labels, solver, threads or 0)
-        self._native.place(count, vertices, _allowed(allowed, surface, self._component), progress)
+        self._surface, self._component, self._threads = surface, surface.components[0], threads or 0
+        count, chosen = asked_poles(poles)
+        vertices, labels = own_poles(surface, self._component, chosen)
+        self._placement = _native.place_poles(
+            self._component._native,
+            count=count,
+            vertices=vertices,
+            allowed=own_allowed(allowed, surface, self._component),
+            straight=boundary == "straight",
+            labels=labels,
+            solver=solver,
+            threads=self._threads,
+            progress=progress,
+        )
+        self._forms = weakref.WeakKeyDictionary()  # of the core, by the `Tiling` that was made of them
 
     def __repr__(self) -> str:
         return f"<Tiler: {counted(len(self.poles.vertices), 'pole')} on {self._surface!r}>"
@@ -123,8 +129,8 @@ class Tiler:
     @property
     def poles(self) -> PlacedPoles:
         """`PlacedPoles`."""
-        vertices, residues, ratio = self._native.poles()
-        return PlacedPoles(self._of_surface(vertices), residues, ratio)
+        placement = self._placement
+        return PlacedPoles(self._of_surface(placement.poles()), placement.residues(), placement.density_ratio)
 
     def tile(
         self,
@@ -143,46 +149,60 @@ class Tiler:
         tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
         turn = None if turn is None else real_number(turn, "turn")
         max_turn = real_number(max_turn, "max_turn")
-        a, b = _lattice(lattice)
-        along = None if direction is None else _direction(direction, self._component)
-        self._basis = np.array([[a.real, b.real], [a.imag, b.imag]])
-        made = self._tiling(self._native.tile(tiles, a, b, turn, along, max_turn, progress))
+        along = None if direction is None else checked_direction(direction, self._component)
+        made = self._tiling(
+            _native.tile(
+                self._placement,
+                tiles=tiles,
+                lattice=generators(lattice),
+                turn=turn,
+                direction=along,
+                max_turn=max_turn,
+                threads=self._threads,
+                progress=progress,
+            )
+        )
         if max_added is not None and made.added_distortion > max_added:
             raise TopologyError(_too_sheared(made, max_added, self._surface.genus))
         return made
 
-    def with_poles_moved(self, moves: Mapping[int, int], *, progress: Progress | None = None) -> Tiling:
-        """The `Tiling` that `tile` gave last with some of its poles elsewhere; changes nothing of the tiler.
+    def move_poles(self, tiling: Tiling, moves: Mapping[int, int], *, progress: Progress | None = None) -> Tiling:
+        """A tiling of this `Tiler` with some of its poles elsewhere.
 
         The residues stay, and so do the periods but where a pole has a shorter way to its place around a handle.
-        Nothing is rounded again. On a surface with handles the other poles make up for what is left over, as far as
-        they can: where they were chosen, `added_distortion` grows.
+        Nothing is rounded again. On a surface with handles the other poles move until the form is holomorphic again, as
+        far as they can: where they were chosen they stay, and `added_distortion` grows.
 
         moves : {index in `Tiling.poles`: vertex}
         """
-        if self._basis is None:
-            raise ValueError("with_poles_moved moves the poles of a tiling; call tile first")
-        own, _ = _own_poles(self._surface, self._component, list(moves.values()))
-        return self._tiling(self._native.with_poles_moved(list(zip(moves, own)), progress))
+        form = self._forms.get(tiling)
+        if form is None:
+            raise ValueError("move_poles moves the poles of a tiling that this Tiler made")
+        own, _ = own_poles(self._surface, self._component, list(moves.values()))
+        moved = _native.move_poles(
+            self._placement, form, list(zip(moves, own)), threads=self._threads, progress=progress
+        )
+        return self._tiling(moved)
 
     def _tiling(self, made):
-        uv, triangulation = made.uv(), made.surface()
-        zeros, orders = made.zeros()
-        jumps = made.periods().ravel()
-        periods = np.linalg.solve(self._basis, np.stack([jumps.real, jumps.imag]))
-        return Tiling(
+        uv, triangulation, zeros, form = made.uv(), made.surface(), made.zeros(), made.form()
+        basis, jumps = (np.array([z.real, z.imag]) for z in (form.lattice(), made.periods().ravel()))
+        periods = np.linalg.solve(basis, jumps)
+        tiling = Tiling(
             uv=uv,
             periods=arrays.frozen(np.rint(periods.T).astype(np.int64).reshape(-1, 2)),
             poles=self._of_surface(made.poles()),
             residues=made.residues(),
-            zeros=(self._of_surface(zeros), orders),
+            zeros=(self._of_surface(zeros.vertices), zeros.orders),
             added_distortion=made.distortion,
-            left_over=made.left_over,
+            beltrami_rms=made.beltrami_rms,
             optimal_density_ratio=self.poles.density_ratio,
-            tiles=made.tiles,
+            tiles=form.tiles,
             quality=Quality.of(triangulation, uv, 0),
             seams=self._of_surface(triangulation.edges[made.seams()]),
         )
+        self._forms[tiling] = form
+        return tiling
 
     def _of_surface(self, vertices):
         same = self._component is self._surface
@@ -206,42 +226,6 @@ def place_poles(
     return Tiler(surface, count, boundary=boundary, allowed=allowed, threads=threads, progress=progress).poles
 
 
-def wished_poles(poles):
-    """(count or None, chosen vertices). @throws ValueError or InvalidMesh for anything else"""
-    if isinstance(poles, str):
-        if poles != "auto":
-            raise ValueError(f'poles is {poles!r}; "auto", a number or a list of vertices is needed')
-        return None, []
-    if isinstance(poles, numbers.Real):
-        if not 0 <= poles <= 1000 or poles != int(poles):
-            raise ValueError(f"poles is {poles!r}; a whole number from 0 to 1000 is needed")
-        return int(poles), []
-    vertices = arrays.integer(poles, "poles")
-    return len(vertices), vertices
-
-
-def _own_poles(surface, component, vertices):
-    """As `own_vertices`; each only once."""
-    own = own_vertices(surface, component, vertices, "pole")
-    given, times = np.unique(np.asarray(vertices, int), return_counts=True)
-    for vertex in given[times > 1]:
-        raise TopologyError(f"pole {vertex} is given twice")
-    return own
-
-
-def _allowed(allowed, surface, component):
-    if allowed is None:
-        return []
-    allowed = np.asarray(allowed, bool)
-    count = surface._native.vertex_count
-    if allowed.shape != (count,):
-        raise ValueError(f"allowed has the shape {allowed.shape}; ({count},) is needed")
-    own = allowed if component is surface else allowed[component.vertex_index]
-    if not own.any():
-        raise ValueError("allowed leaves no vertex for a pole")
-    return own.tolist()
-
-
 def _too_sheared(made, max_added, genus):
     """What can be had instead."""
     poles = counted(len(made.poles), "pole")
@@ -250,26 +234,3 @@ def _too_sheared(made, max_added, genus):
         f"with {poles} and {made.tiles:.4g} tiles the added distortion is {made.added_distortion:.5g}, more than "
         f"max_added, {max_added:.5g}: {advice}"
     )
-
-
-def _lattice(lattice):
-    """Its two generators as complex numbers. @throws ValueError"""
-    if isinstance(lattice, str):
-        if lattice not in LATTICES:
-            raise ValueError(f"lattice is {lattice!r}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
-        return tuple(complex(z) for z in LATTICES[lattice])
-    matrix = arrays.numbers(lattice, "lattice")
-    if matrix.shape != (2, 2) or not np.isfinite(matrix).all():
-        raise ValueError(f"lattice has the shape {matrix.shape}; a finite 2 x 2 matrix is needed")
-    if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
-        raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
-    return complex(*matrix[:, 0]), complex(*matrix[:, 1])
-
-
-def _direction(direction, surface):
-    if surface.vertices is None:
-        raise InvalidMesh("an intrinsic surface, without positions, knows no direction in space; use turn")
-    vector = arrays.numbers(direction, "direction")
-    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise ValueError(f"direction is {direction!r}; three numbers, not all 0, are needed")
-    return vector.tolist()

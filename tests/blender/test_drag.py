@@ -65,8 +65,8 @@ def stages(monkeypatch):
         def tile(self, *wanted, progress, **options):
             return super().tile(*wanted, progress=noting(progress), **options)
 
-        def with_poles_moved(self, moves, *, progress):
-            return super().with_poles_moved(moves, progress=noting(progress))
+        def move_poles(self, tiling, moves, *, progress):
+            return super().move_poles(tiling, moves, progress=noting(progress))
 
     monkeypatch.setattr(native.load(), "Tiler", Noted)
     return noted

@@ -70,7 +70,7 @@ def test_poles_beside_thin_triangles(thinnest, is_refused):
     for vertex in (0, 7):
         tiling = refused(lambda vertex=vertex: Tiler(surface, [vertex, 68]).tile(tiles=64))
         assert (tiling is None) == is_refused
-        assert is_refused or tiling.left_over < 0.01
+        assert is_refused or tiling.beltrami_rms < 0.01
     assert not np.isin(Tiler(surface, 4).tile(tiles=64).poles % 8, (0, 7)).any()
 
 

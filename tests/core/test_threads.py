@@ -61,14 +61,48 @@ def test_one_structure_is_asked_by_several():
     assert answers == [expected] * (AT_ONCE + 1)
 
 
-def test_one_tiler_is_asked_by_several():
-    """It keeps forms and poles between tilings, so it does one at a time."""
-    surface = surface_of(CLOSED["genus 2 block"])
-    alone = Tiler(surface, 4)
-    tiles = (64, 100, 150, 200)
-    expected = [alone.tile(count).uv.tobytes() for count in tiles]
-    shared = Tiler(surface, 4)
-    assert at_once(*[partial(lambda count: shared.tile(count).uv.tobytes(), count) for count in tiles]) == expected
+TILED = {
+    "genus 2 block": CLOSED["genus 2 block"],
+    "torus of quads": CLOSED["torus of quads"],
+    "sphere": families.geodesic_sphere(9, jitter=0.25),
+    "handle and hole": families.punctured_torus(24, 18),
+}
+ASKED = ((64, "square"), (100, "hex"), (150, "brick"), (200, "square"))
+
+
+def tiling_bits(made):
+    return [np.ascontiguousarray(array).tobytes() for array in (made.uv, made.periods, made.poles, made.residues)]
+
+
+def tile_and_move(tiler, tiles, lattice):
+    made = tiler.tile(tiles, lattice=lattice)
+    moved = tiler.move_poles(made, {0: int(made.poles[0])})
+    return tiling_bits(made) + tiling_bits(moved)
+
+
+@pytest.mark.parametrize("name", TILED)
+def test_one_tiler_is_asked_by_several(name):
+    """What it keeps between tilings is lent to one, and made again for the others: all get the bits of one alone."""
+    surface = surface_of(TILED[name])
+    alone, shared = Tiler(surface, 2, threads=2), Tiler(surface, 2, threads=2)
+    expected = [tile_and_move(alone, *asked) for asked in ASKED]
+    assert at_once(*[partial(tile_and_move, shared, *asked) for asked in ASKED]) == expected
+
+
+@pytest.mark.parametrize("name", TILED)
+def test_a_tiler_is_asked_by_its_own_progress_function(name):
+    """At every stage, while what it keeps is lent."""
+    tiler = Tiler(surface_of(TILED[name]), 2)
+    alone = [tiling_bits(tiler.tile(tiles)) for tiles in (64, 100)]
+    within, stages = [], set()
+
+    def ask(_, stage):
+        if stage not in stages:
+            stages.add(stage)
+            within.append(tiling_bits(tiler.tile(100)))
+
+    assert tiling_bits(tiler.tile(64, progress=ask)) == alone[0]
+    assert len(within) >= 3 and all(bits == alone[1] for bits in within)
 
 
 def test_cancelling_one_leaves_the_others():

@@ -52,11 +52,11 @@ def tiling(structure, options):
     made = Tiler(structure.surface, threads=1, **options.get("tiler", {}))
     tilings = [made.tile(**options.get("tile", {"tiles": 60}))]
     if len(tilings[0].poles):
-        tilings.append(made.with_poles_moved({0: int(tilings[0].poles[-1])}))
+        tilings.append(made.move_poles(tilings[0], {0: int(tilings[0].poles[-1])}))
     for result in tilings:
         oracle.check_finite("the uv of a tiling", result.uv)
         oracle.check_finite("residues", result.residues)
-        assert not np.isnan([result.added_distortion, result.left_over, result.tiles, result.density_ratio]).any()
+        assert not np.isnan([result.added_distortion, result.beltrami_rms, result.tiles, result.density_ratio]).any()
 
 
 def levels(structure, _):

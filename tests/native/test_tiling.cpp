@@ -5,16 +5,17 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <stdexcept>
 
 #include "mesh/make_surface.h"
 #include "mesh/surface_walk.h"
 #include "structure/pole_structure.h"
-#include "tiling/abel_jacobi.h"
-#include "tiling/closed_maps.h"
-#include "tiling/leverage.h"
-#include "tiling/poles.h"
-#include "tiling/rounding.h"
-#include "tiling/seamless_map.h"
+#include "tiling/greens/greens_functions.h"
+#include "tiling/greens/jacobian.h"
+#include "tiling/inversion/abel_jacobi.h"
+#include "tiling/maps/seamless_maps.h"
+#include "tiling/poles/meromorphic_form.h"
+#include "tiling/rounding/rounding.h"
 
 namespace holomorph::tiling {
 namespace {
@@ -44,14 +45,31 @@ std::shared_ptr<const mesh::Surface> wavy_torus(int n, int m, int missing = 0) {
   return std::make_shared<mesh::Surface>(mesh::make_surface(std::move(polygons), execution));
 }
 
+TEST(GreensFunctions, AreKeptAndHaveDifferencesForAClosedSurface) {
+  Execution execution(1);
+  const auto basis = std::make_shared<const PoleBasis>(wavy_torus(30, 20), structure::Options{}, execution);
+  GreensFunctions greens(basis), others(basis);
+  greens.solve_at({5, 300}, execution);
+  const Eigen::MatrixXcd before = greens.at({300, 5});
+  greens.solve_at({300, 470, 5}, execution);
+  EXPECT_EQ(greens.at({300, 5}), before);
+  EXPECT_THROW(greens.at({7}), std::out_of_range);
+  others.solve_at({470}, execution);
+  EXPECT_LT((others.at({470}) - greens.at({470})).norm(), 1e-9 * before.norm());
+  const Eigen::MatrixXcd all = greens.at({5, 300, 470}, 3), forms = greens.pole_forms({5, 300, 470}, 3);
+  EXPECT_EQ(all.rows(), (static_cast<Eigen::Index>(basis->samples().size()) + 2) / 3);
+  ASSERT_EQ(forms.cols(), 2);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(forms.col(i), all.col(i) - all.col(2));
+}
+
 TEST(AbelJacobi, ForetellsTheHarmonicPartOfEveryPole) {
   Execution execution(1);
   const auto surface = wavy_torus(30, 20);
-  const Landscape landscape(surface, {}, execution);
-  const AbelJacobi map(landscape, execution);
+  const PoleBasis basis(surface, {}, execution);
+  const AbelJacobi map(basis, execution);
   for (const auto& [p, q] : {std::pair{5, 300}, {47, 411}, {220, 590}}) {
     const auto s = structure::pole_structure(surface, {{p, q}, {1.0, -1.0}, {}}, {}, execution);
-    const Eigen::MatrixXd N = change_of_basis(landscape.structure().topology.classes, s);
+    const Eigen::MatrixXd N = change_of_basis(basis.structure().topology.classes, s);
     EXPECT_NEAR(std::abs(N.determinant()), 1, 1e-12);
     const Eigen::VectorXd foretold = N * (map.at(p) - map.at(q)), found = s.poles->harmonic_part.col(0);
     EXPECT_LT((found - nearest_representative(foretold, found)).cwiseAbs().maxCoeff(), 1e-10);
@@ -61,30 +79,30 @@ TEST(AbelJacobi, ForetellsTheHarmonicPartOfEveryPole) {
 TEST(AbelJacobi, FollowsItsDerivative) {
   Execution execution(1);
   const auto surface = wavy_torus(60, 40);
-  const Landscape landscape(surface, {}, execution);
-  const AbelJacobi map(landscape, execution);
-  const Leverage leverage(landscape);
+  const PoleBasis basis(surface, {}, execution);
+  const AbelJacobi map(basis, execution);
+  const Jacobian jacobian(basis);
   const int from = 1000;
-  const auto& mesh = landscape.half_edges();
-  const mesh::HalfedgeHandle h = mesh.halfedge_handle(mesh::VertexHandle(from));
-  const int triangle = mesh::face_of(mesh, h), to = mesh::to_vertex(mesh, h);
+  const auto& half_edges = basis.half_edges();
+  const mesh::HalfedgeHandle h = half_edges.halfedge_handle(mesh::VertexHandle(from));
+  const int triangle = mesh::face_of(half_edges, h), to = mesh::to_vertex(half_edges, h);
   const mesh::SurfacePoint a = mesh::at_vertex(*surface, triangle, from), b = mesh::at_vertex(*surface, triangle, to);
-  const Eigen::VectorXd step = -(leverage.abel_jacobi_derivatives({triangle}).col(0) * (b.z - a.z)).real();
+  const Eigen::VectorXd step = -(jacobian.abel_jacobi_derivatives({triangle}).col(0) * (b.z - a.z)).real();
   const Eigen::VectorXd start = map.at(from), exact = nearest_representative(map.at(to), start) - start;
   EXPECT_LT((exact - step).norm(), 0.1 * step.norm());
 }
 
 // In any direction: the steps of Newton's method go there.
-TEST(Leverage, FollowsThePole) {
+TEST(Jacobian, FollowsThePole) {
   Execution execution(1);
-  const Landscape landscape(wavy_torus(60, 40), {}, execution);
-  const Leverage leverage(landscape);
-  const auto split = leverage.split().bottomRows(landscape.form_count());
+  const PoleBasis basis(wavy_torus(60, 40), {}, execution);
+  const Jacobian jacobian(basis);
+  const auto split = jacobian.split().bottomRows(basis.form_count());
   for (const int triangle : {0, 1000, 3000}) {
-    const Complex tau = leverage.tau({triangle})(0, 0);
+    const Complex tau = jacobian.tau({triangle})(0, 0);
     for (int i = 0; i < 8; ++i) {
       const Complex dz = std::polar(1.0, 0.8 * i);
-      const Eigen::VectorXd lost = (leverage.abel_jacobi_derivatives({triangle}).col(0) * dz).real();
+      const Eigen::VectorXd lost = (jacobian.abel_jacobi_derivatives({triangle}).col(0) * dz).real();
       const Complex t = -(split * lost.cast<Complex>())[0];
       EXPECT_LT(std::abs(t - tau * dz), 0.1 * std::abs(tau));
     }
@@ -100,15 +118,15 @@ TEST(Spread, SeesSmallParts) {
   EXPECT_DOUBLE_EQ(spread(density), 100);
 }
 
-TEST(ClosedMaps, OneFormIsTheCombinationOfTheBasis) {
+TEST(SeamlessMaps, OneFormIsTheCombinationOfTheBasis) {
   Execution execution(1);
   const auto surface = wavy_torus(30, 20);
   const std::vector<int> vertices{5, 300, 470};
-  const Landscape landscape(surface, {}, execution);
-  ClosedMaps maps(landscape, vertices, {}, {}, execution);
+  const auto basis = std::make_shared<const PoleBasis>(surface, structure::Options{}, execution);
+  const SeamlessMaps maps(basis, false, vertices, {}, {}, execution);
   const auto s = structure::pole_structure(surface, {vertices, {1.0, 1.0, -2.0}, {}}, {}, execution);
-  const AbelJacobi map(landscape, execution);
-  const Eigen::VectorXcd r{{Complex(2, -1), Complex(1, 3)}};
+  const AbelJacobi map(*basis, execution);
+  const Eigen::VectorXcd r{{Complex(2, -1), Complex(1, 3), Complex(-3, -2)}};
   Eigen::VectorXcd X = r[0] * (map.at(5) - map.at(470)) + r[1] * (map.at(300) - map.at(470));
   X += Eigen::VectorXcd{{Complex(4, -7), Complex(-3, 2)}};
   const SeamlessForm form = maps.form(X, r, {});

@@ -180,7 +180,7 @@ def _tiling_report(part):
         {
             "added_distortion": float(made.added_distortion),
             "density_ratio": float(made.density_ratio),
-            "left_over": float(made.left_over),
+            "beltrami_rms": float(made.beltrami_rms),
             "tiles": float(made.tiles),
             "poles": index[made.poles],
             "residues": made.residues,

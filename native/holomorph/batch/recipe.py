@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, field, fields
 
 import tomllib
 
-from .. import formats, tiling
+from .. import formats, tiling_options
 from ..checks import SOLVERS
 from ..structure import BOUNDARIES
 from .errors import UsageError
@@ -91,11 +91,11 @@ class Tiles:
         '"auto", a number or a list of vertices',
         lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count),
     )
-    lattice: str = _one_of(tuple(tiling.LATTICES), "square")
+    lattice: str = _one_of(tuple(tiling_options.LATTICES), "square")
     direction: tuple | None = _option(
         None, "a list of three numbers that are not all 0", lambda v: _is_list(v, _is_number) and len(v) == 3 and any(v)
     )
-    boundary: str = _one_of(tiling.BOUNDARIES, "straight")
+    boundary: str = _one_of(tiling_options.BOUNDARIES, "straight")
     turn: float | None = _optional_number("an angle in radians", lambda value: True)
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
     max_added: float | None = _optional_number("a mean s1/s2 of at least 1", lambda value: value >= 1)

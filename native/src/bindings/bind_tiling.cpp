@@ -2,90 +2,93 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include <mutex>
-
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
-#include "tiling/tiler.h"
+#include "tiling/tiling.h"
 #include "uv/zeros.h"
 
 namespace holomorph::bindings {
 namespace {
 
-using tiling::Tiler;
+using namespace pybind11::literals;
+using tiling::Placement;
+using tiling::RoundedForm;
 using tiling::Tiling;
 
-/// A tiler for Python, which does one thing at a time.
-struct PyTiler {
-  int threads;
-  Tiler value;
-  std::mutex mutex;
-
-  PyTiler(const std::shared_ptr<mesh::Surface>& surface, bool straight, const std::vector<int>& names,
-          const std::string& solver, int thread_count)
-      : threads(thread_count), value(surface, structure::Options{solver}, straight, names) {}
-
-  /// `use(tiler, execution)` without the interpreter's lock.
-  template <class Use>
-  auto run(const py::object& progress, Use use) {
-    Execution execution(threads, callback(progress));
-    const py::gil_scoped_release unlocked;
-    const std::lock_guard<std::mutex> one_at_a_time(mutex);
-    return use(value, execution);
-  }
+struct Zeros {
+  py::array vertices, orders;
 };
+
+Zeros zeros(const Tiling& t) {
+  std::vector<int> vertices, orders;
+  for (const auto& [vertex, order] : uv::zeros(*t.structure->surface, t.uv, t.poles)) {
+    vertices.push_back(vertex);
+    orders.push_back(order);
+  }
+  return {copy(vertices), copy(orders)};
+}
+
+/// `compute(execution)` without the interpreter's lock, which only the progress function takes.
+template <class Compute>
+auto unlocked(int threads, const py::object& progress, Compute compute) {
+  Execution execution(threads, callback(progress));
+  const py::gil_scoped_release released;
+  return compute(execution);
+}
+
+Placement place(const std::shared_ptr<mesh::Surface>& surface, std::optional<int> count, std::vector<int> vertices,
+                const std::vector<bool>& allowed, bool straight, std::vector<int> labels, const std::string& solver,
+                int threads, const py::object& progress) {
+  tiling::PoleOptions options{count,    std::move(vertices), {allowed.begin(), allowed.end()},
+                              straight, std::move(labels),   {solver}};
+  return unlocked(threads, progress, [&](Execution& execution) { return tiling::place(surface, options, execution); });
+}
+
+Tiling tile(const Placement& placement, double tiles, const std::array<std::complex<double>, 2>& lattice,
+            std::optional<double> turn, std::optional<std::array<double, 3>> direction, double max_turn, int threads,
+            const py::object& progress) {
+  const tiling::TilingOptions options{tiles, {lattice[0], lattice[1]}, direction, turn, max_turn};
+  return unlocked(threads, progress, [&](Execution& execution) { return tiling::tile(placement, options, execution); });
+}
+
+Tiling move_poles(const Placement& placement, const RoundedForm& form, const std::vector<std::pair<int, int>>& moves,
+                  int threads, const py::object& progress) {
+  std::vector<tiling::PoleMove> list;
+  for (const auto& [pole, vertex] : moves) list.push_back({pole, vertex});
+  return unlocked(threads, progress,
+                  [&](Execution& execution) { return tiling::move_poles(placement, form, list, execution); });
+}
 
 }  // namespace
 
 void bind_tiling(py::module_& m) {
+  py::class_<Zeros>(m, "Zeros").def_readonly("vertices", &Zeros::vertices).def_readonly("orders", &Zeros::orders);
+  py::class_<RoundedForm, std::shared_ptr<RoundedForm>>(m, "RoundedForm")
+      .def_property_readonly("tiles", [](const RoundedForm& form) { return form.problem->tiles; })
+      .def("lattice", [](const RoundedForm& form) {
+        return copy(std::vector{form.problem->lattice.a, form.problem->lattice.b});
+      });
   py::class_<Tiling, std::shared_ptr<Tiling>>(m, "Tiling")
+      .def("form", [](const Tiling& t) { return std::const_pointer_cast<RoundedForm>(t.form); })
       .def("uv", [](const Tiling& t) { return copy(t.uv); })
       .def("periods", [](const Tiling& t) { return copy(t.periods); })
       .def("poles", [](const Tiling& t) { return copy(t.poles); })
       .def("residues", [](const Tiling& t) { return copy(t.residues); })
       .def("surface", [](const Tiling& t) { return std::const_pointer_cast<mesh::Surface>(t.structure->surface); })
-      .def("zeros",
-           [](const Tiling& t) {
-             std::vector<int> vertices, orders;
-             for (const auto& [vertex, order] : uv::zeros(*t.structure->surface, t.uv, t.poles)) {
-               vertices.push_back(vertex);
-               orders.push_back(order);
-             }
-             return py::make_tuple(copy(vertices), copy(orders));
-           })
+      .def("zeros", &zeros)
       .def("seams", [](const Tiling& t) { return copy(t.structure->topology.seams); })
-      .def_readonly("tiles", &Tiling::tiles)
       .def_readonly("distortion", &Tiling::distortion)
-      .def_readonly("left_over", &Tiling::left_over);
-  py::class_<PyTiler>(m, "Tiler")
-      .def(py::init<const std::shared_ptr<mesh::Surface>&, bool, const std::vector<int>&, const std::string&, int>())
-      .def("place",
-           [](PyTiler& t, std::optional<int> count, std::vector<int> vertices, const std::vector<bool>& allowed,
-              const py::object& progress) {
-             const tiling::PoleWishes wishes{count, std::move(vertices), {allowed.begin(), allowed.end()}};
-             t.run(progress, [&](Tiler& tiler, Execution& execution) { tiler.place(wishes, execution); });
-           })
-      .def("poles",
-           [](const PyTiler& t) {
-             return py::make_tuple(copy(t.value.poles().vertices), copy(t.value.poles().residues),
-                                   t.value.optimal_density_ratio());
-           })
-      .def("tile",
-           [](PyTiler& t, double tiles, std::complex<double> a, std::complex<double> b, std::optional<double> turn,
-              std::optional<std::array<double, 3>> direction, double most_turn, const py::object& progress) {
-             return t.run(progress, [&](Tiler& tiler, Execution& execution) {
-               return std::make_shared<Tiling>(tiler.tile({tiles, {a, b}, direction, turn, most_turn}, execution));
-             });
-           })
-      .def("with_poles_moved",
-           [](PyTiler& t, const std::vector<std::pair<int, int>>& pairs, const py::object& progress) {
-             std::vector<tiling::PoleMove> moves;
-             for (const auto& [pole, vertex] : pairs) moves.push_back({pole, vertex});
-             return t.run(progress, [&](Tiler& tiler, Execution& execution) {
-               return std::make_shared<Tiling>(tiler.with_poles_moved(moves, execution));
-             });
-           });
+      .def_readonly("beltrami_rms", &Tiling::beltrami_rms);
+  py::class_<Placement, std::shared_ptr<Placement>>(m, "Placement")
+      .def("poles", [](const Placement& p) { return copy(p.form.poles); })
+      .def("residues", [](const Placement& p) { return copy(p.form.residues); })
+      .def_readonly("density_ratio", &Placement::optimal_density_ratio);
+  m.def("place_poles", &place, "surface"_a, py::kw_only(), "count"_a, "vertices"_a, "allowed"_a, "straight"_a,
+        "labels"_a, "solver"_a, "threads"_a, "progress"_a);
+  m.def("tile", &tile, "placement"_a, py::kw_only(), "tiles"_a, "lattice"_a, "turn"_a, "direction"_a, "max_turn"_a,
+        "threads"_a, "progress"_a);
+  m.def("move_poles", &move_poles, "placement"_a, "form"_a, "moves"_a, py::kw_only(), "threads"_a, "progress"_a);
 }
 
 }  // namespace holomorph::bindings

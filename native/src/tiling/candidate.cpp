@@ -1,20 +1,17 @@
 #include "tiling/candidate.h"
 
 #include <algorithm>
-#include <complex>
+#include <cmath>
+#include <string>
 
 #include "base/chunks.h"
-#include "tiling/tiling_problem.h"
+#include "base/errors.h"
 
 namespace holomorph::tiling {
 namespace {
 
-using Complex = std::complex<double>;
-using Eigen::Index;
-using Eigen::MatrixXcd;
-using Eigen::VectorXcd;
-
 constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};  // how far poles may go, in square roots of the area: each is tried
+constexpr double kFollowing = 0.1;                  // likewise, those that follow one that is moved
 constexpr std::ptrdiff_t kWeighed = 3;  // roundings for each, whose density is found with the poles where they are
 
 bool better(const Candidate& a, const Candidate& b) { return a.rounding.rank < b.rounding.rank; }
@@ -31,15 +28,88 @@ std::vector<Candidate> best_of_each_way(const std::vector<Candidate>& candidates
   return kept;
 }
 
-// With the periods as rounded and the poles where they now are, what is left over.
-void split_periods(const RoundingProblem& problem, const Leverage& leverage, Index forms, Candidate& candidate) {
-  candidate.X = problem.periods * candidate.rounding.z.cast<double>().cast<Complex>();
-  for (std::size_t i = 0; i < candidate.poles.parts.size(); ++i)
-    candidate.X += candidate.residues[static_cast<Index>(i)] * candidate.poles.parts[i];
-  const VectorXcd split = leverage.split(candidate.X);
-  candidate.rounding.y.head(forms) = split.head(forms);
-  candidate.rounding.y.tail(forms) = split.tail(forms);
-  measure(problem, candidate.rounding);
+// Residues of all poles from the free ones; closed, the last one is minus their sum.
+VectorXcd all_residues(bool closed, std::size_t poles, const VectorXcd& free) {
+  VectorXcd all(static_cast<Index>(poles));
+  all.head(free.size()) = free;
+  if (closed && poles > 0) all[free.size()] = -free.sum();
+  return all;
+}
+
+// Upper R with |R t| the root mean square of the Beltrami coefficient.
+MatrixXcd beltrami_metric(const RoundingProblem& problem) { return defect_metric(problem) / std::sqrt(problem.tiles); }
+
+// Splits the periods, `besides` and those of the residues, into the holomorphic and the antiholomorphic part.
+void set_periods(const VectorXcd& besides, const Jacobian& jacobian, Candidate& c) {
+  c.X = besides;
+  for (std::size_t i = 0; i < c.poles.parts.size(); ++i) c.X += c.residues[static_cast<Index>(i)] * c.poles.parts[i];
+  const VectorXcd split = jacobian.split() * c.X;
+  const Index g = split.size() / 2;
+  c.rounding.y.head(g) = split.head(g);
+  c.rounding.y.tail(g) = split.tail(g);
+}
+
+// Measures the rounding with the poles where they are.
+void measure_at_poles(const RoundingProblem& problem, const GreensFunctions& greens, Candidate& c) {
+  RoundingProblem there = problem;
+  there.forms.middleCols(greens.basis().form_count(), problem.residues.rows()) = greens.pole_forms(c.poles.vertices);
+  measure(there, c.rounding);
+}
+
+// Places poles at their new vertices. @return for each pole whether it was moved
+std::vector<char> place_at(const Placement& placement, const std::vector<PoleMove>& moves, Candidate& candidate) {
+  const PoleBasis& basis = *placement.basis;
+  const std::vector<int>& labels = placement.options.labels;
+  const std::vector<Index> used = candidate.used();
+  std::vector<char> moved(candidate.poles.vertices.size(), 0);
+  for (const auto& [i, v] : moves) {
+    if (i < 0 || i >= static_cast<int>(used.size()))
+      throw TopologyError("there is no pole " + std::to_string(i) + ": the tiling has " + std::to_string(used.size()));
+    if (!mesh::has_proper_star(basis.surface(), basis.half_edges(), v))
+      throw TopologyError("vertex " + std::to_string(labels.empty() ? v : labels[v]) +
+                          " cannot be a pole: its faces touch the boundary or themselves");
+    moved[used[i]] = 1;
+    candidate.poles.vertices[used[i]] = v;
+  }
+  return moved;
+}
+
+// The poles that are not held move until the form is holomorphic again.
+void follow_by_inversion(const Placement& placement, const RoundingProblem& problem, const std::vector<char>& moved,
+                         Candidate& c) {
+  const JacobiInversion& inversion = *placement.inversion;
+  VectorXcd periods = c.X;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    VectorXd& part = c.poles.parts[i];
+    periods -= c.residues[static_cast<Index>(i)] * part;
+    if (moved[i]) part = nearest_representative(inversion.abel_jacobi.at(c.poles.vertices[i]), part);
+  }
+  const bool stay = placement.options.is_chosen();
+  const MoveOptions options{placement.options.allowed, kFollowing, stay ? std::vector<char>(moved.size(), 1) : moved};
+  c.poles = inversion.moved(std::move(c.poles), periods, c.residues, beltrami_metric(problem), options);
+  set_periods(periods, inversion.jacobian, c);
+}
+
+// On a surface with boundary.
+void follow_with_boundary(const Placement& placement, const RoundingProblem& problem, Candidate& c,
+                          Execution& execution) {
+  const std::vector<Index> used = c.used();
+  std::vector<int> vertices;
+  for (const Index i : used) vertices.push_back(c.poles.vertices[i]);
+  const auto maps = maps_at(placement, vertices, execution);
+  VectorXcd change = VectorXcd::Zero(c.X.size());
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    VectorXd& part = c.poles.parts[used[i]];
+    const VectorXd before = part;
+    part = nearest_representative(maps->pole_parts().col(static_cast<Index>(i)), before);
+    change += c.residues[used[i]] * (part - before);
+  }
+  if (problem.kind == uv::Coefficients::real) change.imag().setZero();
+  c.X += change;
+  c.rounding.y.head(c.X.size()) = c.X;
+  const Index defects = problem.defects.cols();
+  const MatrixXd& star = placement.basis->structure().holomorphic().star.star;
+  c.rounding.y.tail(defects) -= (star.transpose() * change.real()).head(defects);
 }
 
 }  // namespace
@@ -52,33 +122,47 @@ std::vector<Index> Candidate::used() const {
   return indices;
 }
 
-Candidate best_candidate(const RoundingProblem& problem, const std::vector<Rounding>& list, const PlacedPoles& placed,
-                         const Mobility& mobility, double tiles, Landscape& landscape, Execution& execution) {
-  const Index n = landscape.form_count(), k = problem.residues.rows();
-  const bool moves = mobility.pole_moves && mobility.movable && k > 0;
-  const MatrixXcd metric = moves ? MatrixXcd(defect_metric(problem) / std::sqrt(tiles)) : MatrixXcd();
+Candidate best_candidate(const Placement& placement, const RoundingProblem& problem, const std::vector<Rounding>& list,
+                         const LiftedPoles& lifted, Execution& execution) {
+  const PoleBasis& basis = *placement.basis;
+  const JacobiInversion* inversion = placement.inversion.get();
+  const bool moves = inversion && !placement.options.is_chosen() && problem.residues.rows() > 0;
+  const MatrixXcd metric = moves ? beltrami_metric(problem) : MatrixXcd();
   const int ways = moves ? static_cast<int>(std::size(kMoves)) : 1;
   std::vector<Candidate> candidates(list.size() * ways);
   run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int i) {
     Candidate& c = candidates[i];
     const Rounding& rounded = list[i / ways];
-    const VectorXcd z = rounded.z.cast<double>().cast<Complex>();
-    c = {rounded, placed, all_residues(landscape, placed.vertices.size(), problem.residues * z), rounded.y.head(n)};
-    if (!mobility.pole_moves) return;
-    if (moves && kMoves[i % ways] > 0) {
-      c.poles = mobility.pole_moves->moved(placed, problem.periods * z, c.residues, metric,
-                                           {mobility.allowed, kMoves[i % ways], {}});
-    }
-    split_periods(problem, mobility.pole_moves->leverage(), n, c);
+    const VectorXcd z = rounded.z.cast<double>().cast<Complex>(), periods = problem.periods * z;
+    c = {rounded, lifted, all_residues(basis.closed(), lifted.vertices.size(), problem.residues * z),
+         rounded.y.head(basis.form_count())};
+    if (!inversion) return;
+    if (const double farthest = kMoves[i % ways]; moves && farthest > 0)
+      c.poles = inversion->moved(lifted, periods, c.residues, metric, {placement.options.allowed, farthest, {}});
+    set_periods(periods, inversion->jacobian, c);
+    measure(problem, c.rounding);
   });
   if (!moves) return *std::min_element(candidates.begin(), candidates.end(), better);
   candidates = best_of_each_way(candidates, ways);
+  GreensFunctions greens = placement.greens;
   for (Candidate& c : candidates) {
-    RoundingProblem there = problem;
-    there.forms.middleCols(n, k) = pole_forms(landscape, c.poles.vertices, execution);
-    measure(there, c.rounding);
+    greens.solve_at(c.poles.vertices, execution);
+    measure_at_poles(problem, greens, c);
   }
   return *std::min_element(candidates.begin(), candidates.end(), better);
+}
+
+Candidate with_poles_moved(const Placement& placement, const RoundingProblem& problem,
+                           const std::vector<PoleMove>& moves, Candidate candidate, Execution& execution) {
+  const std::vector<char> moved = place_at(placement, moves, candidate);
+  if (placement.inversion)
+    follow_by_inversion(placement, problem, moved, candidate);
+  else if (placement.basis->form_count() > 0)
+    follow_with_boundary(placement, problem, candidate, execution);
+  GreensFunctions greens = placement.greens;
+  greens.solve_at(candidate.poles.vertices, execution);
+  measure_at_poles(problem, greens, candidate);
+  return candidate;
 }
 
 }  // namespace holomorph::tiling

@@ -1,0 +1,126 @@
+#include "tiling/greens/pole_basis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "mesh/triangle_geometry.h"
+#include "uv/vector_fields.h"
+
+namespace holomorph::tiling {
+namespace {
+
+// Beyond this weight less than nine digits of a flux are certain.
+constexpr double kUncertain = 1e7;
+
+// The largest triangle at each vertex.
+std::vector<int> largest_triangles(const mesh::Surface& surface) {
+  std::vector<int> result(surface.vertex_count, -1);
+  std::vector<double> area(surface.vertex_count, -1);
+  for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+    const auto& [a, b, c] = surface.triangle_edges[t];
+    const double own = mesh::triangle_area(surface.edge_lengths[a], surface.edge_lengths[b], surface.edge_lengths[c]);
+    for (const int v : surface.triangles[t]) {
+      if (own <= area[v]) continue;
+      area[v] = own;
+      result[v] = t;
+    }
+  }
+  return result;
+}
+
+// The ends of edges of large weight, and their neighbours.
+std::vector<char> uncertain_vertices(const mesh::Surface& surface, const Array<double>& weights) {
+  std::vector<char> at_end, result;
+  for (std::size_t e = 0; e < weights.size(); ++e) {
+    if (std::abs(weights[e]) <= kUncertain) continue;
+    at_end.resize(surface.vertex_count, 0);
+    for (const int v : surface.edges[e]) at_end[v] = 1;
+  }
+  if (at_end.empty()) return {};
+  result = at_end;
+  for (const auto& [a, b] : surface.edges) {
+    if (at_end[a] || at_end[b]) result[a] = result[b] = 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+PoleBasis::PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
+                     Execution& execution)
+    : samples_(uv::sample_triangles(*surface)) {
+  structure_.surface = std::move(surface);
+  solve(options, execution);
+}
+
+PoleBasis::PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
+                     std::shared_ptr<const PoleBasis> on_level, const CoarseLevel& level, Execution& execution)
+    : on_level_(std::move(on_level)), level_vertex_(level.collapsed) {
+  structure_.surface = std::move(surface);
+  const std::vector<int> triangle_at = largest_triangles(this->surface());
+  const mesh::Surface& coarse = on_level_->surface();
+  for (const int t : on_level_->samples()) samples_.push_back(triangle_at[level.vertex[coarse.triangles[t][0]]]);
+  // A (e_x + i e_y) there is the nearest to that here where A is multiplied by the product of the frames.
+  const MatrixXcd there = uv::tangent_frames(coarse, on_level_->samples()),
+                  here = uv::tangent_frames(this->surface(), samples_);
+  from_level_ = (here.conjugate().cwiseProduct(there)).colwise().sum().transpose() / 2;
+  solve(options, execution);
+}
+
+void PoleBasis::solve(const structure::Options& options, Execution& execution) {
+  discretisation_ = mesh::on_input(surface(), mesh::half_edges(surface(), execution), execution);
+  discretisation_.errors = {};  // no bounds are wanted
+  uncertain_ = uncertain_vertices(surface(), weights());
+  vertex_share_ = mesh::vertex_areas(surface(), lengths());
+  for (const double a : vertex_share_) area_ += a;
+  for (double& a : vertex_share_) a /= area_;
+  sides_.emplace(surface());
+
+  structure_.topology = structure::find_topology(surface(), half_edges(), execution);
+  const structure::Families& families = structure_.topology.families;
+  structure_.harmonic.functions = std::make_shared<const forms::RowMajorMatrix>(surface().vertex_count, 0);
+  holomorphic_.M.resize(static_cast<Index>(samples_.size()), 0);
+  holomorphic_.N = holomorphic_.M;
+  if (families.natural == 0 && on_level_) return;
+  const int right_hand_sides = families.count() + (on_level_ ? 0 : kGreensBlock);
+  solver_ = std::make_shared<const Solver>([=, this](Execution& asking) {
+    return std::make_unique<structure::HarmonicSolver>(discretisation_, right_hand_sides, options, asking);
+  });
+  if (families.natural == 0) return;
+  structure_.harmonic =
+      structure::harmonic_forms(surface(), structure_.topology, *solver_->borrow(execution), execution);
+  structure_.differentials = structure_.holomorphic().differentials;
+  const auto values = uv::values_on_sides(surface(), *sides_, harmonic(), samples_);
+  holomorphic_ = uv::sampled_parts(surface(), {samples_, values}, structure_.differentials);
+  // Maps of polygons have triangles of their own (seamless_maps.h), and Green's functions are solved for on the level.
+  if (on_level_ && surface().has_diagonals()) solver_.reset();
+}
+
+MatrixXcd PoleBasis::solve_greens(const std::vector<int>& vertices, Execution& execution) const {
+  if (on_level_) return on_level_->solve_greens(vertices, execution);
+  MatrixXd B(static_cast<Index>(vertex_share_.size()), static_cast<Index>(vertices.size()));
+  if (closed())
+    B.colwise() = -Eigen::Map<const VectorXd>(vertex_share_.data(), B.rows());
+  else
+    B.setZero();
+  for (Index i = 0; i < B.cols(); ++i) B(vertices[i], i) += 1;
+  const auto v = solver_->borrow(execution)->systems().solve(
+      B, closed() ? solver::Condition::natural : solver::Condition::dirichlet,
+      [&] { return forms::FluxTerms{.sources = B}; }, execution);
+  return uv::parts_of_imaginary(surface(), samples_, v);
+}
+
+bool PoleBasis::is_place(int vertex, const std::vector<char>& allowed) const {
+  return (allowed.empty() || allowed[vertex]) && is_certain(vertex) &&
+         mesh::has_proper_star(surface(), half_edges(), vertex);
+}
+
+MatrixXcd PoleBasis::derivatives(const std::vector<int>& triangles) const {
+  const auto count = structure_.harmonic.functions->cols();
+  return 2 * uv::sampled_parts(surface(), {triangles, uv::values_on_sides(surface(), *sides_, harmonic(), triangles)},
+                               MatrixXcd::Identity(count, count))
+                 .M;
+}
+
+}  // namespace holomorph::tiling

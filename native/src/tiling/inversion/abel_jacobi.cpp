@@ -1,0 +1,125 @@
+#include "tiling/inversion/abel_jacobi.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <sstream>
+#include <tuple>
+
+#include "base/errors.h"
+#include "forms/singular_part.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::tiling {
+
+using mesh::edge_of;
+using mesh::HalfedgeHandle;
+using mesh::next;
+using mesh::opposite;
+
+AbelJacobi::AbelJacobi(const PoleBasis& basis, Execution& execution)
+    : basis_(basis),
+      gram_(basis.structure().harmonic.invariants.energies.gram[0]),
+      largest_(basis.harmonic().functions.cwiseAbs().maxCoeff() + 1) {
+  const auto& half_edges = basis.half_edges();
+  const auto count = static_cast<int>(half_edges.n_faces());
+  const auto n = basis.harmonic().functions.cols();
+  inverse_ = gram_.solve(MatrixXd::Identity(n, n)).norm();
+  dual_potentials_.setZero(count, n);
+  rounding_.assign(count, 0.0);
+  std::vector<char> reached(count, 0);
+  // Fluxes through edges of large weight drown in rounding: these are crossed where there is no other way. The others
+  // in the order in which they are come upon.
+  using Crossing = std::tuple<double, int, HalfedgeHandle>;
+  std::priority_queue<Crossing, std::vector<Crossing>, std::greater<>> crossings;
+  int seen = 0, done = 0;
+  const auto reach = [&](int face) {
+    reached[face] = 1;
+    execution.step(done++, count);
+    HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(face));
+    for (int side = 0; side < 3; ++side, h = next(half_edges, h)) {
+      const double weight = std::abs(basis.weights()[edge_of(h)]);
+      if (!reached[mesh::face_of(half_edges, opposite(h))])
+        crossings.emplace(weight > forms::kStiff ? weight : 0, seen++, h);
+    }
+  };
+  for (reach(0); !crossings.empty();) {
+    const HalfedgeHandle h = std::get<HalfedgeHandle>(crossings.top());
+    crossings.pop();
+    const int parent = mesh::face_of(half_edges, h), child = mesh::face_of(half_edges, opposite(h));
+    if (reached[child]) continue;
+    const double weight = basis.weights()[edge_of(h)];
+    dual_potentials_.row(child) = dual_potentials_.row(parent) + weight * along(opposite(h));
+    rounding_[child] = rounding_[parent] + rounding_of(weight);
+    reach(child);
+  }
+}
+
+// The rounding of a flux: functions are known to half a unit in the last place.
+double AbelJacobi::rounding_of(double weight) const {
+  return std::numeric_limits<double>::epsilon() * std::abs(weight) * largest_;
+}
+
+Eigen::RowVectorXd AbelJacobi::along(HalfedgeHandle h) const {
+  const int e = edge_of(h);
+  return mesh::sign(h) * forms::edge_values(basis_.half_edges(), basis_.harmonic(), e, e + 1);
+}
+
+const VectorXd& AbelJacobi::at(int vertex) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = found_.find(vertex); known != found_.end()) return known->second;
+  }
+  VectorXd value = computed(vertex);
+  const std::lock_guard lock(mutex_);
+  return found_.try_emplace(vertex, std::move(value)).first->second;
+}
+
+VectorXd AbelJacobi::computed(int vertex) const {
+  const auto& half_edges = basis_.half_edges();
+  const auto& lengths = basis_.lengths();
+  const mesh::Star star = mesh::star(half_edges, lengths, vertex);
+  const forms::StarPart part = forms::star_part(half_edges, lengths, star);
+  // k over the faces outside the star; `h` does not end at the pole
+  const auto outer_weight = [&](HalfedgeHandle h) {
+    for (const HalfedgeHandle side : {h, opposite(h)}) {
+      if (mesh::to_vertex(half_edges, next(half_edges, side)) != vertex) continue;
+      const HalfedgeHandle outer = opposite(side), outer1 = next(half_edges, outer);
+      const double a = lengths[edge_of(outer)], b = lengths[edge_of(outer1)],
+                   c = lengths[edge_of(next(half_edges, outer1))];
+      return 0.5 * mesh::cotangent(a, b, c, mesh::triangle_area(a, b, c));
+    }
+    return basis_.weights()[edge_of(h)];
+  };
+  double rounding =
+      rounding_[mesh::face_of(half_edges, opposite(star.link[0]))] + rounding_of(outer_weight(star.link[0]));
+  Eigen::RowVectorXd P = dual_potentials_.row(mesh::face_of(half_edges, opposite(star.link[0]))) +
+                         outer_weight(star.link[0]) * along(star.link[0]);
+  for (std::size_t j = 0; j < star.size(); ++j) {
+    const HalfedgeHandle to_b = star.link[j], first = star.link[(j + 1) % star.size()];
+    HalfedgeHandle h = first;  // those that leave b
+    do {
+      if (mesh::to_vertex(half_edges, h) != vertex) {
+        const double weight = outer_weight(h) * part.u[j];
+        P -= weight * along(h);
+        rounding += rounding_of(weight);
+      }
+      h = next(half_edges, opposite(h));
+    } while (h != first);
+    P -= part.b_u[j] * along(opposite(next(half_edges, to_b)));
+  }
+  if (!(inverse_ * rounding <= forms::kEnergyError)) {
+    std::ostringstream message;
+    message << "rounding may change the periods of a pole at vertex " << vertex << " by " << inverse_ * rounding
+            << ": triangles are too thin for double precision";
+    throw SolverError(message.str());
+  }
+  return gram_.solve(P.transpose());
+}
+
+VectorXd nearest_representative(const VectorXd& value, const VectorXd& near) {
+  return value.array() + (near - value).array().round();
+}
+
+}  // namespace holomorph::tiling

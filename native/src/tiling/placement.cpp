@@ -1,0 +1,90 @@
+#include "tiling/placement.h"
+
+#include "tiling/poles/pole_placement.h"
+#include "uv/vector_fields.h"
+
+namespace holomorph::tiling {
+namespace {
+
+// The same form on the surface: the same residues, and c_j that fit it as a vector field in space.
+// @param greens of the level; afterwards of the surface
+MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, const CoarseLevel& level,
+                            std::shared_ptr<const mesh::Surface> surface, uv::Coefficients kind,
+                            const structure::Options& options, Execution& execution) {
+  const VectorXcd wanted = samples_of(form, greens);
+  const MatrixXcd frames = uv::tangent_frames(*level.surface, greens.basis().samples());
+  for (int& v : form.poles) v = level.vertex[v];
+  if (level.is_whole(*surface))
+    greens = GreensFunctions(std::make_shared<const PoleBasis>(std::move(surface), options, execution));
+  else
+    greens = greens.on(
+        std::make_shared<const PoleBasis>(std::move(surface), options, greens.shared_basis(), level, execution));
+  greens.solve_at(form.poles, execution);
+  const PoleBasis& basis = greens.basis();
+  if (basis.form_count() > 0) {
+    form.coefficients =
+        fitted_coefficients(wanted, frames, basis.holomorphic().M, greens.at(form.poles) * form.residues,
+                            uv::tangent_frames(basis.surface(), basis.samples()), kind == uv::Coefficients::real);
+  }
+  return optimised(greens, kind, std::move(form), execution);
+}
+
+// With the Green's functions of the poles alone.
+Placement placement(PoleOptions options, uv::Coefficients kind, const GreensFunctions& greens, MeromorphicForm form,
+                    Execution& execution) {
+  const auto& basis = greens.shared_basis();
+  const double ratio = density_ratio(density(form, greens));
+  Placement result{std::move(options), basis, kind, GreensFunctions(basis), std::move(form), ratio};
+  if (basis->has_jacobian()) result.inversion = std::make_shared<const JacobiInversion>(*basis, execution);
+  result.greens.solve_at(result.form.poles, execution);
+  return result;
+}
+
+}  // namespace
+
+Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution) {
+  const auto type = mesh::topological_type(*surface);
+  const bool straight = !type.closed() && (options.straight || type.genus > 0);
+  const auto kind = straight ? uv::Coefficients::real : uv::Coefficients::complex;
+  execution.stage("level for the poles", 0.0, 0.2);
+  const CoarseLevel level = options.is_chosen() ? CoarseLevel{surface, {}, {}} : coarse_level(surface, execution);
+  execution.stage("forms for the poles", 0.2, 0.25);
+  GreensFunctions greens(std::make_shared<const PoleBasis>(level.surface, options.solving, execution));
+  PlaceOptions place_options{kind, {}, options.vertices, level.large_polygons};
+  for (const int v : level.vertex) {
+    if (!options.allowed.empty()) place_options.allowed.push_back(options.allowed[v]);
+  }
+  execution.stage("poles", 0.25, 0.6);
+  MeromorphicForm form = options.count ? placed_poles(greens, place_options, *options.count, execution)
+                                       : placed_poles(greens, place_options, execution);
+  execution.stage("forms of the surface", 0.6, 1.0);
+  if (level.surface != surface)
+    form = transferred(std::move(form), greens, level, std::move(surface), kind, options.solving, execution);
+  Placement result = placement(std::move(options), kind, greens, std::move(form), execution);
+  execution.finish();
+  return result;
+}
+
+std::shared_ptr<const SeamlessMaps> maps_at(const Placement& placement, const std::vector<int>& poles,
+                                            Execution& execution) {
+  return placement.maps->get(poles, [&] {
+    const Execution::Within within(execution);
+    return std::make_shared<SeamlessMaps>(placement.basis, placement.kind == uv::Coefficients::real, poles,
+                                          placement.options.labels, placement.options.solving, execution);
+  });
+}
+
+LiftedPoles lifted_poles(const Placement& placement, Execution& execution) {
+  LiftedPoles lifted{placement.form.poles, std::vector<VectorXd>(placement.form.poles.size())};
+  if (placement.inversion) {
+    for (std::size_t i = 0; i < lifted.parts.size(); ++i)
+      lifted.parts[i] = placement.inversion->abel_jacobi.at(lifted.vertices[i]);
+  } else if (!lifted.parts.empty()) {
+    const auto maps = maps_at(placement, lifted.vertices, execution);
+    const MatrixXd& parts = maps->pole_parts();
+    for (Index i = 0; i < parts.cols(); ++i) lifted.parts[i] = parts.col(i);
+  }
+  return lifted;
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,54 @@
+// Places the poles of seamless tilings.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/last_made.h"
+#include "structure/options.h"
+#include "tiling/inversion/jacobi_inversion.h"
+#include "tiling/maps/seamless_maps.h"
+#include "tiling/poles/meromorphic_form.h"
+
+namespace holomorph::tiling {
+
+struct PoleOptions {
+  std::optional<int> count;    ///< number of poles; none: as many as the density asks for
+  std::vector<int> vertices;   ///< chosen poles, which stay where they are
+  std::vector<char> allowed;   ///< #V: where poles may be that are not chosen; empty: anywhere
+  bool straight = true;        ///< boundary loops become lines of constant v; with handles they do in any case, since
+                               ///< free ones would leave the map less conformal
+  std::vector<int> labels;     ///< #V: what a vertex is called in messages; empty: its index
+  structure::Options solving;  ///< how the linear systems are solved
+
+  bool is_chosen() const { return !vertices.empty(); }
+};
+
+/// The poles of a surface, and what tilings with them are made of. Threads may use one side by side.
+struct Placement {
+  PoleOptions options;
+  std::shared_ptr<const PoleBasis> basis;  ///< on the surface
+  uv::Coefficients kind;                   ///< real: straight loops
+  GreensFunctions greens;                  ///< at the poles
+  MeromorphicForm form;                    ///< the most even one with these poles, before its periods are rounded
+  double optimal_density_ratio = 1;        ///< 95 % over 5 % quantile of its density
+  std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null
+  /// Those of the last tiling, for another one with the same poles.
+  std::shared_ptr<LastMade<std::vector<int>, SeamlessMaps>> maps =
+      std::make_shared<LastMade<std::vector<int>, SeamlessMaps>>();
+};
+
+/// Places the poles, on a level of the progressive mesh where the surface is large (pole_placement.h).
+/// @pre connected, no isolated vertices. @throws TopologyError for poles that do not fit; SolverError; Cancelled
+Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution);
+
+/// The seamless maps with poles at these vertices. @throws TopologyError for poles that do not fit; SolverError;
+/// Cancelled
+std::shared_ptr<const SeamlessMaps> maps_at(const Placement& placement, const std::vector<int>& poles,
+                                            Execution& execution);
+
+/// The placed poles and their harmonic parts. The same errors.
+LiftedPoles lifted_poles(const Placement& placement, Execution& execution);
+
+}  // namespace holomorph::tiling

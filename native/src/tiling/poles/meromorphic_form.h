@@ -1,0 +1,50 @@
+// A form with poles, in a pole basis: how even its density is, and where it runs as a vector field in space.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "tiling/greens/greens_functions.h"
+
+namespace holomorph::tiling {
+
+/// theta_0 = sum_j c_j theta_j + sum_i r_i omega_i; its scale is free.
+struct MeromorphicForm {
+  std::vector<int> poles;  ///< vertices
+  VectorXcd coefficients;  ///< c_j
+  VectorXcd residues;      ///< r_i; they sum to 0 on a closed surface
+  double objective = 0;    ///< unevenness of |theta_0|^2, and what the Jacobian adds
+};
+
+/// A of the form on the samples. @pre the Green's functions were solved for, here and below
+VectorXcd samples_of(const MeromorphicForm& form, const GreensFunctions& greens);
+
+/// |theta_0|^2 on the samples.
+ArrayXd density(const MeromorphicForm& form, const GreensFunctions& greens);
+
+/// The median; more than 0 even where the density falls below all numbers.
+double median(const ArrayXd& density);
+
+/// Variance of log(q / median q + uv::kDensityFloor). Not of the mean: beside one high peak all else would be below the
+/// floor, and so even, and a pole more, which fills a part of it, a loss.
+double unevenness(const ArrayXd& density);
+
+/// 95 % over 5 % quantile.
+double density_ratio(const ArrayXd& density);
+
+/// That, or half of the median over the 1 % quantile where it is larger: toes and horns have little area, and are seen
+/// all the same where one square covers them.
+double spread(const ArrayXd& density);
+
+/// The phase by which A dz is to be rotated so that u runs along the axis as far as it can, up or down alike where both
+/// are as frequent. None where no phase does better than another, as on a plane to which the axis is normal.
+std::optional<double> phase_along(const std::array<double, 3>& axis, const MatrixXcd& frames, const VectorXcd& A);
+
+/// c for which sum_j c_j forms_j is nearest to the wanted field, relative to its size at each point.
+/// @param wanted #samples in the frames of `wanted_frames`. @param forms,known #samples x n and #samples in `frames`
+/// @param kind real: c is real
+VectorXcd fitted_coefficients(const VectorXcd& wanted, const MatrixXcd& wanted_frames, const MatrixXcd& forms,
+                              const VectorXcd& known, const MatrixXcd& frames, bool real);
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,50 @@
+// The vertices that a pole may go to.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "tiling/greens/pole_basis.h"
+
+namespace holomorph::tiling {
+
+/// Where the search may place poles.
+struct PlaceOptions {
+  uv::Coefficients kind = uv::Coefficients::complex;
+  std::vector<char> allowed;                    ///< #V of the basis: may a pole be there; empty: anywhere
+  std::vector<int> fixed;                       ///< poles that stay where they are
+  std::vector<std::vector<int>> polygons = {};  ///< vertices of which one may be a pole, beside faces of the surface
+};
+
+/// Vertices are candidates where a pole is allowed, its star is apart from those of the other poles, and it is not too
+/// near to them.
+class PoleCandidates {
+ public:
+  /// @pre both outlive this
+  PoleCandidates(const PoleBasis& basis, const PlaceOptions& options);
+
+  /// Where a surface without forms has its first poles: two far apart on a closed one, one deep inside another.
+  /// @throws TopologyError if there is no room
+  std::vector<int> first();
+  /// Some 200 all over the surface, ascending.
+  std::vector<int> everywhere(const std::vector<int>& others);
+  /// Those, and some in balls of several sizes around `vertex`, which is none of them; ascending.
+  std::vector<int> for_move(int vertex, const std::vector<int>& others);
+
+ private:
+  std::vector<int> first_candidates();
+  std::vector<int> spread() const;
+  std::vector<int> near(int vertex);
+  std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);
+  const std::vector<double>& distances(int vertex);
+  bool is_allowed(int vertex) const {
+    return (options_.allowed.empty() || options_.allowed[vertex]) && basis_.is_certain(vertex);
+  }
+
+  const PoleBasis& basis_;
+  const PlaceOptions& options_;
+  std::map<int, std::vector<int>> polygons_at_;   // by vertex
+  std::map<int, std::vector<double>> distances_;  // along edges, from poles there have been
+};
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,91 @@
+#include "tiling/poles/pole_objective.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace holomorph::tiling {
+
+constexpr double kWeight = 0.06;  // of the Jacobian beside the variance
+constexpr double kEnough = 0.4;   // singular values that are enough
+// Least square of a singular value, relative to that: the term stays finite where no pole moves some part of t.
+constexpr double kLeastSquare = 6.25e-9;
+constexpr int kSteps = 25;  // at most, for the minimiser
+
+PoleObjective::PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every)
+    : greens_(greens),
+      kind_(kind),
+      every_(every),
+      theta_(greens.basis().holomorphic().M(Eigen::seq(0, Eigen::last, every), Eigen::all)) {
+  if (greens.basis().has_jacobian()) jacobian_.emplace(greens.basis());
+}
+
+void PoleObjective::prepare(const std::vector<int>& vertices, Execution& execution) {
+  greens_.solve_at(vertices, execution);
+  if (!jacobian_) return;
+  std::vector<int> missing = vertices;
+  std::erase_if(missing, [&](int v) { return tau_.contains(v); });
+  const MatrixXcd tau = jacobian_->tau(jacobian_->triangles_at(missing));
+  for (std::size_t i = 0; i < missing.size(); ++i) tau_.emplace(missing[i], tau.col(static_cast<Index>(i)));
+}
+
+void PoleObjective::optimise(MeromorphicForm& form, const std::vector<double>& floors) const {
+  const uv::SampledParts parts{columns(form.poles), {}};
+  VectorXd x = uv::as_unknowns(unknowns(form), kind_);
+  ArrayXd density;
+  for (const double floor : floors) {
+    density = (parts.M * unknowns(form)).cwiseAbs2().array();
+    uv::descend(parts, kind_, x, {floor * median(density) / density.mean()}, kSteps);
+    set(uv::as_complex(x, kind_), form);
+  }
+  density = (parts.M * unknowns(form)).cwiseAbs2().array();
+  form.objective = unevenness(density) + jacobian_term(form.poles, form.residues, jacobian_metric(density));
+}
+
+VectorXcd PoleObjective::samples_of(const MeromorphicForm& form) const { return columns(form.poles) * unknowns(form); }
+
+// theta_j and the forms of the poles.
+MatrixXcd PoleObjective::columns(const std::vector<int>& vertices) const {
+  const MatrixXcd poles = greens_.pole_forms(vertices, every_);
+  MatrixXcd all(theta_.rows(), theta_.cols() + poles.cols());
+  all << theta_, poles;
+  return all;
+}
+
+VectorXcd PoleObjective::unknowns(const MeromorphicForm& form) const {
+  const Index free = std::max<Index>(0, form.residues.size() - (greens_.basis().closed() ? 1 : 0));
+  VectorXcd x(form.coefficients.size() + free);
+  x << form.coefficients, form.residues.head(free);
+  return x;
+}
+
+void PoleObjective::set(const VectorXcd& x, MeromorphicForm& form) const {
+  const Index n = form.coefficients.size(), free = x.size() - n;
+  form.coefficients = x.head(n);
+  form.residues.head(free) = x.tail(free);
+  if (form.residues.size() > free) form.residues[free] = -x.tail(free).sum();
+}
+
+MatrixXcd PoleObjective::jacobian_metric(const ArrayXd& density) const {
+  if (!jacobian_) return {};
+  const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
+  return MatrixXcd(metric.matrixU()) * std::sqrt(greens_.basis().area());
+}
+
+// kWeight mean log(1 + (kEnough / sigma)^2) over the singular values of [r_i tau_i] in the weighted Gram matrix.
+double PoleObjective::jacobian_term(const std::vector<int>& vertices, const VectorXcd& residues,
+                                    const MatrixXcd& metric) const {
+  const auto g = static_cast<Index>(greens_.basis().form_count());
+  if (!jacobian_ || residues.size() < g) return 0;
+  MatrixXcd rows(g, residues.size());
+  for (Index i = 0; i < residues.size(); ++i) rows.col(i) = residues[i] * tau_.at(vertices[i]);
+  const MatrixXcd V = metric * rows;
+  MatrixXcd S = V * V.adjoint();
+  S += kLeastSquare * kEnough * kEnough * MatrixXcd::Identity(g, g);
+  const MatrixXcd sum = S + kEnough * kEnough * MatrixXcd::Identity(g, g);
+  return kWeight / static_cast<double>(g) *
+         (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,46 @@
+// What poles are judged by: how even the density of the best form with them is, and what moving them can repair.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "tiling/greens/jacobian.h"
+#include "tiling/poles/meromorphic_form.h"
+
+namespace holomorph::tiling {
+
+class PoleObjective {
+ public:
+  /// The Green's functions outlive this. @param every of the samples every so many-th is used
+  PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1);
+
+  /// Solves for the Green's functions of these vertices, which the methods below look up. @throws SolverError,
+  /// Cancelled
+  void prepare(const std::vector<int>& vertices, Execution& execution);
+
+  /// The best form with these poles, from the coefficients given, and its objective; for each of the floors of the
+  /// density in turn. @pre `prepare` was called for the poles, here and below
+  void optimise(MeromorphicForm& form, const std::vector<double>& floors) const;
+
+  /// A on the samples used.
+  VectorXcd samples_of(const MeromorphicForm& form) const;
+  /// The metric of a density with which the Jacobian is measured.
+  MatrixXcd jacobian_metric(const ArrayXd& density) const;
+  /// What the Jacobian adds to the variance of the density.
+  double jacobian_term(const std::vector<int>& vertices, const VectorXcd& residues, const MatrixXcd& metric) const;
+
+ private:
+  MatrixXcd columns(const std::vector<int>& vertices) const;
+  VectorXcd unknowns(const MeromorphicForm& form) const;
+  void set(const VectorXcd& x, MeromorphicForm& form) const;
+
+  GreensFunctions& greens_;
+  uv::Coefficients kind_;
+  int every_;
+  MatrixXcd theta_;                   // A of the theta_j on the samples used
+  std::optional<Jacobian> jacobian_;  // only on a closed surface with handles
+  std::map<int, VectorXcd> tau_;
+};
+
+}  // namespace holomorph::tiling

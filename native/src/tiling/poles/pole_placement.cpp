@@ -1,0 +1,68 @@
+#include "tiling/poles/pole_placement.h"
+
+#include <iterator>
+
+#include "base/errors.h"
+#include "tiling/poles/pole_objective.h"
+#include "tiling/poles/pole_search.h"
+
+namespace holomorph::tiling {
+namespace {
+
+constexpr int kCounts[] = {2, 4, 8, 12, 16};       // of poles by themselves
+constexpr int kFew = 4;                            // so many are placed by all samples,
+constexpr int kEvery = 3;                          // more of them by every third one
+constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
+constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
+constexpr double kWorth = 0.9;              // more poles are taken where the spread falls to this part of itself
+
+MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
+  form = search.settled(std::move(form));
+  return static_cast<int>(form.poles.size()) > kFew ? search.pruned(std::move(form)) : form;
+}
+
+}  // namespace
+
+MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution) {
+  if (count < least_count(greens.basis()) || (count == 1 && greens.basis().closed())) {
+    throw TopologyError(std::to_string(count) + (count == 1 ? " pole is" : " poles are") + " not enough: " +
+                        (greens.basis().closed()
+                             ? "on a closed surface the residues sum to 0, so two or more are needed"
+                             : "a disk needs one or more"));
+  }
+  PoleSearch search(greens, options, count <= kFew ? 1 : kEvery, execution);
+  MeromorphicForm form = search.begin();
+  if (!search.add(form, count)) {
+    throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " poles, not for " +
+                        std::to_string(count) + ": their stars must be apart; take fewer, or subdivide the mesh");
+  }
+  if (static_cast<int>(options.fixed.size()) < count) form = at_the_best_places(search, std::move(form));
+  return optimised(greens, options.kind, std::move(form), execution);
+}
+
+MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
+  PoleSearch few(greens, options, 1, execution), more(greens, options, kEvery, execution);
+  MeromorphicForm added = few.begin(), best = added;
+  double least = few.spread_of(best);
+  for (const int count : kCounts) {
+    PoleSearch& search = count <= kFew ? few : more;
+    if (least <= (best.poles.empty() ? kEvenWithout : kEvenWith) || !search.add(added, count)) break;
+    search.sweep(added);
+    if (count == *std::rbegin(kCounts) || search.spread_of(added) < kHopeful)
+      added = at_the_best_places(search, std::move(added));
+    const double spread = search.spread_of(added);
+    if (spread > kWorth * least) continue;
+    least = spread;
+    best = added;
+  }
+  return optimised(greens, options.kind, std::move(best), execution);
+}
+
+MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, MeromorphicForm start, Execution& execution) {
+  PoleObjective objective(greens, kind);
+  objective.prepare(start.poles, execution);
+  objective.optimise(start, {uv::kDensityFloor});
+  return start;
+}
+
+}  // namespace holomorph::tiling

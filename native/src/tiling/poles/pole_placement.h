@@ -1,0 +1,24 @@
+// Where poles go so that the texture density becomes even.
+#pragma once
+
+#include "tiling/poles/meromorphic_form.h"
+#include "tiling/poles/pole_candidates.h"
+
+namespace holomorph::tiling {
+
+/// The most even form with `count` poles. They are added one by one where they help most; then each in turn moves to
+/// where the density becomes more even, or is taken away and added anew, until nothing is gained; then some more are
+/// added, and those that matter least taken away again. On a closed surface with handles a small term keeps them where
+/// moving them can take up the rounding of the periods (jacobian.h). The fixed ones are among them.
+/// @throws TopologyError for a single pole on a closed surface, a surface of genus 0 without any, or where no vertex is
+/// left whose star is apart from those of the others; SolverError; Cancelled
+MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution);
+
+/// As many as the density asks for: none where its spread is at most 3 without; else the first of 2, 4, 8, 12, 16 with
+/// which it is at most 5, or the last with which it fell.
+MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution);
+
+/// The same poles with the best coefficients and residues near those given.
+MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, MeromorphicForm start, Execution& execution);
+
+}  // namespace holomorph::tiling

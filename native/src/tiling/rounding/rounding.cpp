@@ -1,0 +1,146 @@
+#include "tiling/rounding/rounding.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "base/chunks.h"
+#include "tiling/poles/meromorphic_form.h"
+
+namespace holomorph::tiling {
+namespace {
+
+constexpr double kChange = 0.2;                               // relative change of the form that costs 1
+constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
+constexpr int kPhases = 30, kScales = 7;
+constexpr std::size_t kWanted = 8;  // roundings at most
+constexpr int kNearPhases = 7;      // around a phase that is given
+constexpr double kScaleRange = 0.12;
+constexpr double kSame = 1e-9;      // relative distance of points of a lattice that are one
+constexpr double kRegular = 1e-12;  // of the largest diagonal entry: keeps a Gram matrix definite in spite of rounding
+constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1, kSize = 0.05;  // terms and bounds for the rank
+// Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
+// mean than the next, or so much less even than the target, is none.
+constexpr double kFlipped = 10, kNoMap = 2, kUneven = 8;
+
+// Complex rows as real ones.
+MatrixXd as_real(const MatrixXcd& rows) {
+  MatrixXd result(2 * rows.rows(), rows.cols());
+  result << rows.real(), rows.imag();
+  return result;
+}
+
+// Upper R with R^H R = H.
+MatrixXcd root(MatrixXcd H) {
+  if (H.rows() == 0) return H;
+  H += kRegular * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
+  return Eigen::LLT<MatrixXcd>(H).matrixU();
+}
+
+// 1 / |theta_0|^2, for means over the samples.
+VectorXcd mean_weights(const ArrayXd& density) {
+  const ArrayXd floored = density + uv::kDensityFloor * density.mean();
+  return (1 / (floored * static_cast<double>(density.size()))).matrix().cast<Complex>();
+}
+
+// Rows that measure y near the target: its change, and its defects at a price of `defect`.
+MatrixXcd measure_rows(const RoundingProblem& p, const VectorXcd& weights, double defect) {
+  const Index all = p.forms.cols(), l = p.defects.cols();
+  MatrixXcd rows = MatrixXcd::Zero(all + l, all);
+  rows.topRows(all) = root(p.forms.adjoint() * weights.asDiagonal() * p.forms) / kChange;
+  if (l == 0) return rows;
+  const MatrixXcd metric = defect_metric(p);
+  MatrixXcd covariance = defect * defect * (metric.adjoint() * metric).inverse();
+  if (p.repairable.size() > 0) covariance += p.repairable;
+  rows.bottomRightCorner(l, l) = root(covariance.inverse());
+  return rows;
+}
+
+// The rotations of the texture that are tried.
+std::vector<double> phases_of(const RoundingProblem& p, const RoundingOptions& options) {
+  if (p.kind == uv::Coefficients::real)
+    return {options.phase && std::cos(*options.phase) < 0 ? std::numbers::pi
+                                                          : 0};  // u runs along boundaries either way
+  std::vector<double> phases;
+  for (int i = 0; !options.phase && i < kPhases; ++i) phases.push_back(p.lattice.symmetry() * i / kPhases);
+  for (int i = 0; options.phase && i < kNearPhases; ++i)
+    phases.push_back(*options.phase + options.max_turn * (2.0 * i / (kNearPhases - 1) - 1));
+  return phases;
+}
+
+}  // namespace
+
+Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
+  Eigen::Matrix2d A;
+  A << a.real(), b.real(), a.imag(), b.imag();
+  return A.inverse() * Eigen::Vector2d(z.real(), z.imag());
+}
+
+Complex TextureLattice::nearest(Complex z) const {
+  const Eigen::Vector2d c = coordinates(z);
+  return point(std::round(c[0]), std::round(c[1]));
+}
+
+MatrixXcd defect_metric(const RoundingProblem& p) {
+  return root(p.defects.adjoint() * mean_weights(p.target_density).asDiagonal() * p.defects);
+}
+
+double TextureLattice::symmetry() const {
+  for (const int part : {3, 2}) {
+    const Complex turn = std::polar(1.0, std::numbers::pi / part);
+    const auto is_kept = [&](Complex z) { return std::abs(turn * z - nearest(turn * z)) < kSame * std::abs(z); };
+    if (is_kept(a) && is_kept(b)) return std::numbers::pi / part;
+  }
+  return std::numbers::pi;
+}
+
+void measure(const RoundingProblem& p, Rounding& rounding) {
+  const ArrayXd density = (p.forms * rounding.y).cwiseAbs2().array();
+  rounding.density_ratio = density_ratio(density);
+  if (p.defects.cols() > 0) {
+    const ArrayXd mu = ((p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs2().array() / density).sqrt();
+    const ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
+    rounding.distortion = K.mean();
+  }
+  rounding.rank = kConformal * (rounding.distortion - 1) +
+                  kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * p.target_ratio))) +
+                  kSize * std::abs(std::log(median(density) / p.median_density));
+}
+
+std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingOptions& options, Execution& execution) {
+  const ArrayXd& density = p.target_density;
+  const double scale = std::sqrt(p.median_density / median(density));
+  const VectorXcd weights = mean_weights(density);
+  const std::vector<double> phases = phases_of(p, options);
+  std::map<std::vector<std::int64_t>, Rounding> found;
+  for (std::size_t d = 0; d < std::size(kDefects); ++d) {
+    execution.report(static_cast<double>(d) / std::size(kDefects));
+    if (d > 0 && p.defects.cols() == 0) break;
+    const MatrixXcd rows = measure_rows(p, weights, kDefects[d]);
+    const lattice::ReducedBasis reduced = lattice::reduce(as_real(rows * p.Z));
+    std::vector<lattice::IntegerVector> nearest(phases.size() * kScales);
+    run_throwing(execution.workers(), static_cast<int>(nearest.size()), [&](int i) {
+      const double size = scale * (1 + kScaleRange * (2.0 * (i % kScales) / (kScales - 1) - 1));
+      const VectorXcd y = p.target * std::polar(size, phases[i / kScales]);
+      nearest[i] = lattice::nearest_plane(reduced, as_real(rows * y));
+    });
+    for (const lattice::IntegerVector& z : nearest) found.try_emplace({z.begin(), z.end()}, Rounding{z, {}});
+  }
+  std::vector<Rounding> list;
+  for (auto& [key, rounding] : found) list.push_back(std::move(rounding));
+  run_throwing(execution.workers(), static_cast<int>(list.size()), [&](int i) {
+    Rounding& rounding = list[i];
+    rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
+    measure(p, rounding);
+  });
+  const double most = kUneven * p.target_ratio;
+  std::erase_if(list, [&](const Rounding& r) { return !(r.distortion < kNoMap && r.density_ratio < most); });
+  std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });
+  if (list.size() > kWanted) list.resize(kWanted);
+  return list;
+}
+
+}  // namespace holomorph::tiling
