@@ -180,10 +180,15 @@ def main_map(component, options, uv=None):
     dials = (options.amounts, options.turns)
     if dials not in component.main_maps:
         uv = _raw(component, 0, options) if uv is None else uv
-        quality = component.structure.quality(uv)
-        report = native.load().report.map_report(coefficients(component, 0, options), quality)
-        component.main_maps[dials] = MainMap(report, math.sqrt(quality.median_density))
+        keep_main_map(component, options, component.structure.quality(uv))
     return component.main_maps[dials]
+
+
+def keep_main_map(component, options, quality):
+    """Caches the `MainMap` of a `holomorph.Quality`."""
+    report = native.load().report.map_report(coefficients(component, 0, options), quality)
+    found = MainMap(report, math.sqrt(quality.median_density))
+    component.main_maps[options.amounts, options.turns] = found
 
 
 def squares_that_fit(solved, options):

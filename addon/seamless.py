@@ -51,16 +51,16 @@ class Mapper:
 
 
 def tiled(solved, options, progress=None, density=0.0):
-    """The `tiling.TiledObject` of the parts whose main map is a tiling, all of them made, or refused, for the parts
-    that ask for one. What was made is kept with the parts: a second call is quick.
+    """The `tiling.TiledObject` of the parts whose main map is a tiling, and of those that ask for one and are refused.
+    What was made is kept with the parts: a second call is quick.
 
     density : tiles for an area; 0 lets the library choose for the largest part, and the others follow
     """
-    asked = sorted((c for c in solved.done if _asks_for_one(c, options)), key=lambda c: -c.area)
+    asked = sorted((c for c in solved.done if _may_be_tiled(c, options)), key=lambda c: -c.area)
     total, done, made = sum(c.area for c in asked), 0.0, {}
     for component in asked:
         share = component.area / total
-        part = _part(component, options, density * component.area, tiling.scaled(progress, done, share))
+        part = _part(component, options.main, density, tiling.scaled(progress, done, share))
         done += share
         if part is not None:
             made[id(component)] = part
@@ -68,27 +68,30 @@ def tiled(solved, options, progress=None, density=0.0):
     return tiling.TiledObject(solved, tuple(made[id(c)] for c in solved.components if id(c) in made))
 
 
-def _asks_for_one(component, options):
+def _may_be_tiled(component, options):
     if options.main != maps.AUTOMATIC:
         return options.main == maps.SEAMLESS
-    if not options.are_plain or component.is_chosen or component.area == 0:
-        return False
-    balanced = maps.main_map(component, options).report
-    return native.load().choice.is_worth_a_tiling(component.structure, balanced["density_ratio"])
+    return options.are_plain and not component.is_chosen and component.area > 0
 
 
-def _part(component, options, tiles, progress):
-    """The `tiling.TiledPart` that takes the place of the balanced map, or refuses to where it was asked for; None where
-    the balanced map stays."""
-    wanted = tiling.TileOptions(tiles=tiles, **tiling.UPRIGHT)
-    if options.main == maps.SEAMLESS:
-        return tiling.tile_part(component, wanted, progress)
-    choice, balanced = native.load().choice, maps.main_map(component, options).report
-    for index, poles in enumerate(choice.POLES):
-        own = tiling.scaled(progress, index / len(choice.POLES), 1 / len(choice.POLES))
-        part = tiling.tile_part(component, replace(wanted, poles=poles), own)
-        if part.tiling and choice.is_better(part.tiling, balanced["density_ratio"], balanced["capped_mean_angle"]):
-            return part
+def _part(component, main, density, progress):
+    """The `tiling.TiledPart` of a part by `holomorph.automatic_map`; None where the balanced map stays."""
+    key = main, density
+    if key not in component.tilings:
+        component.keep_tiling(key, _automatic_part(component, main, density or None, progress))
+    return component.tilings[key]
+
+
+def _automatic_part(component, main, density, progress):
+    holomorph = native.load()
+    options = {"main": main.lower(), "density": density, "progress": progress}
+    try:
+        made = holomorph.automatic_map(component.surface, component.structure, **options)
+    except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
+        return tiling.TiledPart(component, None, str(error))
+    if made.tiling:
+        return tiling.TiledPart(component, made.tiling)
+    maps.keep_main_map(component, maps.MapOptions(), made.quality)
     return None
 
 

@@ -46,10 +46,7 @@ class SolvedComponent:
     is_chosen: bool = False  # whether a choice of the user was followed
     frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
     main_maps: dict = field(default_factory=dict, compare=False)  # `maps.MainMap` by dials
-    tilers: dict = field(default_factory=dict, compare=False)  # see `tiler`
-    tilings: dict = field(
-        default_factory=dict, compare=False
-    )  # `tiling.TiledPart` by `tiling.TileOptions`, newest last
+    tilings: dict = field(default_factory=dict, compare=False)  # `tiling.TiledPart` by what was asked, newest last
     last_rounded: dict = field(default_factory=dict, compare=False)  # `tiling.TileOptions` by the tiler that rounded
 
     @property
@@ -58,18 +55,14 @@ class SolvedComponent:
         return 0 if self.balanced is None else len(self.balanced)
 
     def tiler(self, poles, boundary, allowed, progress=None):
-        """A `holomorph.Tiler` with vertices as the part counts them; the last one is kept, with the poles it placed."""
-        key = poles, boundary, allowed
-        if key not in self.tilers:
-            self.tilers.clear()
-            self.tilers[key] = native.load().Tiler(
-                self.surface,
-                poles if isinstance(poles, (str, int)) else list(poles),
-                boundary=boundary,
-                allowed=None if allowed is None else np.frombuffer(allowed, bool),
-                progress=progress,
-            )
-        return self.tilers[key]
+        """A `holomorph.Tiler` with vertices as the part counts them; the structure keeps the last one."""
+        return self.structure.tiler(
+            poles if isinstance(poles, (str, int)) else list(poles),
+            boundary=boundary,
+            allowed=None if allowed is None else np.frombuffer(allowed, bool),
+            surface=self.surface,
+            progress=progress,
+        )
 
     def keep_tiling(self, options, tiled):
         """Adds one, and drops the oldest beyond `KEPT_TILINGS`."""
@@ -86,7 +79,7 @@ class SolvedComponent:
     def size(self):
         """About how many doubles are held: harmonic forms and potentials; of a tiler also a solver; and of tilings."""
         forms, tiler = 4 * self.form_count + 4, 2 * self.form_count + DOUBLES_OF_TILER
-        of_edges = (forms + len(self.tilers) * tiler) * len(self.structure.edges)
+        of_edges = (forms + bool(self.tilings) * tiler) * len(self.structure.edges)
         return of_edges + len(self.tilings) * DOUBLES_OF_TILING * len(self.surface.corner_vertices)
 
 

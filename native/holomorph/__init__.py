@@ -12,8 +12,9 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
-from . import choice, layout, report
+from . import layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
+from .automatic_map import automatic_map, automatic_maps
 from .bounded import BoundedStructure
 from .certificate import Certificate
 from .checks import SOLVERS
@@ -26,6 +27,7 @@ from .equivalence import Equivalence, conformally_equivalent
 from .igusa import IgusaInvariants, igusa_invariants
 from .islands import islands
 from .levels import LevelOfDetail
+from .map import Map
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
 from .progressive import ProgressiveMesh
@@ -59,6 +61,7 @@ __all__ = [
     "IgusaInvariants",
     "InvalidMesh",
     "LevelOfDetail",
+    "Map",
     "MemoryPlan",
     "OutOfMemory",
     "ProgressiveMesh",
@@ -83,8 +86,9 @@ __all__ = [
     "Verdict",
     "Zeros",
     "__version__",
+    "automatic_map",
+    "automatic_maps",
     "automorphisms",
-    "choice",
     "conformal_map",
     "conformal_structure",
     "conformally_equivalent",

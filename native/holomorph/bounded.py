@@ -28,6 +28,11 @@ class BoundedStructure(CertifiedStructure):
     residuals_kind = BoundedResiduals
     coefficient_type = np.float64
 
+    @property
+    def map_kind(self) -> str:
+        """A strip is one that its other sides close up."""
+        return "strip" if (self._component.genus, self._component.boundary_count) == (0, 2) else "forms"
+
     @cached_property
     def description(self) -> str:
         """What was made, in one phrase."""

@@ -12,8 +12,9 @@ from ._native import SolverError, TopologyError
 from .array_types import Integers, Progress, Reals
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
-from .equivalence import Equivalence, conformally_equivalent, scaled
+from .equivalence import Equivalence, conformally_equivalent
 from .map_sides import sides
+from .progress import scaled
 from .surface import Surface
 from .value import Value, counted
 

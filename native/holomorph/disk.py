@@ -60,6 +60,8 @@ class DiskMap(PlaneMap):
     disk, where u + iv has the residue 1 at the puncture. z is 0 there and |z| = 1 on the boundary; a rotation is
     free."""
 
+    map_kind = "disk"
+
     @cached_property
     def description(self) -> str:
         """What was made, in one phrase."""
@@ -95,6 +97,8 @@ class RectangleMap(PlaneMap):
 
     UVs have the width 1 and the height `modulus`, corner 0 at the origin, corner 1 at (1, 0); each of the four sides is
     straight, exactly."""
+
+    map_kind = "rectangle"
 
     @cached_property
     def description(self) -> str:
@@ -142,6 +146,8 @@ class TriangleMap(PlaneMap):
     """Result of `conformal_structure` for a disk with three boundary edges and no vertex for a centre, such as a single
     triangle: the harmonic map to the triangle with these edges, its longest side 1."""
 
+    map_kind = "triangle"
+
     @cached_property
     def description(self) -> str:
         """What was made, in one phrase."""
@@ -163,6 +169,8 @@ class FreeBoundaryMap(PlaneMap):
     Lengths are kept along the boundary: the scale factors e^u are 1 there, and of all conformal maps this one has the
     least Dirichlet energy of u (Sawhney and Crane 2017). A flat surface is mapped by a rigid motion. Around much
     curvature the map may overlap itself: `quality(uv).overlapping_part` says how much."""
+
+    map_kind = "flat"
 
     @property
     def description(self) -> str:
@@ -189,7 +197,7 @@ class FreeBoundaryMap(PlaneMap):
         return {}
 
 
-def automatic_map(surface, component, solver, threads, progress):
+def automatic_disk_map(surface, component, solver, threads, progress):
     """The map of a disk for which nothing was chosen.
 
     Where its boundary has four clear corners, rough, round or wavy as they may be, the rectangle with these: where it

@@ -28,6 +28,8 @@ class PuncturedStructure(FormStructure):
     All of it belongs to the surface's own triangles; in a polygon at a puncture the diagonals are flipped away from it.
     """
 
+    map_kind = "log"
+
     @cached_property
     def description(self) -> str:
         """What was made, in one phrase."""

@@ -19,7 +19,7 @@ from .disk import (
     FreeBoundaryMap,
     RectangleMap,
     TriangleMap,
-    automatic_map,
+    automatic_disk_map,
     disk,
     free_boundary,
     rectangle,
@@ -160,7 +160,7 @@ def _check_no_punctures(is_chosen):
 def _disk(surface, component, vertices, labels, options):
     if vertices:
         return disk(surface, component, vertices, labels, *options)
-    return automatic_map(surface, component, *options)
+    return automatic_disk_map(surface, component, *options)
 
 
 def _punctured(surface, component, chosen, options, memory_limit):

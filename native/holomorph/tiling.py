@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native, arrays
-from ._native import InvalidMesh, TopologyError
+from ._native import TopologyError
 from .array_types import Complexes, Integers, Progress, Reals
 from .checks import own_vertices, real_number
+from .direction import along
 from .quality import Quality
 from .surface import Surface
 from .value import Value, counted
@@ -131,7 +132,7 @@ class Tiler:
         tiles: float | None = None,
         *,
         lattice: str | ArrayLike = "square",
-        direction: ArrayLike | None = None,
+        direction: ArrayLike | str | None = None,
         turn: float | None = None,
         max_turn: float = 0.2,
         max_added: float | None = None,
@@ -144,9 +145,9 @@ class Tiler:
         turn = None if turn is None else real_number(turn, "turn")
         max_turn = real_number(max_turn, "max_turn")
         a, b = _lattice(lattice)
-        along = None if direction is None else _direction(direction, self._component)
+        vector, turn = along(direction, turn, self._component)
         self._basis = np.array([[a.real, b.real], [a.imag, b.imag]])
-        made = self._tiling(self._native.tile(tiles, a, b, turn, along, max_turn, progress))
+        made = self._tiling(self._native.tile(tiles, a, b, turn, vector, max_turn, progress))
         if max_added is not None and made.added_distortion > max_added:
             raise TopologyError(_too_sheared(made, max_added, self._surface.genus))
         return made
@@ -264,12 +265,3 @@ def _lattice(lattice):
     if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
         raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
     return complex(*matrix[:, 0]), complex(*matrix[:, 1])
-
-
-def _direction(direction, surface):
-    if surface.vertices is None:
-        raise InvalidMesh("an intrinsic surface, without positions, knows no direction in space; use turn")
-    vector = arrays.numbers(direction, "direction")
-    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise ValueError(f"direction is {direction!r}; three numbers, not all 0, are needed")
-    return vector.tolist()

@@ -53,7 +53,7 @@ def neighbour(obj, vertex, steps=1):
 @pytest.fixture
 def stages(monkeypatch):
     """The stages that the library went through, those of placing poles among them."""
-    noted, kind = [], native.load().Tiler
+    noted, kind = [], native.load().results.Tiler
 
     def noting(progress):
         return lambda fraction, stage: (noted.append(stage), progress(fraction, stage))[1]
@@ -68,7 +68,7 @@ def stages(monkeypatch):
         def with_poles_moved(self, moves, *, progress):
             return super().with_poles_moved(moves, progress=noting(progress))
 
-    monkeypatch.setattr(native.load(), "Tiler", Noted)
+    monkeypatch.setattr(native.load().results, "Tiler", Noted)
     return noted
 
 

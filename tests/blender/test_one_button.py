@@ -193,7 +193,7 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
     def refuse(*_arguments, **_options):
         raise library.TopologyError("too few tiles")
 
-    monkeypatch.setattr(library, "Tiler", refuse)
+    monkeypatch.setattr(library.results, "Tiler", refuse)
     assert press(main="SEAMLESS") == {"FINISHED"}
     assert tilings(obj) == [None] and fills_the_square(uv(obj))
     outcome = written(obj, "SEAMLESS")
@@ -218,7 +218,7 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
     def forbidden(*_arguments, **_options):
         raise AssertionError("made again")
 
-    monkeypatch.setattr(module("native").load(), "Tiler", forbidden)
+    monkeypatch.setattr(module("native").load(), "automatic_map", forbidden)
     monkeypatch.setattr(module("solve"), "solve", forbidden)
     assert press(seams=True, texture="SCALES") == {"FINISHED"}
 

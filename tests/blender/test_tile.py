@@ -39,7 +39,7 @@ tiling, tile_report = module("tiling"), module("tile_report")
 @pytest.fixture
 def calls(monkeypatch):
     """What the library was asked for, one entry for each tiling."""
-    noted, kind = [], native.load().Tiler
+    noted, kind = [], native.load().results.Tiler
 
     class Noted(kind):
         def __init__(self, surface, poles, **options):
@@ -51,7 +51,7 @@ def calls(monkeypatch):
             noted[-1].pop("progress")
             return super().tile(tiles, **options)
 
-    monkeypatch.setattr(native.load(), "Tiler", Noted)
+    monkeypatch.setattr(native.load().results, "Tiler", Noted)
     return noted
 
 
@@ -210,7 +210,7 @@ def test_the_vertex_group_says_where_poles_may_be(monkeypatch):
         asked.append((poles, None if allowed is None else np.flatnonzero(allowed).tolist()))
         raise native.load().TopologyError("noted")
 
-    monkeypatch.setattr(native.load(), "Tiler", note)
+    monkeypatch.setattr(native.load().results, "Tiler", note)
     with pytest.raises(RuntimeError, match="noted"):
         tile(pole_group="Hidden")
     assert asked == [("auto", list(range(count // 2))), (0, None)]

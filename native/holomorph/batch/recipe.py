@@ -9,12 +9,12 @@ from dataclasses import asdict, dataclass, field, fields
 import tomllib
 
 from .. import formats, tiling
+from ..automatic_map import MAIN_MAPS
 from ..checks import SOLVERS
 from ..structure import BOUNDARIES
 from .errors import UsageError
 
 FORMATS = ("npz", *formats.WRITERS, "blend")
-MAIN_MAPS = ("automatic", "seamless", "balanced")
 
 
 def _option(default, wanted, is_valid):
@@ -92,8 +92,10 @@ class Tiles:
         lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count),
     )
     lattice: str = _one_of(tuple(tiling.LATTICES), "square")
-    direction: tuple | None = _option(
-        None, "a list of three numbers that are not all 0", lambda v: _is_list(v, _is_number) and len(v) == 3 and any(v)
+    direction: str | tuple = _option(
+        "upright",
+        '"upright", "none" or a list of three numbers that are not all 0',
+        lambda v: v in ("upright", "none") or (_is_list(v, _is_number) and len(v) == 3 and any(v)),
     )
     boundary: str = _one_of(tiling.BOUNDARIES, "straight")
     turn: float | None = _optional_number("an angle in radians", lambda value: True)

@@ -80,7 +80,7 @@ def _mapped(task):
     }
     up = recipe.output.up or ("Y" if task.path.suffix.lower() == ".obj" else "Z")
     files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), up)}
-    if any(part.structure for part in parts):
+    if any(part.map for part in parts):
         files |= _files(task, surface, uv, parts)
     return content, files, timings
 
@@ -96,7 +96,7 @@ def _read(path):
 
 def _is_mapped(surface, parts):
     """(#T,) bool: triangles of parts that have a map."""
-    faces = [part.surface.face_index for part in parts if part.structure]
+    faces = [part.surface.face_index for part in parts if part.map]
     if not faces:
         return np.zeros(len(surface.triangles), bool)
     return np.isin(surface.face_index[surface.triangle_faces], np.concatenate(faces))
@@ -129,15 +129,9 @@ def _arrays(maps, surface, uv, parts):
     """What a .npz file holds besides the mesh; indices lead to the elements of the source."""
     numbered = {f"uv_{n}": form for n, form in enumerate(arrangement.form_uvs(surface, parts, maps), 1)}
     index = {name: getattr(surface, name) for name in ("vertex_index", "face_index", "corner_index")}
-    seams = [_seams(part) for part in parts if part.structure]
-    arrays = {"uv": uv, **numbered, **index, "seams": np.concatenate(seams)}
+    seams = [part.surface.vertex_index[part.map.seams] for part in parts if part.map]
+    arrays = {"uv": uv, **numbered, **index, "seams": np.concatenate(seams)}  # of the main map
     return arrays | {"shape": _shape(surface, parts)} if maps.shape else arrays
-
-
-def _seams(part):
-    """(#S, 2) vertices of the source at the edges where the main map jumps."""
-    own = part.tiling.seams if part.tiling else part.structure.edges[part.structure.seams]
-    return part.surface.vertex_index[own]
 
 
 def _shape(surface, parts):
