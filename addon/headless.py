@@ -33,7 +33,7 @@ def module(name):
     return importlib.import_module(f"{PACKAGE}.{name}")
 
 
-command_line = module("command_line")
+command_line = module("command_line.command_line")
 UsageError = command_line.UsageError
 
 
@@ -45,7 +45,7 @@ def import_mesh(options, holomorph):
     """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
     surface = holomorph.Surface.read(str(options.mesh))
     empty_scene()
-    mesh_io = module("mesh_io")
+    mesh_io = module("scene.mesh_io")
     mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
     mesh_io.shade_smooth(mesh, SHARP_ANGLE)
     obj = bpy.data.objects.new(mesh.name, mesh)
@@ -68,8 +68,8 @@ def import_objects(options):
     """The objects of a file that Blender's importers read."""
     empty_scene()
     try:
-        return module("exchange").read(options.mesh, options.up or "Y")
-    except module("exchange").ExchangeError as error:
+        return module("command_line.exchange").read(options.mesh, options.up or "Y")
+    except module("command_line.exchange").ExchangeError as error:
         raise UsageError(str(error)) from error
 
 
@@ -95,7 +95,7 @@ def named(options, meshes):
 
 def request(options, holomorph):
     """What is asked of every object; vertices are named for a single one."""
-    choices = module("choices")
+    choices, targets = module("solving.choices"), module("scene.targets")
     if options.solver not in holomorph.SOLVERS:
         raise UsageError(f"--solver: {options.solver!r} is none of {', '.join(holomorph.SOLVERS)}")
     try:
@@ -107,26 +107,26 @@ def request(options, holomorph):
         use, vertices = choices.PUNCTURES, tuple(options.puncture)
     elif options.rectangle:
         use, vertices = choices.RECTANGLE, tuple(options.rectangle)
-    faces = choices.use_of_faces(use) if use == choices.FACES else module("faces").WHOLE
+    faces = targets.use_of_faces(use) if use == choices.FACES else module("scene.faces").WHOLE
     are_islands = options.main == "islands"
     cut, boundary = options.cut_at_seams or are_islands, choices.ISLANDS if are_islands else options.boundary
     how = cut, boundary, options.solver, faces, options.modifiers, options.hard_edges, options.most_stretch
-    return module("targets").Request(choices.use_of_vertices(use), vertices, residues, *how)
+    return targets.Request(targets.use_of_vertices(use), vertices, residues, *how)
 
 
 def collect(options, holomorph):
     """The targets: the mesh file, or the objects of the .blend."""
-    asked, targets = request(options, holomorph), module("targets")
+    asked, targets = request(options, holomorph), module("scene.targets")
     if options.mesh is not None and not options.mesh.is_file():
         raise UsageError(f"{options.mesh}: no such file")
-    if options.mesh is None or module("exchange").is_read_here(options.mesh):
+    if options.mesh is None or module("command_line.exchange").is_read_here(options.mesh):
         objects = objects_in_file(options)
         if asked.vertices is not None and len(objects) > 1:
             raise UsageError("vertices are chosen on one object: name it with --object")
         bpy.context.view_layer.update()  # the objects' matrices
         try:
             return targets.collect(objects, asked)
-        except module("faces").NoFaces as error:
+        except module("scene.faces").NoFaces as error:
             raise UsageError(f"--selection faces: {error}") from error
     try:
         obj, positions = import_mesh(options, holomorph)
@@ -137,37 +137,37 @@ def collect(options, holomorph):
 
 def write_options(options):
     show = options.checker, options.texture.upper(), options.checker_scale
-    return module("run").WriteOptions(options.shown, *show, options.seams, options.shape)
+    return module("results.run").WriteOptions(options.shown, *show, options.seams, options.shape)
 
 
 def make_maps(options, found):
     """Solves the targets and writes their maps; returns the `run.Outcome`."""
     if options.seamless:
         try:
-            return module("headless_tile").make(bpy.context, options, found)
+            return module("command_line.headless_tile").make(bpy.context, options, found)
         except ValueError as error:
             raise UsageError(str(error)) from error
     rotation, main = math.radians(options.rotation), options.main.upper()
-    asked = module("maps").MapOptions(options.forms, options.density, rotation, margin=options.margin, main=main)
-    targets, tasks = module("targets"), module("targets").tasks(found)
-    mapper = module("seamless").Mapper(asked, options.equal)
-    job = module("jobs").Job(tasks, then=[mapper] * len(tasks))
+    asked = module("maps.maps").MapOptions(options.forms, options.density, rotation, margin=options.margin, main=main)
+    targets, tasks = module("scene.targets"), module("scene.targets").tasks(found)
+    mapper = module("maps.seamless").Mapper(asked, options.equal)
+    job = module("solving.jobs").Job(tasks, then=[mapper] * len(tasks))
     job.run()
     results = targets.align(found, job.results)
-    return module("run").write(bpy.context, found, results, mapper.options(results), write_options(options))
+    return module("results.run").write(bpy.context, found, results, mapper.options(results), write_options(options))
 
 
 def add_levels(options, outcome):
     """Levels of detail of every object that got maps; they are added to the report's entries."""
     if not options.levels:
         return []
-    wanted, made = module("levels").LevelOptions(options.levels, options.ratio), []
+    wanted, made = module("levels.levels").LevelOptions(options.levels, options.ratio), []
     for entry in outcome.entries:
         if not entry["done"]:
             continue
         obj = bpy.data.objects[entry["object"]]
         arrangement = {"side_by_side": options.side_by_side, "finest": options.lod0}
-        found, problem = module("lod").make_levels(bpy.context, obj, wanted, **arrangement)
+        found, problem = module("operators.lod").make_levels(bpy.context, obj, wanted, **arrangement)
         entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
         outcome.problems += [f"{obj.name}: no levels of detail: {problem}"] if problem else []
         made += found
@@ -175,7 +175,7 @@ def add_levels(options, outcome):
 
 
 def render(options, objects):
-    module("studio").render(objects, str(options.render.resolve()), options.resolution, options.samples)
+    module("command_line.studio").render(objects, str(options.render.resolve()), options.resolution, options.samples)
     if not options.render.is_file():
         raise UsageError(f"{options.render}: the picture could not be written")
 
@@ -193,14 +193,14 @@ def write_files(options, objects):
         for studio in set(bpy.data.objects) - own:
             bpy.data.objects.remove(studio)
         try:
-            module("exchange").write(options.output)
-        except module("exchange").ExchangeError as error:
+            module("command_line.exchange").write(options.output)
+        except module("command_line.exchange").ExchangeError as error:
             raise UsageError(str(error)) from error
 
 
 def write_report(options, content):
     if options.report is not None:
-        text = module("report").as_json(content, indent=1)
+        text = module("results.report").as_json(content, indent=1)
         options.report.write_text(text + "\n", encoding="utf-8")
 
 
@@ -211,7 +211,7 @@ def source_name(options):
 
 def process(options):
     """Does the job; returns the sentences about what was not done."""
-    native, report = module("native"), module("report")
+    native, report = module("native"), module("results.report")
     if native.problem():
         raise UsageError(native.problem())
     start = time.perf_counter()
@@ -235,7 +235,7 @@ def process(options):
 
 def check_strictly(entries):
     """@throws NotFit"""
-    report = module("report")
+    report = module("results.report")
     for entry in entries:
         skipped = [part["reason"] for part in entry.get("components", []) if not part["done"]]
         for reason in [entry["refused"]] if "refused" in entry else skipped:

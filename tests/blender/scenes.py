@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 from conftest import ROOT
 
-mesh_edges = importlib.import_module("holomorph_addon.mesh_edges")
-mesh_io = importlib.import_module("holomorph_addon.mesh_io")
+mesh_edges = importlib.import_module("holomorph_addon.scene.mesh_edges")
+mesh_io = importlib.import_module("holomorph_addon.scene.mesh_io")
 native = importlib.import_module("holomorph_addon.native")
 
 

@@ -55,11 +55,11 @@ def test_faces_without_area():
     obj = mesh_object("Grid", vertices, faces)
     assert press() == {"FINISHED"}
     chosen = selected(obj)[2]
-    assert chosen == module("bad").find(*read(obj), {"NO_AREA"}).faces.tolist() and chosen
+    assert chosen == module("results.bad").find(*read(obj), {"NO_AREA"}).faces.tolist() and chosen
 
 
 def read(obj):
-    (target,) = module("targets").collect([obj])
+    (target,) = module("scene.targets").collect([obj])
     return target.polygons, None
 
 

@@ -6,7 +6,7 @@ import pytest
 from conftest import module
 from scenes import grid_arrays, mesh_edges, mesh_object, pick, sphere_arrays, torus, torus_arrays
 
-choices, native, targets = module("choices"), module("native"), module("targets")
+choices, native, targets = module("solving.choices"), module("native"), module("scene.targets")
 
 
 def part_of(*arrays):
@@ -123,7 +123,7 @@ def test_a_loose_vertex_cannot_be_chosen():
     obj = mesh_object("Sphere", [*vertices, (3, 3, 3)], faces)
     (task,) = targets.tasks(targets.collect([obj], targets.Request(choices.PUNCTURES, (0, 162))))
     with pytest.raises(native.load().InvalidMesh, match="vertex 162 belongs to no face"):
-        module("solve").solve(task)
+        module("solving.solve").solve(task)
 
 
 def test_seams_are_read_as_vertices():

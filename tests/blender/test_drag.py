@@ -24,7 +24,7 @@ from scenes import (
     uv,
 )
 
-drag, tile_report = module("drag"), module("tile_report")
+drag, tile_report = module("operators.drag"), module("results.tile_report")
 
 
 def tile(**options):
@@ -87,7 +87,7 @@ def test_other_tiles_rotations_and_lattices_place_no_poles_again(stages):
 
 
 def test_tilers_count_in_the_size_of_what_is_kept(monkeypatch):
-    cache = module("cache")
+    cache = module("solving.cache")
     first, second = torus("First"), torus("Second", thickness=0.5)
     for obj in (first, second):
         select(obj)
@@ -139,7 +139,7 @@ def test_the_same_after_everything_was_forgotten():
     move(f"0:{neighbour(obj, poles(obj)[0])}")
     before = uv(obj)
     place = poles(obj)[0]
-    module("cache").clear()
+    module("solving.cache").clear()
     move(f"0:{place}")
     assert np.array_equal(uv(obj), before)
 
@@ -220,7 +220,7 @@ def test_undo_takes_a_move_back():
 def test_previews_write_the_map_alone_and_are_taken_back_exactly():
     obj = torus()
     tile()
-    before, session = everything(obj), module("drag_session").Session(obj)
+    before, session = everything(obj), module("operators.drag_session").Session(obj)
     session.show(session.made({0: neighbour(obj, poles(obj)[0], 2)}))
     after = everything(obj)
     assert {name for name in before if after[name] != before[name]} == {"maps"}
@@ -231,7 +231,7 @@ def test_previews_write_the_map_alone_and_are_taken_back_exactly():
 def test_the_texture_is_followed_in_the_background_and_given_up():
     obj = torus()
     tile()
-    session = module("drag_session").Session(obj)
+    session = module("operators.drag_session").Session(obj)
     job = session.job({0: neighbour(obj, poles(obj)[0])})
     job.start()
     job.wait()
@@ -246,7 +246,7 @@ def test_the_texture_is_followed_in_the_background_and_given_up():
 def test_the_vertices_under_a_ray():
     obj = torus()
     obj.matrix_world = Matrix.Translation((5, 0, 0)) @ Matrix.Scale(2, 4)
-    surface = module("surface_pick").Surface(obj)
+    surface = module("operators.surface_pick").Surface(obj)
     points = mesh_io.world_points(obj)
     vertex = int(np.argmax(points[:, 2]))
     origin = Vector(points[vertex]) + Vector((0.01, 0.01, 10))
@@ -256,7 +256,7 @@ def test_the_vertices_under_a_ray():
 
 
 def test_the_nearest_pole_on_the_screen():
-    nearest = module("surface_pick").nearest
+    nearest = module("operators.surface_pick").nearest
     view = SimpleNamespace(on_screen=lambda point: None if point[2] < 0 else (100 * point[0], 100 * point[1]))
     near = partial(nearest, view, [(0, 0, 1), (1, 1, 1), (0.5, 0.5, -1)])
     assert near(95, 104, 18) == 1 and near(10, 0, 18) == 0

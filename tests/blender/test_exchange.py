@@ -10,7 +10,7 @@ from scenes import grid_arrays, mesh_io, select, torus, torus_arrays
 from test_faces import add_own_map
 from test_headless import headless, our_lines, write_obj
 
-exchange = module("exchange")
+exchange = module("command_line.exchange")
 needs_usd = pytest.mark.skipif(not bpy.app.build_options.usd, reason="this Blender is built without USD")
 # Blender 4.2 as a Python module crashes at exit once it has written a glTF file, with no add-on either.
 may_write_gltf = pytest.mark.skipif(

@@ -223,7 +223,7 @@ def test_selected_faces_are_tiled_and_poles_are_not_dragged_on_them():
     assert np.array_equal(uv(obj)[rest], own[rest])
     assert stored_report(obj)["components"][0]["faces"] == len(HALF)
     with pytest.raises(ValueError, match="selected faces"):
-        module("drag_session").Session(obj)
+        module("operators.drag_session").Session(obj)
 
 
 def test_a_ninth_map_of_a_selection_is_an_attribute_and_keeps_its_rest():

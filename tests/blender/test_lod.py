@@ -297,7 +297,7 @@ def test_what_is_refused_is_left_as_it_is():
 
 
 def test_without_any_map_nothing_is_made(monkeypatch):
-    solve = module("solve")
+    solve = module("solving.solve")
 
     def skipped(_library, _make, part, *_):
         return solve.SolvedComponent(part, None, None, "the surface is strange")
@@ -315,7 +315,7 @@ def test_too_little_memory_is_a_sentence(monkeypatch):
         raise MemoryError("there is not enough memory for a mesh of this size")
 
     torus(**FINE)
-    monkeypatch.setattr(module("solve"), "solve", too_large)
+    monkeypatch.setattr(module("solving.solve"), "solve", too_large)
     refused("Torus: there is not enough memory for a mesh of this size")
 
 
@@ -342,13 +342,13 @@ def test_only_in_object_mode_with_an_active_mesh():
 
 def test_cancelling_ends_the_work_with_nothing_made():
     obj = torus(**FINE)
-    source = module("lod").Source(obj)
-    work = source.work(module("levels").LevelOptions(), lambda _fraction, _stage: work.cancel())
+    source = module("operators.lod").Source(obj)
+    work = source.work(module("levels.levels").LevelOptions(), lambda _fraction, _stage: work.cancel())
     work.start()
     work.wait()
     assert isinstance(work.error, module("native").load().Cancelled) and not work.levels
     seen = []
-    work = source.work(module("levels").LevelOptions(), lambda fraction, _stage: seen.append(fraction))
+    work = source.work(module("levels.levels").LevelOptions(), lambda fraction, _stage: seen.append(fraction))
     work.run()
     assert len(work.levels) == 4 and seen == sorted(seen)
     assert source.problem(work, time_has_passed=True) == ""

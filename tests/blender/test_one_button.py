@@ -179,7 +179,7 @@ def test_a_checker_of_two_squares_in_each_tile_and_other_objects_keep_theirs():
 def test_the_report_begins_with_words():
     obj = limb()
     press()
-    lines = [line.strip() for line in module("report").summary(obj["holomorph_report"])]
+    lines = [line.strip() for line in module("results.report").summary(obj["holomorph_report"])]
     assert "seamless" in lines[2] and "poles" in lines[2]
     assert any(line.startswith("density, 95 : 5 %") for line in lines)
     assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"
@@ -203,10 +203,10 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
 
 def written(obj, main):
     """The `run.Outcome`."""
-    targets, run_module = module("targets"), module("run")
+    targets, run_module = module("scene.targets"), module("results.run")
     found = targets.collect([obj])
-    mapper = module("seamless").Mapper(module("maps").MapOptions(main=main), True)
-    job = module("jobs").Job(targets.tasks(found), None, [mapper])
+    mapper = module("maps.seamless").Mapper(module("maps.maps").MapOptions(main=main), True)
+    job = module("solving.jobs").Job(targets.tasks(found), None, [mapper])
     job.run()
     return run_module.write(bpy.context, found, job.results, mapper.options(job.results), run_module.WriteOptions())
 
@@ -219,34 +219,34 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
         raise AssertionError("made again")
 
     monkeypatch.setattr(module("native").load(), "automatic_map", forbidden)
-    monkeypatch.setattr(module("solve"), "solve", forbidden)
+    monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
     assert press(seams=True, texture="SCALES") == {"FINISHED"}
 
 
 def test_cancelling_in_a_tiling_leaves_no_result():
     obj = limb()
-    targets, jobs, seamless = module("targets"), module("jobs"), module("seamless")
+    targets, jobs, seamless = module("scene.targets"), module("solving.jobs"), module("maps.seamless")
     tasks = targets.tasks(targets.collect([obj])) * 2
 
     def make(solved, progress):
-        return seamless.Mapper(module("maps").MapOptions())(solved, progress)
+        return seamless.Mapper(module("maps.maps").MapOptions())(solved, progress)
 
     job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, [make] * 2)
     job.start()
     job.wait()
     assert isinstance(job.results[0], module("native").load().Cancelled) and job.results[1] is None
-    assert not module("cache").find(tasks[0]).components[0].tilings
+    assert not module("solving.cache").find(tasks[0]).components[0].tilings
 
 
 def test_progress_grows_over_solve_and_tiling():
     obj, seen = limb(), []
-    targets, seamless = module("targets"), module("seamless")
+    targets, seamless = module("scene.targets"), module("maps.seamless")
     tasks = targets.tasks(targets.collect([obj]))
 
     def make(solved, progress):
-        return seamless.Mapper(module("maps").MapOptions())(solved, progress)
+        return seamless.Mapper(module("maps.maps").MapOptions())(solved, progress)
 
-    module("jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), [make]).run()
+    module("solving.jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), [make]).run()
     assert seen == sorted(seen) and seen[0] >= 0 and 0.5 < seen[-1] <= 1
 
 
@@ -254,7 +254,7 @@ def test_the_same_bits_twice():
     obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1, bulge=0))
     press()
     before = uv(obj)
-    module("cache").clear()
+    module("solving.cache").clear()
     press()
     assert np.array_equal(uv(obj), before)
 

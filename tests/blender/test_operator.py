@@ -241,7 +241,7 @@ def test_another_scale_of_a_shared_mesh_is_told(scale, told):
     second.rotation_euler = (0.4, 0.1, 2)
     bpy.context.scene.collection.objects.link(second)
     bpy.context.view_layer.update()
-    (target,) = module("targets").collect([first, second])
+    (target,) = module("scene.targets").collect([first, second])
     assert ("the scale of First counts" in target.note) == told
 
 
@@ -390,7 +390,7 @@ def test_undo_takes_everything_back_in_one_step_and_redo_brings_it_again():
 def test_a_second_run_solves_nothing(monkeypatch):
     torus()
     run()
-    solve = module("solve")
+    solve = module("solving.solve")
 
     def forbidden(*_):
         raise AssertionError("solved again")
@@ -451,7 +451,7 @@ def test_polygons_are_read_as_blender_gives_them():
     """The same numbers as one by one, whatever the types in which a version of Blender keeps them."""
     vertices = np.random.default_rng(1).normal(size=(9, 3))
     obj = mesh_object("Mixed", vertices, [(0, 1, 2), (2, 1, 3, 4), (4, 3, 5, 6, 7), (8, 4, 7)])
-    polygons = module("mesh_io").read_polygons(obj.data, np.eye(3))
+    polygons = module("scene.mesh_io").read_polygons(obj.data, np.eye(3))
     assert polygons.corner_vertices.tolist() == [loop.vertex_index for loop in obj.data.loops]
     assert polygons.face_offsets.tolist() == [p.loop_start for p in obj.data.polygons] + [15]
     assert np.abs(polygons.vertices - vertices).max() < 1e-6

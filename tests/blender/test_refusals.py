@@ -149,7 +149,7 @@ def test_faces_that_are_all_apart_are_told_of():
     corners = np.asarray(faces)[:6]
     obj = mesh_object("Loose", vertices[corners].reshape(-1, 3), np.arange(corners.size).reshape(corners.shape))
     assert run() == {"FINISHED"}
-    assert any("By Distance" in line for line in module("run").surface_problems(obj, surface_of(obj)))
+    assert any("By Distance" in line for line in module("results.run").surface_problems(obj, surface_of(obj)))
 
 
 def surface_of(obj):
@@ -211,7 +211,7 @@ def test_only_the_librarys_errors_are_caught(monkeypatch):
     def broken(*_):
         raise ZeroDivisionError("our own mistake")
 
-    monkeypatch.setattr(module("solve"), "solve", broken)
+    monkeypatch.setattr(module("solving.solve"), "solve", broken)
     with pytest.raises(RuntimeError, match="ZeroDivisionError"):
         run()
     assert everything(obj) == before

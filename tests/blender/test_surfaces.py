@@ -123,7 +123,7 @@ def test_a_component_is_reported_as_by_the_package():
 
 
 def test_a_skipped_component_has_its_reason(monkeypatch):
-    solve = module("solve")
+    solve = module("solving.solve")
     solve_component = solve._solve_component
 
     def without_spheres(library, surface, part, *rest):
@@ -197,10 +197,10 @@ def test_the_papers_solver_is_for_the_parts_that_it_fits():
 def test_a_modifier_that_may_close_the_surface_is_told():
     obj = mesh_object("Tube", *tube_arrays())
     obj.modifiers.new("My Mirror", "MIRROR")
-    run_module, targets = module("run"), module("targets")
+    run_module, targets = module("results.run"), module("scene.targets")
     found = targets.collect([obj])
-    mapper = module("seamless").Mapper(module("maps").MapOptions(), True)
-    job = module("jobs").Job(targets.tasks(found), then=[mapper])
+    mapper = module("maps.seamless").Mapper(module("maps.maps").MapOptions(), True)
+    job = module("solving.jobs").Job(targets.tasks(found), then=[mapper])
     job.run()
     outcome = run_module.write(bpy.context, found, job.results, mapper.options(job.results), run_module.WriteOptions())
     assert any("My Mirror" in note for note in outcome.notes)
@@ -210,5 +210,5 @@ def test_the_panel_tells_kinds_and_moduli():
     obj = mesh_object("Tube", *tube_arrays())
     select(obj)
     run()
-    lines = "\n".join(module("report").summary(obj["holomorph_report"]))
+    lines = "\n".join(module("results.report").summary(obj["holomorph_report"]))
     assert "genus 0, 2 holes" in lines and "modulus" in lines and "between" in lines

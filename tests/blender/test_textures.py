@@ -8,7 +8,7 @@ import pytest
 from conftest import module
 from scenes import mesh_io, run, torus
 
-patterns, textures = module("patterns"), module("textures")
+patterns, textures = module("materials.patterns"), module("materials.textures")
 SIZE = 512  # of drawings here
 LINES = {  # columns and rows of cells, whose borders are alike
     "NUMBERED": (8, 8),
@@ -51,8 +51,8 @@ def layers(pattern):
 
 
 def test_the_properties_name_every_texture():
-    names = [name for name, *_ in module("properties").TEXTURES]
-    assert names == [module("material").CHECKER, *patterns.TEXTURES]
+    names = [name for name, *_ in module("operators.properties").TEXTURES]
+    assert names == [module("materials.material").CHECKER, *patterns.TEXTURES]
 
 
 def test_values_are_colours_and_heights(texture):

@@ -33,7 +33,7 @@ from scenes import (
     uv,
 )
 
-tiling, tile_report = module("tiling"), module("tile_report")
+tiling, tile_report = module("maps.tiling"), module("results.tile_report")
 
 
 @pytest.fixture
@@ -176,7 +176,7 @@ def test_a_direction_without_length_is_refused():
 
 def test_opposite_edges_have_one_direction():
     along = np.array([[1, 2, 0], [-1, -2, 0.1], [2, 4, -0.1]])
-    found = module("tile_choices").mean_direction(along)
+    found = module("operators.tile_choices").mean_direction(along)
     assert np.allclose(found, np.array([1, 2, 0]) / 5**0.5, atol=0.05)
 
 
@@ -258,7 +258,7 @@ def test_only_what_changed_is_done_again(calls, monkeypatch):
     def forbidden(*_):
         raise AssertionError("solved again")
 
-    monkeypatch.setattr(module("solve"), "solve", forbidden)
+    monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
     for options, count in (({}, 1), ({"texture": "SCALES"}, 1), ({"tiles": 400}, 2), ({"quarters": 1}, 2), ({}, 2)):
         assert tile(**options) == {"FINISHED"}
         assert len(calls) == count
@@ -295,7 +295,7 @@ def test_report_and_panel_begin_with_words(calls):
     assert verdict.startswith("Even, seamless") and f"{len(residues)} poles" in verdict
     assert np.array_equal(residues, np.round(residues)) and np.array_equal(residues.sum(axis=0), (0, 0))
     assert min(part["tiling"]["orders"]) > 0
-    lines = [line.strip() for line in module("report").summary(obj["holomorph_report"])]
+    lines = [line.strip() for line in module("results.report").summary(obj["holomorph_report"])]
     assert lines[:3] == ["1 map", "Part 1: genus 1", verdict]
     assert json.loads(bpy.data.texts["Holomorphic Report"].as_string())["objects"] == [stored_report(obj)]
 
@@ -372,7 +372,7 @@ def test_edit_mode_and_several_objects(calls):
 
 def test_cancelling_leaves_no_result(calls):
     torus()
-    targets, jobs = module("targets"), module("jobs")
+    targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect(targets.mesh_objects(bpy.context))) * 2
     then = [partial(tiling.tile, options=tiling.TileOptions())] * 2
     work = jobs.Job(tasks, lambda fraction, _stage: work.cancel() if fraction > 0.2 else None, then)
@@ -385,7 +385,7 @@ def test_the_same_bits_twice():
     obj = torus()
     tile()
     before = uv(obj)
-    module("cache").clear()
+    module("solving.cache").clear()
     tile()
     assert np.array_equal(uv(obj), before)
 
@@ -403,7 +403,7 @@ def test_whole_differences_survive_single_precision(size):
 
 
 def test_discs_face_the_viewer_and_keep_their_size_on_the_screen():
-    view = module("marks_view")
+    view = module("overlays.marks_view")
     points = np.array([(0.0, 0, -2), (0.5, 0.2, -20)])
     window = np.diag([1.5, 2.0, -1.0, 0.0])
     window[2, 3], window[3, 2] = -0.2, -1.0

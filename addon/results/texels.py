@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Texels per metre of the active UV maps of meshes: measured, and set by scaling the maps.
+
+A seamless tiling is scaled by whole numbers alone, for any other factor would open its seams.
+"""
+
+import math
+
+import numpy as np
+
+from ..maps import distortion, tiling
+from ..scene import mesh_io
+from . import heat, report
+
+
+def why_not(target):
+    """Why there is nothing to measure or to scale, one sentence, or ""."""
+    if target.refused:
+        return target.refused
+    return "" if target.find().data.uv_layers.active else "it has no UV map"
+
+
+def measured(target, image, metres):
+    """Texels per metre of an image `image` texels wide, the median by area, for poles have no end of them; of a mesh
+    that is not being edited. 0 where there is no area.
+
+    metres : of a unit of the scene
+    """
+    polygons = target.polygons
+    ratio = distortion.length_ratio(polygons.vertices, polygons.corner_vertices, polygons.face_offsets, _uv(target))
+    return ratio * image / metres
+
+
+def scale(target, factor):
+    """Scales the active map about the middle of its bounding box; returns the factor that was taken."""
+    mesh, uv = target.find().data, _uv(target)
+    middle = (uv.min(axis=0) + uv.max(axis=0)) / 2
+    if _is_tiling(target):
+        factor = max(1, round(factor))
+        scaled = tiling.on_grid(factor * uv.astype(np.float64))
+    else:
+        scaled = middle + factor * (uv - middle)
+    mesh_io.overwrite_map(mesh, target.polygons, mesh.uv_layers.active.name, scaled)
+    return factor
+
+
+def is_met(wanted, factor, before):
+    """Whether a map with so many texels before has the wanted ones after a scaling."""
+    return math.isclose(before * factor, wanted, rel_tol=1e-3)
+
+
+def _uv(target):
+    return heat.active_map(target.find().data, target.polygons)
+
+
+def _is_tiling(target):
+    obj = target.find()
+    parts = report.parsed(obj.get(report.PROPERTY)).get("components", [])
+    return obj.data.uv_layers.active.name == mesh_io.main_map(obj.data) and any("tiling" in part for part in parts)
