@@ -7,7 +7,7 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .interface import panel, presets, shortcuts, tools_panel
-from .operators import carry, compare, drag, lod, mapping, submit, texel_operators, tile, tools
+from .operators import carry, compare, drag, lod, mapping, submit, texel_operators, tools
 from .overlays import overlay
 
 bl_info = {
@@ -24,7 +24,6 @@ bl_info = {
 MODULES = (
     preferences,
     mapping,
-    tile,
     drag,
     lod,
     texel_operators,

@@ -46,7 +46,7 @@ def unwrapped(obj, name, operator, **options):
     bpy.ops.mesh.select_all(action="SELECT")
     operator(**options)
     bpy.ops.object.mode_set(mode="OBJECT")
-    return module("scene.mesh_io").read_map(obj.data, name)
+    return module("scene.uv_maps").read_map(obj.data, name)
 
 
 def median_density(points, polygons, uv):
@@ -107,7 +107,7 @@ def made_maps(obj, **options):
     """The UVs of each way. Blender's Unwrap gets the cut of ours, for the examples have no seams."""
     smart = unwrapped(obj, "Smart", bpy.ops.uv.smart_project, angle_limit=SMART_ANGLE, island_margin=ISLAND_MARGIN)
     bpy.ops.uv.holomorphic_tile(seams=True, **options)
-    tiling = module("scene.mesh_io").read_map(obj.data, module("scene.mesh_io").MAIN_MAP)
+    tiling = module("scene.uv_maps").read_map(obj.data, module("scene.uv_maps").MAIN_MAP)
     return {
         "smart": smart,
         "unwrap": unwrapped(obj, "Unwrap", bpy.ops.uv.unwrap, margin=ISLAND_MARGIN),
@@ -117,8 +117,8 @@ def made_maps(obj, **options):
 
 def show(obj, polygons, uv):
     """In the map that the material shows."""
-    mesh_io = module("scene.mesh_io")
-    mesh_io.overwrite_map(obj.data, polygons, mesh_io.MAIN_MAP, uv.astype(np.float32))
+    uv_maps = module("scene.uv_maps")
+    uv_maps.overwrite_map(obj.data, polygons, uv_maps.MAIN_MAP, uv.astype(np.float32))
     obj.data.update()
 
 

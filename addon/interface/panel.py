@@ -8,13 +8,8 @@ from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.compare import HOLOMORPH_OT_compare
 from ..operators.drag import HOLOMORPH_OT_drag_poles
 from ..operators.lod import HOLOMORPH_OT_levels
-from ..operators.mapping import (
-    HOLOMORPH_OT_heat,
-    HOLOMORPH_OT_islands,
-    HOLOMORPH_OT_maps,
-    HOLOMORPH_OT_restore_materials,
-)
-from ..operators.tile import HOLOMORPH_OT_tile
+from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.tools import HOLOMORPH_OT_heat, HOLOMORPH_OT_restore_materials
 from ..overlays import overlay
 from . import lines, tools_panel
 
@@ -74,10 +69,10 @@ class _DetailsPanel:
         return report.PROPERTY in context.active_object
 
     def draw(self, context):
-        from ..results import report
+        from ..results import report, stored
 
         column = self.layout.column(align=True)
-        for line in report.summary(context.active_object[report.PROPERTY]):
+        for line in stored.summary(context.active_object[report.PROPERTY]):
             lines.draw(column, context, line, indent=INDENT)
 
 

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import bpy
 
-from ..operators.mapping import HOLOMORPH_OT_maps
-from ..operators.tile import HOLOMORPH_OT_tile
+from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 
 FOLDER = Path(__file__).parents[1] / "presets" / "operator"
 NAMES = HOLOMORPH_OT_maps.bl_idname, HOLOMORPH_OT_tile.bl_idname  # of the operators, and of their folders

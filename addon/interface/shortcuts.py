@@ -7,9 +7,8 @@ import bpy
 from ..operators import texel_operators
 from ..operators.drag import HOLOMORPH_OT_drag_poles
 from ..operators.lod import HOLOMORPH_OT_levels
-from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_restore_materials
-from ..operators.tile import HOLOMORPH_OT_tile
-from ..operators.tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad
+from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_restore_materials, HOLOMORPH_OT_select_bad
 
 KEY = "U"
 KEYMAPS = ("Object Mode", "EMPTY"), ("Mesh", "EMPTY"), ("UV Editor", "EMPTY")  # name, kind of space

@@ -13,9 +13,9 @@ from . import lines
 
 def draw_modifiers(layout, context, obj):
     """The button again, for an object whose modifiers change its shape."""
-    from ..scene import evaluated
+    from ..scene import targets
 
-    if evaluated.first_of(obj):
+    if targets.first_modifier(obj):
         if not len(obj.data.polygons):
             lines.draw(layout, context, "Only its modifiers make faces", "INFO")
         layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Map with Modifiers", icon="MODIFIER").modifiers = True
@@ -60,14 +60,4 @@ def _draw_texels(layout, manager):
     row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
 
 
-CLASSES = (HOLOMORPH_PT_view3d_tools, HOLOMORPH_PT_image_tools)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_PT_view3d_tools, HOLOMORPH_PT_image_tools])

@@ -5,15 +5,15 @@ import functools
 import math
 
 from ..maps import coarse
-from ..results import report
+from ..results import stored
 from . import lines
 
 ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
 
 
-def draw(layout, context, stored, tile_operator, islands_operator):
+def draw(layout, context, text, tile_operator, islands_operator):
     """Out of a stored report; the operators are offered where poles would help, and islands."""
-    found, places, measured = read(stored)
+    found, places, measured = read(text)
     if found is None:
         return
     box = layout.box().column(align=True)
@@ -32,12 +32,12 @@ def draw(layout, context, stored, tile_operator, islands_operator):
 
 
 @functools.lru_cache(maxsize=16)
-def read(stored):
+def read(text):
     """(`Verdict`, sentence about coarse places, `numbers`) out of a stored report; (None, "", []) if there is none, or
     someone has edited it."""
-    entry = report.parsed(stored)
+    entry = stored.parsed(text)
     try:
-        found, places = report.verdict(entry), entry.get("coarse_places")
+        found, places = stored.verdict(entry), entry.get("coarse_places")
         return found, coarse.sentence(places) if places else "", numbers(entry) if found else []
     except (KeyError, TypeError, IndexError, AttributeError):
         return None, "", []

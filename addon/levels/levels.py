@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import native
-from ..maps import maps
+from ..maps import mapped
+from ..maps.options import BALANCED, MapOptions
 from ..solving import jobs
 
 SOLVE_PART = 0.5  # share of the whole work, where a map has to be made first
@@ -44,7 +45,7 @@ class LevelsWork(jobs.Work):
     """Makes the levels of one mesh; a map of its own first where there is none.
 
     After `run`, `levels` has one entry for each level, finest first, each coarser than the one before; `names` are
-    those of their maps; `solved` is the solve that was needed. Or `error` is one of `native.refusals`.
+    those of their maps; `mapped` is the `mapped.MappedObject` that was needed. Or `error` is one of `native.refusals`.
     """
 
     task: object  # solve.Task
@@ -54,7 +55,7 @@ class LevelsWork(jobs.Work):
     options: LevelOptions
     progress: object = None
     levels: list = field(default_factory=list)
-    solved: object = None
+    mapped: object = None
     error: object = None
 
     def __post_init__(self):
@@ -70,7 +71,8 @@ class LevelsWork(jobs.Work):
         holomorph = native.load()
         start = SOLVE_PART if self.needs_map else 0.0
         if self.needs_map:
-            self.solved = jobs.solved(self.task, lambda f, stage: self.ask(start * f, stage))
+            solved = jobs.solved(self.task, lambda f, stage: self.ask(start * f, stage))
+            self.mapped = mapped.mapped(solved, MapOptions(forms=0, main=BALANCED))
             self._add_main_map()
         polygons = self.task.polygons
         surface = holomorph.Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
@@ -91,7 +93,7 @@ class LevelsWork(jobs.Work):
 
     def _add_main_map(self):
         """Bit for bit the one that is written to the object as well."""
-        if self.solved.done:
-            name, values = next(maps.map_values(self.solved, maps.MapOptions(forms=0)))
+        if self.mapped.done:
+            name, values = next(self.mapped.maps())
             self.names = [*self.names, name]
             self.uv = np.concatenate([self.uv, values[:, None].astype(np.float64)], axis=1)

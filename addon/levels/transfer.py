@@ -7,7 +7,7 @@ import numpy as np
 
 from .. import compatibility
 from ..compatibility import Values
-from ..scene import mesh_edges, mesh_io
+from ..scene import mesh_io, uv_maps
 
 # Types of attributes that are transferred: name, type and number of their values.
 KINDS = {
@@ -55,25 +55,25 @@ def read(mesh, polygons):
     maps = _map_names(mesh)
     uv = np.empty((len(polygons.corner_vertices), len(maps), 2))
     for index, name in enumerate(maps):
-        uv[:, index] = _of_corners(mesh_io.read_map(mesh, name), polygons)
+        uv[:, index] = _of_corners(uv_maps.read_map(mesh, name), polygons)
     return MeshData(
         positions=mesh_io.read_values(compatibility.position_values(mesh)),
         maps=maps,
-        own_maps=mesh_io.own_maps(mesh),
+        own_maps=uv_maps.own_maps(mesh),
         uv=uv,
         active=getattr(mesh.uv_layers.active, "name", ""),
         rendered=next((layer.name for layer in mesh.uv_layers if layer.active_render), ""),
         attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_transferred(a, maps)],
         material=mesh_io.read_values(_material_indices(mesh)),
         smooth=mesh_io.read_values(_smooth_flags(mesh)),
-        marks={name: mesh_edges.marked_edges(mesh, name) for name in EDGE_MARKS},
+        marks={name: mesh_io.marked_edges(mesh, name) for name in EDGE_MARKS},
         colour=getattr(mesh.color_attributes.active_color, "name", ""),
     )
 
 
 def _map_names(mesh):
     layers = [layer.name for layer in mesh.uv_layers]
-    return layers + [a.name for a in mesh.attributes if mesh_io.is_own_attribute(mesh, a) and a.name not in layers]
+    return layers + [a.name for a in mesh.attributes if uv_maps.is_own_attribute(mesh, a) and a.name not in layers]
 
 
 def write(mesh, data, level, names):
@@ -81,8 +81,8 @@ def write(mesh, data, level, names):
     surface = level.surface
     own = mesh_io.Polygons(data.positions, surface.corner_vertices, surface.face_offsets, None)
     for index, name in enumerate(names):
-        mesh_io.write_map(mesh, own, name, level.uv[:, index])
-    mesh_io.add_own_maps(mesh, data.own_maps + [name for name in names if name not in data.maps])
+        uv_maps.write_map(mesh, own, name, level.uv[:, index])
+    uv_maps.add_own_maps(mesh, data.own_maps + [name for name in names if name not in data.maps])
     _show(mesh, data, names)
     mesh_io.write_values(_material_indices(mesh), data.material[surface.face_index])
     mesh_io.write_values(_smooth_flags(mesh), data.smooth[surface.face_index])
@@ -94,7 +94,7 @@ def write(mesh, data, level, names):
         if not len(ends):
             continue
         mapped = level.vertex_map[ends]
-        mesh_edges.mark_edges(mesh, name, mapped[(mapped[:, 0] != mapped[:, 1]) & (mapped >= 0).all(axis=1)])
+        mesh_io.mark_edges(mesh, name, mapped[(mapped[:, 0] != mapped[:, 1]) & (mapped >= 0).all(axis=1)])
     if data.colour in mesh.color_attributes:
         mesh.color_attributes.active_color = mesh.color_attributes[data.colour]
     mesh.update()

@@ -50,4 +50,4 @@ class CarriedMap(jobs.Work):
         self.uv = second.in_order(image.uv(first.in_order(self._given), progress=self._part(1, 1)))
 
     def _part(self, begin, end):
-        return lambda fraction, stage: self.ask(begin + (end - begin) * fraction, stage)
+        return native.load().progress.scaled(self.ask, begin, end)

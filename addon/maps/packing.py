@@ -9,26 +9,27 @@ import bpy
 import numpy as np
 
 from .. import compatibility, native
-from ..scene import mesh_io
+from ..scene import mesh_io, uv_maps
 from ..solving import choices
-from . import maps
+from . import forms
 
 
-def packed(context, solved, options):
-    """((#C,2) float32 main map, the `maps.MapOptions` with the density that it has): the islands of `maps.values` as
-    Blender packs them, all by the same factor. They fill the UV square, unless the options say a density."""
-    shelves = maps.values(solved, 0, replace(options, density=1.0, per_length=0.0))
+def packed(context, mapped):
+    """The `mapped.MappedObject` with its islands as Blender packs them, all by the same factor, and the density that
+    its map has. They fill the UV square, unless the options say a density."""
+    solved, options = mapped.solved, mapped.options
+    shelves = forms.values(solved, 0, replace(options, density=1.0, per_length=0.0))
     parts = [part.surface for part in solved.done]
     corners, joined = np.concatenate([part.corner_index for part in parts]), _joined(parts)
     with _mesh_of(context, joined) as mesh:
-        mesh_io.write_map(mesh, joined, maps.MAIN_MAP, shelves[corners])
+        uv_maps.write_map(mesh, joined, uv_maps.MAIN_MAP, shelves[corners])
         _pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
-        found = mesh_io.read_map(mesh, maps.MAIN_MAP)
-    filling = maps.filling(solved, options) * _length(parts, found) / _length(parts, shelves[corners])
+        found = uv_maps.read_map(mesh, uv_maps.MAIN_MAP)
+    filling = forms.filling(solved, options) * _length(parts, found) / _length(parts, shelves[corners])
     options = replace(options, per_length=options.per_length or filling)
     result = np.zeros_like(shelves)
-    result[corners] = maps.CENTRE.real + options.density * options.per_length / filling * (found - maps.CENTRE.real)
-    return result, options
+    result[corners] = forms.CENTRE.real + options.density * options.per_length / filling * (found - forms.CENTRE.real)
+    return replace(mapped, options=options, packed=result)
 
 
 def cuts(parts):

@@ -22,6 +22,11 @@ EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
 OURS = "holomorph_checker"  # custom property that tells our materials
 
 
+def cells(texture):
+    """How many squares, bricks, scales ... there are across an image of a texture."""
+    return CHECKER_CELLS if texture == CHECKER else TEXTURES[texture].cells
+
+
 @dataclass(frozen=True)
 class Look:
     """What is shown of a map."""

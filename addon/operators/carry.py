@@ -31,7 +31,7 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
 
     def prepare(self, context):
         from .. import compatibility
-        from ..scene import mesh_io, targets
+        from ..scene import targets, uv_maps
 
         taking, given = targets.mesh_objects(context)
         layer = given.data.uv_layers.active
@@ -47,7 +47,7 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
             return False
         self._sides = self.read_sides([given, taking])
         self._map = layer.name
-        self._uv = mesh_io.read_corners(given.data, self._sides[0].polygons, layer.name)
+        self._uv = uv_maps.read_corners(given.data, self._sides[0].polygons, layer.name)
         self._taking = taking.name, taking.library.filepath if taking.library else None
         return True
 
@@ -57,7 +57,7 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
         return carried_map.CarriedMap(*self._sides, self._uv, self.tolerance / 100, progress)
 
     def finish(self, context, work, time_has_passed):
-        from ..scene import mesh_io, targets
+        from ..scene import targets, uv_maps
 
         given, taking = self._sides
         obj = bpy.data.objects.get(self._taking)
@@ -67,8 +67,8 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
         if problem:
             self.report({"ERROR"}, problem)
             return {"CANCELLED"}
-        written = mesh_io.write_map(obj.data, taking.polygons, self._map, work.uv)
-        mesh_io.show_map(obj.data, written.name)
+        written = uv_maps.write_map(obj.data, taking.polygons, self._map, work.uv)
+        uv_maps.show_map(obj.data, written.name)
         source = context.scene.objects.get(given.name)
         if source is not None and not any(obj.data.materials) and source.active_material is not None:
             obj.active_material = source.active_material
@@ -77,9 +77,4 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def register():
-    bpy.utils.register_class(HOLOMORPH_OT_carry)
-
-
-def unregister():
-    bpy.utils.unregister_class(HOLOMORPH_OT_carry)
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_carry])

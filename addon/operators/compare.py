@@ -58,9 +58,4 @@ class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def register():
-    bpy.utils.register_class(HOLOMORPH_OT_compare)
-
-
-def unregister():
-    bpy.utils.unregister_class(HOLOMORPH_OT_compare)
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_compare])

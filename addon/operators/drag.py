@@ -9,6 +9,7 @@ from bpy.props import StringProperty
 from ..overlays import overlay
 from .availability import Explained
 from .modal import TIMER_SECONDS
+from .tile_properties import draw_tiling
 
 NAVIGATION = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "NDOF_MOTION"}
 NAVIGATION |= {f"NUMPAD_{key}" for key in (*range(10), "PERIOD", "PLUS", "MINUS")}
@@ -33,27 +34,25 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context):
-        from ..results import report, tile_report
+        from ..results import report, stored
 
         obj = context.active_object
         if context.mode != "OBJECT":
             return "Go to Object Mode"
-        stored = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
-        if stored is None or "asked" not in report.parsed(stored) or not tile_report.marks(stored)[1].any():
+        text = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
+        if "asked" not in stored.parsed(text) or not stored.marks(text)[1].any():
             return "Select an object with poles of Seamless Tiling"
         return ""
 
     def draw(self, context):
-        from ..results import tile_report
-
-        tile_report.draw_read_out(self.layout, context.object)
+        draw_tiling(self.layout, context.object)
 
     def execute(self, context):
         """For scripts, and the redo panel."""
         try:
             moves = parsed_moves(self.moves)
             session = self._begin(context)
-            session.tiled = session.made(checked(session, moves))
+            session.mapped = session.made(checked(session, moves))
         except ValueError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
@@ -147,7 +146,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         self._show_marks(context)
 
     def _said(self):
-        done = [part.tiling for part in self._session.tiled.done]
+        done = [part.tiling for part in self._session.mapped.tiled]
         added = max(made.added_distortion for made in done)
         return f"added distortion {added:.4f}, density 95 : 5 % = {max(made.density_ratio for made in done):.3g}"
 
@@ -205,9 +204,4 @@ def checked(session, moves):
     return moves
 
 
-def register():
-    bpy.utils.register_class(HOLOMORPH_OT_drag_poles)
-
-
-def unregister():
-    bpy.utils.unregister_class(HOLOMORPH_OT_drag_poles)
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_drag_poles])

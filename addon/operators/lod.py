@@ -141,7 +141,7 @@ class Source:
         if self.target.has_changed(time_has_passed):
             return "it was changed while its levels were made; please run it again"
         if not work.names:
-            reasons = {native.sentence(c.reason) for c in work.solved.components}
+            reasons = {part.skipped for part in work.mapped.parts}
             return f"there is no UV map, and none could be made: {'; '.join(sorted(reasons))}"
         if not work.levels:
             return "it has no coarser level"
@@ -149,14 +149,11 @@ class Source:
 
     def write_map(self, context, work):
         """Writes the map that was made to the object itself; sentences about what was not done."""
-        from ..maps import maps, seamless
-        from ..results import run
+        from ..results import write
 
-        if work.solved is None:
+        if work.mapped is None:
             return []
-        options = maps.MapOptions(forms=0, main=maps.BALANCED)
-        mapped = seamless.Mapper(options)(work.solved)
-        outcome = run.write(context, [self.target], [mapped], options, run.WriteOptions(checker=False))
+        outcome = write.write(context, [self.target], [work.mapped], write.WriteOptions(checker=False))
         return outcome.problems + outcome.notes
 
     def write_levels(self, context, work, arrangement):
@@ -166,9 +163,4 @@ class Source:
         return level_objects.write(context, self.target.find(), self.data, work, arrangement)
 
 
-def register():
-    bpy.utils.register_class(HOLOMORPH_OT_levels)
-
-
-def unregister():
-    bpy.utils.unregister_class(HOLOMORPH_OT_levels)
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_levels])

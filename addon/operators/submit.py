@@ -58,9 +58,4 @@ def draw(layout):
         layout.operator(HOLOMORPH_OT_submit.bl_idname, icon="NETWORK_DRIVE")
 
 
-def register():
-    bpy.utils.register_class(HOLOMORPH_OT_submit)
-
-
-def unregister():
-    bpy.utils.unregister_class(HOLOMORPH_OT_submit)
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_submit])

@@ -26,13 +26,14 @@ class _TexelOperator(OnMeshes):
         return self.execute(context)
 
     def execute(self, context):
-        from ..results import run, texels
-        from ..scene import faces, targets
+        from ..results import texels, write
+        from ..scene import targets
+        from ..solving.choices import SELECTED, Choices
 
-        found = targets.collect(targets.mesh_objects(context), targets.Request(faces=faces.SELECTED))
+        found = targets.collect(targets.mesh_objects(context), Choices(faces=SELECTED))
         metres = context.scene.unit_settings.scale_length
         done = 0
-        with run.object_mode(context):
+        with write.object_mode(context):
             for target in found:
                 problem = texels.why_not(target)
                 before = 0.0 if problem else texels.measured(target, self.image, metres)

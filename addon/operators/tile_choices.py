@@ -1,34 +1,54 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the properties of the tile operator mean for one object, with its selection."""
+"""What is asked for by the properties of the tile operator, or by the headless command under the same names, for one
+object with its selection."""
 
 import math
 
 import numpy as np
 
-from ..maps import tiling
-from ..results import report, tile_report
-from ..scene import mesh_edges, mesh_io
+from ..maps.options import TILING, MapOptions, TileOptions
+from ..materials import material
+from ..results import report, stored
+from ..results.write import WriteOptions
+from ..scene import mesh_io
+from ..solving import choices
 
 AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
+SQUARES = 4  # of the checker, across an image
+
+
+def request(properties):
+    """The `choices.Choices`."""
+    is_selection_taken = properties.poles == "SELECTED" or properties.direction == "EDGES"
+    faces = choices.WHOLE if is_selection_taken else choices.SELECTED
+    return choices.Choices(faces=faces, modifiers=properties.modifiers)
 
 
 def options(properties, target):
-    """The `tiling.TileOptions` for a `targets.Target`. @throws ValueError there is nothing of what is asked for"""
+    """The `options.MapOptions` for a `targets.Target`. @throws ValueError there is nothing of what is asked for"""
     obj = target.find()
     if target.makes_object and _are_on_the_mesh(properties):
         raise ValueError(f"{obj.name}: poles and edges are chosen on the mesh itself, not on what its modifiers make")
-    direction, turn = _direction(properties, obj)
-    turn += (properties.quarters - written_quarters(properties)) * math.pi / 2
-    return tiling.TileOptions(
+    quarters = written_quarters(properties)
+    tiling = TileOptions(
         float(properties.tiles),
         _poles(properties, obj),
         properties.lattice,
-        direction,
+        _direction(properties, obj),
         properties.boundary,
-        turn + properties.turn,
+        (properties.quarters - quarters) * math.pi / 2 + properties.turn,
+        quarters,
+        properties.pole_group,
         allowed(properties.pole_group, obj),
     )
+    return MapOptions(forms=0, main=TILING, tiling=tiling)
+
+
+def write_options(properties):
+    texture = properties.texture
+    cells = properties.repeats * (SQUARES if texture == material.CHECKER else material.cells(texture))
+    return WriteOptions(0, properties.checker, texture, cells, properties.seams, empties=properties.empties)
 
 
 def written_quarters(properties):
@@ -45,7 +65,7 @@ def _poles(properties, obj):
     if properties.poles == "COUNT":
         return properties.pole_count
     if properties.poles == "AUTOMATIC":
-        return tiling.AUTOMATIC
+        return "auto"
     if properties.poles == "KEPT":
         return _kept_poles(obj)
     if properties.poles == "COARSE":
@@ -57,7 +77,7 @@ def _poles(properties, obj):
 
 
 def _kept_poles(obj):
-    vertices, is_pole = tile_report.marks(obj.get(report.PROPERTY))
+    vertices, is_pole = stored.marks(obj.get(report.PROPERTY))
     kept = vertices[is_pole & (vertices < len(obj.data.vertices))]
     if not len(kept):
         raise ValueError(f"{obj.name}: there are no poles of an earlier tiling")
@@ -66,16 +86,17 @@ def _kept_poles(obj):
 
 def _poles_where_coarse(obj):
     """Those of the last tiling, and the coarsest vertices of the places that its report names."""
-    vertices, is_pole = tile_report.marks(obj.get(report.PROPERTY))
+    text = obj.get(report.PROPERTY)
+    vertices, is_pole = stored.marks(text)
     if not is_pole.any():
-        return tiling.AUTOMATIC
-    found = [place["vertex"] for place in report.parsed(obj[report.PROPERTY]).get("coarse_places", [])]
+        return "auto"
+    found = [place["vertex"] for place in stored.parsed(text).get("coarse_places", [])]
     poles = {*vertices[is_pole].tolist(), *found}
     return tuple(sorted(vertex for vertex in poles if vertex < len(obj.data.vertices)))
 
 
 def allowed(name, obj):
-    """See `tiling.TileOptions`: where the group's weight is above `ALLOWING`."""
+    """See `options.TileOptions`: where the group's weight is above `ALLOWING`."""
     if not name:
         return None
     group = obj.vertex_groups.get(name)
@@ -88,22 +109,20 @@ def allowed(name, obj):
 
 
 def _direction(properties, obj):
-    """(direction, turn) of `tiling.TileOptions`, in the frame of the polygons: as the object stands in space, without
-    its translation."""
-    if properties.direction == "NONE":
-        return None, 0.0
-    if properties.direction == "UPRIGHT":
-        return tiling.UPRIGHT["direction"], tiling.UPRIGHT["turn"]
+    """The direction of `options.TileOptions`, in the frame of the polygons: as the object stands in space, without its
+    translation."""
+    if properties.direction in ("NONE", "UPRIGHT"):
+        return None if properties.direction == "NONE" else "upright"
     linear = np.array(obj.matrix_world, np.float64)[:3, :3]
     if properties.direction in AXES:
         axis = linear[:, AXES.index(properties.direction)]
         if not _has_length(axis):
             raise ValueError(f"{obj.name}: its scale leaves nothing of its {properties.direction} axis")
-        return tuple(axis.tolist()), 0.0
-    edges = mesh_edges.edge_vectors(obj.data, mesh_edges.marked_edges(obj.data, "select")) @ linear.T
+        return tuple(axis.tolist())
+    edges = mesh_io.edge_vectors(obj.data, mesh_io.marked_edges(obj.data, "select")) @ linear.T
     if not _has_length(edges):
         raise ValueError(f"{obj.name}: select edges along which the rows are to run")
-    return mean_direction(edges), 0.0
+    return mean_direction(edges)
 
 
 def _has_length(vectors):

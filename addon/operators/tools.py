@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators for what is there already: removing maps, selecting bad elements."""
+"""Operators for what is there already: materials brought back, heat maps, maps removed, bad elements selected."""
 
 import bpy
 from bpy.props import EnumProperty
 
-from .availability import OnMeshes
+from .availability import Explained, OnMeshes
 
 KINDS = (
     ("REFUSED", "Refused", "Edges with more than two faces; the faces of parts that are one-sided"),
@@ -13,6 +13,58 @@ KINDS = (
     ("LOOSE", "Loose", "Vertices of no face; they do not matter"),
     ("FLIPPED", "Flipped UVs", "Faces that the active UV map turns over, or leaves without area"),
 )
+
+
+class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
+    """Bring back what was shown before: the materials that the checker or a texture covers, on all objects with the
+    same mesh, the UV maps that were active in the editors and for renders, and the shading of the 3D views"""
+
+    bl_idname = "uv.holomorphic_restore_materials"
+    bl_label = "Restore Materials"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.mode in {"OBJECT", "EDIT_MESH"}
+
+    def execute(self, context):
+        from ..materials import viewport
+        from ..results import restore
+        from ..scene import targets
+
+        own = [obj for obj in targets.mesh_objects(context) if obj.data.library is None]
+        restored = [restore.restore(obj) for obj in own]
+        viewport.restore_without_textures(context)
+        return {"FINISHED"} if any(restored) else {"CANCELLED"}
+
+
+class HOLOMORPH_OT_heat(Explained, bpy.types.Operator):
+    """Write how the active UV map distorts, as attributes of the faces of the selected meshes: "Holomorphic Density",
+    the binary logarithm of UV area per surface area over its median, and "Holomorphic Angle", s1 / s2"""
+
+    bl_idname = "uv.holomorphic_heat"
+    bl_label = "Holomorphic Heat Maps"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def why_not(cls, context):
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            return "Go to Object Mode or Edit Mode"
+        selected = context.view_layer.objects.selected
+        return "" if any(o.type == "MESH" and o.data.uv_layers for o in selected) else "Select a mesh with a UV map"
+
+    def execute(self, context):
+        from ..results import heat, write
+        from ..scene import targets
+
+        with write.object_mode(context):
+            objects = [o for o in targets.mesh_objects(context) if heat.is_possible(o)]
+            for obj in objects:
+                found = heat.write(obj)
+                name = obj.data.uv_layers.active.name
+                density, angle = f"95 : 5 % of density {found.density_text}", f"mean angle {found.mean_angle:.4f}"
+                self.report({"INFO"}, f"{obj.name}, {name}: {density}, {angle}")
+        return {"FINISHED"} if objects else {"CANCELLED"}
 
 
 class HOLOMORPH_OT_remove_maps(OnMeshes, bpy.types.Operator):
@@ -27,12 +79,12 @@ class HOLOMORPH_OT_remove_maps(OnMeshes, bpy.types.Operator):
 
     def execute(self, context):
         from ..materials import viewport
-        from ..results import restore, run
+        from ..results import restore, write
         from ..scene import targets
 
         meshes = {obj.data: obj for obj in reversed(targets.mesh_objects(context))}
         removed = False
-        with run.object_mode(context):
+        with write.object_mode(context):
             for mesh, obj in meshes.items():
                 if mesh.library is not None:
                     self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
@@ -62,11 +114,11 @@ class HOLOMORPH_OT_select_bad(OnMeshes, bpy.types.Operator):
         self.layout.column().prop(self, "kinds")
 
     def execute(self, context):
-        from ..results import bad, run
+        from ..results import bad, write
         from ..scene import targets
 
         objects = targets.mesh_objects(context)
-        with run.object_mode(context):
+        with write.object_mode(context):
             found = {target.find(): self._elements(target) for target in targets.collect(objects)}
             if any(found.values()):
                 for obj, elements in found.items():
@@ -104,14 +156,10 @@ def _edit(context, objects):
     bpy.ops.object.mode_set(mode="EDIT")
 
 
-CLASSES = (HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad)
-
-
-def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister():
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+CLASSES = (
+    HOLOMORPH_OT_restore_materials,
+    HOLOMORPH_OT_heat,
+    HOLOMORPH_OT_remove_maps,
+    HOLOMORPH_OT_select_bad,
+)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -8,7 +8,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..results import report, tile_report
+from ..results import report, stored
 from ..scene import mesh_io
 from . import on_screen
 
@@ -80,7 +80,7 @@ def _all_points(objects, dragged):
 def _points(obj, dragged):
     """Of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the pointer is on
     it."""
-    vertices, is_pole = tile_report.marks(obj[report.PROPERTY])
+    vertices, is_pole = stored.marks(obj[report.PROPERTY])
     if dragged is not None:
         vertices = np.concatenate([dragged.poles, dragged.zeros])
         is_pole = np.arange(len(vertices)) < len(dragged.poles)

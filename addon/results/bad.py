@@ -9,7 +9,7 @@ import numpy as np
 from .. import compatibility, native
 from ..compatibility import Values
 from ..maps import distortion
-from ..scene import mesh_edges, mesh_io
+from ..scene import mesh_io
 from ..scene.faces import edge_ends
 
 REFUSED, NO_AREA, TOUCHING, LOOSE, FLIPPED = "REFUSED", "NO_AREA", "TOUCHING", "LOOSE", "FLIPPED"
@@ -86,7 +86,7 @@ def select(mesh, elements):
     corners = polygon_corners(mesh, elements.faces)
     vertices = np.concatenate([elements.vertices, elements.edges.ravel(), corners])
     compatibility.make_edges_selectable(mesh)
-    mesh_edges.mark_edges(mesh, "select", elements.edges)
+    mesh_io.mark_edges(mesh, "select", elements.edges)
     for owner, own in ((mesh.vertices, vertices), (mesh.polygons, elements.faces)):
         flags = np.zeros(len(owner), bool)
         flags[own] = True

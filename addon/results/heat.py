@@ -2,7 +2,7 @@
 """Heat maps: the distortion of the active UV map of a mesh, measured and written as attributes of the faces."""
 
 from ..maps import distortion
-from ..scene import mesh_io
+from ..scene import mesh_io, uv_maps
 
 DENSITY, ANGLE = "Holomorphic Density", "Holomorphic Angle"  # attributes
 
@@ -21,7 +21,7 @@ def measured(mesh, linear):
 
 def active_map(mesh, polygons):
     """(#C,2) float32 of the active UV map, in the order of the polygons' corners."""
-    return mesh_io.read_corners(mesh, polygons, mesh.uv_layers.active.name)
+    return uv_maps.read_corners(mesh, polygons, mesh.uv_layers.active.name)
 
 
 def write(obj):

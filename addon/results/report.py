@@ -1,59 +1,79 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The report: what was computed, as JSON in a custom property of each object and in a text datablock."""
 
-import functools
 import json
+from dataclasses import asdict
 
 import bpy
+import numpy as np
 
 from .. import native
-from ..maps import maps
+from ..maps import forms
+from ..maps.options import TILING
 from ..scene import faces
 
 PROPERTY = "holomorph_report"
-SUMMARISED = 8  # parts that the panel shows
-SHOWN_PERIODS = 4  # likewise, of each part
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
 MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
-COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
 TEXT = "Holomorphic Report"
 
 
-def object_report(obj, solved, written, new_seams, options, components):
-    """One object: its maps as written, the options with which they were, and the report of each component."""
-    package = native.load().report
-    surface = solved.surface
-    return {
+def object_report(obj, made, written=(), new_seams=0, write_options=None):
+    """One object: its maps as written, the options with which they were, and the report of each part."""
+    package, solved = native.load().report, made.solved
+    parts = [part_report(part, made.options) for part in made.parts]
+    dials = asdict(made.options)
+    asked = dials.pop("tiling")
+    del asked["allowed"]  # a vertex group of the object says it
+    entry = {
         "object": obj.name,
         "mesh": obj.data.name,
         "vertices": len(solved.polygons.vertices),
         "faces": solved.polygons.face_count,
         "is_selection": solved.polygons.faces is not None,
-        "done": bool(solved.done),
+        "done": bool(made.done),
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
-        "dials": vars(options),
+        "dials": dials | (asdict(write_options) if write_options else {}),
         "seams_added": new_seams,
-        "verdict": package.overall_report(components, surface.is_unwelded),
+        "verdict": package.overall_report(parts, solved.surface.is_unwelded),
         "repairs": package.repairs_report(faces.repairs(solved)),
         "seconds": solved.seconds,
-        "components": components + [package.refused_report(refused) for refused in surface.refused],
+        "components": parts + [package.refused_report(refused) for refused in solved.surface.refused],
     }
+    return entry | ({"asked": asked} if made.options.main == TILING else {})
 
 
-def component_report(component, options):
-    """The package's report of one component, and the choice that was not followed on it."""
-    package = native.load().report
-    if component.structure is None:
-        entry = package.skipped_report(component.surface, component.reason)
-    else:
-        main_map = maps.main_map(component, options).report
+def part_report(part, options):
+    """The package's report of one `mapped.MappedPart`, its tiling, and the choice that was not followed on it."""
+    package, component = native.load().report, part.component
+    if part.skipped:
+        entry = package.skipped_report(component.surface, part.skipped)
+    elif part.tiling:
+        main_map = package.map_report([], part.tiling.quality, part.tiling.verdict)
         entry = package.component_report(component.surface, component.structure, main_map)
-    return entry | not_followed(component)
+        entry |= {"forms": component.form_count, "tiling": _tiling_report(part)}
+    else:
+        main_map = forms.main_map(component, options).report
+        entry = package.component_report(component.surface, component.structure, main_map)
+    return entry | ({"not_followed": component.note} if component.note else {})
 
 
-def not_followed(component):
-    """The choice that was not followed, if there is one."""
-    return {"not_followed": component.note} if component.note else {}
+def _tiling_report(part):
+    """Vertices are those of the object."""
+    made = part.tiling
+    zeros, orders = made.zeros
+    return native.load().report.plain(
+        {
+            "added_distortion": float(made.added_distortion),
+            "density_ratio": float(made.density_ratio),
+            "left_over": float(made.left_over),
+            "poles": part.vertices(made.poles),
+            "residues": made.residues,
+            "zeros": part.vertices(zeros),
+            "orders": np.asarray(orders),
+            "periods": np.asarray(made.periods),
+        }
+    )
 
 
 def refusal_report(name, sentence):
@@ -87,77 +107,3 @@ def run_report(entries):
         "blender": bpy.app.version_string,
         "objects": entries,
     }
-
-
-@functools.lru_cache(maxsize=16)
-def parsed(stored):
-    """A stored report; an empty one if someone has edited it so that it is none."""
-    try:
-        entry = json.loads(stored)
-    except (ValueError, TypeError):
-        return {}
-    return entry if isinstance(entry, dict) else {}
-
-
-@functools.lru_cache(maxsize=16)
-def summary(stored):
-    """Short lines for the panel out of a stored report; none if someone has edited it."""
-    try:
-        return _summary(parsed(stored))
-    except (ValueError, KeyError, TypeError, IndexError):
-        return []
-
-
-def _summary(entry):
-    parts, count = entry["components"], len(entry["maps"])
-    lines = ["1 map" if count == 1 else f"{count} maps"]
-    for index, part in enumerate(parts[:SUMMARISED], 1):
-        lines.append(f"Part {index}: {_topology(part)}" + ("" if part["done"] else ", skipped"))
-        if part["done"]:
-            lines += [f"    {line}" for line in _result_lines(part)]
-    if len(parts) > SUMMARISED:
-        lines.append(f"... {len(parts) - SUMMARISED} more parts in the report")
-    return lines
-
-
-def _topology(part):
-    if "genus" not in part:
-        return "no surface"
-    loops = part["boundary_count"]
-    return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
-
-
-def verdict(entry):
-    """The package's `Verdict` on an object or a part in a report; None where there is none."""
-    found = entry.get("verdict")
-    return native.load().Verdict(**found) if found else None
-
-
-def sentence(part):
-    """The verdict on the main map of a part, in short."""
-    return part["main_map"]["verdict"]["sentence"]
-
-
-def tiling_lines(tiling):
-    """The numbers that the panels show of a part's tiling."""
-    yield f"added distortion {tiling['added_distortion']:.4f}"
-    yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
-    yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
-    if tiling["periods"]:
-        shown = ", ".join(f"({u}, {v})" for u, v in tiling["periods"][:SHOWN_PERIODS])
-        yield f"periods: {shown}" + (", ..." if len(tiling["periods"]) > SHOWN_PERIODS else "")
-
-
-def _result_lines(part):
-    yield sentence(part)
-    yield from tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
-    angle = part["main_map"]["mean_angle"]  # none where it is infinite
-    collapsed = angle is None or angle > COLLAPSED
-    yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"
-    if part.get("modulus") is not None:
-        yield f"modulus {part['modulus']:.6g}"
-        if part["modulus_bounds"] is not None:
-            yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
-    if part["genus"] == 1 and part["boundary_count"] == 0 and "period_matrix" in part:
-        real, imaginary = part["period_matrix"][0][0]
-        yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"

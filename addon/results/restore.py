@@ -4,7 +4,7 @@
 import bpy
 
 from ..materials import material
-from ..scene import mesh_io
+from ..scene import uv_maps
 from . import empties, heat, report
 
 BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that were active, in editors and for renders
@@ -15,7 +15,7 @@ def remember(mesh):
     before = dict(mesh.get(BEFORE, {}))
     active, rendered = mesh.uv_layers.active, next((layer for layer in mesh.uv_layers if layer.active_render), None)
     for use, layer in (("active", active), ("rendered", rendered)):
-        if layer is not None and layer.name not in mesh_io.own_maps(mesh):
+        if layer is not None and layer.name not in uv_maps.own_maps(mesh):
             before[use] = layer.name
     if before:
         mesh[BEFORE] = before
@@ -47,8 +47,8 @@ def remove_maps(obj):
     """Restores, and removes our maps with all that tells of them from the objects with this mesh; returns whether there
     was something. Seams and levels of detail stay."""
     mesh = obj.data
-    found = restore(obj) | mesh_io.has_maps(mesh)
-    mesh_io.remove_maps(mesh)
+    found = restore(obj) | uv_maps.has_maps(mesh)
+    uv_maps.remove_maps(mesh)
     heat.refresh(obj)
     mesh.update()
     for user in users(mesh):

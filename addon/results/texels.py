@@ -9,8 +9,8 @@ import math
 import numpy as np
 
 from ..maps import distortion, tiling
-from ..scene import mesh_io
-from . import heat, report
+from ..scene import uv_maps
+from . import heat, report, stored
 
 
 def why_not(target):
@@ -40,7 +40,7 @@ def scale(target, factor):
         scaled = tiling.on_grid(factor * uv.astype(np.float64))
     else:
         scaled = middle + factor * (uv - middle)
-    mesh_io.overwrite_map(mesh, target.polygons, mesh.uv_layers.active.name, scaled)
+    uv_maps.overwrite_map(mesh, target.polygons, mesh.uv_layers.active.name, scaled)
     return factor
 
 
@@ -55,5 +55,5 @@ def _uv(target):
 
 def _is_tiling(target):
     obj = target.find()
-    parts = report.parsed(obj.get(report.PROPERTY)).get("components", [])
-    return obj.data.uv_layers.active.name == mesh_io.main_map(obj.data) and any("tiling" in part for part in parts)
+    is_main = obj.data.uv_layers.active.name == uv_maps.main_map(obj.data)
+    return is_main and bool(stored.tilings(obj.get(report.PROPERTY)))

@@ -1,36 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which faces of a mesh are mapped: in edit mode the selected ones, or without any those that are not hidden.
-
-The vertices stay those of the whole mesh: only faces and corners are counted anew.
-"""
+"""Some of a mesh's faces, as arrays. The vertices stay those of the whole mesh: only faces and corners are counted
+anew."""
 
 from dataclasses import replace
 
 import numpy as np
 
-from ..compatibility import Values
 from . import mesh_io
-
-# All faces; the selected ones if there are any; these, or a refusal.
-WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
-
-
-class NoFaces(Exception):
-    """There are none of the faces that are asked for; the text is one sentence."""
-
-
-def masks(objects, wanted):
-    """{mesh: (#F,) bool, or None for all faces}; meshes of which nothing is selected are left out where something is
-    selected on others. @pre pending edits are written to the meshes. @throws NoFaces"""
-    meshes = list(dict.fromkeys(obj.data for obj in objects))
-    if wanted != WHOLE:
-        selected = {mesh: _flags(mesh, "select") for mesh in meshes if _is_chosen_on(mesh, wanted)}
-        selected = {mesh: flags & ~_flags(mesh, "hide") for mesh, flags in selected.items()}
-        if any(flags.any() for flags in selected.values()):
-            return {mesh: _or_all(flags) for mesh, flags in selected.items() if flags.any()}
-    if wanted == ASKED:
-        raise NoFaces("select the faces that are to be mapped")
-    return {mesh: _or_all(~_flags(mesh, "hide")) if mesh.is_editmode else None for mesh in meshes}
 
 
 def part(polygons, mask):
@@ -76,15 +52,3 @@ def repairs(solved):
     none = np.empty(0, np.int64)
     of_mesh = {name: faces[getattr(found, name)] for name in ("reversed_faces", "zero_area_faces")}
     return replace(found, isolated_vertices=none, **of_mesh)
-
-
-def _is_chosen_on(mesh, wanted):
-    return mesh.library is None and (mesh.is_editmode or wanted == ASKED)
-
-
-def _or_all(mask):
-    return None if mask.all() else mask
-
-
-def _flags(mesh, name):
-    return mesh_io.read_values(Values(mesh.polygons, name, bool))

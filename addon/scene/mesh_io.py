@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Between Blender's meshes, images and arrays: the only module that calls foreach_get and foreach_set.
 
-Positions and UVs are double precision on our side and float32 on Blender's. Corners are in the order of
+Positions are double precision on our side and float32 on Blender's. Corners are in the order of
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
 """
 
-import re
 from dataclasses import dataclass
 
 import bmesh
@@ -14,10 +13,6 @@ import numpy as np
 
 from .. import compatibility
 from ..compatibility import Values
-
-MAIN_MAP = "Holomorphic"
-SHAPE = "Holomorphic Shape"  # vector attribute of vertices
-OWN_MAPS = "holomorph_maps"  # custom property of a mesh: names of the maps that were made here, one in a line
 
 
 @dataclass(eq=False)
@@ -41,14 +36,14 @@ class Polygons:
         self.vertices, self.corner_vertices = surface.vertices, surface.corner_vertices
         self.face_offsets = surface.face_offsets
 
+    def has_faces_of(self, other):
+        """Whether the faces are the same, as where modifiers move vertices alone."""
+        same = np.array_equal(self.face_offsets, other.face_offsets)
+        return same and np.array_equal(self.corner_vertices, other.corner_vertices)
+
     def equals(self, other):
         """Whether geometry and topology are the same, whatever the order of the loops; never with a NaN."""
-        pairs = (
-            (self.face_offsets, other.face_offsets),
-            (self.corner_vertices, other.corner_vertices),
-            (self.vertices, other.vertices),
-        )
-        return all(np.array_equal(a, b) for a, b in pairs)
+        return self.has_faces_of(other) and np.array_equal(self.vertices, other.vertices)
 
 
 def read_values(values):
@@ -79,12 +74,12 @@ def read_polygons(mesh, linear):
     The object's rotation and translation do not change angles, its scale and shear do. The library
     checks the arrays: Blender's own ``validate`` would change the mesh.
     """
-    positions = read_values(compatibility.position_values(mesh))
+    positions, corner_vertices = compatibility.polygon_values(mesh)
+    positions, corner_vertices = read_values(positions), read_indices(corner_vertices)
     vertices, linear = positions.astype(np.float64), np.asarray(linear, np.float64)
     if not np.array_equal(linear, np.eye(3)):
         with np.errstate(all="ignore"):  # the library names the vertex of a NaN
             vertices = vertices @ linear.T
-    corner_vertices = read_indices(compatibility.corner_vertex_values(mesh))
     starts = read_indices(Values(mesh.polygons, "loop_start", np.uint32))
     sizes = read_indices(Values(mesh.polygons, "loop_total", np.uint32))
     offsets = np.zeros(len(starts) + 1, np.int32)
@@ -94,100 +89,6 @@ def read_polygons(mesh, linear):
         loops = np.repeat(starts - offsets[:-1], sizes) + np.arange(offsets[-1], dtype=np.int32)
         corner_vertices = corner_vertices[loops]
     return Polygons(vertices, corner_vertices, offsets, loops)
-
-
-@dataclass(frozen=True)
-class WrittenMap:
-    """A map as it stands on the mesh: `kind` is "uv_map", or "attribute" where no UV slot was free."""
-
-    name: str
-    kind: str
-
-
-def own_maps(mesh):
-    """Names of the maps that were made here, the main one first."""
-    return str(mesh.get(OWN_MAPS, "")).splitlines()
-
-
-def add_own_maps(mesh, names):
-    """Notes which maps were made here: a name alone may be that of someone else's map."""
-    mesh[OWN_MAPS] = "\n".join(dict.fromkeys([*own_maps(mesh), *names]))
-
-
-def _own_map(mesh, name):
-    """The map of ours that was to have this name, "" without one; Blender numbers it where the name was taken."""
-    numbered = re.compile(rf"{re.escape(name)}(\.[0-9]+)?")
-    return next((own for own in own_maps(mesh) if numbered.fullmatch(own) and _has_map(mesh, own)), "")
-
-
-def main_map(mesh):
-    """The name of the main map, "" without one; another than `MAIN_MAP` where that is taken by someone else's map."""
-    return _own_map(mesh, MAIN_MAP)
-
-
-def is_own_attribute(mesh, attribute):
-    """Whether a corner attribute is a map of ours; from Blender 3.5 on, UV maps are such attributes too."""
-    is_map = attribute.domain == "CORNER" and attribute.data_type == "FLOAT2"
-    return is_map and attribute.name in own_maps(mesh)
-
-
-def has_maps(mesh):
-    """Whether there are maps of an earlier run."""
-    return any(_has_map(mesh, name) for name in own_maps(mesh))
-
-
-def remove_maps(mesh):
-    """Removes the maps of an earlier run, and no other."""
-    own = own_maps(mesh)
-    for name in [layer.name for layer in mesh.uv_layers if layer.name in own]:
-        mesh.uv_layers.remove(mesh.uv_layers[name])
-    for name in [a.name for a in mesh.attributes if is_own_attribute(mesh, a) or a.name == SHAPE]:
-        mesh.attributes.remove(mesh.attributes[name])
-    if OWN_MAPS in mesh:
-        del mesh[OWN_MAPS]
-
-
-def _of_loops(mesh, polygons, uv, before=""):
-    """(#C,2) in the order of the loops; without `polygons` it is. Loops of no corner have what the map `before` has."""
-    if polygons is None or polygons.loops is None:
-        return uv
-    scattered = read_map(mesh, before) if before else np.zeros((len(mesh.loops), 2), np.float32)
-    scattered[polygons.loops] = uv
-    return scattered
-
-
-def write_map(mesh, polygons, name, uv):
-    """Writes (#C,2) float32 `uv` as a new UV map, or as a corner attribute when all slots are taken.
-
-    Where these are some of the mesh's polygons, the others keep the UVs that they have in our map of this name, or else
-    in the active one.
-    """
-    own = "" if polygons.faces is None else _own_map(mesh, name)
-    if own:
-        overwrite_map(mesh, polygons, own, uv)
-        is_uv_map = own in mesh.uv_layers.keys()[: compatibility.UV_MAP_LIMIT]  # further ones are attributes as well
-        return WrittenMap(own, "uv_map" if is_uv_map else "attribute")
-    uv = _of_loops(mesh, polygons, uv, "" if polygons.faces is None else getattr(mesh.uv_layers.active, "name", ""))
-    # References to layers do not survive the next `new`: look up by name, keep nothing.
-    if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:
-        layer = mesh.uv_layers.new(name=name, do_init=False)
-        write_values(compatibility.uv_values(layer), uv)
-        return WrittenMap(layer.name, "uv_map")
-    attribute = mesh.attributes.new(name, "FLOAT2", "CORNER")
-    write_values(_attribute_vectors(attribute, 2), uv)
-    return WrittenMap(attribute.name, "attribute")
-
-
-def _has_map(mesh, name):
-    return name in mesh.uv_layers or name in mesh.attributes
-
-
-def write_shape(mesh, points):
-    """Writes (#V,3) points as a vector attribute of the vertices."""
-    if SHAPE in mesh.attributes:
-        mesh.attributes.remove(mesh.attributes[SHAPE])
-    attribute = mesh.attributes.new(SHAPE, "FLOAT_VECTOR", "POINT")
-    write_values(_attribute_vectors(attribute, 3), points)
 
 
 def write_face_values(mesh, name, values):
@@ -200,39 +101,67 @@ def write_face_values(mesh, name, values):
     write_values(Values(attribute.data, "value", np.float32), values)
 
 
-def _attribute_vectors(attribute, width):
-    return Values(attribute.data, "vector", np.float32, width)
+def read_shown(obj, linear, own):
+    """(`Polygons`, (n, 2) vertices of the seams, whether the faces are those of `own`) of an object with its modifiers
+    as the viewport shows them."""
+    shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = shown.to_mesh()
+    try:
+        found = read_polygons(mesh, linear)
+        return found, marked_edges(mesh, "use_seam"), found.has_faces_of(own)
+    finally:
+        shown.to_mesh_clear()
 
 
-def read_map(mesh, name):
-    """(#loops,2) float32 of a UV map or corner attribute."""
-    layer = mesh.uv_layers.get(name)
-    if layer is not None:
-        return read_values(compatibility.uv_values(layer))
-    return read_values(_attribute_vectors(mesh.attributes[name], 2))
+def marked_edges(mesh, *marks):
+    """(n, 2) vertices of the edges with one of these marks after the other: "use_seam", "use_edge_sharp", "select"."""
+    found = [_edge_vertices(mesh)[read_values(_marks(mesh, mark))] for mark in marks]
+    return np.concatenate([np.empty((0, 2), np.int64), *found])
 
 
-def read_corners(mesh, polygons, name):
-    """(#C,2) float32 of a map, corners in the order of `polygons`."""
-    values = read_map(mesh, name)
-    return values if polygons.loops is None else values[polygons.loops]
+def mark_edges(mesh, mark, vertex_pairs):
+    """Gives the edges between these (n, 2) vertices the mark, and no other edge."""
+    write_values(_marks(mesh, mark), _edges_between(mesh, vertex_pairs))
 
 
-def overwrite_map(mesh, polygons, name, uv):
-    """Writes (#C,2) float32 `uv` into a UV map or corner attribute that there is."""
-    layer = mesh.uv_layers.get(name)
-    values = _attribute_vectors(mesh.attributes[name], 2) if layer is None else compatibility.uv_values(layer)
-    is_part = polygons is not None and polygons.faces is not None
-    write_values(values, _of_loops(mesh, polygons, uv, name if is_part else ""))
-    mesh.update()
+def read_seams(mesh):
+    """(#mesh edges,) bool."""
+    return read_values(_marks(mesh, "use_seam"))
 
 
-def show_map(mesh, name):
-    """Makes a UV map the active one, in the editors and for rendering; an attribute cannot be."""
-    layer = mesh.uv_layers.get(name)
-    if layer is not None:
-        mesh.uv_layers.active = layer
-        layer.active_render = True
+def add_seams(mesh, vertex_pairs):
+    """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
+    wanted = _edges_between(mesh, vertex_pairs)
+    before = read_seams(mesh)
+    write_values(_marks(mesh, "use_seam"), before | wanted)
+    return int(np.count_nonzero(wanted & ~before))
+
+
+def are_neighbours(mesh, vertices):
+    """Whether some edge joins two of the vertices."""
+    return bool(np.isin(_edge_vertices(mesh), vertices).all(axis=1).any())
+
+
+def edge_vectors(mesh, vertex_pairs):
+    """(n, 3) from the first to the second of (n, 2) vertices."""
+    positions = read_values(compatibility.position_values(mesh)).astype(np.float64)
+    return positions[vertex_pairs[:, 1]] - positions[vertex_pairs[:, 0]]
+
+
+def _edge_vertices(mesh):
+    return read_indices(compatibility.edge_vertex_values(mesh))
+
+
+def _marks(mesh, mark):
+    return Values(mesh.edges, mark, bool)
+
+
+def _edges_between(mesh, vertex_pairs):
+    """(#mesh edges,) bool: the edges whose vertices are one of the pairs."""
+    ends = np.sort(_edge_vertices(mesh), axis=1)
+    pairs = np.sort(np.asarray(vertex_pairs, np.int64).reshape(-1, 2), axis=1)
+    count = len(mesh.vertices)
+    return np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])
 
 
 def selected_vertices(mesh):

@@ -7,11 +7,13 @@ import bpy
 import numpy as np
 
 from .. import compatibility
+from ..compatibility import Values
 from ..solving import choices, solve
-from . import evaluated, faces, mesh_edges, mesh_io
+from ..solving.choices import Choices
+from . import faces, mesh_io
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
-NO_EDGES = np.empty((0, 2), np.int64)
+EVERYTHING = Choices()
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
 
 
@@ -22,7 +24,7 @@ class Target:
     name: str
     library: str | None
     polygons: mesh_io.Polygons | None
-    chosen: choices.Choices = choices.Choices()
+    chosen: Choices = Choices()
     refused: str = ""
     note: str = ""
     mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
@@ -39,40 +41,9 @@ class Target:
 
     def _is_what_was_read(self, obj):
         if self.modifiers:
-            return evaluated.read(obj, _linear(obj))[0].equals(self.polygons)
+            return mesh_io.read_shown(obj, _linear(obj), self.polygons)[0].equals(self.polygons)
         has_faces = self.mask is None or len(obj.data.polygons) == len(self.mask)
         return has_faces and read(obj, self.mask).equals(self.polygons)
-
-
-@dataclass(frozen=True)
-class Request:
-    """What is asked of every object of a run; the choices on each mesh are made of it."""
-
-    use: str = choices.NONE  # what the selected vertices are
-    vertices: tuple | None = None  # instead of the selected ones
-    residues: tuple = ()
-    cut_at_seams: bool = False
-    boundary: str = "natural"
-    solver: str = "auto"
-    faces: str = faces.WHOLE  # which ones are mapped
-    modifiers: bool = False  # whether they count, in object mode
-    hard_edges: float = 0.0  # degrees: islands are cut along sharper edges and those marked sharp; 0 for seams alone
-    most_stretch: float = 0.0  # islands are cut open where lengths change by a larger factor; 0 for no such cuts
-
-    @property
-    def how(self):
-        """The last fields of the `choices.Choices`."""
-        return self.boundary, self.solver, self.hard_edges, self.most_stretch
-
-
-def use_of_vertices(selection):
-    """What selected vertices are for a use of the selection."""
-    return choices.NONE if selection == choices.FACES else selection
-
-
-def use_of_faces(selection):
-    """Which faces are mapped for a use of the selection, one of those in `faces`."""
-    return {choices.AUTOMATIC: faces.SELECTED, choices.FACES: faces.ASKED}.get(selection, faces.WHOLE)
 
 
 def mesh_objects(context):
@@ -85,19 +56,17 @@ def mesh_objects(context):
     return sorted(objects, key=lambda o: o != active)
 
 
-def collect(objects, request=Request()):
+def collect(objects, asked=EVERYTHING):
     """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts.
-    @throws `faces.NoFaces`"""
+    @throws ValueError there are none of the faces that are asked for"""
     targets, first = [], {}
     for obj in objects:
         if obj.mode == "EDIT":
             obj.update_from_editmode()
-    masks = faces.masks(objects, request.faces)
-    for obj in objects:
+    masks = _masks(objects, asked.faces)
+    for obj in (o for o in objects if o.data in masks):
         mesh = obj.data
-        if mesh not in masks:
-            continue
-        target = _target(obj, masks[mesh], request) if mesh not in first or request.modifiers else None
+        target = _target(obj, masks[mesh], asked) if mesh not in first or asked.modifiers else None
         if target is None or (mesh in first and not target.makes_object):
             index, other = first[mesh]
             if not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
@@ -110,43 +79,68 @@ def collect(objects, request=Request()):
     return targets
 
 
-def _target(obj, mask, request):
+def _masks(objects, wanted):
+    """{mesh: (#F,) bool, or None for all faces}; meshes of which nothing is selected are left out where something is
+    selected on others. @pre pending edits are written to the meshes. @throws ValueError as `collect`"""
+    meshes = list(dict.fromkeys(obj.data for obj in objects))
+    own = [mesh for mesh in meshes if mesh.library is None and (mesh.is_editmode or wanted == choices.ASKED)]
+    selected = {mesh: _flags(mesh, "select") & ~_flags(mesh, "hide") for mesh in own if wanted != choices.WHOLE}
+    if any(flags.any() for flags in selected.values()):
+        return {mesh: _or_all(flags) for mesh, flags in selected.items() if flags.any()}
+    if wanted == choices.ASKED:
+        raise ValueError("select the faces that are to be mapped")
+    return {mesh: _or_all(~_flags(mesh, "hide")) if mesh.is_editmode else None for mesh in meshes}
+
+
+def _or_all(mask):
+    return None if mask.all() else mask
+
+
+def _flags(mesh, name):
+    return mesh_io.read_values(Values(mesh.polygons, name, bool))
+
+
+def _target(obj, mask, asked):
     library = obj.library.filepath if obj.library else None
     target = Target(obj.name, library, None, mask=mask)
     if obj.data.library is not None:
         return replace(target, refused="its mesh is linked from another file; make it local first")
-    if request.boundary == choices.ISLANDS and request.use in choices.EXPLICIT:
+    if asked.are_islands and asked.is_explicit:
         return replace(target, refused="islands have no punctures or corners: choose those or another main map")
-    own = read(obj, mask)
-    if request.modifiers and obj.mode != "EDIT":
-        return _with_modifiers(obj, replace(target, modifiers=True), own, request)
-    if not own.face_count and evaluated.first_of(obj) and evaluated.read(obj, _linear(obj))[0].face_count:
-        sentence = f"all its faces come from its modifiers ({evaluated.first_of(obj)}): press Map with Modifiers"
-        return replace(target, refused=sentence)
-    return replace(target, polygons=own, chosen=_choices(obj, request))
+    takes_modifiers, modifier, own = asked.modifiers and obj.mode != "EDIT", first_modifier(obj), read(obj, mask)
+    if takes_modifiers or (modifier and not own.face_count):
+        shown, seams, are_own = mesh_io.read_shown(obj, _linear(obj), own)
+        if takes_modifiers and not (mask is None and are_own):
+            return _with_modifiers(replace(target, modifiers=True), asked, shown, seams, modifier)
+        if takes_modifiers:
+            target, own = replace(target, modifiers=True), replace(own, vertices=shown.vertices)
+        elif shown.face_count:
+            sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
+            return replace(target, refused=sentence)
+    return replace(target, polygons=own, chosen=_chosen(obj, asked))
 
 
-def _with_modifiers(obj, target, own, request):
-    """The target where the modifiers count: their polygons, for the object's own mesh if these are its own."""
-    shown, seams = evaluated.read(obj, _linear(obj))
-    if target.mask is None and evaluated.are_those_of(shown, own):
-        return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=_choices(obj, request))
+def _with_modifiers(target, asked, shown, seams, modifier):
+    """The target where the modifiers make other faces, and so an object of their own."""
     if not shown.face_count:
-        return replace(target, refused=f"its modifiers leave no faces; the first is {evaluated.first_of(obj)}")
-    if target.mask is not None or request.use in choices.EXPLICIT:
+        return replace(target, refused=f"its modifiers leave no faces; the first is {modifier}")
+    if target.mask is not None or asked.is_explicit:
         return replace(target, refused="the selection is one of the mesh itself, not of what its modifiers make")
-    seams = seams if request.cut_at_seams else NO_EDGES
-    chosen = choices.Choices(choices.NONE, (), (), seams, *request.how)
-    note = "what its modifiers make is an object now; the object itself is hidden"
-    return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=f"{obj.name}: {note}")
+    chosen = replace(asked, use=choices.NONE, seams=seams if asked.cut_at_seams else choices.NO_EDGES)
+    note = f"{target.name}: what its modifiers make is an object now; the object itself is hidden"
+    return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=note)
 
 
-def _choices(obj, request):
-    """What was chosen on this object; @pre pending edits are written to the mesh."""
-    marks = (["use_seam"] if request.cut_at_seams else []) + (["use_edge_sharp"] if request.hard_edges else [])
-    seams = np.concatenate([NO_EDGES, *(mesh_edges.marked_edges(obj.data, mark) for mark in marks)])
-    selected = request.vertices if request.vertices is not None else _selected(obj, request.use)
-    return choices.Choices(request.use, tuple(selected), request.residues, seams, *request.how)
+def first_modifier(obj):
+    """The name of the first modifier that is shown, in quotes, or ""."""
+    return next((repr(m.name) for m in obj.modifiers if m.show_viewport), "")
+
+
+def _chosen(obj, asked):
+    """What is asked, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
+    marks = ["use_seam"] * bool(asked.cut_at_seams) + ["use_edge_sharp"] * bool(asked.hard_edges)
+    vertices = _selected(obj, asked.use) if asked.vertices is None else asked.vertices
+    return replace(asked, vertices=vertices, seams=mesh_io.marked_edges(obj.data, *marks))
 
 
 def _selected(obj, use):
@@ -154,9 +148,9 @@ def _selected(obj, use):
     if use == choices.NONE or (use == choices.AUTOMATIC and obj.mode != "EDIT"):
         return ()
     selected = mesh_io.selected_vertices(obj.data)
-    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_edges.are_neighbours(obj.data, selected)):
+    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_io.are_neighbours(obj.data, selected)):
         return ()
-    return selected.tolist()
+    return tuple(selected.tolist())
 
 
 def _linear(obj):

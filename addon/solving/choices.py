@@ -9,30 +9,38 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+# What the selection is.
 AUTOMATIC, FACES, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "PUNCTURES", "RECTANGLE", "NONE"
 EXPLICIT = (PUNCTURES, RECTANGLE)
+# Which faces are mapped: all; in edit mode the selected ones if there are any; these, or a refusal.
+WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
 ISLANDS = "islands"  # as a boundary: the mesh is cut along its seams into parts, each flattened by itself
 CORNERS = 4
+NO_EDGES = np.empty((0, 2), np.int64)
 
 
 @dataclass(frozen=True)
 class Choices:
-    """Vertices are those of the whole mesh; an empty choice changes nothing."""
+    """What is asked of every object of a run, and then, with its own vertices and seams, of each. Vertices are those of
+    the whole mesh."""
 
-    use: str = NONE  # what the selected vertices are
-    selected: tuple = ()  # in the order in which they were selected, as far as that is known
+    use: str = NONE  # what the chosen vertices are
+    vertices: tuple | None = None  # in the order in which they were selected, as far as that is known; None before
     residues: tuple = ()  # complex, one for each puncture; none lets the library choose
-    seams: np.ndarray = field(default_factory=lambda: np.empty((0, 2), np.int64), compare=False)  # (#S,2) vertices
+    seams: np.ndarray = field(default_factory=lambda: NO_EDGES, compare=False)  # (#S,2) vertices
     boundary: str = "natural"
     solver: str = "auto"
     hard_edges: float = 0.0  # degrees: islands are cut along sharper edges, too; 0 for the seams alone
     most_stretch: float = 0.0  # islands are cut open where lengths change by a larger factor; 0 for no such cuts
+    cut_at_seams: bool = False
+    faces: str = WHOLE  # which ones are mapped
+    modifiers: bool = False  # whether they count, in object mode
 
     @property
     def key(self):
         """Equal for choices that give the same solve."""
-        selected = (self.use, self.selected, self.residues) if self.selected else ()
-        return (*selected, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges, self.most_stretch)
+        chosen = (self.use, self.vertices, self.residues) if self.vertices else ()
+        return (*chosen, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges, self.most_stretch)
 
     @property
     def is_explicit(self):
@@ -101,25 +109,23 @@ def numbers(text):
         except ValueError:
             number = complex("nan")
         if not np.isfinite(number):
-            raise ValueError(f"{word!r} is not a number")
+            raise ValueError(f"residues: {word!r} is not a number")
         result.append(number)
     return tuple(result)
 
 
 def stray_vertex(corner_vertices, choices):
     """The first explicitly chosen vertex that no face has, or None."""
-    chosen = np.asarray(choices.selected if choices.is_explicit else (), np.int64)
-    if len(chosen) == 0:
-        return None
+    chosen = np.array(choices.vertices if choices.is_explicit else (), np.int64)
     stray = chosen[~np.isin(chosen, corner_vertices)]
     return int(stray[0]) if len(stray) else None
 
 
 def _selection(part, choices):
     """The selected vertices of this part as punctures or corners; nothing where there are none."""
-    if choices.use == NONE or not choices.selected:
+    if choices.use == NONE or not choices.vertices:
         return {}
-    selected = np.asarray(choices.selected, np.int64)
+    selected = np.asarray(choices.vertices, np.int64)
     is_own = np.isin(selected, part.vertex_index)
     own = selected[is_own]
     if len(own) == 0:

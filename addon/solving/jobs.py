@@ -97,4 +97,4 @@ class Job(Work):
     def _ask_within(self, index, begin, end):
         """`ask` for one stage of one object."""
         count = len(self._tasks)
-        return lambda fraction, stage: self.ask((index + begin + (end - begin) * fraction) / count, stage)
+        return native.load().progress.scaled(self.ask, (index + begin) / count, (index + end) / count)

@@ -5,8 +5,6 @@ import functools
 import time
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from .. import native
 from . import choices
 
@@ -46,28 +44,18 @@ class SolvedComponent:
     note: str = ""  # which choice was not followed, and why
     is_chosen: bool = False  # whether a choice of the user was followed
     frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
-    main_maps: dict = field(default_factory=dict, compare=False)  # `maps.MainMap` by dials
-    tilings: dict = field(default_factory=dict, compare=False)  # `tiling.TiledPart` by what was asked, newest last
-    last_rounded: dict = field(default_factory=dict, compare=False)  # `tiling.TileOptions` by the tiler that rounded
+    main_maps: dict = field(default_factory=dict, compare=False)  # `forms.MainMap` by dials
+    tilings: dict = field(default_factory=dict, compare=False)  # `mapped.MappedPart` by what was asked, newest last
+    last_rounded: dict = field(default_factory=dict, compare=False)  # `options.TileOptions` by the tiler that rounded
 
     @property
     def form_count(self):
         """How many forms there are to mix."""
         return 0 if self.balanced is None else len(self.balanced)
 
-    def tiler(self, poles, boundary, allowed, progress=None):
-        """A `holomorph.Tiler` with vertices as the part counts them; the structure keeps the last one."""
-        return self.structure.tiler(
-            poles if isinstance(poles, (str, int)) else list(poles),
-            boundary=boundary,
-            allowed=None if allowed is None else np.frombuffer(allowed, bool),
-            surface=self.surface,
-            progress=progress,
-        )
-
-    def keep_tiling(self, options, tiled):
+    def keep_tiling(self, asked, part):
         """Adds one, and drops the oldest beyond `KEPT_TILINGS`."""
-        self.tilings[options] = tiled
+        self.tilings[asked] = part
         while len(self.tilings) > KEPT_TILINGS:
             del self.tilings[next(iter(self.tilings))]
 
@@ -131,7 +119,11 @@ def solve(task, progress=None):
     for part in parts:
         share = len(part.face_index) / total
         make = functools.partial(_make, holomorph, surface, polygons.vertices, part)
-        solved.append(_solve_component(holomorph, make, part, task.chosen, _scaled(progress, done, share)))
+        solved.append(
+            _solve_component(
+                holomorph, make, part, task.chosen, holomorph.progress.scaled(progress, done, done + share)
+            )
+        )
         done += share
     return SolvedObject(surface, polygons, tuple(solved), time.perf_counter() - start)
 
@@ -154,7 +146,7 @@ def _opened(holomorph, part, progress):
     if part.boundary_count == 0 or (part.genus, part.boundary_count) == (0, 1):
         return (part,)
     try:
-        structure = holomorph.conformal_structure(part, progress=_scaled(progress, 0.0, 0.0))
+        structure = holomorph.conformal_structure(part, progress=holomorph.progress.scaled(progress, 0.0, 0.0))
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
         return (part,)  # what is wrong with it is said where its map is made
     return holomorph.islands(part, part.vertex_index[structure.edges[structure.seams]])
@@ -165,15 +157,9 @@ def _cut_to_cones(holomorph, part, most_stretch, progress):
     if (part.genus, part.boundary_count) != (0, 1):
         return part
     try:
-        return holomorph.cut_to_cones(part, most_stretch, progress=_scaled(progress, 0.0, 0.0))
+        return holomorph.cut_to_cones(part, most_stretch, progress=holomorph.progress.scaled(progress, 0.0, 0.0))
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
         return part  # what is wrong with it is said where its map is made
-
-
-def _scaled(progress, done, share):
-    if progress is None:
-        return None
-    return lambda fraction, stage: progress(done + share * fraction, stage)
 
 
 def _solve_component(holomorph, make, part, chosen, progress):
@@ -184,23 +170,23 @@ def _solve_component(holomorph, make, part, chosen, progress):
         try:
             return make(keywords, note, progress)
         except (holomorph.InvalidMesh, holomorph.TopologyError) as error:
-            note = note or str(error)
+            note = note or native.sentence(error)
     try:
         return make(last, note, progress)
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
         if choices.are_explicit(last, chosen):
             raise
-        return SolvedComponent(part, None, None, reason=str(error), note=note)
+        return SolvedComponent(part, None, None, reason=native.sentence(error), note=note)
 
 
 def _make(holomorph, surface, vertices, part, keywords, note, progress):
-    target = part
+    target, scaled = part, holomorph.progress.scaled
     if choices.name_vertices(keywords):
         # The part's faces with all of the mesh's vertices: then the library names vertices by the mesh's indices.
         corners = part.vertex_index[part.corner_vertices]
         target = holomorph.Surface.from_polygons(vertices, corners, part.face_offsets)
-    structure = holomorph.conformal_structure(target, progress=_scaled(progress, 0.0, UV_START), **keywords)
-    structure.prepare_uv(_scaled(progress, UV_START, 1.0 - UV_START))
+    structure = holomorph.conformal_structure(target, progress=scaled(progress, 0.0, UV_START), **keywords)
+    structure.prepare_uv(scaled(progress, UV_START, 1.0))
     structure = replace(structure, surface=surface)  # so do its results
     balanced, is_chosen = structure.balanced_coefficients(), choices.ask_for_a_kind(keywords)
     structure.uv(balanced)  # refused here, where it is not finite, before anything is written

@@ -4,7 +4,16 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import grid_arrays, mesh_io, mesh_object, run, select, torus, torus_arrays, two_parts
+from scenes import (
+    grid_arrays,
+    mesh_io,
+    mesh_object,
+    run,
+    select,
+    torus,
+    torus_arrays,
+    two_parts,
+)
 from test_faces import pick_faces
 from test_refusals import moebius
 
@@ -77,7 +86,7 @@ def test_vertices_where_faces_touch_and_loose_ones_on_demand():
 def test_flipped_uvs_of_any_map():
     obj = mesh_object("Grid", *grid_arrays())
     layer = obj.data.uv_layers.new(name="Own")
-    corners = mesh_io.read_indices(module("compatibility").corner_vertex_values(obj.data))
+    corners = mesh_io.read_indices(module("compatibility").polygon_values(obj.data)[1])
     values = np.array(grid_arrays()[0])[corners, :2]
     turned = slice(4 * 7, 4 * 8)
     values[turned] = values[turned][:, ::-1]

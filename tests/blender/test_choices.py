@@ -4,7 +4,15 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import grid_arrays, mesh_edges, mesh_object, pick, sphere_arrays, torus, torus_arrays
+from scenes import (
+    grid_arrays,
+    mesh_io,
+    mesh_object,
+    pick,
+    sphere_arrays,
+    torus,
+    torus_arrays,
+)
 
 choices, native, targets = module("solving.choices"), module("native"), module("scene.targets")
 
@@ -94,8 +102,8 @@ def test_choices_that_change_nothing_have_one_key():
 
 
 def collected(obj, use):
-    (target,) = targets.collect([obj], targets.Request(use=use))
-    return target.chosen.selected
+    (target,) = targets.collect([obj], choices.Choices(use=use))
+    return target.chosen.vertices
 
 
 def test_the_selection_is_read_in_its_order():
@@ -121,7 +129,7 @@ def test_selected_edges_and_everything_selected_are_no_choice():
 def test_a_loose_vertex_cannot_be_chosen():
     vertices, faces = sphere_arrays()
     obj = mesh_object("Sphere", [*vertices, (3, 3, 3)], faces)
-    (task,) = targets.tasks(targets.collect([obj], targets.Request(choices.PUNCTURES, (0, 162))))
+    (task,) = targets.tasks(targets.collect([obj], choices.Choices(choices.PUNCTURES, (0, 162))))
     with pytest.raises(native.load().InvalidMesh, match="vertex 162 belongs to no face"):
         module("solving.solve").solve(task)
 
@@ -129,5 +137,5 @@ def test_a_loose_vertex_cannot_be_chosen():
 def test_seams_are_read_as_vertices():
     obj = torus()
     obj.data.edges[4].use_seam = True
-    (pair,) = mesh_edges.marked_edges(obj.data, "use_seam")
+    (pair,) = mesh_io.marked_edges(obj.data, "use_seam")
     assert sorted(pair) == sorted(obj.data.edges[4].vertices)

@@ -24,7 +24,7 @@ from scenes import (
     uv,
 )
 
-drag, tile_report = module("operators.drag"), module("results.tile_report")
+drag, stored = module("operators.drag"), module("results.stored")
 
 
 def tile(**options):
@@ -36,7 +36,7 @@ def move(moves):
 
 
 def poles(obj):
-    vertices, is_pole = tile_report.marks(obj["holomorph_report"])
+    vertices, is_pole = stored.marks(obj["holomorph_report"])
     return vertices[is_pole].tolist()
 
 

@@ -164,9 +164,9 @@ def test_lines_are_broken_where_they_do_not_fit():
 
 @pytest.mark.parametrize(("level", "told"), [("fair", ([], ["Ring: Even"])), ("poor", (["Ring: Even"], []))])
 def test_a_poor_map_is_a_warning(level, told):
-    outcome = module("results.run").Outcome()
-    entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}}
-    module("results.run").judge(outcome, SimpleNamespace(name="Ring"), entry)
+    outcome = module("results.outcome").Outcome()
+    entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}, "components": [], "faces_without_area": 0}
+    outcome.judge(SimpleNamespace(name="Ring"), entry)
     assert (outcome.problems, outcome.notes) == told
 
 

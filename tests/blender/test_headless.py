@@ -9,7 +9,14 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import limb_arrays, mesh_edges, mesh_io, sphere_arrays, torus, torus_arrays
+from scenes import (
+    limb_arrays,
+    mesh_io,
+    sphere_arrays,
+    torus,
+    torus_arrays,
+    uv_maps,
+)
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
 SCRIPT = str(ROOT / "addon" / "headless.py")
@@ -77,7 +84,7 @@ def test_mesh_file_in_blend_picture_and_report_out(torus_file, tmp_path):
     mesh.vertices.foreach_get("co", positions)
     assert np.array_equal(positions, vertices.astype(np.float32).ravel())
     assert [layer.name for layer in mesh.uv_layers] == ["Holomorphic", "Holomorphic 1"]
-    assert np.ptp(mesh_io.read_map(mesh, "Holomorphic")) > 0.1
+    assert np.ptp(uv_maps.read_map(mesh, "Holomorphic")) > 0.1
 
 
 def test_blend_file_in(tmp_path):
@@ -99,7 +106,7 @@ def test_options_reach_the_maps(torus_file, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     obj = bpy.data.objects["ring"]
     assert [layer.name for layer in obj.data.uv_layers] == ["Holomorphic"]
-    assert mesh_edges.read_seams(obj.data).any()
+    assert mesh_io.read_seams(obj.data).any()
     assert obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value == 8
 
 

@@ -4,7 +4,17 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scenes import everything, mesh_edges, mesh_io, mesh_object, native, run, select, stored_report, torus_arrays, uv
+from scenes import (
+    everything,
+    mesh_io,
+    mesh_object,
+    native,
+    run,
+    select,
+    stored_report,
+    torus_arrays,
+    uv,
+)
 
 FLOAT32 = 1e-5  # of the UV square
 MARGIN = 0.02
@@ -57,7 +67,7 @@ def whole_surface(obj):
 
 
 def cut_parts(obj):
-    return native.load().islands(whole_surface(obj), mesh_edges.marked_edges(obj.data, "use_seam"))
+    return native.load().islands(whole_surface(obj), mesh_io.marked_edges(obj.data, "use_seam"))
 
 
 def overlapping_pairs(triangles):

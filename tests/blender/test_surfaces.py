@@ -3,7 +3,6 @@ fit."""
 
 import json
 
-import bpy
 import numpy as np
 import pytest
 from conftest import module
@@ -23,6 +22,7 @@ from scenes import (
     tube_arrays,
     two_parts,
     uv,
+    written,
 )
 
 FLOAT32 = 1e-6  # of the UV size
@@ -197,12 +197,7 @@ def test_the_papers_solver_is_for_the_parts_that_it_fits():
 def test_a_modifier_that_may_close_the_surface_is_told():
     obj = mesh_object("Tube", *tube_arrays())
     obj.modifiers.new("My Mirror", "MIRROR")
-    run_module, targets = module("results.run"), module("scene.targets")
-    found = targets.collect([obj])
-    mapper = module("maps.seamless").Mapper(module("maps.maps").MapOptions(), True)
-    job = module("solving.jobs").Job(targets.tasks(found), then=[mapper])
-    job.run()
-    outcome = run_module.write(bpy.context, found, job.results, mapper.options(job.results), run_module.WriteOptions())
+    outcome = written(obj)
     assert any("My Mirror" in note for note in outcome.notes)
 
 
@@ -210,5 +205,5 @@ def test_the_panel_tells_kinds_and_moduli():
     obj = mesh_object("Tube", *tube_arrays())
     select(obj)
     run()
-    lines = "\n".join(module("results.report").summary(obj["holomorph_report"]))
+    lines = "\n".join(module("results.stored").summary(obj["holomorph_report"]))
     assert "genus 0, 2 holes" in lines and "modulus" in lines and "between" in lines

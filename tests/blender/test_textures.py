@@ -6,7 +6,11 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_io, run, torus
+from scenes import (
+    run,
+    torus,
+    uv_maps,
+)
 
 patterns, textures = module("materials.patterns"), module("materials.textures")
 SIZE = 512  # of drawings here
@@ -199,4 +203,4 @@ def test_nodes_that_the_user_has_rebuilt_stay():
     tree.nodes.new("ShaderNodeEmission")
     assert run(texture="BRICKS", checker_scale=16) == {"FINISHED"}
     assert [n.type for n in tree.nodes] == ["EMISSION"]
-    assert mesh_io.MAIN_MAP in obj.data.uv_layers
+    assert uv_maps.MAIN_MAP in obj.data.uv_layers

@@ -4,7 +4,6 @@ All of it with the real library.
 """
 
 import json
-from functools import partial
 from types import SimpleNamespace
 
 import bpy
@@ -16,7 +15,6 @@ from scenes import (
     everything,
     frame,
     limb_arrays,
-    mesh_edges,
     mesh_io,
     mesh_object,
     native,
@@ -27,13 +25,14 @@ from scenes import (
     select,
     sphere_arrays,
     stored_report,
+    then,
     torus,
     torus_arrays,
     two_parts,
     uv,
 )
 
-tiling, tile_report = module("maps.tiling"), module("results.tile_report")
+tiling, stored_text = module("maps.tiling"), module("results.stored")
 
 
 @pytest.fixture
@@ -60,19 +59,19 @@ def tile(**options):
 
 
 def marks(obj):
-    vertices, is_pole = tile_report.marks(obj["holomorph_report"])
+    vertices, is_pole = stored_text.marks(obj["holomorph_report"])
     return vertices.tolist(), is_pole.tolist()
 
 
 def whole_jumps(obj):
     """Those of the UVs across each edge, at the ends that are no pole."""
     vertices, jumps = edge_jumps(obj)
-    found, is_pole = tile_report.marks(obj["holomorph_report"])
+    found, is_pole = stored_text.marks(obj["holomorph_report"])
     return jumps[~np.isin(vertices, found[is_pole])]
 
 
 def selected_poles(obj):
-    found, is_pole = tile_report.marks(obj["holomorph_report"])
+    found, is_pole = stored_text.marks(obj["holomorph_report"])
     return found[is_pole].tolist()
 
 
@@ -295,14 +294,14 @@ def test_report_and_panel_begin_with_words(calls):
     assert verdict.startswith("Even, seamless") and f"{len(residues)} poles" in verdict
     assert np.array_equal(residues, np.round(residues)) and np.array_equal(residues.sum(axis=0), (0, 0))
     assert min(part["tiling"]["orders"]) > 0
-    lines = [line.strip() for line in module("results.report").summary(obj["holomorph_report"])]
+    lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
     assert lines[:3] == ["1 map", "Part 1: genus 1", verdict]
     assert json.loads(bpy.data.texts["Holomorphic Report"].as_string())["objects"] == [stored_report(obj)]
 
 
 @pytest.mark.parametrize("stored", ["", "{", "[]", "null", '{"components": []}', '{"components": [{"genus": 1}]}'])
 def test_no_marks_without_a_tiling(stored):
-    vertices, is_pole = tile_report.marks(stored)
+    vertices, is_pole = stored_text.marks(stored)
     assert len(vertices) == len(is_pole) == 0
 
 
@@ -341,9 +340,9 @@ def test_textures_are_repeated_in_each_tile(calls):
 def test_seams_are_marked_where_the_map_jumps(calls):
     obj = torus()
     tile(seams=True)
-    seams = mesh_edges.read_seams(obj.data)
+    seams = mesh_io.read_seams(obj.data)
     assert stored_report(obj)["seams_added"] == seams.sum() > 0
-    vertices = {int(v) for edge in mesh_edges.marked_edges(obj.data, "use_seam") for v in edge}
+    vertices = {int(v) for edge in mesh_io.marked_edges(obj.data, "use_seam") for v in edge}
     pairs, jumps = edge_jumps(obj)
     jumping = np.unique(pairs[np.any(jumps != 0, axis=(1, 2))])
     assert set(jumping.tolist()) <= vertices
@@ -374,8 +373,8 @@ def test_cancelling_leaves_no_result(calls):
     torus()
     targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect(targets.mesh_objects(bpy.context))) * 2
-    then = [partial(tiling.tile, options=tiling.TileOptions())] * 2
-    work = jobs.Job(tasks, lambda fraction, _stage: work.cancel() if fraction > 0.2 else None, then)
+    made = [then(main="TILING")] * 2
+    work = jobs.Job(tasks, lambda fraction, _stage: work.cancel() if fraction > 0.2 else None, made)
     work.run()
     assert isinstance(work.results[0], native.load().Cancelled) and work.results[1] is None
     assert calls == []

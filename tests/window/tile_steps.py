@@ -30,7 +30,7 @@ def obj():
 
 
 def uv():
-    return addon("scene.mesh_io").read_map(obj().data, "Holomorphic")
+    return addon("scene.uv_maps").read_map(obj().data, "Holomorphic")
 
 
 def note_stages():
@@ -47,7 +47,7 @@ def note_stages():
 
 
 def poles():
-    vertices, is_pole = addon("results.tile_report").marks(obj()["holomorph_report"])
+    vertices, is_pole = addon("results.stored").marks(obj()["holomorph_report"])
     return vertices[is_pole].tolist()
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""UV maps out of a solve: coefficients, dials, and the parts side by side in the UV square. Arrays only, no bpy.
+"""UV maps of forms out of a solve: coefficients, dials, and the parts side by side in the UV square. No bpy here.
 
 All parts of a map have the same texel density (UV area in proportion to surface area), and at density 1 they fill the
 square from 0 to 1 together. Nothing here needs a new solve.
@@ -12,32 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
-from ..scene.mesh_io import MAIN_MAP
 
 SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
-AUTOMATIC, SEAMLESS, BALANCED, ISLANDS = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS"
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
-
-
-@dataclass(frozen=True)
-class MapOptions:
-    """What the redo panel's sliders change; none of it needs a new solve."""
-
-    forms: int = 8  # basis forms that get a map of their own, at most
-    density: float = 1.0  # factor of UV lengths, about the middle of the UV square
-    rotation: float = 0.0  # radians, counter-clockwise, of every part
-    amounts: tuple = ()  # factor of each form's share in the main map; none means 1
-    turns: tuple = ()  # radians, phase of each form's share in the main map
-    margin: float = 0.02  # least distance between parts, in sides of the UV square
-    main: str = AUTOMATIC  # AUTOMATIC, SEAMLESS, BALANCED or ISLANDS: what the main map is
-    per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
-
-    @property
-    def are_plain(self):
-        """Whether nothing is chosen of the main map but what it is."""
-        dials = (*self.amounts, *(1 + turn for turn in self.turns))
-        return self.density == 1 and self.rotation == 0 and all(dial == 1 for dial in dials)
 
 
 @dataclass(frozen=True)
@@ -47,18 +25,6 @@ class Place:
     factor: complex
     origin: complex
     target: complex
-
-
-def map_names(solved, options):
-    """The main map, then one for each form up to the largest number among the components."""
-    count = min(solved.form_count, options.forms)
-    return [MAIN_MAP] + [f"{MAIN_MAP} {j + 1}" for j in range(count)]
-
-
-def map_values(solved, options):
-    """Yields (name, (#C,2) float32) for every map; components that lack the form are zero there."""
-    for index, name in enumerate(map_names(solved, options)):
-        yield name, values(solved, index, options)
 
 
 def values(solved, index, options):
@@ -161,7 +127,7 @@ def _packed(parts, frames, options):
 
 
 def filling(solved, options):
-    """`MapOptions.per_length` with which the main map fills the UV square; infinite for one without area."""
+    """`options.MapOptions.per_length` with which the main map fills the UV square; infinite for one without area."""
     parts = _parts(solved, 0)
     side = _packed(parts, [_frame(part, 0, options) for part in parts], options)[-1]
     return 1 / side if side > 0 else math.inf
