@@ -59,9 +59,9 @@ def shape_points(solved):
 def _shape(part):
     """(#V,3) of all vertices of the mesh, NaN at those of other parts; None for a part that has no such image."""
     structure, is_planar = part.structure, part.surface.genus == 0
-    if is_planar and part.surface.boundary_count == 0 and len(structure.punctures) == 2:
+    if is_planar and part.surface.boundary_count == 0 and len(structure.poles) == 2:
         return structure.sphere_map()
-    if is_planar and part.surface.boundary_count == 1 and hasattr(structure, "disk_map"):
+    if is_planar and part.surface.boundary_count == 1 and structure.map_kind == "disk":
         disk = structure.disk_map()
         return np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
     return None

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is chosen on a mesh (vertices, seams, method), and what it means for each connected part. No bpy here.
 
-A choice becomes keywords of `holomorph.conformal_structure`. Where an explicit choice does not fit, the library
-refuses it; an implicit one (a selection under "Automatic", seams) is dropped.
+A choice becomes keywords of `structure`. Where an explicit choice does not fit, the library refuses it; an implicit one
+(a selection under "Automatic", seams) is dropped.
 """
 
 from dataclasses import dataclass, field
@@ -26,7 +26,7 @@ class Choices:
 
     use: str = NONE  # what the chosen vertices are
     vertices: tuple | None = None  # in the order in which they were selected, as far as that is known; None before
-    residues: tuple = ()  # complex, one for each puncture; none lets the library choose
+    residues: tuple = ()  # complex, one for each pole; none lets the library choose
     seams: np.ndarray = field(default_factory=lambda: NO_EDGES, compare=False)  # (#S,2) vertices
     boundary: str = "natural"
     solver: str = "auto"
@@ -62,7 +62,7 @@ def attempts(part, choices):
     seams = choices.seams
     if len(seams):
         seams = seams[np.isin(seams, part.vertex_index).all(axis=1)]
-    cut = {"cut_edges": seams} if len(seams) else {}
+    cut = {"cuts": seams} if len(seams) else {}
     wanted = [base]
     if cut:
         wanted.insert(0, base | cut)
@@ -75,7 +75,7 @@ def attempts(part, choices):
 def _with_fitting_method(part, keywords):
     """The double is for the forms of surfaces with boundary, the paper's solver for closed parts with handles: other
     parts of a mesh are solved as usual."""
-    is_chosen = not keywords.keys().isdisjoint({"punctures", "rectangle_corners"})
+    is_chosen = not keywords.keys().isdisjoint({"poles", "corners"})
     is_open = part.boundary_count > 0
     has_forms = not is_chosen and 2 * part.genus + part.boundary_count - is_open > 0
     if not (is_open and has_forms):
@@ -85,9 +85,26 @@ def _with_fitting_method(part, keywords):
     return keywords
 
 
+def structure(holomorph, surface, keywords, progress):
+    """What the keywords ask for, by the function of the library that gives it."""
+    options = {"solver": keywords["solver"], "progress": progress}
+    poles, residues = keywords.get("poles"), keywords.get("residues")
+    if "corners" in keywords:
+        made = holomorph.rectangle_map(surface, keywords["corners"], **options)
+    elif poles is not None and len(poles) == 1 and residues is None and _is_disk(surface):
+        made = holomorph.disk_map(surface, int(poles[0]), **options)
+    elif poles is not None:
+        made = holomorph.log_map(surface, poles, residues, **options)
+    elif keywords["boundary"] == "free":
+        made = holomorph.free_boundary_map(surface, **options)
+    else:
+        made = holomorph.automatic_structure(surface, boundary=keywords["boundary"], **options)
+    return holomorph.cut_along(made, keywords["cuts"]) if "cuts" in keywords else made
+
+
 def name_vertices(keywords):
     """Whether the keywords name vertices."""
-    return not keywords.keys().isdisjoint({"punctures", "rectangle_corners", "cut_edges"})
+    return not keywords.keys().isdisjoint({"poles", "corners", "cuts"})
 
 
 def ask_for_a_kind(keywords):
@@ -97,7 +114,7 @@ def ask_for_a_kind(keywords):
 
 def are_explicit(keywords, choices):
     """Whether the keywords hold what the library is to refuse where it does not fit."""
-    return choices.is_explicit and not keywords.keys().isdisjoint({"punctures", "rectangle_corners"})
+    return choices.is_explicit and not keywords.keys().isdisjoint({"poles", "corners"})
 
 
 def numbers(text):
@@ -122,7 +139,7 @@ def stray_vertex(corner_vertices, choices):
 
 
 def _selection(part, choices):
-    """The selected vertices of this part as punctures or corners; nothing where there are none."""
+    """The selected vertices of this part as poles or corners; nothing where there are none."""
     if choices.use == NONE or not choices.vertices:
         return {}
     selected = np.asarray(choices.vertices, np.int64)
@@ -131,17 +148,20 @@ def _selection(part, choices):
     if len(own) == 0:
         return {}
     if choices.use == RECTANGLE or (choices.use == AUTOMATIC and _are_corners_of_a_disk(part, own)):
-        return {"rectangle_corners": around_boundary(part, own)}
+        return {"corners": around_boundary(part, own)}
     if not choices.residues:
-        return {"punctures": own}
+        return {"poles": own}
     residues = np.asarray(choices.residues, complex)
     # The library refuses a wrong number of residues.
-    return {"punctures": own, "residues": residues[is_own] if len(residues) == len(is_own) else residues}
+    return {"poles": own, "residues": residues[is_own] if len(residues) == len(is_own) else residues}
 
 
 def _are_corners_of_a_disk(part, vertices):
-    is_disk = part.genus == 0 and part.boundary_count == 1
-    return is_disk and len(vertices) == CORNERS and bool(np.isin(vertices, boundary_edges(part)[0]).all())
+    return _is_disk(part) and len(vertices) == CORNERS and bool(np.isin(vertices, boundary_edges(part)[0]).all())
+
+
+def _is_disk(surface):
+    return surface.genus == 0 and surface.boundary_count == 1
 
 
 def boundary_edges(part):

@@ -32,7 +32,7 @@ class Task:
 class SolvedComponent:
     """A connected part of the object; `structure` is None where the library refused it, and `reason` says why.
 
-    The structure is whatever `holomorph.conformal_structure` gives for the part's topology and the choices, with the
+    The structure is what `choices.structure` gives for the part's topology and the choices, with the
     vertices as the whole mesh counts them, and the corners as the part does. All kinds have `uv(coefficients)`,
     `balanced_coefficients()`, `quality`, `seams`, `description` and `invariants()`.
     """
@@ -185,7 +185,7 @@ def _make(holomorph, surface, vertices, part, keywords, note, progress):
         # The part's faces with all of the mesh's vertices: then the library names vertices by the mesh's indices.
         corners = part.vertex_index[part.corner_vertices]
         target = holomorph.Surface.from_polygons(vertices, corners, part.face_offsets)
-    structure = holomorph.conformal_structure(target, progress=scaled(progress, 0.0, UV_START), **keywords)
+    structure = choices.structure(holomorph, target, keywords, scaled(progress, 0.0, UV_START))
     structure.prepare_uv(scaled(progress, UV_START, 1.0))
     structure = replace(structure, surface=surface)  # so do its results
     balanced, is_chosen = structure.balanced_coefficients(), choices.ask_for_a_kind(keywords)

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from ._native import InvalidMesh, SolverError, TopologyError
 from .array_types import Progress
+from .automatic_structure import AnyStructure, automatic_structure
 from .map import Map
 from .progress import scaled
-from .structure import AnyStructure, conformal_structure
 from .surface import Surface
 from .tiling import Poles
 
@@ -60,8 +60,8 @@ def automatic_map(
     Parameters
     ----------
     surface : Surface, connected; isolated vertices are ignored
-    structure : what `conformal_structure` gave for it, made here by default. It keeps the poles that were placed:
-        another call with other tiles, lattice or direction is quick
+    structure : what was solved of it, default `automatic_structure`. It keeps the poles that were placed: another call
+        with other tiles, lattice or direction is quick
     main : "automatic"; "seamless" for a tiling in any case; "balanced" for none, as where something was chosen about
         the structure
     tiles, density, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
@@ -69,7 +69,7 @@ def automatic_map(
     threads : as in `conformal_structure`
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
-    Raises what `conformal_structure` does; TopologyError or SolverError where a tiling was asked for and cannot be
+    Raises what `automatic_structure` does; TopologyError or SolverError where a tiling was asked for and cannot be
     made.
     """
     solving = SOLVING if structure is None else 0.0
@@ -150,7 +150,7 @@ def _found(surface, structure, main, threads, progress):
     if main not in MAIN_MAPS:
         raise ValueError(f"main is {main!r}; one of {', '.join(MAIN_MAPS)} is needed")
     if structure is None:
-        structure = conformal_structure(surface, threads=threads, progress=progress)
+        structure = automatic_structure(surface, threads=threads, progress=progress)
     if main == "seamless":
         return _Undecided(surface, structure, None)
     coefficients = structure.balanced_coefficients()

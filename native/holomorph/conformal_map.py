@@ -88,7 +88,7 @@ def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Pro
     for structure in (a, b):
         if not isinstance(structure, Mapped):
             raise TypeError(
-                f"maps are made of structures with forms, without punctures, not of a {type(structure).__name__}"
+                f"maps are made of structures with forms, without poles, not of a {type(structure).__name__}"
             )
     found = conformally_equivalent(a, b, tolerance=tolerance, progress=scaled(progress, 0.0, 0.2))
     if found.verdict not in ("equivalent", "mirror_image"):

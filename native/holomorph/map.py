@@ -8,8 +8,9 @@ import numpy as np
 
 from . import arrays
 from .array_types import Complexes, Integers, Reals
+from .automatic_structure import AnyStructure
+from .pole_structure import PoleStructure
 from .quality import Quality
-from .structure import AnyStructure
 from .surface import Surface
 from .tiling import Tiling
 from .value import Value
@@ -67,8 +68,8 @@ class Map(Value):
         """(k,) vertices around which the UVs change by a residue."""
         if self.tiling:
             return self.tiling.poles
-        is_log = self.structure.map_kind == "log"
-        return self._of_surface(self.structure._native.punctures() if is_log else np.empty(0, np.int32))
+        is_log = isinstance(self.structure, PoleStructure)
+        return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
 
     @property
     def density(self) -> float:

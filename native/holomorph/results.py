@@ -139,7 +139,7 @@ class Structure(Value):
     @cached_property
     def edges(self) -> Integers:
         """(#E, 2) vertices of the triangulation, lower first; forms are values on these. Its diagonals are flipped away
-        from punctures."""
+        from poles."""
         return self._of_surface(self._triangulation.edges)
 
     @cached_property

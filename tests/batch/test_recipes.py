@@ -79,7 +79,7 @@ def test_the_map_is_the_automatic_one(torus):
 
 def test_a_map_that_is_chosen_is_balanced(torus):
     """Unless a tiling is asked for."""
-    for maps in ({"rotation": 30.0}, {"density": 2.0}, {"punctures": [5, 150]}, {"solver": "paper"}):
+    for maps in ({"rotation": 30.0}, {"density": 2.0}, {"poles": [5, 150]}, {"solver": "paper"}):
         (part,), _ = mapped(torus, maps=maps)
         assert part.map.tiling is None
         (part,), _ = mapped(torus, maps=maps | {"main": "seamless"})
@@ -96,20 +96,20 @@ def test_direction_of_the_rows(torus):
         assert np.array_equal(part.map.uv, made.uv)
 
 
-def test_punctures_of_the_part_they_lie_on(torus):
+def test_poles_of_the_part_they_lie_on(torus):
     surface = two_parts(torus)
     count = len(torus.vertices)
-    parts, _ = mapped(surface, maps={"main": "balanced", "punctures": [count + 5, count + 150]})
-    assert not hasattr(parts[0].structure, "punctures")
-    assert parts[1].structure.punctures.tolist() == [5, 150]
+    parts, _ = mapped(surface, maps={"main": "balanced", "poles": [count + 5, count + 150]})
+    assert isinstance(parts[0].structure, holomorph.ConformalStructure)
+    assert parts[1].structure.poles.tolist() == [5, 150]
     with pytest.raises(holomorph.TopologyError, match=f"vertex {2 * count}, which the recipe chooses"):
-        mapped(surface, maps={"punctures": [2 * count]})
+        mapped(surface, maps={"poles": [2 * count]})
 
 
-def test_residues_in_the_order_of_the_punctures(torus):
-    maps = {"main": "balanced", "punctures": [150, 5], "residues": [[0, 1], [0, -1]]}
+def test_residues_in_the_order_of_the_poles(torus):
+    maps = {"main": "balanced", "poles": [150, 5], "residues": [[0, 1], [0, -1]]}
     (part,), _ = mapped(torus, maps=maps)
-    assert part.structure.punctures.tolist() == [150, 5]
+    assert part.structure.poles.tolist() == [150, 5]
     assert part.structure.residues.tolist() == [1j, -1j]
 
 
@@ -146,7 +146,7 @@ def test_shape_of_a_sphere_and_of_a_disk(tmp_path):
     faces = np.stack([u * 5 + v + 1, u * 5 + v + 2, u * 5 + v + 7, u * 5 + v + 6], axis=-1)[:-1, :-1].reshape(-1, 4)
     points = "".join(f"v {x} {y} 0\n" for x in range(5) for y in range(5))
     (tmp_path / "disk.obj").write_text(points + "f %d %d %d %d\n" * len(faces) % tuple(faces.ravel().tolist()))
-    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\npunctures = [12]\n")
+    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\npoles = [12]\n")
     (tmp_path / "plain.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\n")
     for name, wanted, height in (("cube", "plain", 1.0), ("disk", "recipe", 0.0)):
         out = tmp_path / name

@@ -45,10 +45,10 @@ def test_each_part_gets_its_own_vertices_and_residues():
     if first.vertex_index[0] != 0:
         first, second = second, first
     (keywords,) = choices.attempts(first, chosen)
-    assert keywords["punctures"].tolist() == [40, 6]
+    assert keywords["poles"].tolist() == [40, 6]
     assert keywords["residues"].tolist() == [2, 3]
     (keywords,) = choices.attempts(second, chosen)
-    assert keywords["punctures"].tolist() == [17]
+    assert keywords["poles"].tolist() == [17]
 
 
 def test_what_was_only_found_is_left_out_in_the_end():
@@ -56,10 +56,10 @@ def test_what_was_only_found_is_left_out_in_the_end():
     seams = np.array([[16, 17], [17, 18]])
     found = choices.Choices(choices.AUTOMATIC, (24,), seams=seams, boundary="double_cover")
     wanted = choices.attempts(part, found)
-    assert [("punctures" in w, "cut_edges" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
+    assert [("poles" in w, "cuts" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
     assert all(w["boundary"] == "natural" for w in wanted)  # a disk has no forms
     explicit = choices.Choices(choices.PUNCTURES, (24,), seams=seams)
-    assert [("punctures" in w, "cut_edges" in w) for w in choices.attempts(part, explicit)] == [(1, 1), (1, 0)]
+    assert [("poles" in w, "cuts" in w) for w in choices.attempts(part, explicit)] == [(1, 1), (1, 0)]
     assert choices.attempts(part, choices.Choices(choices.NONE, (24,))) == [{"solver": "auto", "boundary": "natural"}]
 
 
@@ -80,7 +80,7 @@ def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop()
     corners = [0, 42, 48, 6]  # counter-clockwise, seen from above
     for picked in ([0, 48, 6, 42], [42, 0, 6, 48], [48, 6, 42, 0]):
         chosen = choices.Choices(choices.AUTOMATIC, tuple(picked))
-        found = choices.attempts(part, chosen)[0]["rectangle_corners"].tolist()
+        found = choices.attempts(part, chosen)[0]["corners"].tolist()
         start = corners.index(picked[0])
         assert found == corners[start:] + corners[:start]
 
@@ -88,7 +88,7 @@ def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop()
 def test_corners_that_are_none_stay_as_they_were_picked():
     part = part_of(*grid_arrays(6))
     assert choices.around_boundary(part, np.array([0, 24, 48, 6])).tolist() == [0, 24, 48, 6]
-    assert "punctures" in choices.attempts(part, choices.Choices(choices.AUTOMATIC, (0, 24, 48, 6)))[0]
+    assert "poles" in choices.attempts(part, choices.Choices(choices.AUTOMATIC, (0, 24, 48, 6)))[0]
     vertices, faces = grid_arrays(6)
     ring = part_of(vertices, np.delete(faces, 14, axis=0))  # with a second loop
     inner = int(faces[14][0])

@@ -234,13 +234,13 @@ def test_punctures_and_residues(torus_file, tmp_path):
     report = tmp_path / "report.json"
     chosen = ("--puncture", 3, "--puncture", 150, "--residues", "2+1j -2-1j")
     assert headless(torus_file, "--report", report, *chosen).returncode == 0
-    assert reported(report)["punctures"] == [3, 150]
+    assert reported(report)["poles"] == [3, 150]
     assert reported(report)["residues"] == [[2, 1], [-2, -1]]
 
 
 def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
     for path, options, word in (
-        (torus_file, ("--puncture", 3), "puncture 3"),
+        (torus_file, ("--puncture", 3), "pole 3"),
         (torus_file, ("--puncture", 3, "--puncture", 100000), "100000"),
         (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "1 1"), "residues"),
         (torus_file, ("--puncture", 3, "--rectangle", 0, 1, 2, 3), "exclude"),

@@ -100,7 +100,7 @@ def similarities(obj):
     in space; nothing but a rotation, a factor and a translation was done."""
     factors = []
     for part in cut_parts(obj):
-        uv_of_part = native.load().conformal_structure(part, boundary="free").uv()
+        uv_of_part = native.load().free_boundary_map(part).uv()
         own = uv_of_part @ [1, 1j] * (part.area / native.load().frame(part, uv_of_part).area) ** 0.5
         packed = uv(obj)[part.corner_index] @ [1, 1j]
         own, packed = own - own.mean(), packed - packed.mean()

@@ -6,6 +6,10 @@ import numpy as np
 
 from .._native import Error, TopologyError
 from ..automatic_map import automatic_maps
+from ..automatic_structure import automatic_structure
+from ..cut import cut_along
+from ..disk import disk_map, free_boundary_map, rectangle_map
+from ..log_map import log_map
 from ..map import Map
 from ..plain_data import plain
 from ..report import component_report, map_report, refused_report, skipped_report
@@ -49,30 +53,39 @@ def refused_reports(surface):
 
 
 def _check_chosen(surface, maps):
-    for vertex in (*maps.punctures, *maps.rectangle_corners):
+    for vertex in (*maps.poles, *maps.rectangle_corners):
         if not np.any(surface.vertex_index == vertex):
             raise TopologyError(f"vertex {vertex}, which the recipe chooses, lies on no part of the mesh")
 
 
 def _solve(part, maps, cut_edges, threads):
-    punctures, taken = _own(part.surface, maps.punctures)
-    corners, _ = _own(part.surface, maps.rectangle_corners)
-    residues = [complex(*np.atleast_1d(maps.residues[index])) for index in taken] if maps.residues else None
-    boundary = maps.boundary if part.surface.boundary_count else "natural"
+    options = {"solver": maps.solver, "threads": threads}
+    part.structure = _chosen_structure(part.surface, maps, options)
     cuts = _own_edges(part.surface, cut_edges) if maps.cut_at_seams else None
-    is_cut = cuts is not None and len(cuts) > 0
-    part.is_chosen = bool(punctures or corners) or is_cut or boundary != "natural" or maps.solver == "paper"
-    part.structure = conformal_structure(
-        part.surface,
-        boundary=boundary,
-        punctures=punctures or None,
-        residues=residues or None,
-        rectangle_corners=corners or None,
-        cut_edges=cuts,
-        solver=maps.solver,
-        threads=threads,
-        memory_limit=maps.memory_limit,
-    )
+    part.is_chosen = part.structure is not None or maps.solver == "paper" or (cuts is not None and len(cuts) > 0)
+    if part.structure is None:
+        part.structure = automatic_structure(part.surface, memory_limit=maps.memory_limit, **options)
+    if cuts is not None:
+        part.structure = cut_along(part.structure, cuts)
+
+
+def _chosen_structure(surface, maps, options):
+    """What the recipe chooses for a part; None where it chooses nothing."""
+    poles, taken = _own(surface, maps.poles)
+    corners, _ = _own(surface, maps.rectangle_corners)
+    is_disk = (surface.genus, surface.boundary_count) == (0, 1)
+    if corners:
+        return rectangle_map(surface, corners, **options)
+    if is_disk and len(poles) == 1 and not maps.residues:
+        return disk_map(surface, poles[0], **options)
+    if poles:
+        residues = [complex(*np.atleast_1d(maps.residues[index])) for index in taken] if maps.residues else None
+        return log_map(surface, poles, residues, memory_limit=maps.memory_limit, **options)
+    if maps.boundary == "free" and surface.boundary_count:
+        return free_boundary_map(surface, **options)
+    if maps.boundary == "double_cover" and surface.boundary_count:
+        return conformal_structure(surface, boundary="double_cover", memory_limit=maps.memory_limit, **options)
+    return None
 
 
 def _own(surface, vertices):

@@ -11,9 +11,9 @@ import tomllib
 from .. import formats, tiling
 from ..automatic_map import MAIN_MAPS
 from ..checks import SOLVERS
-from ..structure import BOUNDARIES
 from .errors import UsageError
 
+BOUNDARIES = ("natural", "double_cover", "free")
 FORMATS = ("npz", *formats.WRITERS, "blend")
 
 
@@ -63,13 +63,13 @@ def _is_complex(value):
 
 @dataclass(frozen=True)
 class Maps:
-    """Options of `holomorph.conformal_structure` and of the operator *Holomorphic UV Maps*."""
+    """What the structures of the parts are, and how their maps lie in the UV plane."""
 
     main: str = _one_of(MAIN_MAPS, "automatic")
     forms: int = _count(0)  # maps of single forms, at most
     boundary: str = _one_of(BOUNDARIES, "natural")
     solver: str = _one_of(SOLVERS, "auto")
-    punctures: tuple = _vertices("a list of vertices")
+    poles: tuple = _vertices("a list of vertices")
     residues: tuple = _option((), "a list of numbers or of pairs [real, imaginary]", lambda v: _is_list(v, _is_complex))
     rectangle_corners: tuple = _vertices("a list of four vertices", lambda size: size == 4)
     cut_at_seams: bool = _flag(False)  # of .blend files
@@ -181,9 +181,9 @@ def _check_names(given, known, noun):
 
 
 def _check_together(recipe):
-    if recipe.maps.punctures and recipe.maps.rectangle_corners:
-        raise UsageError("maps.punctures and maps.rectangle_corners exclude each other")
-    if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.punctures):
-        raise UsageError("maps.residues has not as many entries as maps.punctures")
+    if recipe.maps.poles and recipe.maps.rectangle_corners:
+        raise UsageError("maps.poles and maps.rectangle_corners exclude each other")
+    if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.poles):
+        raise UsageError("maps.residues has not as many entries as maps.poles")
     if recipe.tiling.density is not None and recipe.tiling.tiles:
         raise UsageError("tiling.density and tiling.tiles exclude each other")

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__, formats
 from .._native import Error
+from ..plane_maps import DiskMap
 from ..report import overall_report, repairs_report
 from . import arrangement, blend, mapping, picture
 from .recipe import Recipe
@@ -139,10 +140,10 @@ def _shape(surface, parts):
     points = np.full((len(surface.vertex_index), 3), np.nan)
     for part in parts:
         structure, rows = part.structure, np.searchsorted(surface.vertex_index, part.surface.vertex_index)
-        topology = (part.surface.genus, part.surface.boundary_count)
-        if structure and topology == (0, 0) and len(structure.punctures) == 2:
+        is_sphere = (part.surface.genus, part.surface.boundary_count) == (0, 0)
+        if is_sphere and structure and len(structure.poles) == 2:
             points[rows] = structure.sphere_map()
-        elif structure and topology == (0, 1) and hasattr(structure, "disk_map"):
+        elif isinstance(structure, DiskMap):
             disk = structure.disk_map()
             points[rows] = np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
     return points

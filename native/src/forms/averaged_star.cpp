@@ -8,14 +8,14 @@ using mesh::next;
 using mesh::sign;
 
 std::vector<double> averaged_star(const mesh::IntrinsicTriangulation& triangulation, const std::vector<double>& form) {
-  const mesh::HalfEdges& mesh = triangulation.half_edges;
+  const mesh::HalfEdges& half_edges = triangulation.half_edges;
   std::vector<double> star(form.size(), 0.0);
-  for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
-    HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(f));
-    for (int i = 0; i < 3; ++i, h = next(mesh, h)) {
+  for (int f = 0; f < static_cast<int>(half_edges.n_faces()); ++f) {
+    HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(f));
+    for (int i = 0; i < 3; ++i, h = next(half_edges, h)) {
       // Side h opposite corner 0, corners 1 and 2 its ends: (*w)(h) = cot_2 w(0 -> 1) + cot_1 w(0 -> 2), the flux
       // through h.
-      const HalfedgeHandle to_apex = next(mesh, h), from_apex = next(mesh, to_apex);
+      const HalfedgeHandle to_apex = next(half_edges, h), from_apex = next(half_edges, to_apex);
       const double at_start = triangulation.cotangents[to_apex.idx()];
       const double at_end = triangulation.cotangents[from_apex.idx()];
       const double to_start = sign(from_apex) * form[edge_of(from_apex)],

@@ -28,8 +28,8 @@ Eigen::Map<const Row<N>> at_vertex(const ClosedForms& forms, int v) {
 
 // Value of every form along h. N is their number, where it is known in advance: two of them are several times faster.
 template <int N>
-void add_along(const HalfEdges& mesh, const ClosedForms& forms, HalfedgeHandle h, double factor, Row<N>& sum) {
-  const int head = to_vertex(mesh, h), tail = mesh::from_vertex(mesh, h);
+void add_along(const HalfEdges& half_edges, const ClosedForms& forms, HalfedgeHandle h, double factor, Row<N>& sum) {
+  const int head = to_vertex(half_edges, h), tail = mesh::from_vertex(half_edges, h);
   sum += factor * (at_vertex<N>(forms, head) - at_vertex<N>(forms, tail));
   const int first = forms.first, count = static_cast<int>(sum.size());
   for (const auto& [i, value] : topology::forms_between(forms.classes.rows[edge_of(h)], first, first + count))
@@ -41,15 +41,15 @@ using Maxima = std::array<Row<N>, 2>;  // per form: largest |sum|, and largest s
 
 // Faces: |sum around| against the largest value.
 template <int N>
-void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, int end, Maxima<N>& maxima) {
+void measure_faces(const HalfEdges& half_edges, const ClosedForms& forms, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
   Row<N> sum(n), value(n);
   for (int f = begin; f < end; ++f) {
-    HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(f));
+    HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(f));
     sum.setZero();
-    for (int i = 0; i < 3; ++i, h = next(mesh, h)) {
+    for (int i = 0; i < 3; ++i, h = next(half_edges, h)) {
       value.setZero();
-      add_along<N>(mesh, forms, h, 1.0, value);
+      add_along<N>(half_edges, forms, h, 1.0, value);
       sum += value;
       maxima[1] = maxima[1].cwiseMax(value.cwiseAbs());
     }
@@ -59,21 +59,21 @@ void measure_faces(const HalfEdges& mesh, const ClosedForms& forms, int begin, i
 
 // Vertices: |d* h| = |sum of k h over the half-edges that leave| against the sum of |k h|.
 template <int N>
-void measure_vertices(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms, int natural,
-                      const std::vector<char>& is_fixed, int begin, int end, Maxima<N>& maxima) {
+void measure_vertices(const HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
+                      int natural, const std::vector<char>& is_fixed, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
   Row<N> sum(n), size(n), value(n);
   for (int v = begin; v < end; ++v) {
     sum.setZero();
     size.setZero();
-    const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
+    const HalfedgeHandle start = half_edges.halfedge_handle(mesh::VertexHandle(v));
     HalfedgeHandle h = start;
     do {
       value.setZero();
-      add_along<N>(mesh, forms, h, weights[edge_of(h)], value);
+      add_along<N>(half_edges, forms, h, weights[edge_of(h)], value);
       sum += value;
       size += value.cwiseAbs();
-      h = next(mesh, opposite(h));
+      h = next(half_edges, opposite(h));
     } while (h != start);
     if (is_fixed[v]) {
       sum.tail(n - natural).setZero();
@@ -135,15 +135,17 @@ Eigen::VectorXd energies_of(const mesh::Surface& surface, const ClosedForms& for
 }
 
 template <int N>
-Residuals residuals_of(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
+Residuals residuals_of(const HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
                        Execution& execution, int natural, const std::vector<char>& is_fixed) {
   const auto n = forms.functions.cols();
-  const auto faces = [&](int begin, int end, Maxima<N>& maxima) { measure_faces<N>(mesh, forms, begin, end, maxima); };
-  const auto vertices = [&](int begin, int end, Maxima<N>& maxima) {
-    measure_vertices<N>(mesh, weights, forms, natural, is_fixed, begin, end, maxima);
+  const auto faces = [&](int begin, int end, Maxima<N>& maxima) {
+    measure_faces<N>(half_edges, forms, begin, end, maxima);
   };
-  return {relative_maximum<N>(mesh.n_faces(), n, execution, 0.0, 0.5, faces),
-          relative_maximum<N>(mesh.n_vertices(), n, execution, 0.5, 1.0, vertices)};
+  const auto vertices = [&](int begin, int end, Maxima<N>& maxima) {
+    measure_vertices<N>(half_edges, weights, forms, natural, is_fixed, begin, end, maxima);
+  };
+  return {relative_maximum<N>(half_edges.n_faces(), n, execution, 0.0, 0.5, faces),
+          relative_maximum<N>(half_edges.n_vertices(), n, execution, 0.5, 1.0, vertices)};
 }
 
 }  // namespace
@@ -153,31 +155,31 @@ Eigen::VectorXd energies(const mesh::Surface& surface, const ClosedForms& forms,
                                      : energies_of<Eigen::Dynamic>(surface, forms, execution);
 }
 
-Eigen::VectorXd wedges(const HalfEdges& mesh, const ClosedForms& forms, const Eigen::VectorXd& w,
+Eigen::VectorXd wedges(const HalfEdges& half_edges, const ClosedForms& forms, const Eigen::VectorXd& w,
                        Execution& execution) {
   const auto n = forms.functions.cols();
   std::array<Eigen::RowVectorXd, kBatch> slots;
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(n);
   for_blocks(
-      mesh.n_faces(), execution, 0.0, 1.0,
+      half_edges.n_faces(), execution, 0.0, 1.0,
       [&](int slot, int begin, int end) {
         slots[slot] = Eigen::RowVectorXd::Zero(n);
         for (int f = begin; f < end; ++f) {
-          const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
-          add_along<Eigen::Dynamic>(mesh, forms, h0, 0.5 * sign(h1) * w[edge_of(h1)], slots[slot]);
-          add_along<Eigen::Dynamic>(mesh, forms, h1, -0.5 * sign(h0) * w[edge_of(h0)], slots[slot]);
+          const HalfedgeHandle h0 = half_edges.halfedge_handle(mesh::FaceHandle(f)), h1 = next(half_edges, h0);
+          add_along<Eigen::Dynamic>(half_edges, forms, h0, 0.5 * sign(h1) * w[edge_of(h1)], slots[slot]);
+          add_along<Eigen::Dynamic>(half_edges, forms, h1, -0.5 * sign(h0) * w[edge_of(h0)], slots[slot]);
         }
       },
       [&](int slot) { sum += slots[slot]; });
   return sum.transpose();
 }
 
-Residuals residuals(const HalfEdges& mesh, std::span<const double> weights, const ClosedForms& forms,
+Residuals residuals(const HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
                     Execution& execution, int natural, const std::vector<int>& fixed) {
-  std::vector<char> is_fixed(mesh.n_vertices(), 0);
+  std::vector<char> is_fixed(half_edges.n_vertices(), 0);
   for (const int v : fixed) is_fixed[v] = 1;
   const auto of = forms.functions.cols() == 2 ? residuals_of<2> : residuals_of<Eigen::Dynamic>;
-  return of(mesh, weights, forms, execution, natural, is_fixed);
+  return of(half_edges, weights, forms, execution, natural, is_fixed);
 }
 
 }  // namespace holomorph::forms

@@ -51,7 +51,7 @@ struct Sums {
 };
 
 struct WeightedForms {
-  const HalfEdges& mesh;
+  const HalfEdges& half_edges;
   std::span<const double> weights, errors;
   const ClosedForms& forms;
 };
@@ -64,8 +64,8 @@ void add_two(const WeightedForms& w, int begin, int end, Sums& sums) {
   for (int e = begin; e < end; ++e) {
     const double k = w.weights[e];
     if (k == 0) continue;
-    const int head = mesh::to_vertex(w.mesh, HalfedgeHandle(2 * e)),
-              tail = mesh::from_vertex(w.mesh, HalfedgeHandle(2 * e));
+    const int head = mesh::to_vertex(w.half_edges, HalfedgeHandle(2 * e)),
+              tail = mesh::from_vertex(w.half_edges, HalfedgeHandle(2 * e));
     Eigen::Vector2d h(f[2 * head] - f[2 * tail], f[2 * head + 1] - f[2 * tail + 1]);
     for (const auto& [i, integer] : topology::forms_between(w.forms.classes.rows[e], w.forms.first, w.forms.first + 2))
       h[i - w.forms.first] += integer;
@@ -83,7 +83,7 @@ void add_two(const WeightedForms& w, int begin, int end, Sums& sums) {
 void add_all(const WeightedForms& w, const std::vector<int>& families, int begin, int end, Sums& sums) {
   const auto k = Eigen::Map<const VectorXd>(w.weights.data() + begin, end - begin);
   if ((k.array() == 0).all()) return;
-  const RowMajorMatrix values = edge_values(w.mesh, w.forms, begin, end);
+  const RowMajorMatrix values = edge_values(w.half_edges, w.forms, begin, end);
   int first = 0;
   for (std::size_t i = 0; i < families.size(); first += families[i++]) {
     const auto h = values.middleCols(first, families[i]);
@@ -107,10 +107,10 @@ VectorXd cut_sizes(const WeightedForms& w) {
 
 }  // namespace
 
-std::vector<GramMatrix> gram_matrices(const HalfEdges& mesh, std::span<const double> weights,
+std::vector<GramMatrix> gram_matrices(const HalfEdges& half_edges, std::span<const double> weights,
                                       std::span<const double> errors, const ClosedForms& forms,
                                       const std::vector<int>& families, Execution& execution) {
-  const WeightedForms weighted{mesh, weights, errors, forms};
+  const WeightedForms weighted{half_edges, weights, errors, forms};
   const bool two = families == std::vector<int>{2};
   Sums total(families);
   std::vector<Sums> slots(kBatch, total);

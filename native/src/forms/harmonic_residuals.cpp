@@ -12,9 +12,9 @@ using mesh::HalfEdges;
 // The flux of all forms out of a vertex, and their energy there, half of that of its edges.
 class AtVertex {
  public:
-  AtVertex(const HalfEdges& mesh, std::span<const double> weights, const FluxTerms& terms,
+  AtVertex(const HalfEdges& half_edges, std::span<const double> weights, const FluxTerms& terms,
            const RowMajorMatrix& functions)
-      : mesh_(mesh), weights_(weights), terms_(terms), functions_(functions) {}
+      : mesh_(half_edges), weights_(weights), terms_(terms), functions_(functions) {}
 
   std::vector<DoubleDouble> flux;
 
@@ -74,21 +74,21 @@ FluxTerms function_terms(const HalfEdges& half_edges, RowMajorMatrix functions) 
   }};
 }
 
-HarmonicResiduals harmonic_residuals(const HalfEdges& mesh, std::span<const double> weights, const FluxTerms& terms,
-                                     const RowMajorMatrix& functions, Workers& workers) {
+HarmonicResiduals harmonic_residuals(const HalfEdges& half_edges, std::span<const double> weights,
+                                     const FluxTerms& terms, const RowMajorMatrix& functions, Workers& workers) {
   const int vertices = static_cast<int>(functions.rows()), chunks = chunk_count(vertices);
   const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(functions.cols());
   HarmonicResiduals result{Eigen::MatrixXd(functions.rows(), functions.cols()), none};
   std::vector<Eigen::RowVectorXd> energies(chunks, none);
   run_throwing(workers, chunks, [&](int chunk) {
-    AtVertex here(mesh, weights, terms, functions);
+    AtVertex here(half_edges, weights, terms, functions);
     for (int v = chunk * kChunk, end = std::min(v + kChunk, vertices); v < end; ++v) {
       here.begin(v);
-      const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
+      const HalfedgeHandle start = half_edges.halfedge_handle(mesh::VertexHandle(v));
       HalfedgeHandle h = start;
       do {
         here.add(h, energies[chunk]);
-        h = next(mesh, mesh::opposite(h));
+        h = next(half_edges, mesh::opposite(h));
       } while (h != start);
       for (Eigen::Index i = 0; i < functions.cols(); ++i) result.R(v, i) = here.flux[i].value();
     }

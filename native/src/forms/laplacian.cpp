@@ -27,25 +27,25 @@ struct Entry {
 // Calls each(place, vertex, weight of the edge) for the half-edges that leave v, in their order around it. @return
 // their number
 template <class Each>
-int around(const HalfEdges& mesh, std::span<const double> weights, int v, const Each& each) {
-  const HalfedgeHandle start = mesh.halfedge_handle(mesh::VertexHandle(v));
+int around(const HalfEdges& half_edges, std::span<const double> weights, int v, const Each& each) {
+  const HalfedgeHandle start = half_edges.halfedge_handle(mesh::VertexHandle(v));
   if (!start.is_valid()) return 0;
   HalfedgeHandle h = start;
   int place = 0;
   do {
-    each(place++, to_vertex(mesh, h), weights[edge_of(h)]);
-    h = next(mesh, opposite(h));
+    each(place++, to_vertex(half_edges, h), weights[edge_of(h)]);
+    h = next(half_edges, opposite(h));
   } while (h != start);
   return place;
 }
 
 // Column v of L where it has at most kShort entries, all in different rows: ascending, without a branch that depends on
 // their order. @return how many entries it has; 0 where it is not such a column, and nothing is written
-int write_distinct(const HalfEdges& mesh, std::span<const double> weights, int v, int* rows, double* values) {
+int write_distinct(const HalfEdges& half_edges, std::span<const double> weights, int v, int* rows, double* values) {
   int row[kShort] = {};
   double value[kShort];
   double diagonal = 0;
-  const int others = around(mesh, weights, v, [&](int place, int vertex, double weight) {
+  const int others = around(half_edges, weights, v, [&](int place, int vertex, double weight) {
     const int kept = std::min(place, kShort - 1);
     row[kept] = vertex;
     value[kept] = -weight;
@@ -69,10 +69,10 @@ int write_distinct(const HalfEdges& mesh, std::span<const double> weights, int v
 }
 
 // Any column: entries of edges with the same ends added up, loops left out. @return how many entries it has
-int write_merged(const HalfEdges& mesh, std::span<const double> weights, int v, int* rows, double* values) {
+int write_merged(const HalfEdges& half_edges, std::span<const double> weights, int v, int* rows, double* values) {
   std::vector<Entry> entries{{v, 0.0}};
   double diagonal = 0;
-  around(mesh, weights, v, [&](int, int vertex, double weight) {
+  around(half_edges, weights, v, [&](int, int vertex, double weight) {
     if (vertex == v) return;
     entries.push_back({vertex, -weight});
     diagonal += weight;
@@ -92,13 +92,13 @@ int write_merged(const HalfEdges& mesh, std::span<const double> weights, int v, 
 }
 
 // Where the columns of each chunk begin, and where the last ones end, if every edge has entries of its own.
-std::vector<int> chunk_starts(const HalfEdges& mesh, Workers& workers) {
-  const int n = static_cast<int>(mesh.n_vertices()), chunks = chunk_count(n);
-  const int half_edges = static_cast<int>(mesh.n_halfedges()), block = 64 * kChunk;
-  std::vector<std::vector<int>> arriving((half_edges + block - 1) / block, std::vector<int>(chunks, 0));
+std::vector<int> chunk_starts(const HalfEdges& half_edges, Workers& workers) {
+  const int n = static_cast<int>(half_edges.n_vertices()), chunks = chunk_count(n);
+  const int count = static_cast<int>(half_edges.n_halfedges()), block = 64 * kChunk;
+  std::vector<std::vector<int>> arriving((count + block - 1) / block, std::vector<int>(chunks, 0));
   workers.run(static_cast<int>(arriving.size()), [&](int, int i) {
-    for (int h = i * block, end = std::min(h + block, half_edges); h < end; ++h)
-      ++arriving[i][to_vertex(mesh, HalfedgeHandle(h)) / kChunk];
+    for (int h = i * block, end = std::min(h + block, count); h < end; ++h)
+      ++arriving[i][to_vertex(half_edges, HalfedgeHandle(h)) / kChunk];
   });
   std::vector<int> start(chunks + 1, 0);
   for (int c = 0; c < chunks; ++c) {
@@ -131,10 +131,10 @@ void close_gaps(const std::vector<int>& start, solver::Laplacian& L) {
 }  // namespace
 
 // A chunk has space for all edges at its vertices, and is filled by one thread.
-solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weights, Execution& execution) {
-  const int n = static_cast<int>(mesh.n_vertices());
+solver::Laplacian laplacian(const HalfEdges& half_edges, std::span<const double> weights, Execution& execution) {
+  const int n = static_cast<int>(half_edges.n_vertices());
   Workers& workers = execution.workers();
-  const std::vector<int> start = chunk_starts(mesh, workers);
+  const std::vector<int> start = chunk_starts(half_edges, workers);
   execution.report(0.2);
   solver::Laplacian L{Array<int>(n + 1), Array<int>(start.back()), Array<double>(start.back())};
   int* const rows = L.columns.data();
@@ -144,8 +144,8 @@ solver::Laplacian laplacian(const HalfEdges& mesh, std::span<const double> weigh
   run_throwing(workers, chunk_count(n), [&](int chunk) {
     int place = start[chunk];
     for (int v = chunk * kChunk, last = std::min(v + kChunk, n); v < last; ++v) {
-      const int written = write_distinct(mesh, weights, v, rows + place, values + place);
-      place += written > 0 ? written : write_merged(mesh, weights, v, rows + place, values + place);
+      const int written = write_distinct(half_edges, weights, v, rows + place, values + place);
+      place += written > 0 ? written : write_merged(half_edges, weights, v, rows + place, values + place);
       ends[v] = place;
     }
   });

@@ -20,10 +20,10 @@ struct StarTriangle {
   double angle, length, height, t0, t1;
   double log_a, log_b;  // logarithms of the lengths of the spokes, relative to their mean
 
-  StarTriangle(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle link, double angle_at_p,
+  StarTriangle(const HalfEdges& half_edges, std::span<const double> lengths, HalfedgeHandle link, double angle_at_p,
                double unit)
-      : a(mesh::from_vertex(mesh, link)), b(mesh::to_vertex(mesh, link)), angle(angle_at_p) {
-    const HalfedgeHandle from_b = next(mesh, link), to_a = next(mesh, from_b);
+      : a(mesh::from_vertex(half_edges, link)), b(mesh::to_vertex(half_edges, link)), angle(angle_at_p) {
+    const HalfedgeHandle from_b = next(half_edges, link), to_a = next(half_edges, from_b);
     length = lengths[edge_of(link)];
     const double at_a = lengths[edge_of(to_a)], at_b = lengths[edge_of(from_b)];
     height = 2 * mesh::triangle_area(length, at_a, at_b) / length;
@@ -49,30 +49,31 @@ struct StarTriangle {
   }
 };
 
-double mean_spoke(const HalfEdges& mesh, std::span<const double> lengths, const mesh::Star& star) {
+double mean_spoke(const HalfEdges& half_edges, std::span<const double> lengths, const mesh::Star& star) {
   double sum = 0;
-  for (const HalfedgeHandle h : star.link) sum += lengths[edge_of(next(mesh, h))];
+  for (const HalfedgeHandle h : star.link) sum += lengths[edge_of(next(half_edges, h))];
   return sum / static_cast<double>(star.size());
 }
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-Eigen::SparseMatrix<double> assembled(const HalfEdges& mesh, std::size_t columns, const Triplets& entries) {
-  Eigen::SparseMatrix<double> result(static_cast<Eigen::Index>(mesh.n_vertices()), static_cast<Eigen::Index>(columns));
+Eigen::SparseMatrix<double> assembled(const HalfEdges& half_edges, std::size_t columns, const Triplets& entries) {
+  Eigen::SparseMatrix<double> result(static_cast<Eigen::Index>(half_edges.n_vertices()),
+                                     static_cast<Eigen::Index>(columns));
   result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 
 }  // namespace
 
-StarPart star_part(const HalfEdges& mesh, std::span<const double> lengths, const mesh::Star& star) {
-  const double scale = 1 / star.total_angle, unit = mean_spoke(mesh, lengths, star);
+StarPart star_part(const HalfEdges& half_edges, std::span<const double> lengths, const mesh::Star& star) {
+  const double scale = 1 / star.total_angle, unit = mean_spoke(half_edges, lengths, star);
   const std::size_t count = star.size();
   StarPart part{std::vector<double>(count), std::vector<double>(count), std::vector<double>(count),
                 std::vector<double>(count)};
   double alpha = -star.angles[0];  // 0 at the end of link[0]
   for (std::size_t j = 0; j < count; ++j) {
-    const StarTriangle t(mesh, lengths, star.link[j], star.angles[j], unit);
+    const StarTriangle t(half_edges, lengths, star.link[j], star.angles[j], unit);
     alpha += t.angle;
     part.u[j] = alpha * scale;
     part.v[j] = -t.log_b * scale;
@@ -84,38 +85,38 @@ StarPart star_part(const HalfEdges& mesh, std::span<const double> lengths, const
       b[at_a] += scale * (flux - flux_b - (at_p + at_b) * excess);
       b[j] += scale * (flux_b + at_b * excess);
     };
-    add(t.flux_of_log(), t.angle, -t.excess_of_log(), part.b_v, part.b_v_at_puncture);
-    add(t.flux_of_angle(), t.log_ratio(), t.excess_of_angle(), part.b_u, part.b_u_at_puncture);
+    add(t.flux_of_log(), t.angle, -t.excess_of_log(), part.b_v, part.b_v_at_pole);
+    add(t.flux_of_angle(), t.log_ratio(), t.excess_of_angle(), part.b_u, part.b_u_at_pole);
   }
   return part;
 }
 
-SingularPart singular_part(const HalfEdges& mesh, std::span<const double> lengths,
+SingularPart singular_part(const HalfEdges& half_edges, std::span<const double> lengths,
                            const std::vector<mesh::Star>& stars) {
   Triplets u, v, b_u, b_v;
   for (int i = 0; i < static_cast<int>(stars.size()); ++i) {
     const mesh::Star& star = stars[i];
-    const StarPart part = star_part(mesh, lengths, star);
-    b_u.emplace_back(star.vertex, i, part.b_u_at_puncture);
-    b_v.emplace_back(star.vertex, i, part.b_v_at_puncture);
+    const StarPart part = star_part(half_edges, lengths, star);
+    b_u.emplace_back(star.vertex, i, part.b_u_at_pole);
+    b_v.emplace_back(star.vertex, i, part.b_v_at_pole);
     for (std::size_t j = 0; j < star.size(); ++j) {
-      const int b = mesh::to_vertex(mesh, star.link[j]);
+      const int b = mesh::to_vertex(half_edges, star.link[j]);
       u.emplace_back(b, i, part.u[j]);
       v.emplace_back(b, i, part.v[j]);
       b_u.emplace_back(b, i, part.b_u[j]);
       b_v.emplace_back(b, i, part.b_v[j]);
     }
   }
-  const auto matrix = [&](const Triplets& entries) { return assembled(mesh, stars.size(), entries); };
+  const auto matrix = [&](const Triplets& entries) { return assembled(half_edges, stars.size(), entries); };
   return {matrix(u), matrix(v), matrix(b_u), matrix(b_v)};
 }
 
-Array<double> outer_weights(const HalfEdges& mesh, std::span<const double> lengths, Array<double> weights,
+Array<double> outer_weights(const HalfEdges& half_edges, std::span<const double> lengths, Array<double> weights,
                             const std::vector<mesh::Star>& stars) {
   for (const mesh::Star& star : stars) {
     for (const HalfedgeHandle h : star.link) {
-      weights[edge_of(next(mesh, h))] = 0;
-      const HalfedgeHandle outer = opposite(h), outer1 = next(mesh, outer), outer2 = next(mesh, outer1);
+      weights[edge_of(next(half_edges, h))] = 0;
+      const HalfedgeHandle outer = opposite(h), outer1 = next(half_edges, outer), outer2 = next(half_edges, outer1);
       const double a = lengths[edge_of(outer)], b = lengths[edge_of(outer1)], c = lengths[edge_of(outer2)];
       weights[edge_of(h)] = 0.5 * mesh::cotangent(a, b, c, mesh::triangle_area(a, b, c));
     }

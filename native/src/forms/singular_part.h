@@ -1,4 +1,4 @@
-// The singular part of a differential of the third kind in the stars of its punctures.
+// The singular part of a differential of the third kind in the stars of its poles.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -10,7 +10,7 @@
 
 namespace holomorph::forms {
 
-/// Near a puncture of residue 1 and total angle Theta, in polar coordinates (r, alpha) of its star, u_s = alpha/Theta
+/// Near a pole of residue 1 and total angle Theta, in polar coordinates (r, alpha) of its star, u_s = alpha/Theta
 /// and v_s = -log(r)/Theta: u_s + i v_s = 1 / (2 pi i) log z with z = (r e^(i alpha))^(2 pi/Theta).
 ///
 /// b_u, b_v: the fluxes of u_s, v_s out of the star through its link, tested with the hat functions; and the difference
@@ -20,7 +20,7 @@ namespace holomorph::forms {
 struct StarPart {
   std::vector<double> u, v;      ///< at the end of each link edge; u jumps by 1 at link[0]
   std::vector<double> b_u, b_v;  ///< the same
-  double b_u_at_puncture = 0, b_v_at_puncture = 0;
+  double b_u_at_pole = 0, b_v_at_pole = 0;
 };
 
 /// @param lengths #E

@@ -1,4 +1,4 @@
-// Differentials of the third kind, theta = du + i dv with residues s / (2 pi i) at punctures (paper § 11 names them).
+// Differentials of the third kind, theta = du + i dv with residues s / (2 pi i) at poles (paper § 11 names them).
 //
 // No face is cut out. In the stars the singular part (singular_part.h) is known; outside, it is continued as any closed
 // form with the same values on the links, and u = u_s + df, v = v_s + g with f, g on all vertices of the whole mesh:
@@ -16,7 +16,7 @@
 
 namespace holomorph::forms {
 
-/// m pole forms, each with the residue 1 at a puncture of its own. Outside the stars u_s = d(part.u residues) +
+/// m pole forms, each with the residue 1 at a pole of its own. Outside the stars u_s = d(part.u residues) +
 /// classes.
 struct PoleForms {
   std::vector<mesh::Star> stars;
@@ -32,7 +32,7 @@ Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed);
 
 /// The form of u is d(u) + classes outside the stars; v is single-valued.
 struct PoleFunctions {
-  RowMajorMatrix u, v;     ///< #V x m; at the punctures only f and g
+  RowMajorMatrix u, v;     ///< #V x m; at the poles only f and g
   double harmonicity = 0;  ///< largest residual of the equations at a vertex over the largest sum of |terms|
 };
 
@@ -55,7 +55,7 @@ RowMajorMatrix function_with_poles(const mesh::HalfEdges& half_edges, std::span<
                                    Execution& execution);
 
 /// C, #forms x m: u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v is.
-/// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the puncture).
+/// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the pole).
 /// @param harmonic,gram_matrix on the same triangulation; with boundary the natural forms, the first of `harmonic`
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const PoleForms& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);

@@ -10,22 +10,23 @@ constexpr double kLonger = 1e-9;
 
 }  // namespace
 
-BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& mesh) {
+BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& half_edges) {
   BoundaryLoops result;
-  result.loop_of_vertex.assign(mesh.n_vertices(), -1);
+  result.loop_of_vertex.assign(half_edges.n_vertices(), -1);
   double longest = 0;
   std::size_t first = 0;
-  for (int v = 0; v < static_cast<int>(mesh.n_vertices()); ++v) {
-    const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));  // at the boundary, the one without a face
-    if (!start.is_valid() || mesh.face_handle(start).is_valid() || result.loop_of_vertex[v] >= 0) continue;
+  for (int v = 0; v < static_cast<int>(half_edges.n_vertices()); ++v) {
+    const HalfedgeHandle start =
+        half_edges.halfedge_handle(VertexHandle(v));  // at the boundary, the one without a face
+    if (!start.is_valid() || half_edges.face_handle(start).is_valid() || result.loop_of_vertex[v] >= 0) continue;
     std::vector<HalfedgeHandle> loop;
     double length = 0;
     HalfedgeHandle h = start;
     do {
       loop.push_back(h);
       length += surface.edge_lengths[edge_of(h)];
-      result.loop_of_vertex[from_vertex(mesh, h)] = 0;
-      h = next(mesh, h);
+      result.loop_of_vertex[from_vertex(half_edges, h)] = 0;
+      h = next(half_edges, h);
     } while (h != start);
     if (length > (1 + kLonger) * longest) longest = length, first = result.loops.size();
     result.loops.push_back(std::move(loop));
@@ -34,15 +35,15 @@ BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& mesh) {
     std::rotate(result.loops.begin(), result.loops.begin() + static_cast<std::ptrdiff_t>(first),
                 result.loops.begin() + static_cast<std::ptrdiff_t>(first) + 1);
   for (int k = 0; k < result.count(); ++k) {
-    for (const HalfedgeHandle h : result.loops[k]) result.loop_of_vertex[from_vertex(mesh, h)] = k;
+    for (const HalfedgeHandle h : result.loops[k]) result.loop_of_vertex[from_vertex(half_edges, h)] = k;
   }
   return result;
 }
 
-std::vector<int> boundary_vertices(const HalfEdges& mesh) {
+std::vector<int> boundary_vertices(const HalfEdges& half_edges) {
   std::vector<int> vertices;
-  for (int v = 0; v < static_cast<int>(mesh.n_vertices()); ++v) {
-    if (mesh.is_boundary(VertexHandle(v))) vertices.push_back(v);
+  for (int v = 0; v < static_cast<int>(half_edges.n_vertices()); ++v) {
+    if (half_edges.is_boundary(VertexHandle(v))) vertices.push_back(v);
   }
   return vertices;
 }

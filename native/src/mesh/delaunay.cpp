@@ -54,8 +54,9 @@ class EdgeMarks {
 };
 
 // Whether the edge lies between two different faces, so that it can be flipped.
-bool is_interior(const HalfEdges& mesh, int e) {
-  const FaceHandle fa = mesh.face_handle(HalfedgeHandle(2 * e)), fb = mesh.face_handle(HalfedgeHandle(2 * e + 1));
+bool is_interior(const HalfEdges& half_edges, int e) {
+  const FaceHandle fa = half_edges.face_handle(HalfedgeHandle(2 * e)),
+                   fb = half_edges.face_handle(HalfedgeHandle(2 * e + 1));
   return fa.is_valid() && fb.is_valid() && fa != fb;
 }
 
@@ -154,12 +155,12 @@ struct Work {
 
 // A face is in the region of its edge of lowest number: edges with near numbers have near vertices.
 Work find_work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
-  const HalfEdges& mesh = t.half_edges;
-  const int edge_count = static_cast<int>(mesh.n_edges());
+  const HalfEdges& half_edges = t.half_edges;
+  const int edge_count = static_cast<int>(half_edges.n_edges());
   const int region_bits = std::bit_width(std::max(kLeastRegion, (edge_count + kRegions - 1) / kRegions) - 1);
   const auto region = [&](HalfedgeHandle h) {
-    const HalfedgeHandle after = next(mesh, h);
-    return std::min({edge_of(h), edge_of(after), edge_of(next(mesh, after))}) >> region_bits;
+    const HalfedgeHandle after = next(half_edges, h);
+    return std::min({edge_of(h), edge_of(after), edge_of(next(half_edges, after))}) >> region_bits;
   };
   struct Bad {
     int edge, region;
@@ -167,7 +168,7 @@ Work find_work(IntrinsicTriangulation& t, EdgeMarks& marks, Workers& workers) {
   std::vector<std::vector<Bad>> bad(chunk_count(edge_count));
   run_throwing(workers, chunk_count(edge_count), [&](int chunk) {
     for (int e = chunk * kChunk, end = std::min(e + kChunk, edge_count); e < end; ++e) {
-      const bool interior = is_interior(mesh, e), is_bad = interior && !is_delaunay(t, e);
+      const bool interior = is_interior(half_edges, e), is_bad = interior && !is_delaunay(t, e);
       const int a = interior ? region(HalfedgeHandle(2 * e)) : 0, b = interior ? region(HalfedgeHandle(2 * e + 1)) : 0;
       marks.set(e, a != b, is_bad);
       if (is_bad) bad[chunk].push_back({e, a});

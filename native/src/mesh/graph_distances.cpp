@@ -6,10 +6,10 @@
 
 namespace holomorph::mesh {
 
-std::vector<double> graph_distances(const HalfEdges& mesh, std::span<const double> lengths,
+std::vector<double> graph_distances(const HalfEdges& half_edges, std::span<const double> lengths,
                                     const std::vector<int>& sources) {
   using Entry = std::pair<double, int>;
-  std::vector<double> distance(mesh.n_vertices(), std::numeric_limits<double>::infinity());
+  std::vector<double> distance(half_edges.n_vertices(), std::numeric_limits<double>::infinity());
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   for (const int v : sources) {
     distance[v] = 0;
@@ -19,14 +19,14 @@ std::vector<double> graph_distances(const HalfEdges& mesh, std::span<const doubl
     const auto [at, v] = queue.top();
     queue.pop();
     if (at > distance[v]) continue;
-    const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(v));
+    const HalfedgeHandle start = half_edges.halfedge_handle(VertexHandle(v));
     if (!start.is_valid()) continue;
     HalfedgeHandle h = start;
     do {
-      const int w = to_vertex(mesh, h);
+      const int w = to_vertex(half_edges, h);
       const double through = at + lengths[edge_of(h)];
       if (through < distance[w]) queue.push({distance[w] = through, w});
-      h = next(mesh, opposite(h));
+      h = next(half_edges, opposite(h));
     } while (h != start);
   }
   return distance;

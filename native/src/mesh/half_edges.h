@@ -34,28 +34,30 @@ class Sides {
 };
 
 /// @throws InvalidMesh for the first vertex at which two fans of faces touch
-void refuse_pinched_vertices(const HalfEdges& mesh, Workers& workers);
+void refuse_pinched_vertices(const HalfEdges& half_edges, Workers& workers);
 
 /// +1 where `h` runs along its edge, -1 where it runs back.
 inline int sign(HalfedgeHandle h) { return h.idx() & 1 ? -1 : 1; }
 inline int edge_of(HalfedgeHandle h) { return h.idx() >> 1; }
 inline HalfedgeHandle opposite(HalfedgeHandle h) { return HalfedgeHandle(h.idx() ^ 1); }
-inline int from_vertex(const HalfEdges& mesh, HalfedgeHandle h) { return mesh.to_vertex_handle(opposite(h)).idx(); }
-inline int to_vertex(const HalfEdges& mesh, HalfedgeHandle h) { return mesh.to_vertex_handle(h).idx(); }
-inline int face_of(const HalfEdges& mesh, HalfedgeHandle h) { return mesh.face_handle(h).idx(); }
+inline int from_vertex(const HalfEdges& half_edges, HalfedgeHandle h) {
+  return half_edges.to_vertex_handle(opposite(h)).idx();
+}
+inline int to_vertex(const HalfEdges& half_edges, HalfedgeHandle h) { return half_edges.to_vertex_handle(h).idx(); }
+inline int face_of(const HalfEdges& half_edges, HalfedgeHandle h) { return half_edges.face_handle(h).idx(); }
 /// The next half-edge around the face, and the one after it, which is the one before.
-inline HalfedgeHandle next(const HalfEdges& mesh, HalfedgeHandle h) { return mesh.next_halfedge_handle(h); }
+inline HalfedgeHandle next(const HalfEdges& half_edges, HalfedgeHandle h) { return half_edges.next_halfedge_handle(h); }
 /// Whether `h`, which has a face, is the one of lowest number there: every face has one such.
-inline bool is_first_of_face(const HalfEdges& mesh, HalfedgeHandle h) {
-  const HalfedgeHandle after = next(mesh, h);
-  return h < after && h < next(mesh, after);
+inline bool is_first_of_face(const HalfEdges& half_edges, HalfedgeHandle h) {
+  const HalfedgeHandle after = next(half_edges, h);
+  return h < after && h < next(half_edges, after);
 }
 
 /// Flips edge e inside the quadrilateral of its two triangles, links only. @pre two different faces at e.
 /// Threads may flip edges of different faces.
-void flip_links(HalfEdges& mesh, EdgeHandle e);
+void flip_links(HalfEdges& half_edges, EdgeHandle e);
 
 /// Number of boundary loops.
-int boundary_count(const HalfEdges& mesh);
+int boundary_count(const HalfEdges& half_edges);
 
 }  // namespace holomorph::mesh

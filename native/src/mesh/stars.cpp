@@ -12,25 +12,25 @@ namespace holomorph::mesh {
 namespace {
 
 // Angle at the apex of the triangle on side h.
-double apex_angle(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle h) {
-  const HalfedgeHandle h1 = next(mesh, h), h2 = next(mesh, h1);
+double apex_angle(const HalfEdges& half_edges, std::span<const double> lengths, HalfedgeHandle h) {
+  const HalfedgeHandle h1 = next(half_edges, h), h2 = next(half_edges, h1);
   const double a = lengths[edge_of(h)], b = lengths[edge_of(h1)], c = lengths[edge_of(h2)];
   return std::atan2(4 * triangle_area(a, b, c), (b - a) * (b + a) + c * c);
 }
 
 // The place of the apex of the triangle on side h, where this side runs from 0 to 1.
-std::complex<double> apex_place(const HalfEdges& mesh, std::span<const double> lengths, HalfedgeHandle h) {
-  const HalfedgeHandle h1 = next(mesh, h), h2 = next(mesh, h1);
+std::complex<double> apex_place(const HalfEdges& half_edges, std::span<const double> lengths, HalfedgeHandle h) {
+  const HalfedgeHandle h1 = next(half_edges, h), h2 = next(half_edges, h1);
   const double l = lengths[edge_of(h)], to_b = lengths[edge_of(h1)], to_a = lengths[edge_of(h2)];
   return {(l * l + (to_a - to_b) * (to_a + to_b)) / (2 * l * l), 2 * triangle_area(l, to_a, to_b) / (l * l)};
 }
 
-bool on_boundary(const HalfEdges& mesh, int vertex) {
-  return !mesh.face_handle(mesh.halfedge_handle(VertexHandle(vertex))).is_valid();
+bool on_boundary(const HalfEdges& half_edges, int vertex) {
+  return !half_edges.face_handle(half_edges.halfedge_handle(VertexHandle(vertex))).is_valid();
 }
 
 // Marks the vertices of a star with its centre. Refuses those of another star, of the boundary, and any twice.
-void claim(const HalfEdges& mesh, const Star& star, const Labels& label, std::vector<int>& owner) {
+void claim(const HalfEdges& half_edges, const Star& star, const Labels& label, std::vector<int>& owner) {
   const std::string itself = "the star of vertex " + label(star.vertex);
   const auto take = [&](int v) {
     if (owner[v] == star.vertex)
@@ -43,8 +43,8 @@ void claim(const HalfEdges& mesh, const Star& star, const Labels& label, std::ve
   };
   take(star.vertex);
   for (const HalfedgeHandle h : star.link) {
-    const int v = to_vertex(mesh, h);
-    if (on_boundary(mesh, v)) throw TopologyError(itself + " touches the boundary at vertex " + label(v));
+    const int v = to_vertex(half_edges, h);
+    if (on_boundary(half_edges, v)) throw TopologyError(itself + " touches the boundary at vertex " + label(v));
     take(v);
   }
 }
@@ -113,34 +113,34 @@ void flip(Surface& surface, Side s) {
 
 }  // namespace
 
-Star star(const HalfEdges& mesh, std::span<const double> lengths, int vertex, const std::vector<int>& labels) {
+Star star(const HalfEdges& half_edges, std::span<const double> lengths, int vertex, const std::vector<int>& labels) {
   const Labels label(labels);
   Star result;
   result.vertex = vertex;
-  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  const HalfedgeHandle start = half_edges.halfedge_handle(VertexHandle(vertex));
   if (!start.is_valid()) throw TopologyError("vertex " + label(vertex) + " belongs to no face");
   HalfedgeHandle h = start;
   do {  // h leaves the vertex; the face to its left is the next one counter-clockwise
-    if (!mesh.face_handle(h).is_valid())
+    if (!half_edges.face_handle(h).is_valid())
       throw TopologyError("vertex " + label(vertex) + " lies on the boundary; an interior one is needed");
-    const HalfedgeHandle outer = next(mesh, h);
+    const HalfedgeHandle outer = next(half_edges, h);
     result.link.push_back(outer);
-    result.faces.push_back(face_of(mesh, outer));
-    result.angles.push_back(apex_angle(mesh, lengths, outer));
-    result.apexes.push_back(apex_place(mesh, lengths, outer));
+    result.faces.push_back(face_of(half_edges, outer));
+    result.angles.push_back(apex_angle(half_edges, lengths, outer));
+    result.apexes.push_back(apex_place(half_edges, lengths, outer));
     result.total_angle += result.angles.back();
-    h = opposite(next(mesh, outer));
+    h = opposite(next(half_edges, outer));
   } while (h != start);
   return result;
 }
 
-std::vector<int> star_vertices(const Surface& surface, const HalfEdges& mesh, int vertex) {
+std::vector<int> star_vertices(const Surface& surface, const HalfEdges& half_edges, int vertex) {
   std::vector<int> vertices{vertex};
-  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  const HalfedgeHandle start = half_edges.halfedge_handle(VertexHandle(vertex));
   HalfedgeHandle h = start;
   do {
-    if (!surface.is_diagonal(edge_of(h))) vertices.push_back(to_vertex(mesh, h));
-    h = next(mesh, opposite(h));
+    if (!surface.is_diagonal(edge_of(h))) vertices.push_back(to_vertex(half_edges, h));
+    h = next(half_edges, opposite(h));
   } while (h != start);
   return vertices;
 }
@@ -157,40 +157,40 @@ std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> len
   return result;
 }
 
-std::vector<int> corners_around(const Surface& surface, const HalfEdges& mesh, int vertex) {
+std::vector<int> corners_around(const Surface& surface, const HalfEdges& half_edges, int vertex) {
   const auto& [positions, corner_vertices, offsets] = surface.polygons;
   std::vector<int> vertices;
-  const HalfedgeHandle start = mesh.halfedge_handle(VertexHandle(vertex));
+  const HalfedgeHandle start = half_edges.halfedge_handle(VertexHandle(vertex));
   HalfedgeHandle h = start;
   do {
-    if (mesh.face_handle(h).is_valid()) {
-      const int polygon = surface.triangle_faces[face_of(mesh, h)];
+    if (half_edges.face_handle(h).is_valid()) {
+      const int polygon = surface.triangle_faces[face_of(half_edges, h)];
       vertices.insert(vertices.end(), corner_vertices.begin() + offsets[polygon],
                       corner_vertices.begin() + offsets[polygon + 1]);
     }
-    h = next(mesh, opposite(h));
+    h = next(half_edges, opposite(h));
   } while (h != start);
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 
-bool has_proper_star(const Surface& surface, const HalfEdges& mesh, int vertex) {
-  if (!mesh.halfedge_handle(VertexHandle(vertex)).is_valid()) return false;
-  std::vector<int> vertices = star_vertices(surface, mesh, vertex);
-  if (std::any_of(vertices.begin(), vertices.end(), [&](int v) { return on_boundary(mesh, v); })) return false;
+bool has_proper_star(const Surface& surface, const HalfEdges& half_edges, int vertex) {
+  if (!half_edges.halfedge_handle(VertexHandle(vertex)).is_valid()) return false;
+  std::vector<int> vertices = star_vertices(surface, half_edges, vertex);
+  if (std::any_of(vertices.begin(), vertices.end(), [&](int v) { return on_boundary(half_edges, v); })) return false;
   std::sort(vertices.begin(), vertices.end());
   return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end();
 }
 
-bool has_free_star(const Surface& surface, const HalfEdges& mesh, int vertex, const std::vector<char>& taken) {
-  if (!has_proper_star(surface, mesh, vertex)) return false;
-  const std::vector<int> vertices = star_vertices(surface, mesh, vertex);
+bool has_free_star(const Surface& surface, const HalfEdges& half_edges, int vertex, const std::vector<char>& taken) {
+  if (!has_proper_star(surface, half_edges, vertex)) return false;
+  const std::vector<int> vertices = star_vertices(surface, half_edges, vertex);
   return std::none_of(vertices.begin(), vertices.end(), [&](int v) { return taken[v]; });
 }
 
-void mark_star(const Surface& surface, const HalfEdges& mesh, int vertex, std::vector<char>& taken) {
-  for (const int v : star_vertices(surface, mesh, vertex)) taken[v] = 1;
+void mark_star(const Surface& surface, const HalfEdges& half_edges, int vertex, std::vector<char>& taken) {
+  for (const int v : star_vertices(surface, half_edges, vertex)) taken[v] = 1;
 }
 
 void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& labels) {

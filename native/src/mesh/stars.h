@@ -1,4 +1,4 @@
-// The stars of vertices that become punctures: disks of faces, apart from each other and from the boundary.
+// The stars of vertices that become poles: disks of faces, apart from each other and from the boundary.
 #pragma once
 
 #include <complex>
@@ -36,7 +36,7 @@ Star star(const HalfEdges& half_edges, std::span<const double> lengths, int vert
 std::vector<int> star_vertices(const Surface& surface, const HalfEdges& half_edges, int vertex);
 
 /// The corners of all polygons at a vertex that has a face, ascending. Where no corner of one is in the star of another
-/// vertex, the two can be punctures together.
+/// vertex, the two can be poles together.
 std::vector<int> corners_around(const Surface& surface, const HalfEdges& half_edges, int vertex);
 
 /// Whether `stars` accepts the vertex alone once diagonals are flipped away from it: its neighbours along edges of

@@ -10,9 +10,9 @@
 namespace holomorph::mesh {
 namespace {
 
-void record_isolated_vertices(Surface& surface, const HalfEdges& mesh) {
+void record_isolated_vertices(Surface& surface, const HalfEdges& half_edges) {
   for (int v = 0; v < surface.vertex_count; ++v) {
-    if (!mesh.halfedge_handle(VertexHandle(v)).is_valid()) surface.repairs.isolated_vertices.push_back(v);
+    if (!half_edges.halfedge_handle(VertexHandle(v)).is_valid()) surface.repairs.isolated_vertices.push_back(v);
   }
 }
 
@@ -50,9 +50,9 @@ void record_orientation(Surface& surface, const Orientation& orientation, const 
 
 void finish_records(Surface& surface, Execution& execution, const MeshLabels& label) {
   record_zero_areas(surface, label, execution.workers());
-  const HalfEdges mesh = half_edges(surface, execution);
-  refuse_pinched_vertices(mesh, execution.workers());
-  record_isolated_vertices(surface, mesh);
+  const HalfEdges half_edges = mesh::half_edges(surface, execution);
+  refuse_pinched_vertices(half_edges, execution.workers());
+  record_isolated_vertices(surface, half_edges);
 }
 
 }  // namespace holomorph::mesh

@@ -21,9 +21,9 @@ std::vector<int> flipped_polygons(const Surface& surface, const Surface& flipped
 }
 
 // The half-edge from a to b. @pre there is one
-HalfedgeHandle half_edge(const mesh::HalfEdges& mesh, int a, int b) {
-  HalfedgeHandle h = mesh.halfedge_handle(mesh::VertexHandle(a));
-  while (mesh::to_vertex(mesh, h) != b) h = mesh::next(mesh, mesh::opposite(h));
+HalfedgeHandle half_edge(const mesh::HalfEdges& half_edges, int a, int b) {
+  HalfedgeHandle h = half_edges.halfedge_handle(mesh::VertexHandle(a));
+  while (mesh::to_vertex(half_edges, h) != b) h = mesh::next(half_edges, mesh::opposite(h));
   return h;
 }
 

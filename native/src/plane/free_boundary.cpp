@@ -36,14 +36,14 @@ std::vector<HalfedgeHandle> boundary_of_disk(const mesh::Surface& surface, const
 
 // #V: K, 2 pi less the sum of angles, in the interior; k, pi less that sum, on the boundary. They sum to 2 pi.
 Eigen::VectorXd curvatures(const IntrinsicTriangulation& t) {
-  const HalfEdges& mesh = t.half_edges;
-  Eigen::VectorXd result(static_cast<Eigen::Index>(mesh.n_vertices()));
+  const HalfEdges& half_edges = t.half_edges;
+  Eigen::VectorXd result(static_cast<Eigen::Index>(half_edges.n_vertices()));
   for (int v = 0; v < result.size(); ++v)
-    result[v] = (mesh.is_boundary(mesh::VertexHandle(v)) ? 1 : 2) * std::numbers::pi;
+    result[v] = (half_edges.is_boundary(mesh::VertexHandle(v)) ? 1 : 2) * std::numbers::pi;
   for (int i = 0; i < static_cast<int>(t.cotangents.size()); ++i) {
     const HalfedgeHandle h(i);
-    if (mesh.is_boundary(h)) continue;
-    result[mesh::to_vertex(mesh, mesh::next(mesh, h))] -= std::atan2(1.0, t.cotangents[i]);
+    if (half_edges.is_boundary(h)) continue;
+    result[mesh::to_vertex(half_edges, mesh::next(half_edges, h))] -= std::atan2(1.0, t.cotangents[i]);
   }
   return result;
 }

@@ -78,9 +78,9 @@ Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half
   result.boundary = domain.boundary;
   result.homology_basis = given ? std::move(given->loops) : all_loops(half_edges, domain);
   auto natural = given ? std::move(given->classes) : natural_classes(half_edges, domain);
-  std::vector<int> punctures;
-  for (const mesh::Star& star : stars) punctures.push_back(star.vertex);
-  result.seams = topology::cut_graph(half_edges, domain, punctures);
+  std::vector<int> poles;
+  for (const mesh::Star& star : stars) poles.push_back(star.vertex);
+  result.seams = topology::cut_graph(half_edges, domain, poles);
   add_spokes(half_edges, stars, result.seams);
   set_pairing(half_edges, natural, result, execution);
   result.classes = all_classes(half_edges, domain, std::move(natural), stars, result);

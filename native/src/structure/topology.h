@@ -33,13 +33,13 @@ struct Topology {
   topology::CanonicalBasis canonical;  ///< of a closed surface with handles
   Families families;
   topology::IntegerForms classes;  ///< of the whole basis, on the edges of the surface
-  std::vector<int> seams;          ///< edges of the cut graph, and of the spokes of punctures
+  std::vector<int> seams;          ///< edges of the cut graph, and of the spokes of poles
   uv::CornerSheets sheets;         ///< integer potentials of the classes
 };
 
 /// Fundamental domain, homology basis, dual classes, pairing and cut.
 /// @param given lifted loops and pulled-back dual classes of a progressive mesh's base, for a closed surface
-/// @param stars of punctures
+/// @param stars of poles
 /// @pre connected, no isolated vertices
 /// @throws Cancelled. Cost: near-linear; see topology::fundamental_domain
 Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Execution& execution,

@@ -21,17 +21,17 @@ using mesh::to_vertex;
 // algorithm finds with a queue of all faces, in linear time but for the core.
 class DualTree {
  public:
-  DualTree(const mesh::Surface& surface, const HalfEdges& mesh, const Array<double>& distance,
+  DualTree(const mesh::Surface& surface, const HalfEdges& half_edges, const Array<double>& distance,
            FundamentalDomain& domain)
-      : surface_(surface), mesh_(mesh), distance_(distance), domain_(domain), free_(mesh.n_edges(), 1) {
+      : surface_(surface), mesh_(half_edges), distance_(distance), domain_(domain), free_(half_edges.n_edges(), 1) {
     for (const HalfedgeHandle h : domain.to_parent_vertex) {
       if (h.is_valid()) free_[edge_of(h)] = 0;
     }
     for (const HalfedgeHandle h : domain.gaps) free_[edge_of(h)] = 0;
-    domain.crossed.assign(mesh.n_edges(), 0);
-    domain.to_parent_face.assign(mesh.n_faces(), HalfedgeHandle());
-    domain.face_rank.resize(mesh.n_faces());
-    domain.face_order.reserve(mesh.n_faces());
+    domain.crossed.assign(half_edges.n_edges(), 0);
+    domain.to_parent_face.assign(half_edges.n_faces(), HalfedgeHandle());
+    domain.face_rank.resize(half_edges.n_faces());
+    domain.face_order.reserve(half_edges.n_faces());
   }
 
   void grow(const std::vector<mesh::Star>& stars, Execution& execution) {
@@ -162,21 +162,21 @@ FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdg
 
 // Outside T are the edges left over and the gaps. An edge of T dangles unless there is an end of these, or one of
 // `ends`, on either side of it.
-std::vector<int> cut_graph(const HalfEdges& mesh, const FundamentalDomain& domain, const std::vector<int>& ends) {
+std::vector<int> cut_graph(const HalfEdges& half_edges, const FundamentalDomain& domain, const std::vector<int>& ends) {
   std::vector<int> graph = domain.left_over, terminals = ends;
   const auto add_ends = [&](HalfedgeHandle h) {
-    terminals.push_back(to_vertex(mesh, h));
-    terminals.push_back(to_vertex(mesh, opposite(h)));
+    terminals.push_back(to_vertex(half_edges, h));
+    terminals.push_back(to_vertex(half_edges, opposite(h)));
   };
   for (const int e : domain.left_over) add_ends(HalfedgeHandle(2 * e));
   for (const HalfedgeHandle h : domain.gaps) add_ends(h);
 
-  std::vector<char> visited(mesh.n_vertices(), 0);
-  std::vector<int> beyond(mesh.n_vertices(), 0),
+  std::vector<char> visited(half_edges.n_vertices(), 0);
+  std::vector<int> beyond(half_edges.n_vertices(), 0),
       on_paths;  // beyond: number of terminals whose path to the root has the vertex
   for (int v : terminals) {
     ++beyond[v];
-    for (; !std::exchange(visited[v], 1); v = to_vertex(mesh, domain.to_parent_vertex[v])) {
+    for (; !std::exchange(visited[v], 1); v = to_vertex(half_edges, domain.to_parent_vertex[v])) {
       on_paths.push_back(v);
       if (!domain.to_parent_vertex[v].is_valid()) break;
     }
@@ -187,9 +187,10 @@ std::vector<int> cut_graph(const HalfEdges& mesh, const FundamentalDomain& domai
   for (const int v : on_paths) {
     const HalfedgeHandle h = domain.to_parent_vertex[v];
     if (!h.is_valid()) continue;
-    beyond[to_vertex(mesh, h)] += beyond[v];
+    beyond[to_vertex(half_edges, h)] += beyond[v];
     const int e = edge_of(h);
-    if (beyond[v] < static_cast<int>(terminals.size()) && !mesh.is_boundary(mesh::EdgeHandle(e))) graph.push_back(e);
+    if (beyond[v] < static_cast<int>(terminals.size()) && !half_edges.is_boundary(mesh::EdgeHandle(e)))
+      graph.push_back(e);
   }
   std::sort(graph.begin(), graph.end());
   return graph;

@@ -9,7 +9,7 @@
 namespace holomorph::topology {
 
 /// @param surface,half_edges the input triangulation; C has all its diagonals, so G and T consist of edges of polygons
-/// @param stars of punctures, all of whose spokes are in T: then C enters each face of a star across its link edge, as
+/// @param stars of poles, all of whose spokes are in T: then C enters each face of a star across its link edge, as
 /// a leaf, and the surface without the stars is cut as if they were holes. @pre no spoke is a diagonal Cost: linear but
 /// for the logarithms of the queue of T (grow_shortest_paths) and of the sort of the edges that the dual loops cross.
 FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Execution& execution,

@@ -18,34 +18,34 @@ void add_crossing(HalfedgeHandle leaving, int form, int direction, IntegerForms&
 }
 
 // The dual path inside D from one face to another.
-void add_dual_path(const HalfEdges& mesh, const FundamentalDomain& domain, int here, int there, int form,
+void add_dual_path(const HalfEdges& half_edges, const FundamentalDomain& domain, int here, int there, int form,
                    IntegerForms& forms) {
   while (here != there) {
     if (domain.face_rank[here] > domain.face_rank[there]) {
       add_crossing(domain.to_parent_face[here], form, 1, forms);
-      here = face_of(mesh, opposite(domain.to_parent_face[here]));
+      here = face_of(half_edges, opposite(domain.to_parent_face[here]));
     } else {
       add_crossing(domain.to_parent_face[there], form, -1, forms);
-      there = face_of(mesh, opposite(domain.to_parent_face[there]));
+      there = face_of(half_edges, opposite(domain.to_parent_face[there]));
     }
   }
 }
 
 }  // namespace
 
-std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& mesh, const FundamentalDomain& domain) {
+std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain) {
   std::vector<std::vector<HalfedgeHandle>> loops;
   for (const int e : domain.left_over) {
     const HalfedgeHandle h(2 * e);
-    int a = from_vertex(mesh, h), b = to_vertex(mesh, h);
+    int a = from_vertex(half_edges, h), b = to_vertex(half_edges, h);
     std::vector<HalfedgeHandle> from_b, towards_a;  // e, then b up to the common vertex, then down to a
     while (a != b) {
       if (domain.vertex_rank[b] > domain.vertex_rank[a]) {
         from_b.push_back(domain.to_parent_vertex[b]);
-        b = to_vertex(mesh, from_b.back());
+        b = to_vertex(half_edges, from_b.back());
       } else {
         towards_a.push_back(opposite(domain.to_parent_vertex[a]));
-        a = from_vertex(mesh, towards_a.back());
+        a = from_vertex(half_edges, towards_a.back());
       }
     }
     std::vector<HalfedgeHandle> loop{h};
@@ -56,34 +56,35 @@ std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& mesh, c
   return loops;
 }
 
-IntegerForms cohomology_basis(const HalfEdges& mesh, const FundamentalDomain& domain) {
+IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain) {
   IntegerForms forms;
-  forms.rows.resize(mesh.n_edges());
+  forms.rows.resize(half_edges.n_edges());
   for (const int e : domain.left_over) {  // out of the face at h, and back to it through D
     const HalfedgeHandle h(2 * e);
     const int i = forms.form_count++;
     add_crossing(h, i, 1, forms);
-    add_dual_path(mesh, domain, face_of(mesh, opposite(h)), face_of(mesh, h), i, forms);
+    add_dual_path(half_edges, domain, face_of(half_edges, opposite(h)), face_of(half_edges, h), i, forms);
   }
   return forms;
 }
 
-void add_paths_between_loops(const HalfEdges& mesh, const FundamentalDomain& domain, IntegerForms& forms) {
+void add_paths_between_loops(const HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms& forms) {
   for (std::size_t k = 1; k < domain.gaps.size(); ++k) {
     const HalfedgeHandle in = opposite(domain.gaps[k]), out = opposite(domain.gaps[0]);
     const int i = forms.form_count++;
     add_crossing(in, i, -1, forms);
-    add_dual_path(mesh, domain, face_of(mesh, in), face_of(mesh, out), i, forms);
+    add_dual_path(half_edges, domain, face_of(half_edges, in), face_of(half_edges, out), i, forms);
     add_crossing(out, i, 1, forms);
   }
 }
 
-void add_loop_indicators(const HalfEdges& mesh, const mesh::BoundaryLoops& boundary, IntegerForms& forms) {
+void add_loop_indicators(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary, IntegerForms& forms) {
   const int first = forms.form_count - 1;  // loop k >= 1 is form first + k
   forms.form_count += boundary.count() - 1;
-  for (int e = 0; e < static_cast<int>(mesh.n_edges()); ++e) {
+  for (int e = 0; e < static_cast<int>(half_edges.n_edges()); ++e) {
     const HalfedgeHandle h(2 * e);
-    const int head = boundary.loop_of_vertex[to_vertex(mesh, h)], tail = boundary.loop_of_vertex[from_vertex(mesh, h)];
+    const int head = boundary.loop_of_vertex[to_vertex(half_edges, h)],
+              tail = boundary.loop_of_vertex[from_vertex(half_edges, h)];
     if (head == tail) continue;
     auto& row = forms.rows.edit(e);
     if (head > 0) row.emplace_back(first + head, 1);
@@ -92,10 +93,10 @@ void add_loop_indicators(const HalfEdges& mesh, const mesh::BoundaryLoops& bound
   }
 }
 
-IntegerMatrix pairing(const HalfEdges& mesh, const IntegerForms& a, const IntegerForms& b) {
+IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b) {
   IntegerMatrix twice = IntegerMatrix::Zero(a.form_count, b.form_count);
-  for (int f = 0; f < static_cast<int>(mesh.n_faces()); ++f) {
-    const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
+  for (int f = 0; f < static_cast<int>(half_edges.n_faces()); ++f) {
+    const HalfedgeHandle h0 = half_edges.halfedge_handle(mesh::FaceHandle(f)), h1 = next(half_edges, h0);
     const int factor = sign(h0) * sign(h1), e0 = edge_of(h0), e1 = edge_of(h1);
     for (const auto& [i, x] : a.rows[e0]) {
       for (const auto& [j, y] : b.rows[e1]) twice(i, j) += factor * x * y;
@@ -107,13 +108,13 @@ IntegerMatrix pairing(const HalfEdges& mesh, const IntegerForms& a, const Intege
   return twice / 2;
 }
 
-IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Execution& execution) {
+IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Execution& execution) {
   const int n = forms.form_count;
   IntegerMatrix twice = IntegerMatrix::Zero(n, n);
   std::vector<int> faces;  // where some form is not 0
   for (const int e : forms.rows.edges()) {
     for (const HalfedgeHandle h : {HalfedgeHandle(2 * e), HalfedgeHandle(2 * e + 1)}) {
-      if (!mesh.is_boundary(h)) faces.push_back(face_of(mesh, h));
+      if (!half_edges.is_boundary(h)) faces.push_back(face_of(half_edges, h));
     }
   }
   std::sort(faces.begin(), faces.end());
@@ -121,7 +122,7 @@ IntegerMatrix wedge_matrix(const HalfEdges& mesh, const IntegerForms& forms, Exe
   for (std::size_t i = 0; i < faces.size(); ++i) {
     execution.step(i, faces.size(), 0.0, 0.5);
     const int f = faces[i];
-    const HalfedgeHandle h0 = mesh.halfedge_handle(mesh::FaceHandle(f)), h1 = next(mesh, h0);
+    const HalfedgeHandle h0 = half_edges.halfedge_handle(mesh::FaceHandle(f)), h1 = next(half_edges, h0);
     const int factor = sign(h0) * sign(h1);
     for (const auto& [i, x] : forms.rows[edge_of(h0)]) {
       for (const auto& [j, y] : forms.rows[edge_of(h1)]) {

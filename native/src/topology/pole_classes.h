@@ -1,4 +1,4 @@
-// Integer classes of a surface without the stars of its punctures.
+// Integer classes of a surface without the stars of its poles.
 #pragma once
 
 #include "topology/domain.h"

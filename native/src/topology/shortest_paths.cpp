@@ -26,14 +26,14 @@ double mean(std::span<const double> lengths) {
 
 class ShortestPathTree {
  public:
-  ShortestPathTree(const mesh::Surface& surface, const HalfEdges& mesh, const std::vector<mesh::Star>& stars,
+  ShortestPathTree(const mesh::Surface& surface, const HalfEdges& half_edges, const std::vector<mesh::Star>& stars,
                    FundamentalDomain& domain)
       : surface_(surface),
-        mesh_(mesh),
+        mesh_(half_edges),
         stars_(stars),
         domain_(domain),
         queue_(mean(surface.edge_lengths) / kBucketsPerEdge) {
-    const std::size_t n = mesh.n_vertices();
+    const std::size_t n = half_edges.n_vertices();
     distance.assign(n, std::numeric_limits<double>::infinity());
     domain_.to_parent_vertex.assign(n, HalfedgeHandle());
     domain_.vertex_rank.resize(n);
@@ -43,7 +43,7 @@ class ShortestPathTree {
     star_of_.assign(n, -1);
     for (std::size_t s = 0; s < stars.size(); ++s) {
       star_of_[stars[s].vertex] = static_cast<int>(s);
-      for (const HalfedgeHandle h : stars[s].link) star_of_[to_vertex(mesh, h)] = static_cast<int>(s);
+      for (const HalfedgeHandle h : stars[s].link) star_of_[to_vertex(half_edges, h)] = static_cast<int>(s);
     }
   }
 

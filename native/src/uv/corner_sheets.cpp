@@ -55,8 +55,8 @@ struct Walk {
 };
 
 // Breadth first from the first face of each piece.
-Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
-  const int faces = static_cast<int>(mesh.n_faces());
+Walk walk_around(const mesh::HalfEdges& half_edges, const std::vector<char>& is_cut) {
+  const int faces = static_cast<int>(half_edges.n_faces());
   Walk walk{{}, Array<HalfedgeHandle>(faces)};
   Array<char> visited(faces, 0);
   for (int root = 0; root < faces; ++root) {
@@ -64,11 +64,11 @@ Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
     visited[root] = 1;
     walk.order.push_back(root);
     for (std::size_t i = walk.order.size() - 1; i < walk.order.size(); ++i) {
-      HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(walk.order[i]));
-      for (int side = 0; side < 3; ++side, h = next(mesh, h)) {
+      HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(walk.order[i]));
+      for (int side = 0; side < 3; ++side, h = next(half_edges, h)) {
         const HalfedgeHandle o = opposite(h);
-        if (is_cut[edge_of(h)] || !mesh.face_handle(o).is_valid()) continue;
-        const int across = mesh::face_of(mesh, o);
+        if (is_cut[edge_of(h)] || !half_edges.face_handle(o).is_valid()) continue;
+        const int across = mesh::face_of(half_edges, o);
         if (std::exchange(visited[across], 1)) continue;
         walk.to_parent[across] = o;
         walk.order.push_back(across);
@@ -79,33 +79,34 @@ Walk walk_around(const mesh::HalfEdges& mesh, const std::vector<char>& is_cut) {
 }
 
 // #half-edges: sheet of the corner at which each starts, in its face; undefined for those without a face.
-Array<int> sheets_at_starts(const mesh::HalfEdges& mesh, const Walk& walk, SheetTable& table, Execution& execution) {
-  Array<int> at_start(mesh.n_halfedges());
+Array<int> sheets_at_starts(const mesh::HalfEdges& half_edges, const Walk& walk, SheetTable& table,
+                            Execution& execution) {
+  Array<int> at_start(half_edges.n_halfedges());
   for (std::size_t i = 0; i < walk.order.size(); ++i) {
     execution.step(i, walk.order.size(), 0.5, 1.0);
     const int f = walk.order[i];
     HalfedgeHandle h = walk.to_parent[f];
     if (h.is_valid()) {  // both ends have the sheets that they have in the parent
-      at_start[h.idx()] = at_start[next(mesh, opposite(h)).idx()];
-      at_start[next(mesh, h).idx()] = at_start[opposite(h).idx()];
+      at_start[h.idx()] = at_start[next(half_edges, opposite(h)).idx()];
+      at_start[next(half_edges, h).idx()] = at_start[opposite(h).idx()];
     } else {
-      h = mesh.halfedge_handle(mesh::FaceHandle(f));
+      h = half_edges.halfedge_handle(mesh::FaceHandle(f));
       at_start[h.idx()] = 0;
-      at_start[next(mesh, h).idx()] = table.after(0, h);
+      at_start[next(half_edges, h).idx()] = table.after(0, h);
     }
-    const HalfedgeHandle h1 = next(mesh, h);
-    at_start[next(mesh, h1).idx()] = table.after(at_start[h1.idx()], h1);
+    const HalfedgeHandle h1 = next(half_edges, h);
+    at_start[next(half_edges, h1).idx()] = table.after(at_start[h1.idx()], h1);
   }
   return at_start;
 }
 
-CornerSheets sheets_of_corners(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const Array<int>& at_start,
-                               SheetTable&& table) {
+CornerSheets sheets_of_corners(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
+                               const Array<int>& at_start, SheetTable&& table) {
   CornerSheets result;
   result.corner_sheet.resize(surface.polygons.corner_vertices.size());
   for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
-    HalfedgeHandle h = mesh.halfedge_handle(mesh::FaceHandle(t));
-    for (int i = 0; i < 3; ++i, h = next(mesh, h))
+    HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(t));
+    for (int i = 0; i < 3; ++i, h = next(half_edges, h))
       result.corner_sheet[surface.triangle_corners[t][i]] = at_start[h.idx()];
   }
   result.sheets = std::move(table.sheets);
@@ -114,31 +115,32 @@ CornerSheets sheets_of_corners(const mesh::Surface& surface, const mesh::HalfEdg
 
 }  // namespace
 
-CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh,
+CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                            const topology::FundamentalDomain& domain, const IntegerForms& classes,
                            Execution& execution) {
   SheetTable table(classes);
-  const auto at_start = sheets_at_starts(mesh, {domain.face_order, domain.to_parent_face}, table, execution);
-  return sheets_of_corners(surface, mesh, at_start, std::move(table));
+  const auto at_start = sheets_at_starts(half_edges, {domain.face_order, domain.to_parent_face}, table, execution);
+  return sheets_of_corners(surface, half_edges, at_start, std::move(table));
 }
 
-CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& mesh, const std::vector<int>& cut,
+CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& cut,
                            const IntegerForms& classes, Execution& execution, const std::vector<int>& labels) {
   std::vector<char> is_cut(surface.edges.size(), 0);
   for (const int e : cut) is_cut[e] = 1;
   SheetTable table(classes);
-  const auto at_start = sheets_at_starts(mesh, walk_around(mesh, is_cut), table, execution);
+  const auto at_start = sheets_at_starts(half_edges, walk_around(half_edges, is_cut), table, execution);
   for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
     const HalfedgeHandle h(2 * e), o = opposite(h);
-    if (is_cut[e] || !mesh.face_handle(h).is_valid() || !mesh.face_handle(o).is_valid()) continue;
-    if (at_start[h.idx()] == at_start[next(mesh, o).idx()] && at_start[o.idx()] == at_start[next(mesh, h).idx()])
+    if (is_cut[e] || !half_edges.face_handle(h).is_valid() || !half_edges.face_handle(o).is_valid()) continue;
+    if (at_start[h.idx()] == at_start[next(half_edges, o).idx()] &&
+        at_start[o.idx()] == at_start[next(half_edges, h).idx()])
       continue;
     const auto [a, b] = surface.edges[e];
     const mesh::Labels label(labels);
     throw TopologyError("the cut does not leave disks: between the vertices " + label(a) + " and " + label(b) +
                         ", where it does not run, the map still jumps");
   }
-  return sheets_of_corners(surface, mesh, at_start, std::move(table));
+  return sheets_of_corners(surface, half_edges, at_start, std::move(table));
 }
 
 }  // namespace holomorph::uv
