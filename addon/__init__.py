@@ -6,7 +6,7 @@ import what needs these inside their functions.
 """
 
 from . import native, preferences
-from .interface import panel, presets, shortcuts, tools_panel
+from .interface import panel, presets, shortcuts
 from .operators import carry, compare, drag, lod, mapping, submit, texel_operators, tools
 from .overlays import overlay
 
@@ -20,7 +20,7 @@ bl_info = {
     "category": "UV",
 }
 
-# In the order of registration; panels before their sub-panels.
+# In the order of registration.
 MODULES = (
     preferences,
     mapping,
@@ -34,7 +34,6 @@ MODULES = (
     submit,
     presets,
     panel,
-    tools_panel,
     shortcuts,
 )
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import bpy
 
 from .. import native
+from ..levels import source
+from ..levels.level_objects import Arrangement
 from ..levels.levels import LevelOptions
-from ..operators import lod
 from ..operators.run import Run
 from ..results import report, stored
 from . import exchange, sources, studio
@@ -79,14 +80,12 @@ def _make_maps(options):
 def _add_levels(options, outcome):
     """Levels of detail of every object that got maps; they are added to the report's entries."""
     wanted, made = LevelOptions(options.levels, options.ratio), []
-    for entry in outcome.entries if options.levels else ():
-        if not entry["done"]:
-            continue
+    arrangement = Arrangement(side_by_side=options.side_by_side, finest=options.lod0)
+    for entry in [entry for entry in outcome.entries if entry["done"]] if options.levels else ():
         obj = bpy.data.objects[entry["object"]]
-        arrangement = {"side_by_side": options.side_by_side, "finest": options.lod0}
-        found, problem = lod.make_levels(bpy.context, obj, wanted, **arrangement)
+        found, told = source.make(bpy.context, obj, wanted, arrangement)
         entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
-        outcome.problems += [f"{obj.name}: no levels of detail: {problem}"] if problem else []
+        outcome.problems += [] if found else [f"{obj.name}: no levels of detail: {told[0]}"]
         made += found
     return made
 

@@ -1,26 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar tab "Holomorph" of the 3D view and the UV editor, and the entries in both UV menus."""
+"""The sidebar tab "Holomorph" of the 3D view and the UV editor, its sub-panels, and the entries in both UV menus."""
 
 import bpy
 
 from .. import native
+from ..operators import carry, compare, drag, lod, submit, texel_operators, tools
 from ..operators.availability import CONVERT, CONVERTIBLE
-from ..operators.compare import HOLOMORPH_OT_compare
-from ..operators.drag import HOLOMORPH_OT_drag_poles
-from ..operators.lod import HOLOMORPH_OT_levels
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
-from ..operators.tools import HOLOMORPH_OT_heat, HOLOMORPH_OT_restore_materials
 from ..overlays import overlay
-from . import lines, tools_panel
+from . import lines
 
 INDENT = 8  # spaces before what is continued on a further line
 
 
-class _HolomorphPanel:
+class _Panel:
     bl_label = "Holomorph"
     bl_category = "Holomorph"
     bl_region_type = "UI"
 
+
+class _HolomorphPanel(_Panel):
     def draw(self, context):
         layout = self.layout
         column = layout.column(align=True)
@@ -34,30 +33,20 @@ class _HolomorphPanel:
         obj = context.active_object
         if obj is not None and obj.type == "MESH":
             if context.mode == "OBJECT":
-                tools_panel.draw_modifiers(column, context, obj)
-                layout.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
+                _draw_modifiers(column, context, obj)
+                layout.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             _draw_result(layout, context, obj)
         elif obj is not None and obj.type in CONVERTIBLE:
             lines.draw(column, context, CONVERT, "INFO")
         if context.mode == "OBJECT":
-            layout.operator(HOLOMORPH_OT_compare.bl_idname, icon="ARROW_LEFTRIGHT")
+            layout.operator(compare.HOLOMORPH_OT_compare.bl_idname, icon="ARROW_LEFTRIGHT")
             _draw_overlays(layout, context)
 
 
-class HOLOMORPH_PT_view3d(_HolomorphPanel, bpy.types.Panel):
-    bl_space_type = "VIEW_3D"
-
-
-class HOLOMORPH_PT_image(_HolomorphPanel, bpy.types.Panel):
-    bl_space_type = "IMAGE_EDITOR"
-
-
-class _DetailsPanel:
+class _DetailsPanel(_Panel):
     """The mathematics of the last result."""
 
     bl_label = "Details"
-    bl_category = "Holomorph"
-    bl_region_type = "UI"
     bl_options = {"DEFAULT_CLOSED"}
 
     @classmethod
@@ -76,14 +65,25 @@ class _DetailsPanel:
             lines.draw(column, context, line, indent=INDENT)
 
 
-class HOLOMORPH_PT_view3d_details(_DetailsPanel, bpy.types.Panel):
-    bl_space_type = "VIEW_3D"
-    bl_parent_id = "HOLOMORPH_PT_view3d"
+class _ToolsPanel(_Panel):
+    bl_label = "Tools"
+    bl_options = {"DEFAULT_CLOSED"}
 
-
-class HOLOMORPH_PT_image_details(_DetailsPanel, bpy.types.Panel):
-    bl_space_type = "IMAGE_EDITOR"
-    bl_parent_id = "HOLOMORPH_PT_image"
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        column.prop(context.window_manager, texel_operators.TEXELS)
+        column.prop(context.window_manager, texel_operators.IMAGE)
+        row = column.row(align=True)
+        row.operator(texel_operators.HOLOMORPH_OT_texels_get.bl_idname, text="Get")
+        row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
+        column = self.layout.column(align=True)
+        column.operator(tools.HOLOMORPH_OT_select_bad.bl_idname)
+        column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
+        submit.draw(column)
+        if self.bl_space_type == "VIEW_3D":
+            column = self.layout.column(align=True)
+            column.operator(compare.HOLOMORPH_OT_compare.bl_idname)
+            column.operator(carry.HOLOMORPH_OT_carry.bl_idname)
 
 
 def _draw_choices(layout):
@@ -94,14 +94,24 @@ def _draw_choices(layout):
         column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
 
 
+def _draw_modifiers(layout, context, obj):
+    """The button again, for an object whose modifiers change its shape."""
+    from ..scene import targets
+
+    if targets.first_modifier(obj):
+        if not len(obj.data.polygons):
+            lines.draw(layout, context, "Only its modifiers make faces", "INFO")
+        layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Map with Modifiers", icon="MODIFIER").modifiers = True
+
+
 def _draw_overlays(layout, context):
     column = layout.column(align=True)
     column.label(text="Heat map of the active UV map")
     column.row(align=True).prop(context.window_manager, overlay.HEAT, expand=True)
-    column.operator(HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
+    column.operator(tools.HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
     row = layout.row(align=True)
     row.prop(context.window_manager, overlay.MARKS, toggle=True)
-    row.operator(HOLOMORPH_OT_drag_poles.bl_idname)
+    row.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname)
 
 
 def _draw_result(layout, context, obj):
@@ -109,7 +119,7 @@ def _draw_result(layout, context, obj):
     from . import verdict_view
 
     if restore.is_possible(obj):
-        layout.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
+        layout.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
     if obj.get(report.PROPERTY):
         verdict_view.draw(
             layout, context, obj[report.PROPERTY], HOLOMORPH_OT_tile.bl_idname, HOLOMORPH_OT_islands.bl_idname
@@ -123,13 +133,24 @@ def _draw_menu_entry(self, _context):
     self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
 
 
-CLASSES = (HOLOMORPH_PT_view3d, HOLOMORPH_PT_image, HOLOMORPH_PT_view3d_details, HOLOMORPH_PT_image_details)
+def _panels(name, space):
+    """The panels of one kind of editor."""
+
+    def made(base, end=""):
+        settings = {"bl_space_type": space} | ({"bl_parent_id": name} if end else {})
+        return type(name + end, (base, bpy.types.Panel), settings)
+
+    return [made(_HolomorphPanel), made(_DetailsPanel, "_details"), made(_ToolsPanel, "_tools")]
+
+
+_register_panels, _unregister_panels = bpy.utils.register_classes_factory(
+    [*_panels("HOLOMORPH_PT_view3d", "VIEW_3D"), *_panels("HOLOMORPH_PT_image", "IMAGE_EDITOR")]
+)
 MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 
 
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register_panels()
     for name in MENUS:
         getattr(bpy.types, name).append(_draw_menu_entry)
 
@@ -137,5 +158,4 @@ def register():
 def unregister():
     for name in MENUS:
         getattr(bpy.types, name).remove(_draw_menu_entry)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister_panels()

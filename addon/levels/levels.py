@@ -45,7 +45,7 @@ class LevelsWork(jobs.Work):
     """Makes the levels of one mesh; a map of its own first where there is none.
 
     After `run`, `levels` has one entry for each level, finest first, each coarser than the one before; `names` are
-    those of their maps; `mapped` is the `mapped.MappedObject` that was needed. Or `error` is one of `native.refusals`.
+    those of their maps; `mapped` is the `mapped.MappedObject` that was needed.
     """
 
     task: object  # solve.Task
@@ -56,33 +56,25 @@ class LevelsWork(jobs.Work):
     progress: object = None
     levels: list = field(default_factory=list)
     mapped: object = None
-    error: object = None
 
     def __post_init__(self):
         super().__init__(self.progress)
 
-    def run(self):
-        try:
-            self._run()
-        except native.refusals() as error:
-            self.error = error
-
-    def _run(self):
+    def work(self):
         holomorph = native.load()
         start = SOLVE_PART if self.needs_map else 0.0
         if self.needs_map:
-            solved = jobs.solved(self.task, lambda f, stage: self.ask(start * f, stage))
+            solved = jobs.solved(self.task, self.part(0, start))
             self.mapped = mapped.mapped(solved, MapOptions(forms=0, main=BALANCED))
             self._add_main_map()
         polygons = self.task.polygons
         surface = holomorph.Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
         if not self.names:
             return
-        mesh = holomorph.ProgressiveMesh(
-            surface, progress=lambda f, stage: self.ask(start + (1 - start) * COLLAPSE_PART * f, stage)
-        )
+        collapsed = start + (1 - start) * COLLAPSE_PART
+        mesh = holomorph.ProgressiveMesh(surface, progress=self.part(start, collapsed))
         counts = self.options.counts(len(surface.triangles))
-        if not self.ask(start + (1 - start) * COLLAPSE_PART, "levels of detail"):
+        if not self.ask(collapsed, "levels of detail"):
             raise holomorph.Cancelled("cancelled before the levels of detail")
         made = []
         for level, count in zip(mesh.levels_of_detail(self.uv, counts), counts):

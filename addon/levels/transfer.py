@@ -23,6 +23,7 @@ KINDS = {
 # Attributes of Blender's own, or that are written in another way here.
 BUILT_IN = {"position", "material_index", "sharp_face", "shade_smooth", "id", "normal"}
 EDGE_MARKS = ("use_seam", "use_edge_sharp")
+FACE_VALUES = {"material_index": np.int32, "use_smooth": bool}
 
 
 @dataclass(frozen=True)
@@ -44,15 +45,16 @@ class MeshData:
     active: str  # map in the editors, empty if there is none
     rendered: str
     attributes: list
-    material: np.ndarray  # (#F,)
-    smooth: np.ndarray  # (#F,)
+    faces: dict  # name in `FACE_VALUES`: (#F,)
     marks: dict  # mark: (n, 2) vertices of the edges that have it
     colour: str  # active colour attribute
 
 
 def read(mesh, polygons):
     """All that levels get from `mesh`. Its maps include those of ours that are attributes for want of a UV map slot."""
-    maps = _map_names(mesh)
+    layers = [layer.name for layer in mesh.uv_layers]
+    others = [a.name for a in mesh.attributes if uv_maps.is_own_attribute(mesh, a) and a.name not in layers]
+    maps = layers + others
     uv = np.empty((len(polygons.corner_vertices), len(maps), 2))
     for index, name in enumerate(maps):
         uv[:, index] = _of_corners(uv_maps.read_map(mesh, name), polygons)
@@ -64,16 +66,10 @@ def read(mesh, polygons):
         active=getattr(mesh.uv_layers.active, "name", ""),
         rendered=next((layer.name for layer in mesh.uv_layers if layer.active_render), ""),
         attributes=[_read_attribute(a, polygons) for a in mesh.attributes if _is_transferred(a, maps)],
-        material=mesh_io.read_values(_material_indices(mesh)),
-        smooth=mesh_io.read_values(_smooth_flags(mesh)),
+        faces={name: mesh_io.read_values(Values(mesh.polygons, name, kind)) for name, kind in FACE_VALUES.items()},
         marks={name: mesh_io.marked_edges(mesh, name) for name in EDGE_MARKS},
         colour=getattr(mesh.color_attributes.active_color, "name", ""),
     )
-
-
-def _map_names(mesh):
-    layers = [layer.name for layer in mesh.uv_layers]
-    return layers + [a.name for a in mesh.attributes if uv_maps.is_own_attribute(mesh, a) and a.name not in layers]
 
 
 def write(mesh, data, level, names):
@@ -84,15 +80,13 @@ def write(mesh, data, level, names):
         uv_maps.write_map(mesh, own, name, level.uv[:, index])
     uv_maps.add_own_maps(mesh, data.own_maps + [name for name in names if name not in data.maps])
     _show(mesh, data, names)
-    mesh_io.write_values(_material_indices(mesh), data.material[surface.face_index])
-    mesh_io.write_values(_smooth_flags(mesh), data.smooth[surface.face_index])
+    for name, kind in FACE_VALUES.items():
+        mesh_io.write_values(Values(mesh.polygons, name, kind), data.faces[name][surface.face_index])
     rows = {"POINT": surface.vertex_index, "FACE": surface.face_index, "CORNER": level.corners}
     for attribute in data.attributes:
         new = mesh.attributes.new(attribute.name, attribute.kind, attribute.domain)
         mesh_io.write_values(_attribute_values(mesh.attributes[new.name]), attribute.values[rows[attribute.domain]])
-    for name, ends in data.marks.items():
-        if not len(ends):
-            continue
+    for name, ends in ((name, ends) for name, ends in data.marks.items() if len(ends)):
         mapped = level.vertex_map[ends]
         mesh_io.mark_edges(mesh, name, mapped[(mapped[:, 0] != mapped[:, 1]) & (mapped >= 0).all(axis=1)])
     if data.colour in mesh.color_attributes:
@@ -129,14 +123,6 @@ def _read_attribute(attribute, polygons):
 
 def _attribute_values(attribute):
     return Values(attribute.data, *KINDS[attribute.data_type])
-
-
-def _material_indices(mesh):
-    return Values(mesh.polygons, "material_index", np.int32)
-
-
-def _smooth_flags(mesh):
-    return Values(mesh.polygons, "use_smooth", bool)
 
 
 def _of_corners(values, polygons):

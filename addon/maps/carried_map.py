@@ -11,43 +11,28 @@ FORMLESS = "a sphere or a disk has no forms by which the map could be found, and
 
 class CarriedMap(jobs.Work):
     """After `run`, `uv` is the map's (#C, 2) UVs on the second of two `comparison.Side`s, `found` the
-    `holomorph.Equivalence`; or `error` is one sentence why there is none.
+    `holomorph.Equivalence`; if there is no `error`.
 
     uv : (#C', 2) on the first one, in the order of its polygons' corners; tolerance : as in `conformally_equivalent`
     """
 
     def __init__(self, first, second, uv, tolerance, progress=None):
         super().__init__(progress)
-        self.uv, self.found, self.error = None, None, ""
+        self.uv, self.found = None, None
         self._sides, self._given, self._tolerance = (first, second), uv, tolerance
 
-    def run(self):
-        structures = []
-        share = (1 - MAP_SHARE) / len(self._sides)
-        for index, side in enumerate(self._sides):
-            try:
-                structures.append(self._structure(side, self._part(index * share, (index + 1) * share)))
-            except native.refusals() as error:
-                self.error = f"{side.name}: {native.sentence(error)}"
-                return
-        try:
-            self._carry(*structures)
-        except native.refusals() as error:
-            self.error = native.sentence(error)
-
-    @staticmethod
-    def _structure(side, progress):
-        surface = side.surface()
-        if surface.genus == 0 and surface.boundary_count <= 1:
-            raise native.load().TopologyError(FORMLESS)
-        return native.load().conformal_structure(surface, progress=progress)
-
-    def _carry(self, given, taking):
-        progress = self._part(1 - MAP_SHARE, 1)
-        image = native.load().conformal_map(taking, given, tolerance=self._tolerance, progress=progress)
+    def work(self):
+        half = (1 - MAP_SHARE) / 2
         first, second = self._sides
+        given = first.checked(lambda surface: _structure(surface, self.part(0, half)))
+        taking = second.checked(lambda surface: _structure(surface, self.part(half, 2 * half)))
+        progress = self.part(2 * half, 1)
+        image = native.load().conformal_map(taking, given, tolerance=self._tolerance, progress=progress)
         self.found = image.equivalence
-        self.uv = second.in_order(image.uv(first.in_order(self._given), progress=self._part(1, 1)))
+        self.uv = second.in_order(image.uv(first.in_order(self._given), progress=self.part(1, 1)))
 
-    def _part(self, begin, end):
-        return native.load().progress.scaled(self.ask, begin, end)
+
+def _structure(surface, progress):
+    if surface.genus == 0 and surface.boundary_count <= 1:
+        raise native.load().TopologyError(FORMLESS)
+    return native.load().conformal_structure(surface, progress=progress)

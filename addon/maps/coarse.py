@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..scene.faces import edge_ends
 from . import distortion
 
 OCTAVES = -4.0  # of the density in area, from which on a face is coarse: lengths four times the median
@@ -60,11 +61,8 @@ def _vertices(polygons, faces):
 
 def _inner(polygons):
     """(#V,) whether a vertex is on no edge of a single face."""
-    corners, count = polygons.corner_vertices.astype(np.int64), len(polygons.vertices)
-    following = np.arange(1, len(corners) + 1)
-    following[polygons.face_offsets[1:] - 1] = polygons.face_offsets[:-1]
-    ends = np.sort(np.stack([corners, corners[following]]), axis=0)
-    keys, faces = np.unique(ends[0] * count + ends[1], return_counts=True)
+    ends, count = edge_ends(polygons), len(polygons.vertices)
+    keys, faces = np.unique(ends[:, 0] * count + ends[:, 1], return_counts=True)
     is_inner = np.ones(count, bool)
     is_inner[np.concatenate(np.divmod(keys[faces == 1], count))] = False
     return is_inner

@@ -22,30 +22,30 @@ class Side:
             corners, offsets = corners[::-1], offsets[-1] - offsets[::-1]
         return native.load().Surface.from_polygons(self.polygons.vertices, corners, offsets)
 
+    def checked(self, make):
+        """What is made of its surface; a refusal names the object."""
+        try:
+            return make(self.surface())
+        except native.load().Error as error:
+            raise type(error)(f"{self.name}: {native.sentence(error)}") from error
+
     def in_order(self, values):
         """Values at the polygons' corners in the order of the surface's, and the reverse."""
         return values[::-1] if self.is_mirrored else values
 
 
 class Comparison(jobs.Work):
-    """After `run`, `found` is the `holomorph.Equivalence`, or `error` one sentence why there is none."""
+    """After `run`, `found` is the `holomorph.Equivalence`, if there is no `error`."""
 
     def __init__(self, sides, progress=None):
         super().__init__(progress)
-        self.found, self.error = None, ""
-        self._sides = sides
+        self.found, self._sides = None, sides
 
-    def run(self):
-        surfaces = []
-        for side in self._sides:
-            try:
-                surface = side.surface()
-                surface.require_connected()
-            except native.refusals() as error:
-                self.error = f"{side.name}: {native.sentence(error)}"
-                return
-            surfaces.append(surface)
-        try:
-            self.found = native.load().conformally_equivalent(*surfaces, progress=self.ask)
-        except native.refusals() as error:
-            self.error = native.sentence(error)
+    def work(self):
+        surfaces = [side.checked(_connected) for side in self._sides]
+        self.found = native.load().conformally_equivalent(*surfaces, progress=self.ask)
+
+
+def _connected(surface):
+    surface.require_connected()
+    return surface

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether an operator can run here; Blender shows why not, where its button is grey."""
+"""Whether an operator can run here, which Blender shows where its button is grey; and what it says in the end."""
+
+import bpy
 
 from .. import native
 
@@ -21,6 +23,26 @@ class Explained:
         if sentence:
             cls.poll_message_set(sentence)
         return not sentence
+
+    def refuse(self, sentence):
+        """Says why nothing is done; what the operator returns."""
+        self.report({"ERROR"}, str(sentence))
+        return {"CANCELLED"}
+
+    def tell(self, outcome):
+        """Reports an `outcome.Outcome`; what the operator returns."""
+        for window in bpy.context.window_manager.windows:  # sidebars do not see that there is a report, nor editors UVs
+            for area in window.screen.areas:
+                area.tag_redraw()
+        if not outcome.done:
+            return self.refuse("; ".join(outcome.problems) or "No mesh selected")
+        for sentence in outcome.problems:
+            self.report({"WARNING"}, sentence)
+        for sentence in outcome.notes:
+            self.report({"INFO"}, sentence)
+        if not outcome.problems and not outcome.notes:
+            self.report({"INFO"}, f"Holomorphic UV maps written: {', '.join(outcome.done)}")
+        return {"FINISHED"}
 
 
 class OnMeshes(Explained):

@@ -4,6 +4,7 @@
 import bpy
 from bpy.props import FloatProperty
 
+from .. import native
 from .compare import TwoMeshes
 from .modal import WorkOperator
 
@@ -35,21 +36,16 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
 
         taking, given = targets.mesh_objects(context)
         layer = given.data.uv_layers.active
-        problem = ""
         if layer is None:
-            problem = f"{given.name} has no UV map"
-        elif taking.data.library is not None:
-            problem = f"{taking.name}: its mesh is linked from another file; make it local first"
-        elif len(taking.data.uv_layers) >= compatibility.UV_MAP_LIMIT:
-            problem = f"{taking.name} has {compatibility.UV_MAP_LIMIT} UV maps, and Blender takes no more"
-        if problem:
-            self.report({"ERROR"}, problem)
-            return False
+            raise ValueError(f"{given.name} has no UV map")
+        if taking.data.library is not None:
+            raise ValueError(f"{taking.name}: its mesh is linked from another file; make it local first")
+        if len(taking.data.uv_layers) >= compatibility.UV_MAP_LIMIT:
+            raise ValueError(f"{taking.name} has {compatibility.UV_MAP_LIMIT} UV maps, and Blender takes no more")
         self._sides = self.read_sides([given, taking])
         self._map = layer.name
         self._uv = uv_maps.read_corners(given.data, self._sides[0].polygons, layer.name)
         self._taking = taking.name, taking.library.filepath if taking.library else None
-        return True
 
     def make_work(self, progress):
         from ..maps import carried_map
@@ -61,12 +57,11 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
 
         given, taking = self._sides
         obj = bpy.data.objects.get(self._taking)
-        problem = work.error
+        problem = native.sentence(work.error) if work.error else ""
         if obj is None or (time_has_passed and not targets.read(obj).equals(taking.polygons)):
             problem = f"{taking.name} was changed meanwhile"
         if problem:
-            self.report({"ERROR"}, problem)
-            return {"CANCELLED"}
+            return self.refuse(problem)
         written = uv_maps.write_map(obj.data, taking.polygons, self._map, work.uv)
         uv_maps.show_map(obj.data, written.name)
         source = context.scene.objects.get(given.name)

@@ -3,6 +3,7 @@
 
 import bpy
 
+from .. import native
 from .modal import WorkOperator
 
 
@@ -42,7 +43,6 @@ class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
         from ..scene import targets
 
         self._sides = self.read_sides(targets.mesh_objects(context))
-        return True
 
     def make_work(self, progress):
         from ..maps import comparison
@@ -51,8 +51,7 @@ class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
 
     def finish(self, _context, work, time_has_passed):
         if work.error:
-            self.report({"ERROR"}, work.error)
-            return {"CANCELLED"}
+            return self.refuse(native.sentence(work.error))
         first, second = self._sides
         self.report({"INFO"}, f"{first.name}, {second.name}: {work.found.sentence}")
         return {"FINISHED"}

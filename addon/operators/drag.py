@@ -49,26 +49,25 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
     def execute(self, context):
         """For scripts, and the redo panel."""
+        from .drag_session import Session
+
         try:
-            moves = parsed_moves(self.moves)
-            session = self._begin(context)
-            session.mapped = session.made(checked(session, moves))
+            moves, session = parsed_moves(self.moves), Session(context.active_object)
+            session.mapped = session.made(moves)
         except ValueError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self._tell(session.finish(context))
+            return self.refuse(error)
+        return self.tell(session.finish(context))
 
     def invoke(self, context, _event):
         if context.area is None or context.area.type != "VIEW_3D":
-            self.report({"ERROR"}, "Drag poles in a 3D view")
-            return {"CANCELLED"}
+            return self.refuse("Drag poles in a 3D view")
         from . import surface_pick
+        from .drag_session import Session
 
         try:
-            self._session = self._begin(context)
+            self._session = Session(context.active_object)
         except ValueError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return self.refuse(error)
         self._object = context.active_object
         self._view, self._surface = surface_pick.View(context.area), surface_pick.Surface(self._object)
         self._moves, self._wanted, self._job = {}, {}, None
@@ -100,11 +99,6 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         """Everything as it was; also where another file is loaded, or the program ends."""
         self._end(context)
         self._session.restore()
-
-    def _begin(self, context):
-        from . import drag_session
-
-        return drag_session.Session(context.active_object)
 
     def _point(self, context, event):
         """Highlights the nearest pole, or takes the dragged one to the pointer's vertex."""
@@ -161,7 +155,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         self.moves = " ".join(f"{pole}:{moved[pole]}" for pole in self._moves)
         if not self._moves:
             return {"CANCELLED"}
-        return self._tell(self._session.finish(context))
+        return self.tell(self._session.finish(context))
 
     def _end(self, context):
         if self._job is not None:
@@ -180,28 +174,12 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         overlay.dragged[self._object.name] = overlay.Dragged(poles, session.zeros, self._hovered)
         context.area.tag_redraw()
 
-    def _tell(self, outcome):
-        if not outcome.done:
-            self.report({"ERROR"}, "; ".join(outcome.problems))
-            return {"CANCELLED"}
-        for sentence in outcome.notes:
-            self.report({"INFO"}, sentence)
-        return {"FINISHED"}
-
 
 def parsed_moves(text):
     """{pole: vertex} of "0:512 3:77". @throws ValueError"""
     if not re.fullmatch(r"\s*(\d+:\d+(\s+|$))*", text):
         raise ValueError(f'moves are {text!r}; pairs such as "0:512" are needed')
     return {int(pole): int(vertex) for pole, vertex in (pair.split(":") for pair in text.split())}
-
-
-def checked(session, moves):
-    """@throws ValueError for a vertex where the pole cannot go"""
-    for pole, vertex in moves.items():
-        if not session.may_go_to(pole, vertex):
-            raise ValueError(f"pole {pole} cannot go to vertex {vertex}: it is of another part, or not allowed")
-    return moves
 
 
 register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_drag_poles])

@@ -81,7 +81,10 @@ class Session:
         return tuple((index, vertex) for (_, index), vertex in new.items())
 
     def made(self, moves):
-        """What the job of these moves gives, here and now."""
+        """What the job of these moves gives, here and now. @throws ValueError for a vertex where the pole cannot go"""
+        for pole, vertex in moves.items():
+            if not self.may_go_to(pole, vertex):
+                raise ValueError(f"pole {pole} cannot go to vertex {vertex}: it is of another part, or not allowed")
         job = self.job(moves)
         job.run()
         return self.taken(job)

@@ -19,13 +19,7 @@ class _MapsOperator(OnMeshes, WorkOperator):
         from ..scene import targets
         from . import run
 
-        try:
-            found = targets.collect(targets.mesh_objects(context), self.choices().request(self))
-            self._run = run.Run(self, found)
-        except ValueError as error:
-            self.report({"ERROR"}, str(error))
-            return False
-        return True
+        self._run = run.Run(self, targets.collect(targets.mesh_objects(context), self.choices().request(self)))
 
     def make_work(self, progress):
         return self._run.job(progress)
@@ -88,17 +82,17 @@ def _forget_solves(*_arguments):
     cache.clear()
 
 
-CLASSES = (HOLOMORPH_OT_maps, HOLOMORPH_OT_islands, HOLOMORPH_OT_tile)
+_register, _unregister = bpy.utils.register_classes_factory(
+    [HOLOMORPH_OT_maps, HOLOMORPH_OT_islands, HOLOMORPH_OT_tile]
+)
 
 
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register()
     bpy.app.handlers.load_pre.append(_forget_solves)
 
 
 def unregister():
     bpy.app.handlers.load_pre.remove(_forget_solves)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()
     _forget_solves()

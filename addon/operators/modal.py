@@ -10,18 +10,11 @@ MODAL_TILED_FACES = 2_000  # likewise a tiling
 TIMER_SECONDS = 0.05
 
 
-def _redraw():
-    """Every area: sidebars do not see by themselves that there is a report, nor editors that there are UVs."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            area.tag_redraw()
-
-
 class WorkOperator(Explained):
     """A mixin for operators. One of them defines, beside `why_not`,
 
     draw_options(layout, obj) : its options in the redo panel, with the active object
-    prepare(context) : reads what the work needs, returns whether there is work
+    prepare(context) : reads what the work needs; raises ValueError where there is none, with one sentence why
     make_work(progress) : a `jobs.Work` of what was read
     waiting_faces() : how many polygons there are to solve; from `modal_faces` on this is done in the background
     finish(context, work, time_has_passed) : writes the results; the set that an operator returns
@@ -37,14 +30,17 @@ class WorkOperator(Explained):
 
     def execute(self, context):
         """Works here and now: for scripts, small meshes, and the redo panel (where solves are cached)."""
-        if not self.prepare(context):
-            return {"CANCELLED"}
-        return self._work_here(context)
+        return self._begin(context, is_here=True)
 
     def invoke(self, context, _event):
-        if not self.prepare(context):
-            return {"CANCELLED"}
-        if bpy.app.background or context.window is None or self.waiting_faces() < self.modal_faces():
+        return self._begin(context, is_here=bpy.app.background or context.window is None)
+
+    def _begin(self, context, is_here):
+        try:
+            self.prepare(context)
+        except ValueError as error:
+            return self.refuse(error)
+        if is_here or self.waiting_faces() < self.modal_faces():
             return self._work_here(context)
         self._work = self.make_work(None)
         manager = context.window_manager
@@ -85,20 +81,6 @@ class WorkOperator(Explained):
 
         if outcome.done and has_texture and context.window is not None and preferences.shows_in_viewport(context):
             viewport.show(context.window)
-
-    def tell(self, outcome):
-        """Reports a `run.Outcome`; what the operator returns."""
-        _redraw()
-        if not outcome.done:
-            self.report({"ERROR"}, "; ".join(outcome.problems) or "No mesh selected")
-            return {"CANCELLED"}
-        for sentence in outcome.problems:
-            self.report({"WARNING"}, sentence)
-        for sentence in outcome.notes:
-            self.report({"INFO"}, sentence)
-        if not outcome.problems and not outcome.notes:
-            self.report({"INFO"}, f"Holomorphic UV maps written: {', '.join(outcome.done)}")
-        return {"FINISHED"}
 
     def _work_here(self, context):
         manager = context.window_manager

@@ -5,9 +5,10 @@ import bpy
 from bpy.props import IntProperty, StringProperty
 
 from . import flamenco
+from .availability import Explained
 
 
-class HOLOMORPH_OT_submit(bpy.types.Operator):
+class HOLOMORPH_OT_submit(Explained, bpy.types.Operator):
     """Map a library of meshes on the render farm: a folder of mesh files and .blend files, or this file as it is saved.
     The manager needs the job type holomorph-uv-maps.js, the workers the command holomorph"""
 
@@ -22,12 +23,11 @@ class HOLOMORPH_OT_submit(bpy.types.Operator):
     recipe: StringProperty(name="Recipe", description="TOML file; none for the defaults", subtype="FILE_PATH")
     shares: IntProperty(name="Tasks", description="Number of tasks that share the work", default=8, min=1, max=1000)
 
+    needs_library = False
+
     @classmethod
-    def poll(cls, context):
-        if flamenco.reachable():
-            return True
-        cls.poll_message_set("No Flamenco Manager answers")
-        return False
+    def why_not(cls, _context):
+        return "" if flamenco.reachable() else "No Flamenco Manager answers"
 
     def invoke(self, context, event):
         return context.window_manager.invoke_props_dialog(self)
@@ -35,19 +35,13 @@ class HOLOMORPH_OT_submit(bpy.types.Operator):
     def execute(self, context):
         sources = self.sources or bpy.data.filepath
         if not sources:
-            self.report({"ERROR"}, "Save the file first, or name the sources")
-            return {"CANCELLED"}
-        settings = {
-            "sources": bpy.path.abspath(sources),
-            "output": bpy.path.abspath(self.output),
-            "recipe": bpy.path.abspath(self.recipe),
-            "shares": self.shares,
-        }
+            return self.refuse("Save the file first, or name the sources")
+        paths = {"sources": sources, "output": self.output, "recipe": self.recipe}
+        settings = {name: bpy.path.abspath(path) for name, path in paths.items()} | {"shares": self.shares}
         try:
             number = flamenco.submit(flamenco.reachable(), f"Holomorph: {bpy.path.basename(sources)}", settings)
         except flamenco.Unreachable as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return self.refuse(error)
         self.report({"INFO"}, f"Submitted to Flamenco as job {number}")
         return {"FINISHED"}
 

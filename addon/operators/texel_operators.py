@@ -76,12 +76,11 @@ class HOLOMORPH_OT_texels_set(_TexelOperator, bpy.types.Operator):
             self.report({"INFO"}, f"{target.name}: {nearest}; Tiles changes them, too")
 
 
-CLASSES = (HOLOMORPH_OT_texels_get, HOLOMORPH_OT_texels_set)
+_register, _unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_texels_get, HOLOMORPH_OT_texels_set])
 
 
 def register():
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register()
     manager = bpy.types.WindowManager
     setattr(manager, TEXELS, FloatProperty(name="Texels / m", description=TEXELS_TEXT, default=512.0, min=1e-3))
     setattr(manager, IMAGE, IntProperty(name="Image", description=IMAGE_TEXT, default=DEFAULT_IMAGE, min=1))
@@ -90,5 +89,4 @@ def register():
 def unregister():
     for name in (IMAGE, TEXELS):
         delattr(bpy.types.WindowManager, name)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()

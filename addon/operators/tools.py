@@ -156,10 +156,6 @@ def _edit(context, objects):
     bpy.ops.object.mode_set(mode="EDIT")
 
 
-CLASSES = (
-    HOLOMORPH_OT_restore_materials,
-    HOLOMORPH_OT_heat,
-    HOLOMORPH_OT_remove_maps,
-    HOLOMORPH_OT_select_bad,
+register, unregister = bpy.utils.register_classes_factory(
+    [HOLOMORPH_OT_restore_materials, HOLOMORPH_OT_heat, HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad]
 )
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -38,7 +38,7 @@ def forget():
     _kept.clear()
 
 
-def draw_faces(context, objects, quantity):
+def draw(context, objects, quantity):
     depsgraph = context.evaluated_depsgraph_get()
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
     views = [(o, _view(o, depsgraph, quantity, shader)) for o in objects]

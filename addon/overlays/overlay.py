@@ -44,29 +44,24 @@ def _objects(context):
 
 
 def _draw_in_space():
-    context = bpy.context
-    objects, quantity = _objects(context), getattr(context.window_manager, HEAT)
-    if objects and quantity != "NONE":
-        from . import heat_view
-
-        heat_view.draw_faces(context, objects, quantity)
-    if objects and (dragged or getattr(context.window_manager, MARKS)):
-        from . import marks_view
-
-        marks_view.draw(context, objects, dragged)
+    _draw(lambda view, *what: view.draw(*what))
 
 
 def _draw_on_screen():
+    _draw(lambda view, *what: view.draw_legend(*what))
+
+
+def _draw(draw):
     context = bpy.context
     objects, quantity = _objects(context), getattr(context.window_manager, HEAT)
     if objects and quantity != "NONE":
         from . import heat_view
 
-        heat_view.draw_legend(context, objects, quantity)
+        draw(heat_view, context, objects, quantity)
     if objects and (dragged or getattr(context.window_manager, MARKS)):
         from . import marks_view
 
-        marks_view.draw_legend(context, objects, dragged)
+        draw(marks_view, context, objects, dragged)
 
 
 @bpy.app.handlers.persistent

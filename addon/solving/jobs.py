@@ -9,11 +9,13 @@ from . import cache, solve
 
 class Work:
     """What runs in a worker thread and can be cancelled: after `cancel()` the thread ends at the library's next call of
-    `ask`, and nothing more is solved or cached. Subclasses define `run`."""
+    `ask`, and nothing more is solved or cached. Subclasses define `work`; one of `native.refusals` that ends it is the
+    `error`."""
 
     def __init__(self, progress=None):
         self.fraction = 0.0
         self.stage = ""
+        self.error = None
         self.failure = None  # anything but holomorph.Error is a bug of ours
         self._progress = progress
         self._cancelled = threading.Event()
@@ -35,6 +37,13 @@ class Work:
         if self.failure is not None:
             raise self.failure
 
+    def run(self):
+        """Works here and now, in the calling thread."""
+        try:
+            self.work()
+        except native.refusals() as error:
+            self.error = error
+
     def _guarded_run(self):
         try:
             self.run()
@@ -48,6 +57,10 @@ class Work:
         if self._progress is not None:
             self._progress(fraction, stage)
         return not self._cancelled.is_set()
+
+    def part(self, begin, end):
+        """`ask` for a part of the work."""
+        return native.load().progress.scaled(self.ask, begin, end)
 
 
 def solved(task, ask):
@@ -74,8 +87,7 @@ class Job(Work):
         self.results = [None] * len(tasks)
         self._tasks, self._then = tasks, then
 
-    def run(self):
-        """Solves here and now, in the calling thread."""
+    def work(self):
         refusals = native.refusals()
         for index in range(len(self._tasks)):
             if self._cancelled.is_set():
@@ -86,15 +98,10 @@ class Job(Work):
                 self.results[index] = error
 
     def _result(self, index):
-        share = self.SOLVE_SHARE if self._then else 1.0
-        found = solved(self._tasks[index], self._ask_within(index, 0.0, share))
+        share, count = self.SOLVE_SHARE if self._then else 1.0, len(self._tasks)
+        found = solved(self._tasks[index], self.part(index / count, (index + share) / count))
         if not self._then:
             return found
-        result = self._then[index](found, progress=self._ask_within(index, share, 1.0))
+        result = self._then[index](found, progress=self.part((index + share) / count, (index + 1) / count))
         cache.trim()
         return result
-
-    def _ask_within(self, index, begin, end):
-        """`ask` for one stage of one object."""
-        count = len(self._tasks)
-        return native.load().progress.scaled(self.ask, (index + begin) / count, (index + end) / count)

@@ -342,7 +342,7 @@ def test_only_in_object_mode_with_an_active_mesh():
 
 def test_cancelling_ends_the_work_with_nothing_made():
     obj = torus(**FINE)
-    source = module("operators.lod").Source(obj)
+    source = module("levels.source").Source(obj)
     work = source.work(module("levels.levels").LevelOptions(), lambda _fraction, _stage: work.cancel())
     work.start()
     work.wait()

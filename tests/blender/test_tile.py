@@ -101,7 +101,7 @@ def test_what_is_asked_of_the_library(calls):
     plain = dict(
         tiles=None, poles="auto", lattice="square", direction=None, turn=None, boundary="straight", allowed=None
     )
-    assert calls == [plain | dict(direction=(0, 0, 1), turn=np.pi / 2)]
+    assert calls == [plain | dict(direction="upright")]
     tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", turn=0.25, direction="NONE")
     assert calls[1:] == [plain | dict(tiles=120.0, poles=3, lattice="hex", boundary="free", turn=0.25)]
 
