@@ -67,8 +67,7 @@ class LevelsWork(jobs.Work):
             solved = jobs.solved(self.task, self.part(0, start))
             self.mapped = mapped.mapped(solved, MapOptions(forms=0, main=BALANCED))
             self._add_main_map()
-        polygons = self.task.polygons
-        surface = holomorph.Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+        surface = self.task.polygons.surface()
         if not self.names:
             return
         collapsed = start + (1 - start) * COLLAPSE_PART

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..scene.faces import edge_ends
-from . import distortion
 
 OCTAVES = -4.0  # of the density in area, from which on a face is coarse: lengths four times the median
 LEAST_PART = 0.002  # of all faces, in a place that is named
@@ -24,13 +23,8 @@ class Place:
     vertex: int  # off the boundary, of the coarsest face that has one
 
 
-def measured(polygons, uv):
-    """The `distortion.Distortion` of polygons under (#C, 2) UVs."""
-    return distortion.measure(polygons.vertices, polygons.corner_vertices, polygons.face_offsets, uv)
-
-
 def places(obj, polygons, octaves):
-    """The `Place`s of an object's polygons with this `Distortion.density`, the largest first."""
+    """The `Place`s of an object's polygons with this `distortion.Distortion.density`, the largest first."""
     faces = np.flatnonzero(octaves < OCTAVES)
     if not len(faces):
         return []

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether two meshes are conformally equivalent. No bpy here: it runs in a worker thread."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .. import native
 from ..solving import jobs
@@ -18,9 +18,9 @@ class Side:
     def surface(self):
         """Its `holomorph.Surface`, oriented as it is seen."""
         corners, offsets = self.polygons.corner_vertices, self.polygons.face_offsets
-        if self.is_mirrored:
-            corners, offsets = corners[::-1], offsets[-1] - offsets[::-1]
-        return native.load().Surface.from_polygons(self.polygons.vertices, corners, offsets)
+        if not self.is_mirrored:
+            return self.polygons.surface()
+        return replace(self.polygons, corner_vertices=corners[::-1], face_offsets=offsets[-1] - offsets[::-1]).surface()
 
     def checked(self, make):
         """What is made of its surface; a refusal names the object."""

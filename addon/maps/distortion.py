@@ -41,12 +41,12 @@ def fans(face_offsets):
     return np.stack([start, start + step, start + step + 1], axis=1), polygon
 
 
-def measure(vertices, corner_vertices, face_offsets, uv):
-    """The `Distortion` of a (#C, 2) map of polygons, whose (#V, 3) vertices are as they are seen."""
-    corners, polygon = fans(face_offsets)
-    g11, g12, g22, area = _metric(vertices[corner_vertices[corners]])
+def measure(polygons, uv):
+    """The `Distortion` of a (#C, 2) map of `mesh_io.Polygons`."""
+    corners, polygon = fans(polygons.face_offsets)
+    g11, g12, g22, area = _metric(polygons.vertices[polygons.corner_vertices[corners]])
     h11, h12, h22, uv_area = _metric(uv.astype(np.float64)[corners])
-    count = len(face_offsets) - 1
+    count = polygons.face_count
     face_area, face_uv = (np.bincount(polygon, values, count) for values in (area, uv_area))
     with np.errstate(divide="ignore", invalid="ignore"):
         half = (g22 * h11 - 2 * g12 * h12 + g11 * h22) / (8 * area * uv_area)  # (s1 / s2 + s2 / s1) / 2
@@ -61,11 +61,11 @@ def measure(vertices, corner_vertices, face_offsets, uv):
     return Distortion(octaves, angle, float(high / low) if low > 0 else np.inf, float(mean))
 
 
-def length_ratio(vertices, corner_vertices, face_offsets, uv):
+def length_ratio(polygons, uv):
     """UV length for a length on the surface, where the density is the median one by area; 0 where there is no area."""
-    corners, polygon = fans(face_offsets)
-    count = len(face_offsets) - 1
-    points = vertices[corner_vertices[corners]], uv.astype(np.float64)[corners]
+    corners, polygon = fans(polygons.face_offsets)
+    count = polygons.face_count
+    points = polygons.vertices[polygons.corner_vertices[corners]], uv.astype(np.float64)[corners]
     area, uv_area = (np.bincount(polygon, _metric(of_kind)[-1], count) for of_kind in points)
     has_area = area > 0
     (median,) = _quantiles(uv_area[has_area] / area[has_area], area[has_area], (0.5,))

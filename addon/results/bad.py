@@ -41,9 +41,8 @@ def find(polygons, uv, kinds):
     if not polygons.face_count:
         return Elements(vertices=_loose(polygons) if LOOSE in kinds else NONE)
     holomorph = native.load()
-    arrays = polygons.vertices, polygons.corner_vertices, polygons.face_offsets
     try:
-        surface = holomorph.Surface.from_polygons(*arrays, strict=False)
+        surface = polygons.surface(strict=False)
     except (holomorph.InvalidMesh, holomorph.TopologyError):  # there is no sound part
         edges, faces = _refused(polygons, [np.arange(polygons.face_count)])
         return Elements(edges=edges, faces=faces)

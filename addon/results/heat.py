@@ -15,8 +15,7 @@ def measured(mesh, linear):
     """(polygons, the `distortion.Distortion` of their active UV map) of a mesh that is not being edited, its positions
     multiplied by the 3x3 matrix `linear`."""
     polygons = mesh_io.read_polygons(mesh, linear)
-    of_map = polygons.corner_vertices, polygons.face_offsets, active_map(mesh, polygons)
-    return polygons, distortion.measure(polygons.vertices, *of_map)
+    return polygons, distortion.measure(polygons, active_map(mesh, polygons))
 
 
 def active_map(mesh, polygons):

@@ -26,9 +26,7 @@ def measured(target, image, metres):
 
     metres : of a unit of the scene
     """
-    polygons = target.polygons
-    ratio = distortion.length_ratio(polygons.vertices, polygons.corner_vertices, polygons.face_offsets, _uv(target))
-    return ratio * image / metres
+    return distortion.length_ratio(target.polygons, _uv(target)) * image / metres
 
 
 def scale(target, factor):

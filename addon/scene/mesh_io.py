@@ -11,7 +11,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from .. import compatibility
+from .. import compatibility, native
 from ..compatibility import Values
 
 
@@ -28,6 +28,11 @@ class Polygons:
     @property
     def face_count(self):
         return len(self.face_offsets) - 1
+
+    def surface(self, strict=True):
+        """The `holomorph.Surface` of them, or of their sound part."""
+        arrays = self.vertices, self.corner_vertices, self.face_offsets
+        return native.load().Surface.from_polygons(*arrays, strict=strict)
 
     def share(self, surface):
         """Takes the arrays of the surface that was made of these, where they are equal: one copy of them is left."""

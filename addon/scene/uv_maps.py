@@ -104,12 +104,15 @@ def _has_map(mesh, name):
     return name in mesh.uv_layers or name in mesh.attributes
 
 
+def _values(mesh, name):
+    """Those of a UV map or corner attribute."""
+    layer = mesh.uv_layers.get(name)
+    return _attribute_vectors(mesh.attributes[name], 2) if layer is None else compatibility.uv_values(layer)
+
+
 def read_map(mesh, name):
     """(#loops,2) float32 of a UV map or corner attribute."""
-    layer = mesh.uv_layers.get(name)
-    if layer is not None:
-        return read_values(compatibility.uv_values(layer))
-    return read_values(_attribute_vectors(mesh.attributes[name], 2))
+    return read_values(_values(mesh, name))
 
 
 def read_corners(mesh, polygons, name):
@@ -120,10 +123,8 @@ def read_corners(mesh, polygons, name):
 
 def overwrite_map(mesh, polygons, name, uv):
     """Writes (#C,2) float32 `uv` into a UV map or corner attribute that there is."""
-    layer = mesh.uv_layers.get(name)
-    values = _attribute_vectors(mesh.attributes[name], 2) if layer is None else compatibility.uv_values(layer)
     is_part = polygons is not None and polygons.faces is not None
-    write_values(values, _of_loops(mesh, polygons, uv, name if is_part else ""))
+    write_values(_values(mesh, name), _of_loops(mesh, polygons, uv, name if is_part else ""))
     mesh.update()
 
 

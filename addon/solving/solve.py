@@ -105,10 +105,7 @@ def solve(task, progress=None):
     """
     holomorph = native.load()
     start = time.perf_counter()
-    polygons = task.polygons
-    surface = holomorph.Surface.from_polygons(
-        polygons.vertices, polygons.corner_vertices, polygons.face_offsets, strict=False
-    )
+    polygons, surface = task.polygons, task.polygons.surface(strict=False)
     polygons.share(surface)
     parts = _parts(holomorph, surface, task.chosen, progress)
     stray = choices.stray_vertex(polygons.corner_vertices, task.chosen)

@@ -232,7 +232,7 @@ def edge_mismatch(mesh, values):
 def parts_of(obj):
     """The connected parts of an object as the library numbers them, with `corner_index` into its corners."""
     polygons = mesh_io.read_polygons(obj.data, np.eye(3))
-    surface = native.load().Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    surface = polygons.surface()
     return surface.components
 
 

@@ -35,7 +35,9 @@ def put_map(obj, at):
 
 def of_arrays(vertices, faces, at):
     offsets = np.concatenate([[0], np.cumsum([len(f) for f in faces])])
-    return distortion.measure(np.asarray(vertices, float), np.concatenate(faces), offsets, np.asarray(at, float))
+    return distortion.measure(
+        mesh_io.Polygons(np.asarray(vertices, float), np.concatenate(faces), offsets, None), np.asarray(at, float)
+    )
 
 
 def test_it_is_what_the_library_measures_on_triangles():

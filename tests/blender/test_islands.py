@@ -63,7 +63,7 @@ def shuffle_vertices(obj):
 
 def whole_surface(obj):
     polygons = mesh_io.read_polygons(obj.data, np.eye(3))
-    return native.load().Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    return polygons.surface()
 
 
 def cut_parts(obj):

@@ -251,17 +251,27 @@ def test_solving_knows_nothing_of_blender():
     assert files and not [identify(path) for path in files if imports(path) & {"bpy", "bmesh", "mathutils"}]
 
 
-def test_registration_loads_neither_numpy_nor_the_core():
-    """Blender starts, and the panel says what is missing, without them: whatever is imported at the top of a file that
-    registration loads, there is no NumPy."""
+def loaded_at_registration():
     loaded, waiting = set(), [ADDON / "__init__.py"]
     while waiting:
         path = waiting.pop()
         if path not in loaded:
             loaded.add(path)
             waiting += addon_imports(path, is_at_top=True)
+    return loaded
+
+
+def test_registration_loads_neither_numpy_nor_the_core():
+    """Blender starts, and the panel says what is missing, without them."""
+    loaded = loaded_at_registration()
     assert len(loaded) > len(ADDON_BELOW)
     assert not [identify(path) for path in loaded if {"numpy", "holomorph"} & set(packages_at_top(path))]
+
+
+def test_others_import_at_the_top():
+    """Only what registration loads imports inside functions: what would load NumPy or the core."""
+    others = set(python_files(ADDON)) - loaded_at_registration()
+    assert not [identify(path) for path in others if addon_imports(path) != addon_imports(path, is_at_top=True)]
 
 
 def test_only_mesh_io_touches_mesh_arrays():
