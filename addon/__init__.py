@@ -1,5 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holomorph: conformal UV maps for surfaces of any shape, in Blender."""
+"""Holomorph: conformal UV maps for surfaces of any shape, in Blender.
+
+Registration loads neither NumPy nor the native core, so that the panel can say what is missing. Operators and drawing
+import what needs these inside their functions.
+"""
+
+from . import native, preferences
+from .interface import panel, presets, shortcuts
+from .operators import carry, compare, drag, lod, mapping, submit, texel_operators, tools
+from .overlays import overlay
 
 bl_info = {
     "name": "Holomorph",
@@ -11,76 +20,30 @@ bl_info = {
     "category": "UV",
 }
 
+# In the order of registration.
+MODULES = (
+    preferences,
+    mapping,
+    drag,
+    lod,
+    texel_operators,
+    compare,
+    carry,
+    overlay,
+    tools,
+    submit,
+    presets,
+    panel,
+    shortcuts,
+)
+
 
 def register():
-    from . import (
-        carry,
-        compare,
-        drag,
-        lod,
-        native,
-        operators,
-        overlay,
-        panel,
-        preferences,
-        presets,
-        shortcuts,
-        submit,
-        texel_operators,
-        tile,
-        tools,
-        tools_panel,
-    )
-
     native.forget()
-    preferences.register()
-    operators.register()
-    tile.register()
-    drag.register()
-    lod.register()
-    texel_operators.register()
-    compare.register()
-    carry.register()
-    overlay.register()
-    tools.register()
-    submit.register()
-    presets.register()
-    panel.register()
-    tools_panel.register()
-    shortcuts.register()
+    for module in MODULES:
+        module.register()
 
 
 def unregister():
-    from . import (
-        carry,
-        compare,
-        drag,
-        lod,
-        operators,
-        overlay,
-        panel,
-        preferences,
-        presets,
-        shortcuts,
-        submit,
-        texel_operators,
-        tile,
-        tools,
-        tools_panel,
-    )
-
-    shortcuts.unregister()
-    tools_panel.unregister()
-    panel.unregister()
-    presets.unregister()
-    submit.unregister()
-    tools.unregister()
-    overlay.unregister()
-    carry.unregister()
-    compare.unregister()
-    texel_operators.unregister()
-    lod.unregister()
-    drag.unregister()
-    tile.unregister()
-    operators.unregister()
-    preferences.unregister()
+    for module in reversed(MODULES):
+        module.unregister()

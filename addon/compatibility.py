@@ -38,12 +38,12 @@ def position_values(mesh):
     return Values(mesh.vertices, "co", np.float32, 3)
 
 
-def corner_vertex_values(mesh):
-    """The vertex of each corner (100 times faster as attribute)."""
+def polygon_values(mesh):
+    """The positions, and the vertex of each corner (100 times faster as attribute)."""
     attribute = mesh.attributes.get(".corner_vert")
     if attribute is not None:
-        return Values(attribute.data, "value", np.int32)
-    return Values(mesh.loops, "vertex_index", np.uint32)
+        return position_values(mesh), Values(attribute.data, "value", np.int32)
+    return position_values(mesh), Values(mesh.loops, "vertex_index", np.uint32)
 
 
 def edge_vertex_values(mesh):

@@ -57,14 +57,10 @@ def _right_zip_here():
     return right_zip(bpy.app.version, platform.system(), platform.machine(), python_tag())
 
 
-def _package_folders():
-    here = Path(__file__).resolve().parent
-    return [here / "lib" / python_tag() / NAME, here.parent / "build" / "lib" / python_tag() / NAME]
-
-
-def _hidden_folders():
-    """Where the package would be found if something else of its name did not come first on ``sys.path``."""
-    return [Path(entry) / NAME for entry in sys.path]
+def _folders():
+    """Beside the add-on, in a checkout, and where something else of the name may come first on ``sys.path``."""
+    here, built = Path(__file__).resolve().parent, Path("lib", python_tag(), NAME)
+    return [here / built, here.parent / "build" / built, *(Path(entry) / NAME for entry in sys.path)]
 
 
 def _import_from(folder):
@@ -98,7 +94,7 @@ def _find():
     except ModuleNotFoundError as error:
         if error.name not in (NAME, f"{NAME}._native"):
             raise
-    for folder in [*_package_folders(), *_hidden_folders()]:
+    for folder in _folders():
         if (folder / "__init__.py").is_file() and any(folder.glob("_native*")):
             return _import_from(folder)
     raise NativeMissing(f"Holomorph's native part for {_looked_for()} is not installed: {_right_zip_here()}")

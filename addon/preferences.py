@@ -25,9 +25,4 @@ def shows_in_viewport(context):
     return addon is None or addon.preferences is None or addon.preferences.show_in_viewport
 
 
-def register():
-    bpy.utils.register_class(HOLOMORPH_preferences)
-
-
-def unregister():
-    bpy.utils.unregister_class(HOLOMORPH_preferences)
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_preferences])

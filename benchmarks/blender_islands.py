@@ -27,7 +27,7 @@ METHODS = ("ANGLE_BASED", "CONFORMAL", "MINIMUM_STRETCH")
 
 
 def mesh_object(surface, name):
-    from addon import mesh_io
+    from addon.scene import mesh_io
 
     mesh = mesh_io.new_mesh(name, surface.vertices, surface.corner_vertices, surface.face_offsets)
     obj = bpy.data.objects.new(name, mesh)

@@ -20,7 +20,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import addon
-from addon import mesh_io, native
+from addon import native
+from addon.scene import mesh_io
 
 LARGEST_STRETCH = 10.0
 SAME = 1e-4  # of the UV square: coordinates that differ by less agree in single precision

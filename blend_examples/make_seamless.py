@@ -18,7 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from modeling import subdivide
 
 import addon
-from addon import mesh_io, studio
+from addon.command_line import studio
+from addon.scene import mesh_io
 
 HERE = Path(__file__).resolve().parent
 FOLDER = HERE / "seamless"

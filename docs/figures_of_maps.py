@@ -66,9 +66,9 @@ def holes():
 
 def log_map():
     surface = bean()
-    structure = holomorph.conformal_structure(surface)
+    structure = holomorph.log_map(surface)
     uv = on_triangles(surface, structure.uv([1]))
-    star = np.isin(surface.corner_vertices, structure.punctures)[surface.triangle_corners].any(1)
+    star = np.isin(surface.corner_vertices, structure.poles)[surface.triangle_corners].any(1)
     view = View(surface, tilt=-30, turn=10, width=520)
     strip = PlaneView(uv[~star][..., ::-1] * [1, -1], 640)
     sphere = holomorph.Surface(structure.sphere_map()[:, [2, 0, 1]], surface.triangles)
@@ -76,7 +76,7 @@ def log_map():
     number = 6
     figure, axes = panels([1.25, 1.5, 0.8], size=(7.6, 2.0), gap=0.06)
     view.show(axes[0], checker(view.at_pixels(uv), number))
-    view.dots(axes[0], surface.vertices[structure.punctures])
+    view.dots(axes[0], surface.vertices[structure.poles])
     strip.show(axes[1], checker(strip.at_pixels(uv[~star]), number))
     ball_view.show(axes[2], checker(ball_view.at_pixels(uv), number))
     save(figure, "log_map")

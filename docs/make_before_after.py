@@ -46,12 +46,12 @@ def unwrapped(obj, name, operator, **options):
     bpy.ops.mesh.select_all(action="SELECT")
     operator(**options)
     bpy.ops.object.mode_set(mode="OBJECT")
-    return module("mesh_io").read_map(obj.data, name)
+    return module("scene.uv_maps").read_map(obj.data, name)
 
 
 def median_density(points, polygons, uv):
     """Of UV area per surface area, by surface area."""
-    corners, _ = module("distortion").fans(polygons.face_offsets)
+    corners, _ = module("maps.distortion").fans(polygons.face_offsets)
     area, uv_area = areas(points[polygons.corner_vertices[corners]]), areas(uv[corners])
     order = np.argsort(uv_area / area)
     total = np.cumsum(area[order])
@@ -99,7 +99,7 @@ def part_count(count, first, second):
 
 def figures(points, polygons, uv):
     """(density ratio, islands, length of visible seams)"""
-    found = module("distortion").measure(points, polygons.corner_vertices, polygons.face_offsets, uv)
+    found = module("maps.distortion").measure(points, polygons.corner_vertices, polygons.face_offsets, uv)
     return found.density_ratio, *breaks(points, polygons, uv)
 
 
@@ -107,7 +107,7 @@ def made_maps(obj, **options):
     """The UVs of each way. Blender's Unwrap gets the cut of ours, for the examples have no seams."""
     smart = unwrapped(obj, "Smart", bpy.ops.uv.smart_project, angle_limit=SMART_ANGLE, island_margin=ISLAND_MARGIN)
     bpy.ops.uv.holomorphic_tile(seams=True, **options)
-    tiling = module("mesh_io").read_map(obj.data, module("mesh_io").MAIN_MAP)
+    tiling = module("scene.uv_maps").read_map(obj.data, module("scene.uv_maps").MAIN_MAP)
     return {
         "smart": smart,
         "unwrap": unwrapped(obj, "Unwrap", bpy.ops.uv.unwrap, margin=ISLAND_MARGIN),
@@ -117,8 +117,8 @@ def made_maps(obj, **options):
 
 def show(obj, polygons, uv):
     """In the map that the material shows."""
-    mesh_io = module("mesh_io")
-    mesh_io.overwrite_map(obj.data, polygons, mesh_io.MAIN_MAP, uv.astype(np.float32))
+    uv_maps = module("scene.uv_maps")
+    uv_maps.overwrite_map(obj.data, polygons, uv_maps.MAIN_MAP, uv.astype(np.float32))
     obj.data.update()
 
 
@@ -134,15 +134,18 @@ def main():
     load_addon()
     obj, name = bpy.context.view_layer.objects.active, Path(bpy.data.filepath).stem
     maps = made_maps(obj, texture=texture, tiles=int(tiles), direction=direction, quarters=int(quarters))
-    points, polygons = module("mesh_io").world_points(obj), module("mesh_io").read_polygons(obj.data, np.eye(3))
+    points, polygons = (
+        module("scene.mesh_io").world_points(obj),
+        module("scene.mesh_io").read_polygons(obj.data, np.eye(3)),
+    )
     median = median_density(points, polygons, maps["tiling"])
     found = {}
     for kind, uv in maps.items():
         uv = uv.astype(np.float64) * math.sqrt(median / median_density(points, polygons, uv.astype(np.float64)))
         found[kind] = figures(points, polygons, uv)
         show(obj, polygons, uv)
-        module("studio").render([obj], f"{folder}/{name}-{kind}.png", RESOLUTION, SAMPLES)
-    print(row(name, json.loads(obj[module("report").PROPERTY])["components"], found))
+        module("command_line.studio").render([obj], f"{folder}/{name}-{kind}.png", RESOLUTION, SAMPLES)
+    print(row(name, json.loads(obj[module("results.report").PROPERTY])["components"], found))
 
 
 main()

@@ -39,12 +39,13 @@ def show(obj, image, roughness):
 def main():
     model, texture, *options = sys.argv[sys.argv.index("--") + 1 :]
     headless = load_headless()
-    headless.process(headless.command_line.parse(["--seamless", "--texture", texture, *options]))
     module = headless.module
-    image = module("textures").colour_image(texture.upper())
+    parse, process = module("command_line.options").parse, module("command_line.command").process
+    process(parse(["--seamless", "--texture", texture, *options]))
+    image = module("materials.textures").colour_image(texture.upper())
     for obj in [o for o in bpy.context.view_layer.objects if o.type == "MESH"]:
-        module("material").uncover(obj)
-        show(obj, image, module("patterns").TEXTURES[texture.upper()].roughness)
+        module("materials.material").uncover(obj)
+        show(obj, image, module("materials.patterns").TEXTURES[texture.upper()].roughness)
     bpy.ops.export_scene.gltf(filepath=model, export_format="GLB", export_image_format="JPEG")
 
 

@@ -12,29 +12,35 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
-from . import choice, layout, report
+from . import layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
+from .automatic_map import automatic_map, automatic_maps
+from .automatic_structure import AnyStructure, automatic_structure
 from .bounded import BoundedStructure
 from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
 from .cones import cut_to_cones
 from .conformal_map import ConformalMap, conformal_map
-from .disk import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
+from .cut import cut_along
+from .disk import disk_map, free_boundary_map, rectangle_map, triangle_map
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
 from .igusa import IgusaInvariants, igusa_invariants
 from .islands import islands
 from .levels import LevelOfDetail
+from .log_map import log_map
+from .map import Map
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
+from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
+from .pole_structure import PoleStructure
 from .progressive import ProgressiveMesh
-from .punctured import PuncturedStructure
 from .quality import Quality
 from .repairs import Refused, Repairs
 from .results import MemoryPlan, Residuals, SolverReport
 from .siegel import SiegelReduction, siegel_reduction
-from .structure import AnyStructure, conformal_structure
+from .structure import conformal_structure
 from .surface import Surface
 from .symmetries import Automorphisms, automorphisms
 from .theta_constants import Hyperelliptic, hyperelliptic
@@ -59,11 +65,12 @@ __all__ = [
     "IgusaInvariants",
     "InvalidMesh",
     "LevelOfDetail",
+    "Map",
     "MemoryPlan",
     "OutOfMemory",
     "ProgressiveMesh",
     "PlacedPoles",
-    "PuncturedStructure",
+    "PoleStructure",
     "Quality",
     "RectangleMap",
     "Refinement",
@@ -83,22 +90,30 @@ __all__ = [
     "Verdict",
     "Zeros",
     "__version__",
+    "automatic_map",
+    "automatic_maps",
+    "automatic_structure",
     "automorphisms",
-    "choice",
     "conformal_map",
     "conformal_structure",
     "conformally_equivalent",
+    "cut_along",
     "cut_to_cones",
+    "disk_map",
     "double_cover",
     "frame",
+    "free_boundary_map",
     "hyperelliptic",
     "igusa_invariants",
     "islands",
     "layout",
+    "log_map",
     "overall",
     "place",
     "place_poles",
+    "rectangle_map",
     "report",
     "siegel_reduction",
+    "triangle_map",
     "verdict",
 ]

@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 
 from . import Error, Surface, Verdict, __version__, formats
+from .automatic_map import MAIN_MAPS
 from .batch import arrangement, mapping
-from .batch.recipe import MAIN_MAPS, Maps, Recipe
+from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
 from .compare_command import compare
 from .report import overall_report, repairs_report

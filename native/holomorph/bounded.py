@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from . import arrays
+from ._native import TopologyError
 from .array_types import Bounds, Integers, Reals
 from .certificate import certain_text
-from .checks import NoInvariant
 from .form_structure import CertifiedStructure
 from .plain_data import plain
 from .results import BoundedResiduals
@@ -27,6 +27,11 @@ class BoundedStructure(CertifiedStructure):
 
     residuals_kind = BoundedResiduals
     coefficient_type = np.float64
+
+    @property
+    def map_kind(self) -> str:
+        """A strip is one that its other sides close up."""
+        return "strip" if (self._component.genus, self._component.boundary_count) == (0, 2) else "forms"
 
     @cached_property
     def description(self) -> str:
@@ -132,12 +137,13 @@ class BoundedStructure(CertifiedStructure):
     def _check_planar(self, what):
         genus = self._component.genus
         if genus:
-            raise NoInvariant(f"a {what} belongs to planar surfaces; the surface has genus {genus}")
+            raise TopologyError(f"a {what} belongs to planar surfaces; the surface has genus {genus}")
 
     def _check_annulus(self):
         genus, loops = self._component.genus, self._component.boundary_count
         if (genus, loops) != (0, 2):
-            raise NoInvariant(f"a modulus belongs to annuli; the surface has genus {genus} and {loops} boundary loops")
+            found = f"the surface has genus {genus} and {loops} boundary loops"
+            raise TopologyError(f"a modulus belongs to annuli; {found}")
 
     def invariants(self) -> dict[str, Any]:
         """Period matrix of the double, capacities and modulus with their bounds, as plain data."""

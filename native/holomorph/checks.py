@@ -8,11 +8,6 @@ import numpy as np
 
 from ._native import TopologyError
 
-
-class NoInvariant(TopologyError, AttributeError):
-    """The surface has no such invariant; an AttributeError, too, so that `hasattr` says no."""
-
-
 SOLVERS = ("auto", "direct", "multigrid", "paper")
 
 

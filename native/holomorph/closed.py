@@ -17,6 +17,7 @@ from .results import ClosedResiduals
 class ConformalStructure(CertifiedStructure):
     """Result of `conformal_structure` for a closed surface of genus g >= 1: 2g harmonic and g holomorphic forms."""
 
+    map_kind = "forms"
     residuals_kind = ClosedResiduals
 
     @cached_property

@@ -6,7 +6,7 @@ from ._native import TopologyError
 from .array_types import Progress
 from .checks import real_number
 from .cut_open import cut_open, on_border, paths_to_border
-from .structure import conformal_structure
+from .disk import free_boundary_map
 from .surface import Surface
 
 MOST_CUTS = 32
@@ -38,7 +38,7 @@ def cut_to_cones(disk: Surface, most_stretch: float = 3.0, *, progress: Progress
     if most <= 1:
         raise ValueError(f"most_stretch is {most}; a factor above 1 is needed")
     for _ in range(MOST_CUTS):
-        found = conformal_structure(disk, boundary="free", progress=progress)
+        found = free_boundary_map(disk, progress=progress)
         stretch = np.nan_to_num(np.abs(np.log(found.scale_factors)))  # isolated vertices have none
         worst = int(np.argmax(stretch))
         if not stretch[worst] > np.log(most):

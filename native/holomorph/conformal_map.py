@@ -12,8 +12,9 @@ from ._native import SolverError, TopologyError
 from .array_types import Integers, Progress, Reals
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
-from .equivalence import Equivalence, conformally_equivalent, scaled
+from .equivalence import Equivalence, conformally_equivalent
 from .map_sides import sides
+from .progress import scaled
 from .surface import Surface
 from .value import Value, counted
 
@@ -87,7 +88,7 @@ def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Pro
     for structure in (a, b):
         if not isinstance(structure, Mapped):
             raise TypeError(
-                f"maps are made of structures with forms, without punctures, not of a {type(structure).__name__}"
+                f"maps are made of structures with forms, without poles, not of a {type(structure).__name__}"
             )
     found = conformally_equivalent(a, b, tolerance=tolerance, progress=scaled(progress, 0.0, 0.2))
     if found.verdict not in ("equivalent", "mirror_image"):

@@ -1,34 +1,49 @@
 """Maps cut along chosen edges, such as marked seams."""
 
+from dataclasses import replace
+from functools import partial
+from typing import TypeVar
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._native import TopologyError
 from .checks import own_vertices
-from .disk import PlaneMap
 from .edges import edge_keys, edges_of_keys
+from .plane_maps import PlaneMap
+from .results import Solution, Structure
 from .truncated import TruncatedStructure
 
+AStructure = TypeVar("AStructure", bound=Structure)
 
-def cut_along(made, surface, component, cut_edges):
-    """The structure with its map cut along the given edges instead of its seams. If the cut leaves several pieces, the
-    UVs of each have a constant of their own; maps of disks are continuous and need no cut.
 
-    cut_edges : (#S, 2) vertices of edges of faces; those on the boundary do not matter
+def cut_along(structure: AStructure, edges: ArrayLike) -> AStructure:
+    """The same structure, its maps cut along these edges instead of its seams. If the cut leaves several pieces, the
+    UVs of each have a constant of their own. Maps of disks are continuous and need no cut.
 
-    Raises TopologyError where two vertices are joined by no edge, or the map would still jump elsewhere.
+    edges : (#S, 2) vertices of edges of faces, such as marked seams; those on the boundary do not matter. The maps must
+        be single-valued on the rest, as they are on disks. None, (0, 2), leave the structure as it is
+
+    Raises TopologyError where two vertices are joined by no edge, or a map would still jump elsewhere.
     Cost: O(#C log #C), no solve.
     """
-    given = np.asarray(cut_edges)
+    given, component = np.asarray(edges), structure._component
+    if not len(given):
+        return structure
     if given.ndim != 2 or given.shape[1] != 2:
-        raise TopologyError(f"cut_edges has the shape {given.shape}; (rows, 2) is needed, the vertices of each edge")
-    vertices, labels = own_vertices(surface, component, given.ravel(), "cut vertex")
-    edges = interior_edges(component, np.asarray(vertices, np.int64).reshape(-1, 2), given)
-    if isinstance(made, PlaneMap):
-        return made
-    if isinstance(made, TruncatedStructure):
-        raise TopologyError("the mesh is too coarse for a cut of your own: its punctures' stars meet; subdivide it")
-    made._native.cut_along(edges.tolist(), labels)
-    return made
+        raise TopologyError(f"edges has the shape {given.shape}; (rows, 2) is needed, the vertices of each edge")
+    vertices, labels = own_vertices(structure.surface, component, given.ravel(), "cut vertex")
+    cut = interior_edges(component, np.asarray(vertices, np.int64).reshape(-1, 2), given)
+    if isinstance(structure, PlaneMap):
+        return structure
+    if isinstance(structure, TruncatedStructure):
+        raise TopologyError("the mesh is too coarse for a cut of your own: its poles' stars meet; subdivide it")
+    made = replace(structure, _solution=Solution(structure._native.cut_along(cut.tolist(), labels)))
+    return made.computed_by(partial(_computed_cut, structure._solution.compute, given.copy()))
+
+
+def _computed_cut(compute, edges):
+    return cut_along(compute(), edges)
 
 
 def interior_edges(component, pairs, given):

@@ -11,6 +11,7 @@ from .bounded import BoundedStructure
 from .checks import only_component, real_number
 from .closed import ConformalStructure
 from .planar import LOOPS_OF_ACHIRAL_SURFACES, planar_verdict
+from .progress import scaled
 from .results import Structure
 from .structure import conformal_structure
 from .surface import Surface
@@ -115,13 +116,6 @@ def _structure(given, component, progress):
     if isinstance(given, (ConformalStructure, BoundedStructure)):
         return given
     return conformal_structure(component, progress=progress)
-
-
-def scaled(progress, begin, end):
-    """A progress function for the part [begin, end] of the work; None for none."""
-    if progress is None:
-        return None
-    return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
 
 
 def _topology_text(genus, loops):

@@ -35,7 +35,7 @@ class FormStructure(Structure):
     @cached_property
     def seams(self) -> Integers:
         """(#S,) indices into `edges` of the cut graph, on edges of polygons only: cut open there, a disk is left. The
-        cut graph ends at punctures, and the edges there are seams, too."""
+        cut graph ends at poles, and the edges there are seams, too."""
         return self._native.seams()
 
     @cached_property
@@ -84,7 +84,7 @@ class FormStructure(Structure):
     @cached_property
     def holomorphic_forms(self) -> Complexes:
         """(n, #E) complex, paper § 7. Closed: theta_j has the period 1 over a_j and 0 over the other a. With boundary:
-        theta_i = h^N_i + i sum_j C#_ij h^D_j. With punctures theta_0 comes first, NaN on the edges that end at one."""
+        theta_i = h^N_i + i sum_j C#_ij h^D_j. With poles theta_0 comes first, NaN on the edges that end at one."""
         n, edges = self._differentials.shape[1], len(self.edges)
         # The harmonic forms, and two matrices of the size of the result.
         self._native.require_memory(f"the {n} holomorphic forms on {edges} edges", 3 * 16 * n * edges)
@@ -94,19 +94,19 @@ class FormStructure(Structure):
 
     def uv(self, coefficients: ArrayLike) -> Reals:
         """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
-        with boundary and without punctures. No solve: one small product; where the forms were not kept (`memory`), a
+        with boundary and without poles. No solve: one small product; where the forms were not kept (`memory`), a
         solve for this map alone.
 
         Across every seam the UVs jump by a constant translation, without rotation or change of scale; only the edges at
-        a puncture, where each triangle has an apex of its own, are cut. On a boundary loop v is the same number at all
-        corners, up to a period where a seam meets it; with punctures for real coefficients and residues."""
+        a pole, where each triangle has an apex of its own, are cut. On a boundary loop v is the same number at all
+        corners, up to a period where a seam meets it; with poles for real coefficients and residues."""
         c = checked_coefficients(coefficients, self._differentials.shape[1], self.coefficient_type)
         return self._native.uv(self._differentials @ c)
 
     def zeros(self, coefficients: ArrayLike) -> Zeros:
         """`Zeros` of the differential sum_j c_j theta_j, the coefficients as in `uv`. Its index at a vertex is the sum
         of the signed angles of the image over 2 pi, minus 1; a flipped triangle counts 1."""
-        poles = self._native.punctures()
+        poles = self._native.poles()
         vertices, orders = _native.zeros(self._triangulation, self.uv(coefficients), poles)
         positions = self._component.vertices
         return Zeros(self._of_surface(vertices), orders, None if positions is None else positions[vertices])

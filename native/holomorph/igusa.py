@@ -6,8 +6,8 @@ from itertools import combinations
 import numpy as np
 
 from . import arrays
+from ._native import TopologyError
 from .array_types import Complexes, Reals
-from .checks import NoInvariant
 from .closed import ConformalStructure
 from .equivalence import period_lattice
 from .siegel import siegel_reduction
@@ -45,7 +45,7 @@ def igusa_invariants(structure: ConformalStructure) -> IgusaInvariants:
     """
     genus = structure._component.genus
     if not isinstance(structure, ConformalStructure) or genus != 2:
-        raise NoInvariant("Igusa's invariants belong to closed surfaces of genus 2")
+        raise TopologyError("Igusa's invariants belong to closed surfaces of genus 2")
     omega = siegel_reduction(structure.period_matrix).period_matrix
     balls = invariants(omega, period_lattice(structure).radius())
     return IgusaInvariants(

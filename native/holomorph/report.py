@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .form_structure import CertifiedStructure
 from .plain_data import plain
 from .verdicts import Verdict, overall
 
 if TYPE_CHECKING:
+    from .automatic_structure import AnyStructure
     from .quality import Quality
     from .repairs import Refused, Repairs
-    from .structure import AnyStructure
     from .surface import Surface
 
 LISTED = 20  # elements of a repair that a report names
@@ -25,6 +26,7 @@ def component_report(
 
     main_map : `map_report` of the map that is shown first; by default that of the balanced coefficients
     """
+    certificate = structure.certificate.as_plain() if isinstance(structure, CertifiedStructure) else None
     if main_map is None:
         coefficients = structure.balanced_coefficients()
         main_map = map_report(coefficients, structure.quality(structure.uv(coefficients)))
@@ -35,7 +37,7 @@ def component_report(
             "description": structure.description,
             "forms": len(main_map["coefficients"]),
             **structure.invariants(),
-            **({"certificate": structure.certificate.as_plain()} if hasattr(structure, "certificate") else {}),
+            **({"certificate": certificate} if certificate else {}),
             "residuals": vars(structure.residuals) | {"solver": structure.solver.residual},
             "solver": vars(structure.solver),
             "timings": structure.timings,

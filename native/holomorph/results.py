@@ -11,11 +11,14 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 from .array_types import Integers, Progress, Reals
 from .checks import real_number
+from .progress import scaled
 from .quality import Quality
 from .surface import Surface
 from .tiling import Tiler, Tiling
 from .tiling_options import Poles, asked_poles
 from .value import Value, counted
+
+PLACING = 0.6  # of the work on a tiling, for finding the poles
 
 
 @dataclass(frozen=True, repr=False)
@@ -103,6 +106,7 @@ class Structure(Value):
     uv(coefficients) : (#C, 2) UVs of a combination of `holomorphic_forms`, without a solve
     balanced_coefficients() : those of the map that is shown first
     description : one phrase that says what was made
+    map_kind : the `Map.kind` of their UVs
     invariants() : the conformal invariants as plain data, for reports
     """
 
@@ -136,7 +140,7 @@ class Structure(Value):
     @cached_property
     def edges(self) -> Integers:
         """(#E, 2) vertices of the triangulation, lower first; forms are values on these. Its diagonals are flipped away
-        from punctures."""
+        from poles."""
         return self._of_surface(self._triangulation.edges)
 
     @cached_property
@@ -163,12 +167,14 @@ class Structure(Value):
         density: float | None = None,
         poles: Poles = "auto",
         lattice: str | ArrayLike = "square",
-        direction: ArrayLike | None = None,
+        direction: ArrayLike | str | None = None,
         boundary: str = "straight",
         max_turn: float = 0.2,
         turn: float | None = None,
         max_added: float | None = None,
         progress: Progress | None = None,
+        *,
+        surface: Surface | None = None,
     ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
 
@@ -184,9 +190,11 @@ class Structure(Value):
             list of vertices, which stay where they are. Two at least on a closed surface of genus 0
         lattice : "square", "brick" (rows shifted by half), "hex", or a 2 x 2 matrix whose columns are the translations
         direction : (3,) vector in space along which u runs, as far as it can; any where that is normal to a plane.
-            turn : radians, rotates the texture beside it; max_turn : radians by which the rounding may turn it away
+            "upright" for rows that run level: v runs along +Z, as far as it can. turn : radians, rotates the texture
+            beside it; max_turn : radians by which the rounding may turn it away
         boundary : "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
+        surface : as in `tiler`
 
         Raises
         ------
@@ -200,13 +208,7 @@ class Structure(Value):
             if tiles is not None:
                 raise ValueError("a density is given without tiles: either says how many there are")
             tiles = real_number(density, "density", positive=True) * self._component.area
-        count, chosen = asked_poles(poles)
-        key = count, tuple(chosen), str(boundary)
-        tiler = self._tilers.get(key)
-        if tiler is None:
-            tiler = Tiler(self._component, poles, boundary=boundary, threads=self._threads, progress=progress)
-            self._tilers.clear()
-            self._tilers[key] = tiler
+        tiler = self.tiler(poles, boundary=boundary, surface=surface, progress=scaled(progress, 0.0, PLACING))
         return tiler.tile(
             tiles,
             lattice=lattice,
@@ -214,8 +216,33 @@ class Structure(Value):
             turn=turn,
             max_turn=max_turn,
             max_added=max_added,
-            progress=progress,
+            progress=scaled(progress, PLACING, 1.0),
         )
+
+    def tiler(
+        self,
+        poles: Poles = "auto",
+        *,
+        boundary: str = "straight",
+        allowed: ArrayLike | None = None,
+        surface: Surface | None = None,
+        progress: Progress | None = None,
+    ) -> Tiler:
+        """The `Tiler` of the surface; the last one is kept, with the poles that it placed, until others are asked for.
+
+        surface : the one whose vertices poles are named by, without its isolated vertices the same as was solved on;
+            default: the latter
+        """
+        surface = self._component if surface is None else surface
+        count, chosen = asked_poles(poles)
+        mask = None if allowed is None else np.asarray(allowed, bool).tobytes()
+        key = surface, count, tuple(chosen), str(boundary), mask
+        if key not in self._tilers:
+            self._tilers.clear()
+            self._tilers[key] = Tiler(
+                surface, poles, boundary=boundary, allowed=allowed, threads=self._threads, progress=progress
+            )
+        return self._tilers[key]
 
     @cached_property
     def _tilers(self):

@@ -5,7 +5,7 @@ from itertools import product
 
 import numpy as np
 
-from .checks import NoInvariant
+from ._native import TopologyError
 from .closed import ConformalStructure
 from .equivalence import period_lattice
 from .siegel import siegel_reduction
@@ -35,7 +35,7 @@ def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     """
     genus = structure._component.genus
     if not isinstance(structure, ConformalStructure) or genus > 3:
-        raise NoInvariant(f"theta constants tell hyperelliptic surfaces up to genus 3; the surface has genus {genus}")
+        raise TopologyError(f"theta constants tell hyperelliptic surfaces up to genus 3; the surface has genus {genus}")
     if genus < 3:
         return Hyperelliptic("yes")
     omega = siegel_reduction(structure.period_matrix).period_matrix

@@ -11,9 +11,10 @@ from . import _native, arrays
 from ._native import TopologyError
 from .array_types import Complexes, Integers, Progress, Reals
 from .checks import real_number
+from .direction import along
 from .quality import Quality
 from .surface import Surface
-from .tiling_options import BOUNDARIES, Poles, asked_poles, checked_direction, generators, own_allowed, own_poles
+from .tiling_options import BOUNDARIES, Poles, asked_poles, generators, own_allowed, own_poles
 from .value import Value, counted
 from .verdicts import Verdict, verdict
 
@@ -137,7 +138,7 @@ class Tiler:
         tiles: float | None = None,
         *,
         lattice: str | ArrayLike = "square",
-        direction: ArrayLike | None = None,
+        direction: ArrayLike | str | None = None,
         turn: float | None = None,
         max_turn: float = 0.2,
         max_added: float | None = None,
@@ -149,14 +150,14 @@ class Tiler:
         tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
         turn = None if turn is None else real_number(turn, "turn")
         max_turn = real_number(max_turn, "max_turn")
-        along = None if direction is None else checked_direction(direction, self._component)
+        vector, turn = along(direction, turn, self._component)
         made = self._tiling(
             _native.tile(
                 self._placement,
                 tiles=tiles,
                 lattice=generators(lattice),
                 turn=turn,
-                direction=along,
+                direction=vector,
                 max_turn=max_turn,
                 threads=self._threads,
                 progress=progress,

@@ -1,4 +1,4 @@
-"""What is asked of a tiling, checked: poles, where they may be, the lattice of the texture and its direction."""
+"""What is asked of a tiling, checked: poles, where they may be, the lattice of the texture."""
 
 import math
 import numbers
@@ -8,7 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from . import arrays
-from ._native import InvalidMesh, TopologyError
+from ._native import TopologyError
 from .array_types import Integers
 from .checks import own_vertices
 
@@ -66,13 +66,3 @@ def generators(lattice):
     if abs(np.linalg.det(matrix)) <= 1e-9 * np.abs(matrix).max() ** 2:
         raise ValueError("lattice is singular: its columns, the translations of the texture, must be independent")
     return complex(*matrix[:, 0]), complex(*matrix[:, 1])
-
-
-def checked_direction(direction, surface):
-    """Three numbers. @throws ValueError, and InvalidMesh for a surface without positions"""
-    if surface.vertices is None:
-        raise InvalidMesh("an intrinsic surface, without positions, knows no direction in space; use turn")
-    vector = arrays.numbers(direction, "direction")
-    if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise ValueError(f"direction is {direction!r}; three numbers, not all 0, are needed")
-    return vector.tolist()

@@ -7,11 +7,11 @@ import numpy as np
 
 from . import _native, arrays
 from .edges import edge_keys, edges_of_keys
-from .punctured import PuncturedStructure
+from .pole_structure import PoleStructure
 from .results import result
 from .surface import Surface
 
-CUT = 1 / 3  # part of each edge at a puncture that is cut off: less than half, as both its ends may be punctures
+CUT = 1 / 3  # part of each edge at a pole that is cut off: less than half, as both its ends may be poles
 SAME_UV = 1e-9  # relative to the UV size: across an edge that is no seam the UVs differ by rounding
 
 
@@ -66,23 +66,23 @@ def far_corners(vertices):
 
 
 def coarse_log_map(surface, component, solver, threads, progress):
-    """`TruncatedStructure` of a closed surface of genus 0 with positions, its punctures two far corners."""
-    punctures = far_corners(component.vertices)
-    truncation = truncated(component, punctures)
+    """`TruncatedStructure` of a closed surface of genus 0 with positions, its poles two far corners."""
+    poles = far_corners(component.vertices)
+    truncation = truncated(component, poles)
     (refined,) = truncation.surface.components
-    native = _native.punctured_structure(refined._native, punctures, [], [], solver, threads, 0, progress)
-    solved = result(PuncturedStructure, truncation.surface, refined, native, threads)
+    native = _native.pole_structure(refined._native, poles, [], [], solver, threads, 0, progress)
+    solved = result(PoleStructure, truncation.surface, refined, native, threads)
     own = solved.solver, solved.residuals, solved.timings, solved._solution, component, threads
     return TruncatedStructure(surface, *own, truncation, solved)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class TruncatedStructure(PuncturedStructure):
-    """`PuncturedStructure` of a mesh whose punctures' stars meet. It was solved on its `Truncation`; UVs are those of
+class TruncatedStructure(PoleStructure):
+    """`PoleStructure` of a mesh whose poles' stars meet. It was solved on its `Truncation`; UVs are those of
     the remaining corners, and the corners that were cut off are put back by a similarity."""
 
     _truncation: Truncation
-    _refined: PuncturedStructure
+    _refined: PoleStructure
 
     @cached_property
     def _triangulation(self):
@@ -90,12 +90,12 @@ class TruncatedStructure(PuncturedStructure):
 
     @cached_property
     def holomorphic_forms(self):
-        """(1, #E) complex: theta_0, NaN on the edges that end at a puncture."""
+        """(1, #E) complex: theta_0, NaN on the edges that end at a pole."""
         z = self._complex_uv()
         values = np.full(len(self.edges), np.nan + 0j)
         tails, heads, keys = self._sides()
         values[keys] = z[heads] - z[tails]
-        values[np.isin(self._component._native.edges, self._native.punctures()).any(axis=1)] = np.nan
+        values[np.isin(self._component._native.edges, self._native.poles()).any(axis=1)] = np.nan
         return arrays.frozen(values[None])
 
     @cached_property
@@ -134,6 +134,6 @@ class TruncatedStructure(PuncturedStructure):
         return result.view(np.float64).reshape(-1, 2)
 
     def sphere_map(self):
-        """(#V, 3) points of the unit sphere; see `PuncturedStructure.sphere_map`."""
+        """(#V, 3) points of the unit sphere; see `PoleStructure.sphere_map`."""
         count = len(self._component.vertex_index)
         return self._at_vertices(arrays.frozen(self._refined.sphere_map()[:count].copy()))

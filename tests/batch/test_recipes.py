@@ -44,7 +44,7 @@ def test_seamless_parts_keep_whole_tiles_side_by_side(torus):
     """Two parts, each moved by whole units, and apart from each other."""
     surface = two_parts(torus)
     parts, uv = mapped(surface, maps={"main": "seamless"}, tiling={"tiles": 64, "poles": 0})
-    assert all(part.tiling for part in parts)
+    assert all(part.map.tiling for part in parts)
     found = jumps(surface, uv)
     assert len(found) and np.abs(found - np.rint(found)).max() < 1e-9
     boxes = [(uv[half].min(axis=0), uv[half].max(axis=0)) for half in np.split(np.arange(len(uv)), 2)]
@@ -56,40 +56,60 @@ def test_density_of_a_tiling(torus):
     """Tiles per unit of area: the same for both parts."""
     parts, _ = mapped(two_parts(torus), maps={"main": "seamless"}, tiling={"density": 2.0, "poles": 0})
     for part in parts:
-        assert part.tiling.tiles == pytest.approx(2.0 * part.surface.area, rel=1e-9)
+        assert part.map.tiling.tiles == pytest.approx(2.0 * part.surface.area, rel=1e-9)
 
 
 def test_a_tiling_is_compared_where_the_map_is_uneven_or_has_seams(torus):
-    """A slender torus is even by itself, and becomes seamless without poles, as does one that poles make less even."""
+    """A slender torus is even by itself, and becomes seamless without poles."""
     radius = np.linalg.norm(torus.vertices[:, [0, 2]], axis=1)
     slender = torus.vertices * np.stack([1 + 18 / radius, np.ones_like(radius), 1 + 18 / radius], axis=1)
     even = holomorph.Surface.from_polygons(slender, torus.corner_vertices, torus.face_offsets)
     (part,), _ = mapped(even)
-    assert len(part.tiling.poles) == 0 and part.quality.density_ratio < holomorph.choice.EVEN
+    assert len(part.map.tiling.poles) == 0 and part.map.quality.density_ratio < 2
     (balanced,), _ = mapped(torus, maps={"main": "balanced"})
-    (chosen,), _ = mapped(torus)
-    assert balanced.quality.density_ratio > holomorph.choice.EVEN
-    tried = [mapped(torus, maps={"main": "seamless"}, tiling={"poles": p})[0][0] for p in holomorph.choice.POLES]
-    ratio, angle = balanced.quality.density_ratio, balanced.quality.capped_mean_angle
-    better = [p.tiling for p in tried if holomorph.choice.is_better(p.tiling, ratio, angle)]
-    assert balanced.tiling is None
-    assert np.array_equal(chosen.uv, better[0].uv if better else balanced.uv)
+    assert balanced.map.tiling is None and balanced.map.quality.density_ratio > 2
 
 
-def test_punctures_of_the_part_they_lie_on(torus):
+def test_the_map_is_the_automatic_one(torus):
+    for surface in (torus, two_parts(torus)):
+        parts, _ = mapped(surface)
+        for part, made in zip(parts, holomorph.automatic_maps(surface), strict=True):
+            assert np.array_equal(part.map.uv, made.uv) and part.report["main_map"]["why"] == made.why
+
+
+def test_a_map_that_is_chosen_is_balanced(torus):
+    """Unless a tiling is asked for."""
+    for maps in ({"rotation": 30.0}, {"density": 2.0}, {"poles": [5, 150]}, {"solver": "paper"}):
+        (part,), _ = mapped(torus, maps=maps)
+        assert part.map.tiling is None
+        (part,), _ = mapped(torus, maps=maps | {"main": "seamless"})
+        assert part.map.tiling is not None
+
+
+def test_direction_of_the_rows(torus):
+    """The axis of this torus is Y: with rows along it, u runs where v runs with upright ones by another axis."""
+    ways = {"upright": "upright", "none": None, (0.0, 0.0, 1.0): (0.0, 0.0, 1.0)}
+    for written, direction in ways.items():
+        value = list(written) if isinstance(written, tuple) else written
+        (part,), _ = mapped(torus, maps={"main": "seamless"}, tiling={"direction": value})
+        made = holomorph.automatic_map(torus, main="seamless", direction=direction)
+        assert np.array_equal(part.map.uv, made.uv)
+
+
+def test_poles_of_the_part_they_lie_on(torus):
     surface = two_parts(torus)
     count = len(torus.vertices)
-    parts, _ = mapped(surface, maps={"main": "balanced", "punctures": [count + 5, count + 150]})
-    assert not hasattr(parts[0].structure, "punctures")
-    assert parts[1].structure.punctures.tolist() == [5, 150]
+    parts, _ = mapped(surface, maps={"main": "balanced", "poles": [count + 5, count + 150]})
+    assert isinstance(parts[0].structure, holomorph.ConformalStructure)
+    assert parts[1].structure.poles.tolist() == [5, 150]
     with pytest.raises(holomorph.TopologyError, match=f"vertex {2 * count}, which the recipe chooses"):
-        mapped(surface, maps={"punctures": [2 * count]})
+        mapped(surface, maps={"poles": [2 * count]})
 
 
-def test_residues_in_the_order_of_the_punctures(torus):
-    maps = {"main": "balanced", "punctures": [150, 5], "residues": [[0, 1], [0, -1]]}
+def test_residues_in_the_order_of_the_poles(torus):
+    maps = {"main": "balanced", "poles": [150, 5], "residues": [[0, 1], [0, -1]]}
     (part,), _ = mapped(torus, maps=maps)
-    assert part.structure.punctures.tolist() == [150, 5]
+    assert part.structure.poles.tolist() == [150, 5]
     assert part.structure.residues.tolist() == [1j, -1j]
 
 
@@ -113,7 +133,7 @@ def test_a_turned_map_is_turned(torus):
     apart = np.abs(z - z[0]) > 0.01
     assert np.angle((w - w[0])[apart] / (z - z[0])[apart]) == pytest.approx(np.pi / 6, abs=1e-9)
     assert turned.min() >= -1e-9 and turned.max() <= 1 + 1e-9
-    assert part.structure.quality(turned).mean_angle == pytest.approx(part.quality.mean_angle, rel=1e-9)
+    assert part.structure.quality(turned).mean_angle == pytest.approx(part.map.quality.mean_angle, rel=1e-9)
 
 
 def test_shape_of_a_sphere_and_of_a_disk(tmp_path):
@@ -126,7 +146,7 @@ def test_shape_of_a_sphere_and_of_a_disk(tmp_path):
     faces = np.stack([u * 5 + v + 1, u * 5 + v + 2, u * 5 + v + 7, u * 5 + v + 6], axis=-1)[:-1, :-1].reshape(-1, 4)
     points = "".join(f"v {x} {y} 0\n" for x in range(5) for y in range(5))
     (tmp_path / "disk.obj").write_text(points + "f %d %d %d %d\n" * len(faces) % tuple(faces.ravel().tolist()))
-    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\npunctures = [12]\n")
+    (tmp_path / "recipe.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\npoles = [12]\n")
     (tmp_path / "plain.toml").write_text("[maps]\nmain = 'balanced'\nshape = true\n")
     for name, wanted, height in (("cube", "plain", 1.0), ("disk", "recipe", 0.0)):
         out = tmp_path / name

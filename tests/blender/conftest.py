@@ -40,7 +40,7 @@ def addon():
 @pytest.fixture(autouse=True)
 def empty_scene(addon):
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    module("cache").clear()
+    module("solving.cache").clear()
 
 
 def module(name):

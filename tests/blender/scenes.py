@@ -2,14 +2,15 @@
 
 import importlib
 import json
+from functools import partial
 
 import bmesh
 import bpy
 import numpy as np
 from conftest import ROOT
 
-mesh_edges = importlib.import_module("holomorph_addon.mesh_edges")
-mesh_io = importlib.import_module("holomorph_addon.mesh_io")
+uv_maps = importlib.import_module("holomorph_addon.scene.uv_maps")
+mesh_io = importlib.import_module("holomorph_addon.scene.mesh_io")
 native = importlib.import_module("holomorph_addon.native")
 
 
@@ -133,8 +134,24 @@ def run(main="BALANCED", **options):
     return bpy.ops.uv.holomorphic_maps(main=main, **options)
 
 
+def then(**options):
+    """What follows the solves of a `jobs.Job`: maps with these `options.MapOptions`."""
+    library = {name: importlib.import_module(f"holomorph_addon.maps.{name}") for name in ("mapped", "options")}
+    return partial(library["mapped"].mapped, options=library["options"].MapOptions(**options))
+
+
+def written(obj, **options):
+    """The `outcome.Outcome` of maps with these `options.MapOptions`."""
+    names = ("scene.targets", "solving.jobs", "results.write")
+    targets, jobs, write = (importlib.import_module(f"holomorph_addon.{name}") for name in names)
+    found = targets.collect([obj])
+    job = jobs.Job(targets.tasks(found), then=[then(**options)])
+    job.run()
+    return write.write(bpy.context, found, job.results, write.WriteOptions())
+
+
 def uv(obj, name="Holomorphic"):
-    return mesh_io.read_map(obj.data, name).astype(np.float64)
+    return uv_maps.read_map(obj.data, name).astype(np.float64)
 
 
 def stored_report(obj):
@@ -215,7 +232,7 @@ def edge_mismatch(mesh, values):
 def parts_of(obj):
     """The connected parts of an object as the library numbers them, with `corner_index` into its corners."""
     polygons = mesh_io.read_polygons(obj.data, np.eye(3))
-    surface = native.load().Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    surface = polygons.surface()
     return surface.components
 
 
@@ -249,8 +266,8 @@ def everything(obj):
         "corners": corners.tobytes(),
         "offsets": offsets.tobytes(),
         "edges": edges.tobytes(),
-        "seams": mesh_edges.read_seams(mesh).tobytes(),
-        "maps": {layer.name: mesh_io.read_map(mesh, layer.name).tobytes() for layer in mesh.uv_layers},
+        "seams": mesh_io.read_seams(mesh).tobytes(),
+        "maps": {layer.name: uv_maps.read_map(mesh, layer.name).tobytes() for layer in mesh.uv_layers},
         "attributes": sorted((a.name, a.domain, a.data_type) for a in mesh.attributes),
         "materials": [(s.link, s.material) for s in obj.material_slots],
         "properties": sorted(obj.keys()) + sorted(mesh.keys()),

@@ -4,7 +4,16 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import grid_arrays, mesh_io, mesh_object, run, select, torus, torus_arrays, two_parts
+from scenes import (
+    grid_arrays,
+    mesh_io,
+    mesh_object,
+    run,
+    select,
+    torus,
+    torus_arrays,
+    two_parts,
+)
 from test_faces import pick_faces
 from test_refusals import moebius
 
@@ -55,11 +64,11 @@ def test_faces_without_area():
     obj = mesh_object("Grid", vertices, faces)
     assert press() == {"FINISHED"}
     chosen = selected(obj)[2]
-    assert chosen == module("bad").find(*read(obj), {"NO_AREA"}).faces.tolist() and chosen
+    assert chosen == module("results.bad").find(*read(obj), {"NO_AREA"}).faces.tolist() and chosen
 
 
 def read(obj):
-    (target,) = module("targets").collect([obj])
+    (target,) = module("scene.targets").collect([obj])
     return target.polygons, None
 
 
@@ -77,7 +86,7 @@ def test_vertices_where_faces_touch_and_loose_ones_on_demand():
 def test_flipped_uvs_of_any_map():
     obj = mesh_object("Grid", *grid_arrays())
     layer = obj.data.uv_layers.new(name="Own")
-    corners = mesh_io.read_indices(module("compatibility").corner_vertex_values(obj.data))
+    corners = mesh_io.read_indices(module("compatibility").polygon_values(obj.data)[1])
     values = np.array(grid_arrays()[0])[corners, :2]
     turned = slice(4 * 7, 4 * 8)
     values[turned] = values[turned][:, ::-1]

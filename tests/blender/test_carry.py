@@ -3,7 +3,15 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import mesh_io, mesh_object, run, select, sphere_arrays, torus, torus_arrays
+from scenes import (
+    mesh_object,
+    run,
+    select,
+    sphere_arrays,
+    torus,
+    torus_arrays,
+    uv_maps,
+)
 
 FULL = 8  # UV maps of a mesh
 
@@ -42,7 +50,7 @@ def source():
 
 def sides_of(obj, faces):
     """(#F, 4, 2) UV vectors along the sides of quads."""
-    uv = mesh_io.read_map(obj.data, obj.data.uv_layers.active.name).reshape(len(faces), 4, 2)
+    uv = uv_maps.read_map(obj.data, obj.data.uv_layers.active.name).reshape(len(faces), 4, 2)
     return np.roll(uv, -1, axis=1) - uv
 
 

@@ -4,9 +4,17 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import grid_arrays, mesh_edges, mesh_object, pick, sphere_arrays, torus, torus_arrays
+from scenes import (
+    grid_arrays,
+    mesh_io,
+    mesh_object,
+    pick,
+    sphere_arrays,
+    torus,
+    torus_arrays,
+)
 
-choices, native, targets = module("choices"), module("native"), module("targets")
+choices, native, targets = module("solving.choices"), module("native"), module("scene.targets")
 
 
 def part_of(*arrays):
@@ -37,10 +45,10 @@ def test_each_part_gets_its_own_vertices_and_residues():
     if first.vertex_index[0] != 0:
         first, second = second, first
     (keywords,) = choices.attempts(first, chosen)
-    assert keywords["punctures"].tolist() == [40, 6]
+    assert keywords["poles"].tolist() == [40, 6]
     assert keywords["residues"].tolist() == [2, 3]
     (keywords,) = choices.attempts(second, chosen)
-    assert keywords["punctures"].tolist() == [17]
+    assert keywords["poles"].tolist() == [17]
 
 
 def test_what_was_only_found_is_left_out_in_the_end():
@@ -48,10 +56,10 @@ def test_what_was_only_found_is_left_out_in_the_end():
     seams = np.array([[16, 17], [17, 18]])
     found = choices.Choices(choices.AUTOMATIC, (24,), seams=seams, boundary="double_cover")
     wanted = choices.attempts(part, found)
-    assert [("punctures" in w, "cut_edges" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
+    assert [("poles" in w, "cuts" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
     assert all(w["boundary"] == "natural" for w in wanted)  # a disk has no forms
     explicit = choices.Choices(choices.PUNCTURES, (24,), seams=seams)
-    assert [("punctures" in w, "cut_edges" in w) for w in choices.attempts(part, explicit)] == [(1, 1), (1, 0)]
+    assert [("poles" in w, "cuts" in w) for w in choices.attempts(part, explicit)] == [(1, 1), (1, 0)]
     assert choices.attempts(part, choices.Choices(choices.NONE, (24,))) == [{"solver": "auto", "boundary": "natural"}]
 
 
@@ -72,7 +80,7 @@ def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop()
     corners = [0, 42, 48, 6]  # counter-clockwise, seen from above
     for picked in ([0, 48, 6, 42], [42, 0, 6, 48], [48, 6, 42, 0]):
         chosen = choices.Choices(choices.AUTOMATIC, tuple(picked))
-        found = choices.attempts(part, chosen)[0]["rectangle_corners"].tolist()
+        found = choices.attempts(part, chosen)[0]["corners"].tolist()
         start = corners.index(picked[0])
         assert found == corners[start:] + corners[:start]
 
@@ -80,7 +88,7 @@ def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop()
 def test_corners_that_are_none_stay_as_they_were_picked():
     part = part_of(*grid_arrays(6))
     assert choices.around_boundary(part, np.array([0, 24, 48, 6])).tolist() == [0, 24, 48, 6]
-    assert "punctures" in choices.attempts(part, choices.Choices(choices.AUTOMATIC, (0, 24, 48, 6)))[0]
+    assert "poles" in choices.attempts(part, choices.Choices(choices.AUTOMATIC, (0, 24, 48, 6)))[0]
     vertices, faces = grid_arrays(6)
     ring = part_of(vertices, np.delete(faces, 14, axis=0))  # with a second loop
     inner = int(faces[14][0])
@@ -94,8 +102,8 @@ def test_choices_that_change_nothing_have_one_key():
 
 
 def collected(obj, use):
-    (target,) = targets.collect([obj], targets.Request(use=use))
-    return target.chosen.selected
+    (target,) = targets.collect([obj], choices.Choices(use=use))
+    return target.chosen.vertices
 
 
 def test_the_selection_is_read_in_its_order():
@@ -121,13 +129,13 @@ def test_selected_edges_and_everything_selected_are_no_choice():
 def test_a_loose_vertex_cannot_be_chosen():
     vertices, faces = sphere_arrays()
     obj = mesh_object("Sphere", [*vertices, (3, 3, 3)], faces)
-    (task,) = targets.tasks(targets.collect([obj], targets.Request(choices.PUNCTURES, (0, 162))))
+    (task,) = targets.tasks(targets.collect([obj], choices.Choices(choices.PUNCTURES, (0, 162))))
     with pytest.raises(native.load().InvalidMesh, match="vertex 162 belongs to no face"):
-        module("solve").solve(task)
+        module("solving.solve").solve(task)
 
 
 def test_seams_are_read_as_vertices():
     obj = torus()
     obj.data.edges[4].use_seam = True
-    (pair,) = mesh_edges.marked_edges(obj.data, "use_seam")
+    (pair,) = mesh_io.marked_edges(obj.data, "use_seam")
     assert sorted(pair) == sorted(obj.data.edges[4].vertices)

@@ -24,7 +24,7 @@ from scenes import (
     uv,
 )
 
-drag, tile_report = module("drag"), module("tile_report")
+drag, stored = module("operators.drag"), module("results.stored")
 
 
 def tile(**options):
@@ -36,7 +36,7 @@ def move(moves):
 
 
 def poles(obj):
-    vertices, is_pole = tile_report.marks(obj["holomorph_report"])
+    vertices, is_pole = stored.marks(obj["holomorph_report"])
     return vertices[is_pole].tolist()
 
 
@@ -52,14 +52,15 @@ def neighbour(obj, vertex, steps=1):
 
 @pytest.fixture
 def stages(monkeypatch):
-    """The stages that the library went through, those of placing poles among them."""
-    noted, kind = [], native.load().Tiler
+    """The stages that the library went through, and "placing" where it placed poles."""
+    noted, kind = [], native.load().results.Tiler
 
     def noting(progress):
         return lambda fraction, stage: (noted.append(stage), progress(fraction, stage))[1]
 
     class Noted(kind):
         def __init__(self, surface, wanted, *, progress, **options):
+            noted.append("placing")
             super().__init__(surface, wanted, progress=noting(progress), **options)
 
         def tile(self, *wanted, progress, **options):
@@ -68,26 +69,26 @@ def stages(monkeypatch):
         def move_poles(self, tiling, moves, *, progress):
             return super().move_poles(tiling, moves, progress=noting(progress))
 
-    monkeypatch.setattr(native.load(), "Tiler", Noted)
+    monkeypatch.setattr(native.load().results, "Tiler", Noted)
     return noted
 
 
 def test_other_tiles_rotations_and_lattices_place_no_poles_again(stages):
     torus()
     tile()
-    assert {"poles", "rounding", "punctures"} <= set(stages)
+    assert {"placing", "rounding"} <= set(stages)
     for options in ({"tiles": 150}, {"turn": 0.3}, {"lattice": "hex"}, {"quarters": 1}):
         stages.clear()
         assert tile(**options) == {"FINISHED"}
-        assert not {"poles", "forms for the poles", "forms of the surface", "harmonic forms"} & set(stages)
+        assert "placing" not in stages
     assert stages == []
     bpy.context.active_object.data.vertices[0].co.x += 0.01
     tile()
-    assert "poles" in stages
+    assert "placing" in stages
 
 
 def test_tilers_count_in_the_size_of_what_is_kept(monkeypatch):
-    cache = module("cache")
+    cache = module("solving.cache")
     first, second = torus("First"), torus("Second", thickness=0.5)
     for obj in (first, second):
         select(obj)
@@ -105,7 +106,7 @@ def test_a_pole_goes_where_it_is_put_and_the_map_stays_seamless(stages):
     before, place = poles(obj), neighbour(obj, poles(obj)[1])
     stages.clear()
     assert move(f"1:{place}") == {"FINISHED"}
-    assert not {"rounding", "poles"} & set(stages)
+    assert not {"rounding", "placing"} & set(stages)
     assert poles(obj)[1] == place != before[1]
     vertices, jumps = edge_jumps(obj)
     jumps = jumps[~np.isin(vertices, poles(obj))]
@@ -139,7 +140,7 @@ def test_the_same_after_everything_was_forgotten():
     move(f"0:{neighbour(obj, poles(obj)[0])}")
     before = uv(obj)
     place = poles(obj)[0]
-    module("cache").clear()
+    module("solving.cache").clear()
     move(f"0:{place}")
     assert np.array_equal(uv(obj), before)
 
@@ -220,7 +221,7 @@ def test_undo_takes_a_move_back():
 def test_previews_write_the_map_alone_and_are_taken_back_exactly():
     obj = torus()
     tile()
-    before, session = everything(obj), module("drag_session").Session(obj)
+    before, session = everything(obj), module("operators.drag_session").Session(obj)
     session.show(session.made({0: neighbour(obj, poles(obj)[0], 2)}))
     after = everything(obj)
     assert {name for name in before if after[name] != before[name]} == {"maps"}
@@ -231,7 +232,7 @@ def test_previews_write_the_map_alone_and_are_taken_back_exactly():
 def test_the_texture_is_followed_in_the_background_and_given_up():
     obj = torus()
     tile()
-    session = module("drag_session").Session(obj)
+    session = module("operators.drag_session").Session(obj)
     job = session.job({0: neighbour(obj, poles(obj)[0])})
     job.start()
     job.wait()
@@ -246,7 +247,7 @@ def test_the_texture_is_followed_in_the_background_and_given_up():
 def test_the_vertices_under_a_ray():
     obj = torus()
     obj.matrix_world = Matrix.Translation((5, 0, 0)) @ Matrix.Scale(2, 4)
-    surface = module("surface_pick").Surface(obj)
+    surface = module("operators.surface_pick").Surface(obj)
     points = mesh_io.world_points(obj)
     vertex = int(np.argmax(points[:, 2]))
     origin = Vector(points[vertex]) + Vector((0.01, 0.01, 10))
@@ -256,7 +257,7 @@ def test_the_vertices_under_a_ray():
 
 
 def test_the_nearest_pole_on_the_screen():
-    nearest = module("surface_pick").nearest
+    nearest = module("operators.surface_pick").nearest
     view = SimpleNamespace(on_screen=lambda point: None if point[2] < 0 else (100 * point[0], 100 * point[1]))
     near = partial(nearest, view, [(0, 0, 1), (1, 1, 1), (0.5, 0.5, -1)])
     assert near(95, 104, 18) == 1 and near(10, 0, 18) == 0

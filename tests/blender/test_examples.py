@@ -6,7 +6,17 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import edge_mismatch, mesh_edges, open_example, parts_of, run, select, stored_report, straightness, uv
+from scenes import (
+    edge_mismatch,
+    mesh_io,
+    open_example,
+    parts_of,
+    run,
+    select,
+    stored_report,
+    straightness,
+    uv,
+)
 
 # name: object, (genus, boundary loops) of its parts
 EXAMPLES = {
@@ -84,7 +94,7 @@ def check_map(obj, values, found, least_extent):
     if all(part["genus"] and not part["boundary_count"] for part in found):
         difference, forgiven = edge_mismatch(obj.data, values)
         assert difference <= forgiven
-        assert mesh_edges.read_seams(obj.data).any()
+        assert mesh_io.read_seams(obj.data).any()
     if all(part["boundary_count"] > 1 for part in found):
         (part,) = parts_of(obj)
         assert straightness(part, values) < 1e-6

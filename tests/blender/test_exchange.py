@@ -6,11 +6,18 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import grid_arrays, mesh_io, select, torus, torus_arrays
+from scenes import (
+    grid_arrays,
+    mesh_io,
+    select,
+    torus,
+    torus_arrays,
+    uv_maps,
+)
 from test_faces import add_own_map
 from test_headless import headless, our_lines, write_obj
 
-exchange = module("exchange")
+exchange = module("command_line.exchange")
 needs_usd = pytest.mark.skipif(not bpy.app.build_options.usd, reason="this Blender is built without USD")
 # Blender 4.2 as a Python module crashes at exit once it has written a glTF file, with no add-on either.
 may_write_gltf = pytest.mark.skipif(
@@ -61,7 +68,7 @@ def read_back(path):
 
 def map_values(mesh):
     """The maps as sorted rows: importers number corners as they like."""
-    return [np.sort(mesh_io.read_map(mesh, layer.name).round(4), axis=0) for layer in mesh.uv_layers]
+    return [np.sort(uv_maps.read_map(mesh, layer.name).round(4), axis=0) for layer in mesh.uv_layers]
 
 
 @pytest.mark.parametrize("suffix", FORMATS)
@@ -99,7 +106,7 @@ def test_a_gltf_file_has_its_vertices_joined_and_its_normals(tmp_path):
     found = read_back(tmp_path / "scene.glb")
     assert len(found["Ring"].data.vertices) == len(torus_arrays()[0])
     normals = mesh_io.corner_normals(found["Ring"].data)
-    corners = mesh_io.read_indices(module("compatibility").corner_vertex_values(found["Ring"].data))
+    corners = mesh_io.read_indices(module("compatibility").polygon_values(found["Ring"].data)[1])
     spread = [np.ptp(normals[corners == vertex], axis=0).max() for vertex in range(0, 288, 17)]
     assert max(spread) < 0.02  # smooth
 

@@ -8,7 +8,6 @@ from conftest import module
 from scenes import (
     everything,
     grid_arrays,
-    mesh_edges,
     mesh_io,
     mesh_object,
     pick,
@@ -18,6 +17,7 @@ from scenes import (
     torus,
     torus_arrays,
     uv,
+    uv_maps,
 )
 
 ACROSS = 12  # of the torus of the scenes
@@ -51,7 +51,7 @@ def add_own_map(obj, name="Artist"):
     layer = obj.data.uv_layers.new(name=name)
     values = np.random.default_rng(1).random((len(obj.data.loops), 2))
     mesh_io.write_values(module("compatibility").uv_values(layer), values)
-    return mesh_io.read_map(obj.data, name)
+    return uv_maps.read_map(obj.data, name)
 
 
 HALF = np.arange(12 * ACROSS)  # the faces of a bent pipe
@@ -71,7 +71,7 @@ def test_a_selected_half_of_a_torus_is_a_pipe_and_the_rest_keeps_its_uvs():
     assert entry["repairs"]["isolated_vertices"]["count"] == 0
     rest = np.setdiff1d(np.arange(len(obj.data.loops)), corners_of(HALF))
     assert np.array_equal(uv(obj)[rest], own[rest])
-    assert np.array_equal(mesh_io.read_map(obj.data, "Artist"), own)
+    assert np.array_equal(uv_maps.read_map(obj.data, "Artist"), own)
     new = uv(obj)[corners_of(HALF)]
     assert np.ptp(new, axis=0).max() == pytest.approx(1, abs=1e-6)
 
@@ -95,7 +95,7 @@ def test_the_border_of_a_selection_is_marked_with_the_cuts():
     pick_faces(obj, HALF)
     run(seams=True)
     leave()
-    marked = {tuple(sorted(pair)) for pair in mesh_edges.marked_edges(obj.data, "use_seam").tolist()}
+    marked = {tuple(sorted(pair)) for pair in mesh_io.marked_edges(obj.data, "use_seam").tolist()}
     rings = [start + np.arange(ACROSS) for start in (0, 12 * ACROSS)]  # vertices at the two ends of the pipe
     border = {tuple(sorted(pair)) for ring in rings for pair in np.stack([ring, np.roll(ring, -1)], 1).tolist()}
     assert border < marked and len(marked) == len(border) + stored_report(obj)["components"][0]["seam_edges"]
@@ -223,18 +223,18 @@ def test_selected_faces_are_tiled_and_poles_are_not_dragged_on_them():
     assert np.array_equal(uv(obj)[rest], own[rest])
     assert stored_report(obj)["components"][0]["faces"] == len(HALF)
     with pytest.raises(ValueError, match="selected faces"):
-        module("drag_session").Session(obj)
+        module("operators.drag_session").Session(obj)
 
 
 def test_a_ninth_map_of_a_selection_is_an_attribute_and_keeps_its_rest():
     obj = torus()
     for index in range(8):
         add_own_map(obj, f"Own {index}")
-    active = mesh_io.read_map(obj.data, obj.data.uv_layers.active.name)
+    active = uv_maps.read_map(obj.data, obj.data.uv_layers.active.name)
     pick_faces(obj, HALF)
     run()
     run(density=2)
     leave()
     assert {entry["stored_as"] for entry in stored_report(obj)["maps"]} == {"attribute"}
     rest = np.setdiff1d(np.arange(len(obj.data.loops)), corners_of(HALF))
-    assert np.array_equal(mesh_io.read_map(obj.data, "Holomorphic")[rest], active[rest])
+    assert np.array_equal(uv_maps.read_map(obj.data, "Holomorphic")[rest], active[rest])

@@ -9,7 +9,9 @@ import pytest
 from conftest import module
 from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
-coarse, lines, verdict_view, viewport = (module(name) for name in ("coarse", "lines", "verdict_view", "viewport"))
+coarse, lines, verdict_view, viewport = (
+    module(name) for name in ("maps.coarse", "interface.lines", "interface.verdict_view", "materials.viewport")
+)
 
 
 class Drawn:
@@ -121,7 +123,7 @@ def test_the_preference_decides(views, is_on):
     package = module("preferences").__package__
     stored = {package: SimpleNamespace(preferences=SimpleNamespace(show_in_viewport=is_on))}
     context = SimpleNamespace(window=window, preferences=SimpleNamespace(addons=stored))
-    module("modal").WorkOperator().show(context, SimpleNamespace(done=["Ring"]), True)
+    module("operators.modal").WorkOperator().show(context, SimpleNamespace(done=["Ring"]), True)
     assert shading.color_type == ("TEXTURE" if is_on else "MATERIAL")
 
 
@@ -162,9 +164,9 @@ def test_lines_are_broken_where_they_do_not_fit():
 
 @pytest.mark.parametrize(("level", "told"), [("fair", ([], ["Ring: Even"])), ("poor", (["Ring: Even"], []))])
 def test_a_poor_map_is_a_warning(level, told):
-    outcome = module("run").Outcome()
-    entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}}
-    module("run").judge(outcome, SimpleNamespace(name="Ring"), entry)
+    outcome = module("results.outcome").Outcome()
+    entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}, "components": [], "faces_without_area": 0}
+    outcome.judge(SimpleNamespace(name="Ring"), entry)
     assert (outcome.problems, outcome.notes) == told
 
 
@@ -255,7 +257,7 @@ def test_poles_are_off_the_boundary():
     fine = np.zeros((len(polygons.corner_vertices), 2))
     fine[:] = polygons.vertices[polygons.corner_vertices][:, [axis - 1, axis - 2]]
     is_far = polygons.vertices[polygons.corner_vertices, axis] > 1.5
-    octaves = coarse.measured(polygons, np.where(is_far[:, None], 0.01 * fine, fine)).density
+    octaves = module("maps.distortion").measure(polygons, np.where(is_far[:, None], 0.01 * fine, fine)).density
     found = coarse.places(obj, polygons, octaves)
     assert found and all(is_inner[place.vertex] for place in found)
 
@@ -288,7 +290,7 @@ def test_a_higher_density_shows_more_squares_where_their_number_is_chosen():
 @pytest.mark.parametrize(("forms", "dials"), [(0, 0), (1, 0), (3, 3), (20, 8)])
 def test_a_form_that_is_alone_has_no_share(forms, dials):
     """Its amount would be a change of scale, which the density undoes."""
-    layout, properties = Drawn(), module("properties").MapProperties()
+    layout, properties = Drawn(), module("operators.properties").MapProperties()
     properties.main = "AUTOMATIC"
     properties.form_count, layout.prop = forms, lambda _owner, name, **_options: layout.texts.append(name)
     properties.draw_options(layout, None)

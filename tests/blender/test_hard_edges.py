@@ -7,7 +7,14 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, mesh_edges, mesh_object, run, select, stored_report
+from scenes import (
+    everything,
+    mesh_io,
+    mesh_object,
+    run,
+    select,
+    stored_report,
+)
 from test_first_minute import drawn
 from test_headless import headless, our_lines, write_obj
 from test_islands import assert_packed, capped_cylinder
@@ -35,7 +42,7 @@ def helix():
     i = np.arange(n - 1)
     quads = [np.stack([i + k * n, i + (k + 1) * n, i + 1 + (k + 1) * n, i + 1 + k * n], axis=1) for k in range(2)]
     obj = mesh_object("Helix", np.concatenate(rails), np.concatenate(quads))
-    mesh_edges.mark_edges(obj.data, "use_seam", [[n // 2, n // 2 + n]])  # opens nothing
+    mesh_io.mark_edges(obj.data, "use_seam", [[n // 2, n // 2 + n]])  # opens nothing
     return obj
 
 
@@ -104,7 +111,7 @@ def test_a_text_is_to_be_converted_and_then_flattened():
     bpy.ops.object.text_add()
     obj = bpy.context.object
     obj.data.extrude = 0.1
-    operators, availability = module("operators"), module("availability")
+    operators, availability = module("operators.mapping"), module("operators.availability")
     assert operators.HOLOMORPH_OT_maps.why_not(bpy.context) == availability.CONVERT
     bpy.ops.object.convert(target="MESH")
     assert operators.HOLOMORPH_OT_maps.why_not(bpy.context) == ""

@@ -9,7 +9,14 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import limb_arrays, mesh_edges, mesh_io, sphere_arrays, torus, torus_arrays
+from scenes import (
+    limb_arrays,
+    mesh_io,
+    sphere_arrays,
+    torus,
+    torus_arrays,
+    uv_maps,
+)
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
 SCRIPT = str(ROOT / "addon" / "headless.py")
@@ -77,7 +84,7 @@ def test_mesh_file_in_blend_picture_and_report_out(torus_file, tmp_path):
     mesh.vertices.foreach_get("co", positions)
     assert np.array_equal(positions, vertices.astype(np.float32).ravel())
     assert [layer.name for layer in mesh.uv_layers] == ["Holomorphic", "Holomorphic 1"]
-    assert np.ptp(mesh_io.read_map(mesh, "Holomorphic")) > 0.1
+    assert np.ptp(uv_maps.read_map(mesh, "Holomorphic")) > 0.1
 
 
 def test_blend_file_in(tmp_path):
@@ -99,7 +106,7 @@ def test_options_reach_the_maps(torus_file, tmp_path):
     bpy.ops.wm.open_mainfile(filepath=str(blend))
     obj = bpy.data.objects["ring"]
     assert [layer.name for layer in obj.data.uv_layers] == ["Holomorphic"]
-    assert mesh_edges.read_seams(obj.data).any()
+    assert mesh_io.read_seams(obj.data).any()
     assert obj.material_slots[0].material.node_tree.nodes["Checker Scale"].outputs[0].default_value == 8
 
 
@@ -227,13 +234,13 @@ def test_punctures_and_residues(torus_file, tmp_path):
     report = tmp_path / "report.json"
     chosen = ("--puncture", 3, "--puncture", 150, "--residues", "2+1j -2-1j")
     assert headless(torus_file, "--report", report, *chosen).returncode == 0
-    assert reported(report)["punctures"] == [3, 150]
+    assert reported(report)["poles"] == [3, 150]
     assert reported(report)["residues"] == [[2, 1], [-2, -1]]
 
 
 def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
     for path, options, word in (
-        (torus_file, ("--puncture", 3), "puncture 3"),
+        (torus_file, ("--puncture", 3), "pole 3"),
         (torus_file, ("--puncture", 3, "--puncture", 100000), "100000"),
         (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "1 1"), "residues"),
         (torus_file, ("--puncture", 3, "--rectangle", 0, 1, 2, 3), "exclude"),

@@ -6,7 +6,7 @@ import pytest
 from conftest import module
 from scenes import frame, mesh_io, mesh_object, native, run, select, torus, torus_arrays, uv
 
-distortion, heat = module("distortion"), module("heat")
+distortion, heat = module("maps.distortion"), module("results.heat")
 
 
 def heat_maps():
@@ -35,7 +35,9 @@ def put_map(obj, at):
 
 def of_arrays(vertices, faces, at):
     offsets = np.concatenate([[0], np.cumsum([len(f) for f in faces])])
-    return distortion.measure(np.asarray(vertices, float), np.concatenate(faces), offsets, np.asarray(at, float))
+    return distortion.measure(
+        mesh_io.Polygons(np.asarray(vertices, float), np.concatenate(faces), offsets, None), np.asarray(at, float)
+    )
 
 
 def test_it_is_what_the_library_measures_on_triangles():
@@ -162,7 +164,7 @@ def test_what_is_drawn_is_lit_and_coloured_by_face():
     obj = frame()
     run()
     polygons, found = heat.measured(obj.data, np.eye(3))
-    view = module("heat_view")
+    view = module("overlays.heat_view")
     points, colours = view.lit_triangles(polygons, *view.places_and_scale(found, "DENSITY"))
     assert len(points) == len(colours) == 3 * len(distortion.fans(polygons.face_offsets)[1])
     assert points.dtype == colours.dtype == np.float32
@@ -171,7 +173,7 @@ def test_what_is_drawn_is_lit_and_coloured_by_face():
 
 
 def test_nothing_is_drawn_in_background_mode(addon):
-    overlay = module("overlay")
+    overlay = module("overlays.overlay")
     assert bpy.app.background and not overlay._handles
     assert overlay._forget_after_update not in bpy.app.handlers.depsgraph_update_post
     assert bpy.context.window_manager.holomorphic_heat == "NONE"

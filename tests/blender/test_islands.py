@@ -4,7 +4,17 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scenes import everything, mesh_edges, mesh_io, mesh_object, native, run, select, stored_report, torus_arrays, uv
+from scenes import (
+    everything,
+    mesh_io,
+    mesh_object,
+    native,
+    run,
+    select,
+    stored_report,
+    torus_arrays,
+    uv,
+)
 
 FLOAT32 = 1e-5  # of the UV square
 MARGIN = 0.02
@@ -53,11 +63,11 @@ def shuffle_vertices(obj):
 
 def whole_surface(obj):
     polygons = mesh_io.read_polygons(obj.data, np.eye(3))
-    return native.load().Surface.from_polygons(polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    return polygons.surface()
 
 
 def cut_parts(obj):
-    return native.load().islands(whole_surface(obj), mesh_edges.marked_edges(obj.data, "use_seam"))
+    return native.load().islands(whole_surface(obj), mesh_io.marked_edges(obj.data, "use_seam"))
 
 
 def overlapping_pairs(triangles):
@@ -90,7 +100,7 @@ def similarities(obj):
     in space; nothing but a rotation, a factor and a translation was done."""
     factors = []
     for part in cut_parts(obj):
-        uv_of_part = native.load().conformal_structure(part, boundary="free").uv()
+        uv_of_part = native.load().free_boundary_map(part).uv()
         own = uv_of_part @ [1, 1j] * (part.area / native.load().frame(part, uv_of_part).area) ** 0.5
         packed = uv(obj)[part.corner_index] @ [1, 1j]
         own, packed = own - own.mean(), packed - packed.mean()

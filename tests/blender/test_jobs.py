@@ -13,12 +13,12 @@ native = module("native")
 
 
 def task_of(obj):
-    return module("solve").Task(mesh_io.read_polygons(obj.data, np.eye(3)))
+    return module("solving.solve").Task(mesh_io.read_polygons(obj.data, np.eye(3)))
 
 
 def test_a_worker_gives_what_the_main_thread_gives():
     tasks = [task_of(torus("First")), task_of(mesh_object("Second", *sphere_arrays()))]
-    job = module("jobs").Job(tasks)
+    job = module("solving.jobs").Job(tasks)
     job.start()
     job.wait()
     assert not job.is_running()
@@ -28,7 +28,7 @@ def test_a_worker_gives_what_the_main_thread_gives():
 def test_one_copy_of_the_arrays_is_left():
     task = task_of(torus())
     given = [a.copy() for a in (task.polygons.vertices, task.polygons.corner_vertices, task.polygons.face_offsets)]
-    surface = module("solve").solve(task).surface
+    surface = module("solving.solve").solve(task).surface
     left = (task.polygons.vertices, task.polygons.corner_vertices, task.polygons.face_offsets)
     for array, own, before in zip(left, (surface.vertices, surface.corner_vertices, surface.face_offsets), given):
         assert np.shares_memory(array, own) and array.dtype == before.dtype and (array == before).all()
@@ -37,7 +37,7 @@ def test_one_copy_of_the_arrays_is_left():
 def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
     vertices, faces = torus_arrays()
     bad = mesh_object("Bad", vertices * np.nan, faces)
-    job = module("jobs").Job([task_of(bad), task_of(torus())])
+    job = module("solving.jobs").Job([task_of(bad), task_of(torus())])
     job.start()
     job.wait()
     assert isinstance(job.results[0], native.load().InvalidMesh)
@@ -47,7 +47,7 @@ def test_a_refused_mesh_is_a_result_and_the_next_is_solved():
 def test_too_little_memory_is_a_sentence_and_the_next_is_solved(monkeypatch):
     sentence = "there is not enough memory for a mesh of this size"
     large, other = torus("Large", around=100), torus("Other")
-    solve = module("solve")
+    solve = module("solving.solve")
     solve_any = solve.solve
 
     def solve_small(task, *rest):
@@ -57,7 +57,7 @@ def test_too_little_memory_is_a_sentence_and_the_next_is_solved(monkeypatch):
 
     tasks = [task_of(large), task_of(other)]
     monkeypatch.setattr(solve, "solve", solve_small)
-    job = module("jobs").Job(tasks)
+    job = module("solving.jobs").Job(tasks)
     job.run()
     assert isinstance(job.results[0], MemoryError) and str(job.results[0]) == sentence
     assert job.results[1].form_count == 1
@@ -75,17 +75,17 @@ def test_cancel_leaves_the_rest_undone():
     def cancel_at_once(_fraction, _stage):
         job.cancel()
 
-    job = module("jobs").Job([task, task], cancel_at_once)
+    job = module("solving.jobs").Job([task, task], cancel_at_once)
     job.start()
     job.wait()
     assert isinstance(job.results[0], native.load().Cancelled) and job.results[1] is None
-    assert module("cache").find(task) is None
+    assert module("solving.cache").find(task) is None
 
 
 def test_progress_grows_from_0_to_1():
     seen = []
     tasks = [task_of(torus("First", around=100)), task_of(torus("Second", around=120))]
-    job = module("jobs").Job(tasks, lambda fraction, stage: seen.append((fraction, stage)))
+    job = module("solving.jobs").Job(tasks, lambda fraction, stage: seen.append((fraction, stage)))
     job.run()
     fractions = [f for f, _ in seen]
     assert fractions and fractions == sorted(fractions) and fractions[0] >= 0 and fractions[-1] <= 1
@@ -96,8 +96,8 @@ def test_our_own_mistakes_come_out_of_the_thread(monkeypatch):
     def broken(*_):
         raise ZeroDivisionError("our own mistake")
 
-    monkeypatch.setattr(module("solve"), "solve", broken)
-    job = module("jobs").Job([task_of(torus())])
+    monkeypatch.setattr(module("solving.solve"), "solve", broken)
+    job = module("solving.jobs").Job([task_of(torus())])
     job.start()
     with pytest.raises(ZeroDivisionError):
         job.wait()
@@ -110,14 +110,14 @@ def test_no_thread_is_left():
 
 
 def test_the_oldest_solves_go_when_memory_is_full(monkeypatch):
-    cache = module("cache")
+    cache = module("solving.cache")
     objects = [torus(str(size), around=size) for size in (20, 24, 28)]
     for obj in objects:
-        module("jobs").Job([task_of(obj)]).run()
+        module("solving.jobs").Job([task_of(obj)]).run()
     tasks = [task_of(obj) for obj in objects]
     assert all(cache.find(task) for task in tasks)
     monkeypatch.setattr(cache, "SIZE_LIMIT", 1)
-    module("jobs").Job([task_of(torus("Last", around=32))]).run()
+    module("solving.jobs").Job([task_of(torus("Last", around=32))]).run()
     assert not any(cache.find(task) for task in tasks)
     assert cache.find(task_of(bpy.data.objects["Last"]))
 
@@ -129,7 +129,7 @@ def test_any_difference_makes_another_task():
     moved, turned = polygons.vertices.copy(), polygons.corner_vertices.copy()
     moved[-1, 2] = np.nextafter(moved[-1, 2], 1)
     turned[:4] = np.roll(turned[:4], 1)
-    solve = module("solve")
+    solve = module("solving.solve")
     changes = (
         {"vertices": moved},
         {"vertices": polygons.vertices[:-1]},
@@ -138,7 +138,7 @@ def test_any_difference_makes_another_task():
     )
     for change in changes:
         assert not task.equals(solve.Task(replace(polygons, **change)))
-    other = module("choices").Choices(seams=np.array([[0, 1]]))
+    other = module("solving.choices").Choices(seams=np.array([[0, 1]]))
     assert not task.equals(replace(task, chosen=other))
     assert task.equals(solve.Task(replace(polygons, loops=np.arange(len(turned)))))
 
@@ -146,11 +146,11 @@ def test_any_difference_makes_another_task():
 def test_opening_a_file_forgets_the_solves():
     obj = torus()
     run()
-    targets = module("targets")
+    targets = module("scene.targets")
     (task,) = targets.tasks(targets.collect([obj]))
-    assert module("cache").find(task)
+    assert module("solving.cache").find(task)
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    assert module("cache").find(task) is None
+    assert module("solving.cache").find(task) is None
 
 
 @pytest.mark.skipif(bpy.app.version >= (4, 0, 0), reason="since 4.0 corners are always in the polygons' order")

@@ -7,7 +7,6 @@ from conftest import module
 from scenes import (
     edge_mismatch,
     everything,
-    mesh_edges,
     mesh_io,
     mesh_object,
     polygon_arrays,
@@ -18,6 +17,7 @@ from scenes import (
     torus_arrays,
     two_parts,
     uv,
+    uv_maps,
 )
 
 Values = module("compatibility").Values
@@ -47,7 +47,7 @@ def at_vertices(obj, name="Holomorphic"):
     """{position: UVs of all corners there}, all bits."""
     corners, _ = polygon_arrays(obj.data)
     found = {}
-    for place, value in zip(positions(obj)[corners].tolist(), mesh_io.read_map(obj.data, name).tolist()):
+    for place, value in zip(positions(obj)[corners].tolist(), uv_maps.read_map(obj.data, name).tolist()):
         found.setdefault(tuple(place), set()).add(tuple(value))
     return found
 
@@ -137,7 +137,7 @@ def test_maps_with_dials_and_of_the_artist_are_transferred_as_they_are():
         assert level.data.uv_layers.active.name == artist
         assert level.data.uv_layers["Holomorphic"].active_render
         corners = polygon_arrays(level.data)[0]
-        assert np.array_equal(mesh_io.read_map(level.data, artist), positions(level)[corners][:, :2])
+        assert np.array_equal(uv_maps.read_map(level.data, artist), positions(level)[corners][:, :2])
         assert all(values & fine[place] for place, values in at_vertices(level).items())
 
 
@@ -151,7 +151,7 @@ def test_materials_smoothness_marks_and_attributes_stay():
     mesh_io.write_values(Values(mesh.polygons, "material_index", np.int32), of_face)
     mesh_io.write_values(Values(mesh.polygons, "use_smooth", bool), of_face == 1)
     around = np.stack([np.arange(48) * 24, np.roll(np.arange(48) * 24, -1)], axis=1)  # the outer circle
-    mesh_edges.mark_edges(mesh, "use_edge_sharp", around)
+    mesh_io.mark_edges(mesh, "use_edge_sharp", around)
     mesh.attributes.new("Height", "FLOAT", "POINT")
     mesh_io.write_values(Values(mesh.attributes["Height"].data, "value", np.float32), x)
     mesh.attributes.new("Paint", "FLOAT_COLOR", "CORNER")
@@ -170,7 +170,7 @@ def test_materials_smoothness_marks_and_attributes_stay():
         assert np.array_equal(mesh_io.read_values(Values(data.attributes["Height"].data, "value", np.float32)), x)
         paint = mesh_io.read_values(Values(data.attributes["Paint"].data, "color", np.float32, 4))
         assert np.mean(paint[:, 0] == x[polygon_arrays(data)[0]]) > 0.9
-        sharp = mesh_edges.marked_edges(data, "use_edge_sharp")
+        sharp = mesh_io.marked_edges(data, "use_edge_sharp")
         degree = np.bincount(sharp.ravel())
         assert len(sharp) >= 3 and set(degree[degree > 0]) == {2}  # still a circle
 
@@ -297,7 +297,7 @@ def test_what_is_refused_is_left_as_it_is():
 
 
 def test_without_any_map_nothing_is_made(monkeypatch):
-    solve = module("solve")
+    solve = module("solving.solve")
 
     def skipped(_library, _make, part, *_):
         return solve.SolvedComponent(part, None, None, "the surface is strange")
@@ -315,7 +315,7 @@ def test_too_little_memory_is_a_sentence(monkeypatch):
         raise MemoryError("there is not enough memory for a mesh of this size")
 
     torus(**FINE)
-    monkeypatch.setattr(module("solve"), "solve", too_large)
+    monkeypatch.setattr(module("solving.solve"), "solve", too_large)
     refused("Torus: there is not enough memory for a mesh of this size")
 
 
@@ -342,13 +342,13 @@ def test_only_in_object_mode_with_an_active_mesh():
 
 def test_cancelling_ends_the_work_with_nothing_made():
     obj = torus(**FINE)
-    source = module("lod").Source(obj)
-    work = source.work(module("levels").LevelOptions(), lambda _fraction, _stage: work.cancel())
+    source = module("levels.source").Source(obj)
+    work = source.work(module("levels.levels").LevelOptions(), lambda _fraction, _stage: work.cancel())
     work.start()
     work.wait()
     assert isinstance(work.error, module("native").load().Cancelled) and not work.levels
     seen = []
-    work = source.work(module("levels").LevelOptions(), lambda fraction, _stage: seen.append(fraction))
+    work = source.work(module("levels.levels").LevelOptions(), lambda fraction, _stage: seen.append(fraction))
     work.run()
     assert len(work.levels) == 4 and seen == sorted(seen)
     assert source.problem(work, time_has_passed=True) == ""

@@ -5,7 +5,13 @@ import json
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, mesh_object, run, select, stored_report
+from scenes import (
+    everything,
+    mesh_object,
+    run,
+    select,
+    stored_report,
+)
 from test_headless import headless, our_lines, write_obj
 from test_islands import assert_packed
 
@@ -48,7 +54,7 @@ def test_the_cuts_become_seams():
     obj = mesh_object("Finger", *finger_arrays())
     select(obj)
     run(main="ISLANDS", most_stretch=2.0, seams=True)
-    ends = module("mesh_edges").marked_edges(obj.data, "use_seam")
+    ends = module("scene.mesh_io").marked_edges(obj.data, "use_seam")
     tip = int(np.argmax(finger_arrays()[0][:, 2]))
     heights = np.array([v.co.z for v in obj.data.vertices])
     assert len(ends) > 5 and heights[np.unique(ends)].max() > 0.8 * heights[tip]

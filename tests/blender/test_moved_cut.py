@@ -6,7 +6,7 @@ import pytest
 from conftest import module
 from scenes import torus, uv
 
-studio = module("studio")
+studio = module("command_line.studio")
 SIZE = 160
 STEP = 1 / 255  # of a channel
 

@@ -11,17 +11,19 @@ from scenes import (
     fills_the_square,
     grid_arrays,
     limb_arrays,
-    mesh_edges,
+    mesh_io,
     mesh_object,
     open_example,
     pick,
     select,
     shown_scale,
     stored_report,
+    then,
     torus,
     torus_arrays,
     two_parts,
     uv,
+    written,
 )
 
 
@@ -179,7 +181,7 @@ def test_a_checker_of_two_squares_in_each_tile_and_other_objects_keep_theirs():
 def test_the_report_begins_with_words():
     obj = limb()
     press()
-    lines = [line.strip() for line in module("report").summary(obj["holomorph_report"])]
+    lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
     assert "seamless" in lines[2] and "poles" in lines[2]
     assert any(line.startswith("density, 95 : 5 %") for line in lines)
     assert stored_report(obj)["dials"]["main"] == "AUTOMATIC"
@@ -193,22 +195,12 @@ def test_refused_parts_are_told_and_keep_their_map(monkeypatch):
     def refuse(*_arguments, **_options):
         raise library.TopologyError("too few tiles")
 
-    monkeypatch.setattr(library, "Tiler", refuse)
+    monkeypatch.setattr(library.results, "Tiler", refuse)
     assert press(main="SEAMLESS") == {"FINISHED"}
     assert tilings(obj) == [None] and fills_the_square(uv(obj))
-    outcome = written(obj, "SEAMLESS")
+    outcome = written(obj, main="SEAMLESS")
     assert outcome.problems == ["Torus: not seamless: too few tiles"]
-    assert written(obj, "AUTOMATIC").problems == []
-
-
-def written(obj, main):
-    """The `run.Outcome`."""
-    targets, run_module = module("targets"), module("run")
-    found = targets.collect([obj])
-    mapper = module("seamless").Mapper(module("maps").MapOptions(main=main), True)
-    job = module("jobs").Job(targets.tasks(found), None, [mapper])
-    job.run()
-    return run_module.write(bpy.context, found, job.results, mapper.options(job.results), run_module.WriteOptions())
+    assert written(obj).problems == []
 
 
 def test_the_redo_panel_makes_nothing_again(monkeypatch):
@@ -218,35 +210,27 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
     def forbidden(*_arguments, **_options):
         raise AssertionError("made again")
 
-    monkeypatch.setattr(module("native").load(), "Tiler", forbidden)
-    monkeypatch.setattr(module("solve"), "solve", forbidden)
+    monkeypatch.setattr(module("native").load(), "automatic_map", forbidden)
+    monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
     assert press(seams=True, texture="SCALES") == {"FINISHED"}
 
 
 def test_cancelling_in_a_tiling_leaves_no_result():
     obj = limb()
-    targets, jobs, seamless = module("targets"), module("jobs"), module("seamless")
+    targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect([obj])) * 2
-
-    def make(solved, progress):
-        return seamless.Mapper(module("maps").MapOptions())(solved, progress)
-
-    job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, [make] * 2)
+    job = jobs.Job(tasks, lambda fraction, _stage: job.cancel() if fraction > 0.2 else None, [then()] * 2)
     job.start()
     job.wait()
     assert isinstance(job.results[0], module("native").load().Cancelled) and job.results[1] is None
-    assert not module("cache").find(tasks[0]).components[0].tilings
+    assert not module("solving.cache").find(tasks[0]).components[0].tilings
 
 
 def test_progress_grows_over_solve_and_tiling():
     obj, seen = limb(), []
-    targets, seamless = module("targets"), module("seamless")
+    targets = module("scene.targets")
     tasks = targets.tasks(targets.collect([obj]))
-
-    def make(solved, progress):
-        return seamless.Mapper(module("maps").MapOptions())(solved, progress)
-
-    module("jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), [make]).run()
+    module("solving.jobs").Job(tasks, lambda fraction, _stage: seen.append(fraction), [then()]).run()
     assert seen == sorted(seen) and seen[0] >= 0 and 0.5 < seen[-1] <= 1
 
 
@@ -254,7 +238,7 @@ def test_the_same_bits_twice():
     obj = two_parts("Both", limb_arrays(), torus_arrays(thickness=0.1, bulge=0))
     press()
     before = uv(obj)
-    module("cache").clear()
+    module("solving.cache").clear()
     press()
     assert np.array_equal(uv(obj), before)
 
@@ -269,13 +253,13 @@ def test_undo_takes_everything_back():
     obj = bpy.data.objects["Limb"]
     assert everything(obj)["maps"] == before == {}
     assert "holomorph_report" not in obj and not obj.material_slots
-    assert not mesh_edges.read_seams(obj.data).any()
+    assert not mesh_io.read_seams(obj.data).any()
 
 
 def test_seams_are_where_the_tiling_jumps():
     obj = limb()
     press(seams=True)
-    ends = {frozenset(edge) for edge in mesh_edges.marked_edges(obj.data, "use_seam").tolist()}
+    ends = {frozenset(edge) for edge in mesh_io.marked_edges(obj.data, "use_seam").tolist()}
     vertices, jumps = edge_jumps(obj)
     is_torn = np.abs(jumps).max(axis=(1, 2)) > 1e-4
     assert is_torn.any() and {frozenset(edge) for edge in vertices[is_torn].tolist()} <= ends

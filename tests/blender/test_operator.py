@@ -11,7 +11,6 @@ from scenes import (
     everything,
     fills_the_square,
     frame,
-    mesh_edges,
     mesh_io,
     mesh_object,
     run,
@@ -23,6 +22,7 @@ from scenes import (
     torus_arrays,
     two_parts,
     uv,
+    uv_maps,
 )
 
 
@@ -98,7 +98,7 @@ def test_a_second_run_replaces_and_the_artists_maps_stay():
     for _ in range(3):
         run()
         assert names(obj) == ["Artist", "Holomorphic", "Holomorphic 1"]
-    assert np.array_equal(mesh_io.read_map(obj.data, "Artist"), values)
+    assert np.array_equal(uv_maps.read_map(obj.data, "Artist"), values)
 
 
 def test_more_forms_than_uv_maps_become_corner_attributes():
@@ -144,9 +144,9 @@ def test_seams_are_added_only_if_asked_for_and_none_is_removed():
     mine[[3, 5, 8]] = True
     obj.data.edges.foreach_set("use_seam", mine)
     run()
-    assert np.array_equal(mesh_edges.read_seams(obj.data), mine)
+    assert np.array_equal(mesh_io.read_seams(obj.data), mine)
     run(seams=True)
-    seams = mesh_edges.read_seams(obj.data)
+    seams = mesh_io.read_seams(obj.data)
     assert seams[mine].all()
     entry = stored_report(obj)
     assert np.count_nonzero(seams & ~mine) == entry["seams_added"] > 0
@@ -158,7 +158,7 @@ def test_the_map_jumps_only_at_seams():
     obj = torus()
     run(seams=True)
     mesh, values = obj.data, uv(obj)
-    seams = mesh_edges.read_seams(mesh)
+    seams = mesh_io.read_seams(mesh)
     corners = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", corners)
     count = len(mesh.vertices)
@@ -241,7 +241,7 @@ def test_another_scale_of_a_shared_mesh_is_told(scale, told):
     second.rotation_euler = (0.4, 0.1, 2)
     bpy.context.scene.collection.objects.link(second)
     bpy.context.view_layer.update()
-    (target,) = module("targets").collect([first, second])
+    (target,) = module("scene.targets").collect([first, second])
     assert ("the scale of First counts" in target.note) == told
 
 
@@ -380,7 +380,7 @@ def test_undo_takes_everything_back_in_one_step_and_redo_brings_it_again():
     assert names(obj) == ["Artist"]
     assert "holomorph_report" not in obj and not obj.material_slots
     assert "Holomorphic Report" not in bpy.data.texts
-    assert not mesh_edges.read_seams(obj.data).any()
+    assert not mesh_io.read_seams(obj.data).any()
     bpy.ops.ed.redo()
     obj = bpy.data.objects["Torus"]
     assert names(obj) == ["Artist", "Holomorphic", "Holomorphic 1"]
@@ -390,7 +390,7 @@ def test_undo_takes_everything_back_in_one_step_and_redo_brings_it_again():
 def test_a_second_run_solves_nothing(monkeypatch):
     torus()
     run()
-    solve = module("solve")
+    solve = module("solving.solve")
 
     def forbidden(*_):
         raise AssertionError("solved again")
@@ -451,7 +451,7 @@ def test_polygons_are_read_as_blender_gives_them():
     """The same numbers as one by one, whatever the types in which a version of Blender keeps them."""
     vertices = np.random.default_rng(1).normal(size=(9, 3))
     obj = mesh_object("Mixed", vertices, [(0, 1, 2), (2, 1, 3, 4), (4, 3, 5, 6, 7), (8, 4, 7)])
-    polygons = module("mesh_io").read_polygons(obj.data, np.eye(3))
+    polygons = module("scene.mesh_io").read_polygons(obj.data, np.eye(3))
     assert polygons.corner_vertices.tolist() == [loop.vertex_index for loop in obj.data.loops]
     assert polygons.face_offsets.tolist() == [p.loop_start for p in obj.data.polygons] + [15]
     assert np.abs(polygons.vertices - vertices).max() < 1e-6

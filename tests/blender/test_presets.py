@@ -7,7 +7,7 @@ import pytest
 from conftest import module
 from scenes import torus
 
-presets = module("presets")
+presets = module("interface.presets")
 FILES = {name: sorted((presets.FOLDER / name).glob("*.py")) for name in presets.NAMES}
 EACH = [pytest.param(name, path, id=path.stem) for name, paths in FILES.items() for path in paths]
 

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, mesh_object, run, select, stored_report, torus, torus_arrays, two_parts, uv
+from scenes import everything, mesh_object, run, select, stored_report, torus, torus_arrays, two_parts, uv, written
 
 
 def non_manifold():
@@ -149,16 +149,7 @@ def test_faces_that_are_all_apart_are_told_of():
     corners = np.asarray(faces)[:6]
     obj = mesh_object("Loose", vertices[corners].reshape(-1, 3), np.arange(corners.size).reshape(corners.shape))
     assert run() == {"FINISHED"}
-    assert any("By Distance" in line for line in module("run").surface_problems(obj, surface_of(obj)))
-
-
-def surface_of(obj):
-    mesh = obj.data
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    points = np.array([v.co for v in mesh.vertices])
-    offsets = np.arange(0, len(corners) + 1, 4)
-    return module("native").load().Surface.from_polygons(points, corners, offsets, strict=False)
+    assert any("By Distance" in line for line in written(obj, main="BALANCED").problems)
 
 
 def test_maps_of_an_earlier_run_survive_a_refusal():
@@ -211,7 +202,7 @@ def test_only_the_librarys_errors_are_caught(monkeypatch):
     def broken(*_):
         raise ZeroDivisionError("our own mistake")
 
-    monkeypatch.setattr(module("solve"), "solve", broken)
+    monkeypatch.setattr(module("solving.solve"), "solve", broken)
     with pytest.raises(RuntimeError, match="ZeroDivisionError"):
         run()
     assert everything(obj) == before

@@ -10,7 +10,7 @@ def test_panels_and_menus_are_there():
     for name in ("HOLOMORPH_PT_view3d", "HOLOMORPH_PT_image"):
         panel = getattr(bpy.types, name)
         assert panel.bl_category == "Holomorph" and panel.bl_region_type == "UI"
-    draw = module("panel")._draw_menu_entry
+    draw = module("interface.panel")._draw_menu_entry
     for name in ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs"):
         functions = getattr(bpy.types, name).draw._draw_funcs
         assert draw in functions
@@ -19,16 +19,16 @@ def test_panels_and_menus_are_there():
 def test_unregister_leaves_nothing(addon):
     addon.unregister()
     assert not hasattr(bpy.types, "HOLOMORPH_PT_view3d")
-    draw = module("panel")._draw_menu_entry
+    draw = module("interface.panel")._draw_menu_entry
     assert draw not in bpy.types.VIEW3D_MT_uv_map.draw._draw_funcs
     addon.register()
     assert hasattr(bpy.types, "HOLOMORPH_PT_view3d")
 
 
 def test_the_solvers_are_those_of_the_library():
-    items, native = module("properties").solver_items, module("native")
+    items, native = module("operators.properties").solver_items, module("native")
     assert [name for name, *_ in items(None, None)] == list(native.load().SOLVERS)
-    assert module("properties").SOLVER_TEXTS.keys() == set(native.load().SOLVERS)
+    assert module("operators.properties").SOLVER_TEXTS.keys() == set(native.load().SOLVERS)
     torus()
     with pytest.raises(TypeError, match="guess"):
         bpy.ops.uv.holomorphic_maps(solver="guess")
@@ -56,7 +56,7 @@ def test_registration_survives_a_missing_native_part(without_native_part):
     assert not bpy.ops.uv.holomorphic_maps.poll()
     with pytest.raises(RuntimeError, match="not installed"):
         bpy.ops.uv.holomorphic_maps()
-    assert [name for name, *_ in module("properties").solver_items(None, None)] == ["auto"]
+    assert [name for name, *_ in module("operators.properties").solver_items(None, None)] == ["auto"]
 
 
 @pytest.mark.parametrize(

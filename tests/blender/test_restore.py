@@ -57,7 +57,7 @@ def test_without_a_checker_the_active_map_comes_back():
     obj = textured()
     before = shown(obj)
     run(checker=False)
-    assert module("restore").is_possible(obj) and restore() == {"FINISHED"}
+    assert module("results.restore").is_possible(obj) and restore() == {"FINISHED"}
     assert shown(obj) == before
 
 

@@ -9,7 +9,12 @@ import bpy
 import numpy as np
 import pytest
 from conftest import ROOT
-from scenes import edge_mismatch, mesh_io, parts_of, straightness
+from scenes import (
+    edge_mismatch,
+    parts_of,
+    straightness,
+    uv_maps,
+)
 from test_headless import headless, needs_program, our_lines
 
 MESHES = ROOT.parent / "shared" / "meshes"
@@ -121,7 +126,7 @@ def check_maps(obj, entry):
     mesh = obj.data
     parts = parts_of(obj)
     for written in entry["maps"]:
-        values = mesh_io.read_map(mesh, written["name"]).astype(np.float64)
+        values = uv_maps.read_map(mesh, written["name"]).astype(np.float64)
         assert np.isfinite(values).all()
         assert values.min() >= -IN_SQUARE and values.max() <= 1 + IN_SQUARE
         main = written["name"] == "Holomorphic"

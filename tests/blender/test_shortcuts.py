@@ -4,7 +4,7 @@ import bpy
 from conftest import module
 from scenes import torus
 
-shortcuts = module("shortcuts")
+shortcuts = module("interface.shortcuts")
 
 
 class Pie:

@@ -9,7 +9,7 @@ import bpy
 import pytest
 from conftest import ROOT, module
 
-flamenco = module("flamenco")
+flamenco = module("operators.flamenco")
 SECONDS = 60
 
 

@@ -3,7 +3,6 @@ fit."""
 
 import json
 
-import bpy
 import numpy as np
 import pytest
 from conftest import module
@@ -23,6 +22,7 @@ from scenes import (
     tube_arrays,
     two_parts,
     uv,
+    written,
 )
 
 FLOAT32 = 1e-6  # of the UV size
@@ -73,10 +73,10 @@ def test_all_maps_of_a_surface_with_handles_and_holes_have_straight_boundaries(n
 def test_a_sphere_gets_two_punctures_by_itself_or_those_that_are_picked():
     obj = mesh_object("Sphere", *sphere_arrays())
     assert run() == {"FINISHED"}
-    assert len(only_part(obj)["punctures"]) == 2
+    assert len(only_part(obj)["poles"]) == 2
     pick(obj, poles())
     assert run() == {"FINISHED"}
-    assert sorted(only_part(obj)["punctures"]) == sorted(poles())
+    assert sorted(only_part(obj)["poles"]) == sorted(poles())
     assert "log map" in only_part(obj)["description"]
 
 
@@ -101,7 +101,7 @@ def test_punctures_with_residues_on_a_torus():
     pick(obj, [0, 840, 2000])
     assert run(use_selection="PUNCTURES", residues="1 1 -2") == {"FINISHED"}
     entry = only_part(obj)
-    assert entry["punctures"] == [0, 840, 2000]
+    assert entry["poles"] == [0, 840, 2000]
     assert entry["residues"] == [[1, 0], [1, 0], [-2, 0]]
     assert entry["main_map"]["mean_angle"] < 1.3
 
@@ -111,7 +111,7 @@ def test_a_component_is_reported_as_by_the_package():
     assert run(density=2.0, amounts=(0.5,) * 8) == {"FINISHED"}
     (part,) = parts_of(obj)
     package = module("native").load()
-    expected = package.report.component_report(part, package.conformal_structure(part))
+    expected = package.report.component_report(part, package.automatic_structure(part))
     entry = only_part(obj)
     assert entry.keys() == expected.keys() and entry["main_map"].keys() == expected["main_map"].keys()
     assert entry["main_map"]["coefficients"] == pytest.approx(0.5 * np.array(expected["main_map"]["coefficients"]))
@@ -123,7 +123,7 @@ def test_a_component_is_reported_as_by_the_package():
 
 
 def test_a_skipped_component_has_its_reason(monkeypatch):
-    solve = module("solve")
+    solve = module("solving.solve")
     solve_component = solve._solve_component
 
     def without_spheres(library, surface, part, *rest):
@@ -145,15 +145,15 @@ def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
     pick(obj, picked)
     assert run() == {"FINISHED"}
     closed, punctured = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
-    assert "punctures" not in closed
-    assert sorted(punctured["punctures"]) == sorted(picked)
+    assert "poles" not in closed
+    assert sorted(punctured["poles"]) == sorted(picked)
     assert all(str(vertex) in punctured["description"] for vertex in picked)
 
 
 @pytest.mark.parametrize(
     ("picked", "options", "word"),
     [
-        ([3], {"use_selection": "PUNCTURES"}, "puncture"),
+        ([3], {"use_selection": "PUNCTURES"}, "pole"),
         (poles(), {"use_selection": "PUNCTURES", "residues": "1 1"}, "residue"),
         (poles(), {"use_selection": "PUNCTURES", "residues": "1"}, "residue"),
         (poles(), {"use_selection": "PUNCTURES", "residues": "one two"}, "'one' is not a number"),
@@ -175,8 +175,8 @@ def test_an_automatic_choice_that_does_not_fit_is_left_out_and_told():
     pick(obj, [3])
     assert run() == {"FINISHED"}
     entry = only_part(obj)
-    assert "puncture" in entry["not_followed"]
-    assert len(entry["punctures"]) == 2
+    assert "pole" in entry["not_followed"]
+    assert len(entry["poles"]) == 2
 
 
 @pytest.mark.parametrize("solver", ["direct", "multigrid"])
@@ -197,12 +197,7 @@ def test_the_papers_solver_is_for_the_parts_that_it_fits():
 def test_a_modifier_that_may_close_the_surface_is_told():
     obj = mesh_object("Tube", *tube_arrays())
     obj.modifiers.new("My Mirror", "MIRROR")
-    run_module, targets = module("run"), module("targets")
-    found = targets.collect([obj])
-    mapper = module("seamless").Mapper(module("maps").MapOptions(), True)
-    job = module("jobs").Job(targets.tasks(found), then=[mapper])
-    job.run()
-    outcome = run_module.write(bpy.context, found, job.results, mapper.options(job.results), run_module.WriteOptions())
+    outcome = written(obj)
     assert any("My Mirror" in note for note in outcome.notes)
 
 
@@ -210,5 +205,5 @@ def test_the_panel_tells_kinds_and_moduli():
     obj = mesh_object("Tube", *tube_arrays())
     select(obj)
     run()
-    lines = "\n".join(module("report").summary(obj["holomorph_report"]))
+    lines = "\n".join(module("results.stored").summary(obj["holomorph_report"]))
     assert "genus 0, 2 holes" in lines and "modulus" in lines and "between" in lines

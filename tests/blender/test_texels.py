@@ -18,6 +18,7 @@ from scenes import (
     stored_report,
     torus,
     uv,
+    uv_maps,
 )
 from test_faces import HALF, add_own_map, corners_of, leave, pick_faces
 
@@ -148,7 +149,7 @@ def test_in_edit_mode_selected_faces_are_scaled():
     leave()
     chosen = corners_of(HALF)
     rest = np.setdiff1d(np.arange(len(own)), chosen)
-    values = mesh_io.read_map(obj.data, "Artist")
+    values = uv_maps.read_map(obj.data, "Artist")
     assert np.array_equal(values[rest], own[rest]) and not np.array_equal(values[chosen], own[chosen])
 
 

@@ -6,9 +6,13 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import mesh_io, run, torus
+from scenes import (
+    run,
+    torus,
+    uv_maps,
+)
 
-patterns, textures = module("patterns"), module("textures")
+patterns, textures = module("materials.patterns"), module("materials.textures")
 SIZE = 512  # of drawings here
 LINES = {  # columns and rows of cells, whose borders are alike
     "NUMBERED": (8, 8),
@@ -51,8 +55,8 @@ def layers(pattern):
 
 
 def test_the_properties_name_every_texture():
-    names = [name for name, *_ in module("properties").TEXTURES]
-    assert names == [module("material").CHECKER, *patterns.TEXTURES]
+    names = [name for name, *_ in module("operators.properties").TEXTURES]
+    assert names == [module("materials.material").CHECKER, *patterns.TEXTURES]
 
 
 def test_values_are_colours_and_heights(texture):
@@ -199,4 +203,4 @@ def test_nodes_that_the_user_has_rebuilt_stay():
     tree.nodes.new("ShaderNodeEmission")
     assert run(texture="BRICKS", checker_scale=16) == {"FINISHED"}
     assert [n.type for n in tree.nodes] == ["EMISSION"]
-    assert mesh_io.MAIN_MAP in obj.data.uv_layers
+    assert uv_maps.MAIN_MAP in obj.data.uv_layers

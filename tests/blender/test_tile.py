@@ -4,7 +4,6 @@ All of it with the real library.
 """
 
 import json
-from functools import partial
 from types import SimpleNamespace
 
 import bpy
@@ -16,7 +15,6 @@ from scenes import (
     everything,
     frame,
     limb_arrays,
-    mesh_edges,
     mesh_io,
     mesh_object,
     native,
@@ -27,19 +25,20 @@ from scenes import (
     select,
     sphere_arrays,
     stored_report,
+    then,
     torus,
     torus_arrays,
     two_parts,
     uv,
 )
 
-tiling, tile_report = module("tiling"), module("tile_report")
+tiling, stored_text = module("maps.tiling"), module("results.stored")
 
 
 @pytest.fixture
 def calls(monkeypatch):
     """What the library was asked for, one entry for each tiling."""
-    noted, kind = [], native.load().Tiler
+    noted, kind = [], native.load().results.Tiler
 
     class Noted(kind):
         def __init__(self, surface, poles, **options):
@@ -51,7 +50,7 @@ def calls(monkeypatch):
             noted[-1].pop("progress")
             return super().tile(tiles, **options)
 
-    monkeypatch.setattr(native.load(), "Tiler", Noted)
+    monkeypatch.setattr(native.load().results, "Tiler", Noted)
     return noted
 
 
@@ -60,19 +59,19 @@ def tile(**options):
 
 
 def marks(obj):
-    vertices, is_pole = tile_report.marks(obj["holomorph_report"])
+    vertices, is_pole = stored_text.marks(obj["holomorph_report"])
     return vertices.tolist(), is_pole.tolist()
 
 
 def whole_jumps(obj):
     """Those of the UVs across each edge, at the ends that are no pole."""
     vertices, jumps = edge_jumps(obj)
-    found, is_pole = tile_report.marks(obj["holomorph_report"])
+    found, is_pole = stored_text.marks(obj["holomorph_report"])
     return jumps[~np.isin(vertices, found[is_pole])]
 
 
 def selected_poles(obj):
-    found, is_pole = tile_report.marks(obj["holomorph_report"])
+    found, is_pole = stored_text.marks(obj["holomorph_report"])
     return found[is_pole].tolist()
 
 
@@ -102,7 +101,7 @@ def test_what_is_asked_of_the_library(calls):
     plain = dict(
         tiles=None, poles="auto", lattice="square", direction=None, turn=None, boundary="straight", allowed=None
     )
-    assert calls == [plain | dict(direction=(0, 0, 1), turn=np.pi / 2)]
+    assert calls == [plain | dict(direction="upright")]
     tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", turn=0.25, direction="NONE")
     assert calls[1:] == [plain | dict(tiles=120.0, poles=3, lattice="hex", boundary="free", turn=0.25)]
 
@@ -176,7 +175,7 @@ def test_a_direction_without_length_is_refused():
 
 def test_opposite_edges_have_one_direction():
     along = np.array([[1, 2, 0], [-1, -2, 0.1], [2, 4, -0.1]])
-    found = module("tile_choices").mean_direction(along)
+    found = module("operators.tile_choices").mean_direction(along)
     assert np.allclose(found, np.array([1, 2, 0]) / 5**0.5, atol=0.05)
 
 
@@ -210,7 +209,7 @@ def test_the_vertex_group_says_where_poles_may_be(monkeypatch):
         asked.append((poles, None if allowed is None else np.flatnonzero(allowed).tolist()))
         raise native.load().TopologyError("noted")
 
-    monkeypatch.setattr(native.load(), "Tiler", note)
+    monkeypatch.setattr(native.load().results, "Tiler", note)
     with pytest.raises(RuntimeError, match="noted"):
         tile(pole_group="Hidden")
     assert asked == [("auto", list(range(count // 2))), (0, None)]
@@ -258,7 +257,7 @@ def test_only_what_changed_is_done_again(calls, monkeypatch):
     def forbidden(*_):
         raise AssertionError("solved again")
 
-    monkeypatch.setattr(module("solve"), "solve", forbidden)
+    monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
     for options, count in (({}, 1), ({"texture": "SCALES"}, 1), ({"tiles": 400}, 2), ({"quarters": 1}, 2), ({}, 2)):
         assert tile(**options) == {"FINISHED"}
         assert len(calls) == count
@@ -295,14 +294,14 @@ def test_report_and_panel_begin_with_words(calls):
     assert verdict.startswith("Even, seamless") and f"{len(residues)} poles" in verdict
     assert np.array_equal(residues, np.round(residues)) and np.array_equal(residues.sum(axis=0), (0, 0))
     assert min(part["tiling"]["orders"]) > 0
-    lines = [line.strip() for line in module("report").summary(obj["holomorph_report"])]
+    lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
     assert lines[:3] == ["1 map", "Part 1: genus 1", verdict]
     assert json.loads(bpy.data.texts["Holomorphic Report"].as_string())["objects"] == [stored_report(obj)]
 
 
 @pytest.mark.parametrize("stored", ["", "{", "[]", "null", '{"components": []}', '{"components": [{"genus": 1}]}'])
 def test_no_marks_without_a_tiling(stored):
-    vertices, is_pole = tile_report.marks(stored)
+    vertices, is_pole = stored_text.marks(stored)
     assert len(vertices) == len(is_pole) == 0
 
 
@@ -341,9 +340,9 @@ def test_textures_are_repeated_in_each_tile(calls):
 def test_seams_are_marked_where_the_map_jumps(calls):
     obj = torus()
     tile(seams=True)
-    seams = mesh_edges.read_seams(obj.data)
+    seams = mesh_io.read_seams(obj.data)
     assert stored_report(obj)["seams_added"] == seams.sum() > 0
-    vertices = {int(v) for edge in mesh_edges.marked_edges(obj.data, "use_seam") for v in edge}
+    vertices = {int(v) for edge in mesh_io.marked_edges(obj.data, "use_seam") for v in edge}
     pairs, jumps = edge_jumps(obj)
     jumping = np.unique(pairs[np.any(jumps != 0, axis=(1, 2))])
     assert set(jumping.tolist()) <= vertices
@@ -372,10 +371,10 @@ def test_edit_mode_and_several_objects(calls):
 
 def test_cancelling_leaves_no_result(calls):
     torus()
-    targets, jobs = module("targets"), module("jobs")
+    targets, jobs = module("scene.targets"), module("solving.jobs")
     tasks = targets.tasks(targets.collect(targets.mesh_objects(bpy.context))) * 2
-    then = [partial(tiling.tile, options=tiling.TileOptions())] * 2
-    work = jobs.Job(tasks, lambda fraction, _stage: work.cancel() if fraction > 0.2 else None, then)
+    made = [then(main="TILING")] * 2
+    work = jobs.Job(tasks, lambda fraction, _stage: work.cancel() if fraction > 0.2 else None, made)
     work.run()
     assert isinstance(work.results[0], native.load().Cancelled) and work.results[1] is None
     assert calls == []
@@ -385,7 +384,7 @@ def test_the_same_bits_twice():
     obj = torus()
     tile()
     before = uv(obj)
-    module("cache").clear()
+    module("solving.cache").clear()
     tile()
     assert np.array_equal(uv(obj), before)
 
@@ -403,7 +402,7 @@ def test_whole_differences_survive_single_precision(size):
 
 
 def test_discs_face_the_viewer_and_keep_their_size_on_the_screen():
-    view = module("marks_view")
+    view = module("overlays.marks_view")
     points = np.array([(0.0, 0, -2), (0.5, 0.2, -20)])
     window = np.diag([1.5, 2.0, -1.0, 0.0])
     window[2, 3], window[3, 2] = -0.2, -1.0

@@ -31,30 +31,30 @@ ROOM_BELOW = {
     "multiresolution": ["structure"],
     "bindings": ["tiling", "moduli", "plane", "multiresolution"],
 }
-# The add-on's bottom and top; every other module is between them.
-ADDON_LEVEL = {
-    "compatibility": 0,
-    "native": 0,
-    "operators": 2,
-    "tile": 2,
-    "texel_operators": 2,
-    "tools": 2,
-    "submit": 2,
-    "shortcuts": 3,
-    "presets": 3,
-    "tools_panel": 3,
-    "panel": 3,
-    "__init__": 4,
-    "headless": 5,
+# Each room of the add-on, and the rooms that it may import directly or through them. "" is what lies in addon itself.
+ADDON_BELOW = {
+    "": [],
+    "solving": [""],
+    "scene": ["solving"],
+    "materials": ["scene"],
+    "maps": ["scene"],
+    "results": ["maps", "materials"],
+    "levels": ["results"],
+    "overlays": ["results"],
+    "operators": ["levels", "overlays"],
+    "interface": ["operators"],
+    "command_line": ["operators"],
 }
+ADDON_TOP = {ADDON / "__init__.py", ADDON / "headless.py"}  # these start the rooms
+WITHOUT_BPY = {"solving"}
 HEADER_LINES = 110
 FILE_LINES = 250
 
 
-def rooms_below(room):
-    below = set(ROOM_BELOW[room])
-    for lower in ROOM_BELOW[room]:
-        below |= rooms_below(lower)
+def rooms_below(room, arrows=ROOM_BELOW):
+    below = set(arrows[room])
+    for lower in arrows[room]:
+        below |= rooms_below(lower, arrows)
     return below
 
 
@@ -87,13 +87,27 @@ def imports(path):
     return names
 
 
-def siblings(path):
-    """The add-on's modules that one of them imports."""
-    return sorted(name[1:].split(".")[0] for name in imports(path) if name.startswith("."))
+def addon_room(path):
+    return path.relative_to(ADDON).parent.name
 
 
-def addon_level(name):
-    return ADDON_LEVEL.get(name, 1)
+def addon_imports(path, is_at_top=False):
+    """The add-on's files that one of them imports, anywhere or where it is loaded."""
+    tree, found = ast.parse(path.read_text(encoding="utf-8")), []
+    for node in tree.body if is_at_top else ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            folder = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
+            names = [folder.with_suffix(".py")] if node.module else []
+            names += [folder / f"{alias.name}.py" for alias in node.names]
+            found += [name for name in names if name.is_file()]
+    return sorted(set(found))
+
+
+def packages_at_top(path):
+    """Of others, that a file imports where it is loaded."""
+    nodes = ast.parse(path.read_text(encoding="utf-8")).body
+    names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
+    return names + [node.module for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
 
 
 def length(path):
@@ -200,24 +214,64 @@ def test_the_package_knows_nothing_of_blender():
     assert not [identify(path) for path in files if any(IN_BLENDER.stem in name for name in imports(path))]
 
 
+def test_addon_rooms_are_listed():
+    assert {addon_room(path) for path in python_files(ADDON) if "presets" not in path.parts} == set(ADDON_BELOW)
+
+
 def test_addon_imports_go_down():
     wrong = []
-    for path in python_files(ADDON):
-        own = addon_level(path.stem)
-        wrong += [f"{path.stem} imports {name}" for name in siblings(path) if addon_level(name) > own]
+    for path in set(python_files(ADDON)) - ADDON_TOP:
+        if "presets" not in path.parts:
+            allowed = {addon_room(path), *rooms_below(addon_room(path), ADDON_BELOW)}
+            targets = addon_imports(path)
+            wrong += [
+                f"{identify(path)} imports {identify(name)}" for name in targets if addon_room(name) not in allowed
+            ]
+            wrong += [f"{identify(path)} imports {identify(name)}" for name in ADDON_TOP & set(targets)]
     assert not wrong
 
 
 def test_addon_imports_have_no_circle():
-    graph = {path.stem: siblings(path) for path in python_files(ADDON)}
+    done = set()
 
-    def visit(name, trail):
-        assert name not in trail, " -> ".join([*trail, name])
-        for target in graph.get(name, ()):
-            visit(target, [*trail, name])
+    def visit(path, trail):
+        assert path not in trail, " -> ".join(map(identify, [*trail, path]))
+        if path not in done:
+            for target in addon_imports(path):
+                visit(target, [*trail, path])
+            done.add(path)
 
-    for name in graph:
-        visit(name, [])
+    for path in python_files(ADDON):
+        visit(path, [])
+
+
+def test_solving_knows_nothing_of_blender():
+    """It runs in worker threads."""
+    files = [path for path in python_files(ADDON) if addon_room(path) in WITHOUT_BPY]
+    assert files and not [identify(path) for path in files if imports(path) & {"bpy", "bmesh", "mathutils"}]
+
+
+def loaded_at_registration():
+    loaded, waiting = set(), [ADDON / "__init__.py"]
+    while waiting:
+        path = waiting.pop()
+        if path not in loaded:
+            loaded.add(path)
+            waiting += addon_imports(path, is_at_top=True)
+    return loaded
+
+
+def test_registration_loads_neither_numpy_nor_the_core():
+    """Blender starts, and the panel says what is missing, without them."""
+    loaded = loaded_at_registration()
+    assert len(loaded) > len(ADDON_BELOW)
+    assert not [identify(path) for path in loaded if {"numpy", "holomorph"} & set(packages_at_top(path))]
+
+
+def test_others_import_at_the_top():
+    """Only what registration loads imports inside functions: what would load NumPy or the core."""
+    others = set(python_files(ADDON)) - loaded_at_registration()
+    assert not [identify(path) for path in others if addon_imports(path) != addon_imports(path, is_at_top=True)]
 
 
 def test_only_mesh_io_touches_mesh_arrays():

@@ -3,7 +3,7 @@
 import families
 import numpy as np
 import pytest
-from holomorph import RectangleMap, Surface, _native, conformal_structure
+from holomorph import RectangleMap, Surface, _native, automatic_structure, disk_map, rectangle_map
 from solved import surface_of
 from test_rectangle import grid
 
@@ -114,7 +114,7 @@ OTHERS = {
 
 def corner_points(mesh):
     """The corners that were found; no triangle is lost to a side."""
-    structure = conformal_structure(surface_of(mesh))
+    structure = automatic_structure(surface_of(mesh))
     assert isinstance(structure, RectangleMap) and not len(structure.collapsed_triangles)
     return mesh.vertices[structure.corners]
 
@@ -143,8 +143,7 @@ def test_terrain_is_as_even_as_a_rectangle_can_be():
     mesh = terrain(0.1, 0)
     surface = surface_of(mesh)
     qualities = []
-    for options in ({}, {"punctures": [len(mesh.vertices) // 2]}):
-        structure = conformal_structure(surface, **options)
+    for structure in (rectangle_map(surface), disk_map(surface, len(mesh.vertices) // 2)):
         qualities.append(structure.quality(structure.uv([])))
     found, disk = qualities
     assert found.density_ratio < 0.5 * disk.density_ratio and found.mean_angle < disk.mean_angle
@@ -153,15 +152,15 @@ def test_terrain_is_as_even_as_a_rectangle_can_be():
 @pytest.mark.parametrize("factor", [1e-30, 1e30])
 def test_size_and_place_do_not_matter(factor):
     mesh = terrain(0.1, 1)
-    corners = conformal_structure(surface_of(mesh)).corners
+    corners = automatic_structure(surface_of(mesh)).corners
     moved = families.moved(mesh, scale=factor)
-    assert (conformal_structure(surface_of(moved)).corners == corners).all()
+    assert (automatic_structure(surface_of(moved)).corners == corners).all()
 
 
 def test_a_rough_border_without_positions_is_recognised():
     surface = surface_of(rough(32, 20, 0.45))
     of_lengths = Surface.from_edge_lengths(surface.triangles, side_lengths(surface))
-    assert isinstance(conformal_structure(of_lengths), RectangleMap)
+    assert isinstance(automatic_structure(of_lengths), RectangleMap)
 
 
 def side_lengths(surface):

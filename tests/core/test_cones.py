@@ -6,7 +6,7 @@ import families
 import numpy as np
 import pytest
 from conftest import shared_folder
-from holomorph import Cancelled, Surface, TopologyError, conformal_structure, cut_to_cones
+from holomorph import Cancelled, Surface, TopologyError, cut_to_cones, free_boundary_map
 from solved import surface_of
 from test_islands import assert_same_faces
 
@@ -26,7 +26,7 @@ def flat_disk(n=5):
 
 
 def flat_map(disk):
-    return conformal_structure(disk, boundary="free")
+    return free_boundary_map(disk)
 
 
 def ratio(structure):

@@ -7,7 +7,16 @@ import families
 import numpy as np
 import pytest
 from conftest import shared_folder
-from holomorph import Cancelled, SolverError, Surface, TopologyError, _native, conformal_map, conformal_structure
+from holomorph import (
+    Cancelled,
+    SolverError,
+    Surface,
+    TopologyError,
+    _native,
+    conformal_map,
+    conformal_structure,
+    log_map,
+)
 from solved import BOUNDED, surface_of
 from test_conformal_equivalence import moebius_image, triangles
 
@@ -255,7 +264,7 @@ def test_refusals():
     torus, other = structures(families.torus(12, 8), families.torus(12, 8, R=3.0))
     with pytest.raises(TopologyError, match="there is no map to be made; Not equivalent"):
         conformal_map(torus, other)
-    with pytest.raises(TypeError, match="not of a PuncturedStructure"):
-        conformal_map(torus, *structures(families.geodesic_sphere(2)))
+    with pytest.raises(TypeError, match="not of a PoleStructure"):
+        conformal_map(torus, log_map(surface_of(families.geodesic_sphere(2))))
     with pytest.raises(TopologyError, match="genus 1 with 0 boundary loops, and genus 0 with 2"):
         conformal_map(torus, *structures(families.cylinder(8, 4)))

@@ -66,7 +66,7 @@ CUTS = {
 @pytest.mark.parametrize("name", ["torus", "tube"])
 def test_the_map_jumps_at_the_cut_and_nowhere_else(name):
     surface, cut = CUTS[name]
-    structure = holomorph.conformal_structure(surface, cut_edges=cut)
+    structure = holomorph.cut_along(holomorph.conformal_structure(surface), cut)
     uv = structure.uv(structure.balanced_coefficients())
     assert torn(structure, uv) == pairs(cut)
     assert pairs(structure.edges[structure.seams]) == pairs(cut)
@@ -76,7 +76,7 @@ def test_the_map_jumps_at_the_cut_and_nowhere_else(name):
 def test_only_the_sheets_change(name):
     surface, cut = CUTS[name]
     ours = holomorph.conformal_structure(surface)
-    cut_up = holomorph.conformal_structure(surface, cut_edges=cut)
+    cut_up = holomorph.cut_along(holomorph.conformal_structure(surface), cut)
     assert np.array_equal(ours.balanced_coefficients(), cut_up.balanced_coefficients())
     c = ours.balanced_coefficients()
     qualities = [s.quality(s.uv(c)) for s in (ours, cut_up)]
@@ -86,15 +86,29 @@ def test_only_the_sheets_change(name):
 
 def test_several_pieces_are_each_continuous():
     cut = np.concatenate([meridian(0), meridian(3), parallel()])
-    structure = holomorph.conformal_structure(torus(), cut_edges=cut)
+    structure = holomorph.cut_along(holomorph.conformal_structure(torus()), cut)
     assert torn(structure, structure.uv([1])) <= pairs(cut)
 
 
 def test_edges_on_the_boundary_do_not_matter():
     surface = torus(8, closed=False)
     cut = np.concatenate([meridian(0), parallel(8, closed=False)])
-    structure = holomorph.conformal_structure(surface, cut_edges=cut)
+    structure = holomorph.cut_along(holomorph.conformal_structure(surface), cut)
     assert pairs(structure.edges[structure.seams]) == pairs(parallel(8, closed=False))
+
+
+def test_the_structure_that_is_cut_stays_as_it_was():
+    """The cut one has the same forms and invariants."""
+    surface = torus()
+    ours = holomorph.conformal_structure(surface)
+    seams, uv = ours.seams.copy(), ours.uv([1])
+    cut_up = holomorph.cut_along(ours, np.concatenate([meridian(3), parallel()]))
+    again = holomorph.cut_along(cut_up, ours.edges[ours.seams])
+    assert np.array_equal(ours.seams, seams) and np.array_equal(ours.uv([1]), uv)
+    assert not np.array_equal(cut_up.seams, seams) and np.array_equal(np.sort(again.seams), np.sort(seams))
+    assert cut_up.harmonic_forms.tobytes() == ours.harmonic_forms.tobytes()
+    assert cut_up.period_matrix.tobytes() == ours.period_matrix.tobytes()
+    assert holomorph.cut_along(ours, np.empty((0, 2), int)) is ours
 
 
 def test_a_disk_needs_no_cut():
@@ -102,21 +116,21 @@ def test_a_disk_needs_no_cut():
     a = (5 * i + j)[:-1, :-1].ravel()
     vertices = np.stack([i, j, 0.1 * i * j], -1).reshape(-1, 3).astype(float)
     surface = holomorph.Surface(vertices, np.stack([a, a + 5, a + 6, a + 1], 1))
-    structure = holomorph.conformal_structure(surface, cut_edges=[[6, 7], [7, 8]])
+    structure = holomorph.cut_along(holomorph.automatic_structure(surface), [[6, 7], [7, 8]])
     assert len(structure.seams) == 0
 
 
-def test_punctures_keep_their_spokes_as_seams():
+def test_poles_keep_their_spokes_as_seams():
     surface = torus()
-    punctures = [2 * ACROSS + 4, 7 * ACROSS + 4]
-    # From one puncture to the other, and around both handles.
+    poles = [2 * ACROSS + 4, 7 * ACROSS + 4]
+    # From one pole to the other, and around both handles.
     i = np.arange(2, 7)
     between = np.stack([i * ACROSS + 4, (i + 1) * ACROSS + 4], 1)
     cut = np.concatenate([meridian(), parallel(), between])
     j = np.arange(4)
     joined = np.stack([2 * ACROSS + j, 2 * ACROSS + j + 1], 1)  # the slit is joined to the rest
-    structure = holomorph.conformal_structure(surface, punctures=punctures, cut_edges=np.concatenate([cut, joined]))
-    spokes = structure.edges[np.isin(structure.edges, punctures).any(axis=1)]
+    structure = holomorph.cut_along(holomorph.log_map(surface, poles), np.concatenate([cut, joined]))
+    spokes = structure.edges[np.isin(structure.edges, poles).any(axis=1)]
     assert pairs(spokes) <= pairs(structure.edges[structure.seams])
     uv = structure.uv(structure.balanced_coefficients())
     assert torn(structure, uv) <= pairs(structure.edges[structure.seams])
@@ -137,7 +151,7 @@ def test_punctures_keep_their_spokes_as_seams():
 )
 def test_a_cut_that_does_not_fit_is_refused(cut, message):
     with pytest.raises(holomorph.TopologyError, match=message):
-        holomorph.conformal_structure(torus(), cut_edges=cut)
+        holomorph.cut_along(holomorph.conformal_structure(torus()), cut)
 
 
 def test_messages_name_the_vertices_of_the_surface():
@@ -147,11 +161,11 @@ def test_messages_name_the_vertices_of_the_surface():
         (surface.corner_vertices + 100).reshape(-1, 4).astype(np.int64),
     )
     with pytest.raises(holomorph.TopologyError, match=r"vertices 1\d\d and 1\d\d, where"):
-        holomorph.conformal_structure(shifted, cut_edges=meridian() + 100)
+        holomorph.cut_along(holomorph.conformal_structure(shifted), meridian() + 100)
 
 
 def test_a_mesh_too_coarse_for_stars_takes_no_cut():
     vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
     surface = holomorph.Surface(np.array(vertices, float), [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
     with pytest.raises(holomorph.TopologyError, match="too coarse"):
-        holomorph.conformal_structure(surface, cut_edges=[[0, 1], [1, 2]])
+        holomorph.cut_along(holomorph.log_map(surface), [[0, 1], [1, 2]])

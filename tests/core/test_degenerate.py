@@ -3,15 +3,15 @@
 import families
 import numpy as np
 import pytest
-from holomorph import InvalidMesh, Surface, conformal_structure
+from holomorph import InvalidMesh, Surface, conformal_structure, log_map, rectangle_map
 from solved import surface_of
 
 
 @pytest.mark.parametrize("cap", ["n-gon", "fan"])
-@pytest.mark.parametrize("punctures", [None, (0, 130)])
-def test_spun_spheres_have_a_map_everywhere(cap, punctures):
-    """The vertices beside an automatic puncture coincide with it."""
-    structure = conformal_structure(surface_of(families.spun(16, 8, cap)), punctures=punctures)
+@pytest.mark.parametrize("poles", [None, (0, 130)])
+def test_spun_spheres_have_a_map_everywhere(cap, poles):
+    """The vertices beside an automatic pole coincide with it."""
+    structure = log_map(surface_of(families.spun(16, 8, cap)), poles)
     uv = structure.uv(structure.balanced_coefficients())
     assert np.isfinite(uv).all()
     quality = structure.quality(uv)
@@ -40,7 +40,7 @@ def test_a_map_to_a_point_has_collapsed():
 
 
 def test_the_averaged_star_is_finite_where_triangles_have_no_area():
-    structure = conformal_structure(surface_of(families.spun(6, 4)))
+    structure = log_map(surface_of(families.spun(6, 4)))
     assert np.isfinite(structure.averaged_star(np.arange(len(structure.edges)))).all()
 
 
@@ -106,7 +106,7 @@ def square_with(point):
     start, end = (a, b) if (across.index(b) - across.index(a)) % 3 == 1 else (b, a)
     faces += [[start, new, apex], [new, end, apex], [start, end, new]]
     surface = Surface(np.vstack([vertices, point(vertices[a], vertices[b])]), np.array(faces))
-    return surface, conformal_structure(surface, rectangle_corners=[0, 20, 24, 4])
+    return surface, rectangle_map(surface, [0, 20, 24, 4])
 
 
 @pytest.mark.parametrize("height", [0, 1e-15, 1e-12, 1e-9, 1e-7, 3e-7])

@@ -91,5 +91,5 @@ def test_example_of_the_package_runs(files, place, monkeypatch):
     names = dict(holomorph=holomorph, surface=surface, structure=structure, a=structure, b=structure)
     names |= dict(uv=structure.uv(structure.balanced_coefficients()), seams=structure.edges[structure.seams])
     names |= dict(soles=np.ones(len(surface.vertices), bool), mesh=holomorph.ProgressiveMesh(surface))
-    names |= dict(log_map=holomorph.conformal_structure(holomorph.Surface.read("spot.obj")))
+    names |= dict(log_map=holomorph.log_map(holomorph.Surface.read("spot.obj")))
     printed_by(CODE.findall(text_of("docs/python.md"))[place], "docs/python.md", names)

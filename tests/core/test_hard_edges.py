@@ -3,7 +3,7 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, conformal_structure, islands
+from holomorph import Surface, free_boundary_map, islands, log_map
 from solved import surface_of
 from test_islands import assert_same_faces, is_rigid
 
@@ -38,7 +38,7 @@ def bracket():
 
 def test_a_cone_is_too_coarse_for_one_map_and_fits_in_islands():
     surface = cone()
-    structure = conformal_structure(surface)
+    structure = log_map(surface)
     whole = structure.quality(structure.uv(structure.balanced_coefficients()))
     assert whole.capped_mean_angle > 3 and whole.verdict.offers_islands
     parts = islands(surface, hard_edges=ANGLE)
@@ -65,7 +65,7 @@ def test_tips_inside_a_fine_mesh_are_reached_by_the_shortest_path():
     (part,) = islands(surface, hard_edges=170)
     assert (part.genus, part.boundary_count) == (0, 1)
     assert len(part.vertices) > len(surface.vertices)
-    before, after = (conformal_structure(each, boundary="free") for each in (surface, part))
+    before, after = (free_boundary_map(each) for each in (surface, part))
     uneven, even = (each.quality(each.uv()).density_ratio for each in (before, after))
     assert even < uneven
 

@@ -3,7 +3,7 @@
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, conformal_structure, islands
+from holomorph import Surface, conformal_structure, free_boundary_map, islands
 from holomorph.overlap import MOST_ROWS, overlapping_part
 from solved import surface_of
 
@@ -68,7 +68,7 @@ def helix(turns, n=200):
 
 @pytest.mark.parametrize(("turns", "overlaps"), [(0.8, False), (1.5, True)])
 def test_a_strip_that_winds_more_than_once_overlaps_itself(turns, overlaps):
-    structure = conformal_structure(helix(turns), boundary="free")
+    structure = free_boundary_map(helix(turns))
     quality = structure.quality(structure.uv())
     assert not quality.flipped.any()
     if overlaps:
@@ -85,7 +85,7 @@ def test_one_more_seam_ends_it():
     parts = islands(surface, seam)
     assert len(parts) == 2
     for part in parts:
-        structure = conformal_structure(part, boundary="free")
+        structure = free_boundary_map(part)
         assert structure.quality(structure.uv()).overlapping_part == 0
 
 
@@ -95,6 +95,6 @@ def test_maps_that_are_no_islands_do_not_tell():
 
 
 def test_a_map_without_finite_values_covers_nothing():
-    structure = conformal_structure(helix(0.8), boundary="free")
+    structure = free_boundary_map(helix(0.8))
     quality = structure.quality(structure.uv() * np.nan)
     assert quality.overlapping_part == 0 and quality.verdict.level == "unusable"

@@ -3,7 +3,7 @@
 import families
 import numpy as np
 import pytest
-from holomorph import RectangleMap, Surface, TopologyError, conformal_structure
+from holomorph import RectangleMap, Surface, TopologyError, rectangle_map
 from solved import surface_of
 
 EXACT = 1e-12
@@ -40,7 +40,7 @@ def trapezoid(n):
 @pytest.mark.parametrize("shape", ["quads", "triangles"])
 def test_sides_are_straight_exactly(shape):
     surface = surface_of(grid(12, 8, wavy, shape))
-    structure = conformal_structure(surface, rectangle_corners=corners_of(12, 8))
+    structure = rectangle_map(surface, corners_of(12, 8))
     assert isinstance(structure, RectangleMap)
     uv = np.empty((len(surface.vertices), 2))
     uv[surface.corner_vertices] = structure.uv([])
@@ -62,7 +62,7 @@ def test_sides_are_straight_exactly(shape):
 @pytest.mark.parametrize("height", [0.25, 1.0, 3.0])
 def test_a_flat_rectangle_is_its_own_image(height):
     surface = surface_of(grid(7, 5, lambda x, y: np.stack([x, height * y, 0 * x], axis=1)))
-    structure = conformal_structure(surface, rectangle_corners=corners_of(7, 5))
+    structure = rectangle_map(surface, corners_of(7, 5))
     assert abs(structure.modulus - height) < 1e-9 * height
     assert abs(structure.quality(structure.uv([])).mean_angle - 1) < 1e-7
     uv = structure.uv([])
@@ -72,8 +72,8 @@ def test_a_flat_rectangle_is_its_own_image(height):
 def test_turning_the_corners_turns_the_rectangle():
     surface = surface_of(grid(12, 8, wavy))
     corners = corners_of(12, 8)
-    upright = conformal_structure(surface, rectangle_corners=corners)
-    rotated = conformal_structure(surface, rectangle_corners=corners[1:] + corners[:1])
+    upright = rectangle_map(surface, corners)
+    rotated = rectangle_map(surface, corners[1:] + corners[:1])
     assert abs(upright.modulus * rotated.modulus - 1) < SOLVER
     assert np.abs(np.array(upright.modulus_bounds)[::-1] * rotated.modulus_bounds - 1).max() < SOLVER
     w, z = (structure.uv([]) @ [1, 1j] for structure in (upright, rotated))
@@ -110,7 +110,7 @@ def test_trapezoid():
     """Exact value inside the bounds; width and error fall at the order 4/3 of the obtuse corner, or faster."""
     widths, errors = [], []
     for n in (10, 20, 40, 80):
-        structure = conformal_structure(surface_of(trapezoid(n)), rectangle_corners=corners_of(n, n), solver="direct")
+        structure = rectangle_map(surface_of(trapezoid(n)), corners_of(n, n), solver="direct")
         lower, upper = structure.modulus_bounds
         value = structure.modulus
         widths.append(upper - lower)
@@ -127,7 +127,7 @@ def test_bounds_are_nested_under_refinement():
     mesh = grid(5, 4, wavy, "triangles")
     corners, bounds = corners_of(5, 4), []
     for _ in range(4):
-        bounds.append(conformal_structure(surface_of(mesh), rectangle_corners=corners).modulus_bounds)
+        bounds.append(rectangle_map(surface_of(mesh), corners).modulus_bounds)
         mesh = families.subdivided(mesh)
     bounds = np.array(bounds)
     assert (np.diff(bounds[:, 0]) > 0).all()
@@ -145,7 +145,7 @@ def test_collapsed_triangles_are_counted():
     assert ears
     corners = corners_of(6, 6)
     shifted = [corners[0] + 7, corners[1], corners[2], corners[3] - 0]
-    structure = conformal_structure(surface, rectangle_corners=shifted)
+    structure = rectangle_map(surface, shifted)
     collapsed = structure.collapsed_triangles
     side = set(range(7)) | {7}  # from the last corner down to the shifted first one
     expected = [t for t, triangle in enumerate(surface.triangles) if set(triangle.tolist()) <= side]
@@ -156,7 +156,7 @@ def test_collapsed_triangles_are_counted():
 def test_solvers_agree_and_threads_do_not_matter():
     surface = surface_of(grid(20, 14, wavy, "triangles"))
     one, two, three = (
-        conformal_structure(surface, rectangle_corners=corners_of(20, 14), solver=solver, threads=threads)
+        rectangle_map(surface, corners_of(20, 14), solver=solver, threads=threads)
         for solver, threads in (("direct", 1), ("multigrid", 1), ("multigrid", 3))
     )
     assert np.abs(one.uv([]) - two.uv([])).max() < 1e-7
@@ -167,10 +167,10 @@ def test_isolated_vertices_keep_their_numbers():
     mesh = grid(6, 5, wavy)
     surface = Surface(np.concatenate([[[5.0, 5, 5]], mesh.vertices]), mesh.corners.reshape(-1, 4) + 1)
     chosen = [v + 1 for v in corners_of(6, 5)]
-    structure = conformal_structure(surface, rectangle_corners=chosen)
+    structure = rectangle_map(surface, chosen)
     assert structure.corners.tolist() == chosen
     with pytest.raises(TopologyError, match="rectangle corner 0 is a vertex of no face"):
-        conformal_structure(surface, rectangle_corners=[0, *chosen[1:]])
+        rectangle_map(surface, [0, *chosen[1:]])
 
 
 GRID = grid(6, 5, wavy)
@@ -183,8 +183,8 @@ REFUSED = {
     "out of order": (GRID, [A, C, B, D], f"not in the order of the boundary.*: that is {A}, {B}, {C}, {D}"),
     "clockwise": (GRID, [A, D, C, B], f"not in the order of the boundary.*: that is {A}, {B}, {C}, {D}"),
     "no integers": (GRID, [0.5, 1, 2, 3], "list of vertex indices"),
-    "a tube": (families.cylinder(9, 5), [0, 1, 2, 3], "genus 0 and 2 boundary loops; rectangle corners need a disk"),
-    "closed": (families.cube(), [0, 1, 2, 3], "genus 0 and 0 boundary loops; rectangle corners need a disk"),
+    "a tube": (families.cylinder(9, 5), [0, 1, 2, 3], "genus 0 and 2 boundary loops; a rectangle needs a disk"),
+    "closed": (families.cube(), [0, 1, 2, 3], "genus 0 and 0 boundary loops; a rectangle needs a disk"),
 }
 
 
@@ -192,10 +192,5 @@ REFUSED = {
 def test_refusals(case):
     mesh, corners, message = REFUSED[case]
     with pytest.raises(TopologyError, match=message) as caught:
-        conformal_structure(surface_of(mesh), rectangle_corners=corners)
+        rectangle_map(surface_of(mesh), corners)
     assert "\n" not in str(caught.value)
-
-
-def test_punctures_and_corners_exclude_each_other():
-    with pytest.raises(TopologyError, match="choose either"):
-        conformal_structure(surface_of(GRID), rectangle_corners=[A, B, C, D], punctures=[20])

@@ -447,9 +447,11 @@ def test_no_memory_is_an_error_of_ours():
     assert issubclass(holomorph.OutOfMemory, Error) and issubclass(holomorph.OutOfMemory, MemoryError)
 
 
-def test_attributes_that_a_surface_has_not_are_not_there():
+@pytest.mark.parametrize("name", ["modulus", "modulus_bounds", "capacity_matrix", "capacity_bounds"])
+def test_invariants_that_a_surface_has_not_are_errors(name):
     structure = conformal_structure(surface_of(families.punctured_torus()))
-    assert not hasattr(structure, "modulus") and not hasattr(structure, "capacity_matrix")
+    with pytest.raises(TopologyError, match="the surface has genus 1"):
+        getattr(structure, name)
 
 
 # ---- the package as the add-on finds it ---------------------------------------------------------------------------

@@ -4,7 +4,7 @@ solved to what is promised, or refused; what they give does not depend on the nu
 import families
 import numpy as np
 import pytest
-from holomorph import ProgressiveMesh, SolverError, Surface, Tiler, conformal_structure
+from holomorph import ProgressiveMesh, SolverError, Surface, Tiler, conformal_structure, log_map
 from test_thin_triangles import glued, layout
 
 PROMISED = 1e-6  # relative error of a form in energy
@@ -22,7 +22,7 @@ def ring(width, seed):
 
 
 def along_edges(structure, number):
-    """theta_0 on the edges, in the order of a numbering of its own; without those that end at a puncture."""
+    """theta_0 on the edges, in the order of a numbering of its own; without those that end at a pole."""
     edges = np.argsort(number)[structure.edges]
     values = np.where(edges[:, 0] < edges[:, 1], 1, -1) * structure.holomorphic_forms[0]
     edges.sort(axis=1)
@@ -44,7 +44,7 @@ def refused(call):
 
 def form_with_pole(width, seed, solver):
     surface, number = ring(width, seed)
-    structure = conformal_structure(surface, punctures=[number[M + 1 + M // 2]], solver=solver)
+    structure = log_map(surface, [number[M + 1 + M // 2]], solver=solver)
     return along_edges(structure, number)
 
 

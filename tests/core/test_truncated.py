@@ -17,7 +17,7 @@ def pyramid(sides, height=2.0):
 
 def solved(sides):
     surface = holomorph.Surface(*pyramid(sides))
-    return surface, holomorph.conformal_structure(surface)
+    return surface, holomorph.log_map(surface)
 
 
 SIDES = [3, 4, 5, 8, 32]
@@ -31,7 +31,7 @@ def test_every_corner_has_a_uv_and_no_triangle_is_flipped(sides):
     quality = structure.quality(uv)
     assert np.isfinite(uv).all() and not quality.flipped.any()
     assert quality.area.min() > 0
-    assert "log map" in structure.description and len(structure.punctures) == 2
+    assert "log map" in structure.description and len(structure.poles) == 2
 
 
 @pytest.mark.parametrize("sides", SIDES)
@@ -43,7 +43,7 @@ def test_seams_shift_by_whole_periods(sides):
     jump = np.array([uv[c][order[:, 0]] - uv[c][order[:, 1]] for c in (tails, heads)])
     is_seam = np.isin(np.arange(len(order)), structure.seams)
     assert np.abs(jump[:, ~is_seam]).max() < SAME
-    spoke = np.isin(structure.edges, structure.punctures).any(axis=1)
+    spoke = np.isin(structure.edges, structure.poles).any(axis=1)
     shift = jump[:, is_seam & ~spoke]
     assert np.abs(shift[0] - shift[1]).max(initial=0) < SAME
     assert np.abs(shift - np.round(shift) * (1, 0)).max(initial=0) < SAME
@@ -80,7 +80,7 @@ def test_size_and_place_of_the_mesh_do_not_matter():
     vertices, faces = pyramid(6)
     maps = []
     for moved in (vertices, 1e6 * vertices, vertices[:, [1, 2, 0]] + 5):
-        structure = holomorph.conformal_structure(holomorph.Surface(moved, faces))
+        structure = holomorph.log_map(holomorph.Surface(moved, faces))
         maps.append(structure.uv([1.0]))
     assert np.abs(maps[1] - maps[0]).max() < SAME and np.abs(maps[2] - maps[0]).max() < SAME
 
@@ -95,19 +95,19 @@ def test_the_sphere_map_of_a_tetrahedron():
 def test_vertices_of_a_surface_with_loose_ones_keep_their_numbers():
     vertices, faces = pyramid(4)
     surface = holomorph.Surface(np.vstack([[[9, 9, 9]], vertices]), [[v + 1 for v in face] for face in faces])
-    structure = holomorph.conformal_structure(surface)
-    assert set(structure.punctures) <= set(range(1, 6))
+    structure = holomorph.log_map(surface)
+    assert set(structure.poles) <= set(range(1, 6))
     assert structure.edges.min() == 1
     assert np.isnan(structure.sphere_map()[0]).all()
 
 
-def test_punctures_that_are_asked_for_must_be_apart_all_the_same():
+def test_poles_that_are_asked_for_must_be_apart_all_the_same():
     with pytest.raises(holomorph.TopologyError, match="meet|share|corners of one face"):
-        holomorph.conformal_structure(holomorph.Surface(*pyramid(4)), punctures=[0, 4])
+        holomorph.log_map(holomorph.Surface(*pyramid(4)), [0, 4])
 
 
 def test_without_positions_nothing_is_cut_off():
     _, faces = pyramid(3)
     surface = holomorph.Surface.from_edge_lengths(np.array(faces), np.ones((4, 3)))
     with pytest.raises(holomorph.TopologyError, match="too coarse for two poles: .* subdivide the mesh"):
-        holomorph.conformal_structure(surface)
+        holomorph.log_map(surface)

@@ -13,7 +13,19 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import ProgressiveMesh, Surface, conformal_structure
+from holomorph import (
+    ProgressiveMesh,
+    Surface,
+    automatic_map,
+    automatic_structure,
+    conformal_structure,
+    cut_along,
+    disk_map,
+    free_boundary_map,
+    log_map,
+    rectangle_map,
+    triangle_map,
+)
 from solved import BOUNDED, CLOSED, FLAT, solved, surface_of
 
 LONGEST_REPR = 240
@@ -42,6 +54,12 @@ def two_parts():
     return Surface(points, [*faces, [first, first + 1, first + 2], [first, first + 3, first + 4]], strict=False)
 
 
+def both_loops():
+    """Edges of the torus of quads whose complement is a disk."""
+    i, j = np.arange(24), np.arange(18)
+    return np.concatenate([np.stack([18 * i, 18 * (i + 1) % 432], 1), np.stack([j, (j + 1) % 18], 1)])
+
+
 @cache
 def example(name):
     return EXAMPLES[name]()
@@ -58,20 +76,22 @@ EXAMPLES = {
     "narrow bounds": lambda: conformal_structure(surface_of(families.torus(9, 6)), bounds=0.1),
     "BoundedStructure": lambda: conformal_structure(surface_of(BOUNDED["tube"])),
     "double cover": lambda: conformal_structure(surface_of(BOUNDED["tube"]), boundary="double_cover"),
-    "PuncturedStructure": lambda: conformal_structure(ball()),
-    "truncated": lambda: conformal_structure(surface_of(families.cube())),
-    "residues": lambda: conformal_structure(
-        surface_of(CLOSED["torus of quads"]), punctures=np.array([0, 200, 400]), residues=[1, 1j, -1 - 1j]
+    "PoleStructure": lambda: log_map(ball()),
+    "truncated": lambda: log_map(surface_of(families.cube())),
+    "residues": lambda: log_map(
+        surface_of(CLOSED["torus of quads"]), poles=np.array([0, 200, 400]), residues=[1, 1j, -1 - 1j]
     ),
-    "DiskMap": lambda: conformal_structure(disk(), punctures=[int(np.abs(disk().vertices).sum(axis=1).argmin())]),
-    "automatic map": lambda: conformal_structure(disk()),
-    "RectangleMap": lambda: conformal_structure(Surface([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])),
-    "FreeBoundaryMap": lambda: conformal_structure(disk(), boundary="free"),
-    "TriangleMap": lambda: conformal_structure(Surface(np.eye(3), [[0, 1, 2]])),
+    "DiskMap": lambda: disk_map(disk(), int(np.abs(disk().vertices).sum(axis=1).argmin())),
+    "automatic structure": lambda: automatic_structure(disk()),
+    "cut": lambda: cut_along(conformal_structure(surface_of(CLOSED["torus of quads"])), both_loops()),
+    "Map": lambda: automatic_map(surface_of(CLOSED["torus of quads"])),
+    "RectangleMap": lambda: rectangle_map(Surface([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])),
+    "FreeBoundaryMap": lambda: free_boundary_map(disk()),
+    "TriangleMap": lambda: triangle_map(Surface(np.eye(3), [[0, 1, 2]])),
     "level": lambda: ProgressiveMesh(surface_of(CLOSED["torus of quads"])).conformal_structure(200),
     "Certificate": lambda: example("ConformalStructure").certificate,
     "Refinement": lambda: example("narrow bounds").refinement,
-    "Residuals": lambda: example("PuncturedStructure").residuals,
+    "Residuals": lambda: example("PoleStructure").residuals,
     "SolverReport": lambda: conformal_structure(surface_of(CLOSED["torus of quads"]), solver="paper").solver,
     "MemoryPlan": lambda: example("ConformalStructure").memory,
     "Quality": lambda: example("ConformalStructure").quality(example("ConformalStructure").uv([1, 0])),
@@ -93,8 +113,8 @@ EXAMPLES = {
     "Refused": lambda: holomorph.Refused(np.arange(3), "edge 1 has 3 faces"),
 }
 STRUCTURES = [
-    *("ConformalStructure", "narrow bounds", "BoundedStructure", "double cover", "PuncturedStructure", "truncated"),
-    *("residues", "DiskMap", "automatic map", "RectangleMap", "FreeBoundaryMap", "TriangleMap", "level"),
+    *("ConformalStructure", "narrow bounds", "BoundedStructure", "double cover", "PoleStructure", "truncated"),
+    *("residues", "DiskMap", "automatic structure", "cut", "RectangleMap", "FreeBoundaryMap", "TriangleMap", "level"),
 ]
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import zero_sums
-from holomorph import conformal_structure
+from holomorph import log_map
 from solved import BOUNDED, CLOSED, solved, solved_bounded, surface_of
 
 COMBINATIONS = 10
@@ -25,14 +25,14 @@ def test_orders_add_up(name):
         assert (zeros.positions == structure.surface.vertices[zeros.vertices]).all()
 
 
-@pytest.mark.parametrize("punctures", [2, 3])
+@pytest.mark.parametrize("pole_count", [2, 3])
 @pytest.mark.parametrize("name", ["genus 2 block", "genus 3 block", "torus of triangles"])
-def test_orders_add_up_with_poles(name, punctures):
+def test_orders_add_up_with_poles(name, pole_count):
     surface = surface_of(CLOSED[name])
-    vertices = np.linspace(0, len(surface.vertices) - 1, punctures + 2).astype(int)[1:-1]
-    structure = conformal_structure(surface, punctures=vertices)
+    vertices = np.linspace(0, len(surface.vertices) - 1, pole_count + 2).astype(int)[1:-1]
+    structure = log_map(surface, vertices)
     for c in combinations(structure):
-        assert structure.zeros(c).orders.sum() == 2 * surface.genus - 2 + punctures
+        assert structure.zeros(c).orders.sum() == 2 * surface.genus - 2 + pole_count
 
 
 REAL = [

@@ -48,6 +48,6 @@ def rows(path, most_faces=10**7):
             continue
         double = 2 * (2 * part.genus + part.boundary_count - 1) - 2 if part.boundary_count else 2 * part.genus - 2
         yield part.genus, part.boundary_count, 0, double, sums(holomorph.conformal_structure(part))
-        structure = holomorph.conformal_structure(part, punctures=poles(part))
+        structure = holomorph.log_map(part, poles(part))
         added = 4 if part.boundary_count else 2
         yield part.genus, part.boundary_count, 2, double + added, sums(structure)

@@ -83,7 +83,7 @@ def test_example_equals_the_python_package(example, mesh_file):
     expected = np.full((len(surface.corner_vertices), 2), np.nan)
     seams, counts = set(), []
     for part in surface.components:
-        structure = holomorph.conformal_structure(part)
+        structure = holomorph.automatic_structure(part)
         expected[part.corner_index] = structure.uv(structure.balanced_coefficients())
         ends = part.vertex_index[structure.edges[structure.seams]]
         seams |= {(int(v), int(w)) for v, w in ends}

@@ -3,8 +3,7 @@
 import holomorph
 import numpy as np
 import oracle
-from holomorph import ProgressiveMesh, Tiler, TopologyError
-from holomorph.disk import DiskMap
+from holomorph import DiskMap, PoleStructure, ProgressiveMesh, Tiler, TopologyError
 
 
 def first_map(structure, _):
@@ -21,13 +20,13 @@ def balanced(structure, _):
 
 
 def forms(structure, _):
-    """NaN is said of edges at a puncture alone."""
+    """NaN is said of edges at a pole alone."""
     values = structure.holomorphic_forms
     edges = structure.edges
-    at_punctures = np.isin(edges, getattr(structure, "punctures", [])).any(axis=1)
-    oracle.check_finite("forms", values[:, ~at_punctures])
+    at_poles = np.isin(edges, structure.poles if isinstance(structure, PoleStructure) else []).any(axis=1)
+    oracle.check_finite("forms", values[:, ~at_poles])
     if len(values):
-        star = structure.averaged_star(np.where(at_punctures, 0.0, values[0].real))
+        star = structure.averaged_star(np.where(at_poles, 0.0, values[0].real))
         oracle.check_finite("averaged_star", star)
     assert len(structure.seams) == 0 or structure.seams.max() < len(edges)
 
@@ -39,7 +38,7 @@ def plane(structure, _):
         z = structure.disk_map()[used]
         oracle.check_finite("disk_map", z)
         assert np.abs(z).max() <= 1 + 1e-9, "the disk map leaves the disk"
-    if not hasattr(structure, "sphere_map"):
+    if not isinstance(structure, PoleStructure):
         raise TopologyError("no sphere")
     points = structure.sphere_map()
     points = points[structure._component.vertex_index] if structure._component is not structure.surface else points

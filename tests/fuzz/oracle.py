@@ -5,6 +5,7 @@ import traceback
 
 import holomorph
 import numpy as np
+from holomorph import BoundedStructure, ConformalStructure, RectangleMap
 
 ROUNDING = 1e-7  # relative: bounds may miss an exact value, or cross, by what the solver leaves over
 
@@ -50,7 +51,7 @@ def check_contains(name, lower, upper, exact):
 
 def check_invariants(structure):
     """Period matrices, moduli and their bounds, as far as the structure has them."""
-    if len(getattr(structure, "_differentials", ())) and not hasattr(structure, "punctures"):
+    if isinstance(structure, (ConformalStructure, BoundedStructure)):
         check_finite("period_matrix", structure.period_matrix)
         assert is_positive_definite(structure.period_matrix.imag), "Im Omega is not positive definite"
         assert (
@@ -59,12 +60,18 @@ def check_invariants(structure):
         ), "Omega is not symmetric"
         if structure.period_bounds is not None:
             check_order("period_bounds", *structure.period_bounds)
-    if getattr(structure, "modulus_bounds", None) is not None:
+    if _has_modulus(structure) and structure.modulus_bounds is not None:
         lower, upper = structure.modulus_bounds
         check_order("modulus_bounds", lower, upper)
         assert lower * (1 - ROUNDING) <= structure.modulus <= upper * (1 + ROUNDING), "the modulus is out of its bounds"
     for name, value in vars(structure.residuals).items():
         check_finite(f"the residual {name}", value)
+
+
+def _has_modulus(structure):
+    surface = structure._component
+    is_annulus = isinstance(structure, BoundedStructure) and (surface.genus, surface.boundary_count) == (0, 2)
+    return is_annulus or isinstance(structure, RectangleMap)
 
 
 def check_map(structure, coefficients):

@@ -120,7 +120,7 @@ def execute(case):
         return
     _leave_edit_mode()
     for layer in obj.data.uv_layers:
-        assert np.isfinite(scenes.mesh_io.read_map(obj.data, layer.name)).all(), "a map is not finite"
+        assert np.isfinite(scenes.uv_maps.read_map(obj.data, layer.name)).all(), "a map is not finite"
     if "holomorph_report" in obj:
         json.loads(obj["holomorph_report"], parse_constant=_no_number)
 

@@ -10,7 +10,15 @@ import mesh_mutations
 import numpy as np
 import oracle
 import plain_cases
-from holomorph import Surface, conformal_structure
+from holomorph import (
+    Surface,
+    automatic_structure,
+    conformal_structure,
+    cut_along,
+    disk_map,
+    log_map,
+    rectangle_map,
+)
 from starts import STARTS
 
 PARTS = 3  # components of a mesh that are computed
@@ -30,7 +38,7 @@ def _exact(random):
     else:
         (vertices, faces, modulus), corners = exact_meshes.tube(random), []
     vertices, faces, corners = exact_meshes.disguised(vertices, faces, corners, random)
-    options = {"rectangle_corners": corners} if corners else {}
+    options = {"corners": corners} if corners else {}
     return _case(vertices, faces, options | solver_options(random), random, modulus)
 
 
@@ -61,16 +69,16 @@ def options_for(faces, count, random):
         ]
 
     if random.random() < 0.25:
-        options["punctures"] = vertices(random.randrange(4))
+        options["poles"] = vertices(random.randrange(4))
     if random.random() < 0.1:
         numbers = (1.0, -1.0, 1.0, -1.0, 2.5, 0.0, 1e300, float("nan"))
         options["residues"] = [
             [random.choice(numbers), random.choice((0.0, 0.0, 1.0))] for _ in range(random.randrange(4))
         ]
     if random.random() < 0.1:
-        options["rectangle_corners"] = vertices(random.choice((4, 4, 4, 3, 5)))
+        options["corners"] = vertices(random.choice((4, 4, 4, 3, 5)))
     if random.random() < 0.1:
-        options["cut_edges"] = [vertices(2) for _ in range(random.randrange(4))]
+        options["cuts"] = [vertices(2) for _ in range(random.randrange(4))]
     if random.random() < 0.1:
         options["boundary"] = random.choice(("double_cover", "double_cover", "natural", "none"))
     return options
@@ -90,8 +98,25 @@ def execute(case):
             oracle.answer(execute_part, part, options, case)
 
 
+def structure_of(surface, *, poles=None, residues=None, corners=None, cuts=(), boundary=None, **options):
+    """By the function that the options are for."""
+    if corners is not None or poles is not None or residues is not None:
+        options.pop("memory_limit", None)
+    if corners is not None:
+        made = rectangle_map(surface, corners, **options)
+    elif poles is not None and len(poles) == 1 and residues is None and surface.boundary_count == 1:
+        made = disk_map(surface, poles[0], **options)
+    elif poles is not None or residues is not None:
+        made = log_map(surface, poles, residues, **options)
+    elif boundary is not None:
+        made = conformal_structure(surface, boundary=boundary, **options)
+    else:
+        made = automatic_structure(surface, **options)
+    return cut_along(made, cuts)
+
+
 def execute_part(surface, options, case):
-    structure = conformal_structure(surface, **options)
+    structure = structure_of(surface, **options)
     oracle.check_invariants(structure)
     if case["modulus"] is not None and structure.modulus_bounds is not None:
         oracle.check_contains("modulus_bounds", *structure.modulus_bounds, case["modulus"])
@@ -106,5 +131,5 @@ def smaller(case):
     """Options and actions left out, then faces."""
     yield from plain_cases.with_fewer_options(case)
     yield from plain_cases.with_fewer_actions(case)
-    if case["modulus"] is None and not {"punctures", "rectangle_corners", "cut_edges"} & set(case["options"]):
+    if case["modulus"] is None and not {"poles", "corners", "cuts"} & set(case["options"]):
         yield from plain_cases.with_fewer_faces(case)

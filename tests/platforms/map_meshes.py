@@ -16,7 +16,7 @@ def arrays_of(result):
 
 def mapped(points, faces):
     surface = holomorph.Surface(points, faces)
-    structure = holomorph.conformal_structure(surface)
+    structure = holomorph.automatic_structure(surface)
     found = {f"structure.{name}": value for name, value in arrays_of(structure).items()}
     uv = structure.uv(structure.balanced_coefficients())
     found["uv"] = uv

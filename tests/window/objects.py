@@ -76,7 +76,7 @@ def torus(name, around, across, x):
 
 
 def add_object(name, vertices, corners):
-    mesh_io = importlib.import_module("holomorph_addon.mesh_io")
+    mesh_io = importlib.import_module("holomorph_addon.scene.mesh_io")
     mesh = mesh_io.new_mesh(name, vertices, corners, np.arange(0, len(corners) + 1, 4))
     bpy.context.scene.collection.objects.link(bpy.data.objects.new(name, mesh))
 

@@ -38,7 +38,7 @@ def look(name, places, file):
 
 def look_at_heat(name, file="changed.png"):
     """At the top of the torus, at the ends of the legend, and where nothing is."""
-    view, legend = region(area("VIEW_3D"), "WINDOW"), addon("heat_view")
+    view, legend = region(area("VIEW_3D"), "WINDOW"), addon("overlays.heat_view")
     unit = bpy.context.preferences.system.ui_scale
     half, high = unit * legend.BAR_WIDTH / 2 - 1, unit * (legend.BAR_ABOVE + legend.BAR_HEIGHT / 2)
     places = {
@@ -51,14 +51,14 @@ def look_at_heat(name, file="changed.png"):
 
 
 def show(quantity):
-    setattr(bpy.context.window_manager, addon("overlay").HEAT, quantity)
+    setattr(bpy.context.window_manager, addon("overlays.overlay").HEAT, quantity)
 
 
 def expected_at_top(quantity):
     """The colour of the face nearest to the top."""
     obj = bpy.data.objects["Torus"]
-    polygons, found = addon("heat").measured(obj.data, np.eye(3))
-    view = addon("heat_view")
+    polygons, found = addon("results.heat").measured(obj.data, np.eye(3))
+    view = addon("overlays.heat_view")
     points, colours = view.lit_triangles(polygons, *view.places_and_scale(found, quantity))
     middles = points.reshape(-1, 3, 3).mean(axis=1)
     return colours[3 * np.argmin(np.linalg.norm(middles - TOP, axis=1)), :3].tolist()
@@ -113,16 +113,16 @@ def changes():
 def poles():
     """A report as the tile operator leaves it: a pole at the top, one behind the torus, a branch point beside."""
     obj = bpy.data.objects["Torus"]
-    points = addon("mesh_io").world_points(obj)
+    points = addon("scene.mesh_io").world_points(obj)
     corners = {"pole": (0, 1, 0.4), "behind": (0, -1, -0.4), "branch point": (1, 0, 0.4)}
     marked = {name: int(np.argmin(np.linalg.norm(points - place, axis=1))) for name, place in corners.items()}
     tiling = {"poles": [marked["pole"], marked["behind"]], "zeros": [marked["branch point"]]}
-    obj[addon("report").PROPERTY] = json.dumps({"components": [{"tiling": tiling}]})
+    obj[addon("results.report").PROPERTY] = json.dumps({"components": [{"tiling": tiling}]})
     places = {name: projected(points[vertex]) for name, vertex in marked.items()}
-    unit, (x, y) = bpy.context.preferences.system.ui_scale, addon("marks_view").LEGEND
+    unit, (x, y) = bpy.context.preferences.system.ui_scale, addon("overlays.marks_view").LEGEND
     places["legend"] = (region(area("VIEW_3D"), "WINDOW").width / 2 + unit * x, unit * y)
     for name, state in (("with poles", True), ("without poles", False)):
-        setattr(bpy.context.window_manager, addon("overlay").MARKS, state)
+        setattr(bpy.context.window_manager, addon("overlays.overlay").MARKS, state)
         yield 1
         look(name, places, f"{name.replace(' ', '_')}.png")
 

@@ -25,7 +25,7 @@ seen = {}
 def note(method):
     """A list that gets the time at which the operator first calls this method of its modal part."""
     called = []
-    operator = importlib.import_module("holomorph_addon.operators").HOLOMORPH_OT_maps
+    operator = importlib.import_module("holomorph_addon.operators.mapping").HOLOMORPH_OT_maps
     original = getattr(operator, method)
 
     def noted(self, context):
@@ -40,7 +40,7 @@ def note(method):
 def hold_back_the_worker():
     """At the library's next question: however long the window takes to draw, ESC comes before the work is done. Returns
     what lets it go on."""
-    work = importlib.import_module("holomorph_addon.jobs").Work
+    work = importlib.import_module("holomorph_addon.solving.jobs").Work
     original, gate = work.ask, threading.Event()
 
     def ask(self, fraction, stage):

@@ -30,12 +30,12 @@ def obj():
 
 
 def uv():
-    return addon("mesh_io").read_map(obj().data, "Holomorphic")
+    return addon("scene.uv_maps").read_map(obj().data, "Holomorphic")
 
 
 def note_stages():
     """A list of the stages that the library's jobs go through from now on."""
-    work, noted = addon("jobs").Work, []
+    work, noted = addon("solving.jobs").Work, []
     original = work.ask
 
     def ask(self, fraction, stage):
@@ -47,14 +47,14 @@ def note_stages():
 
 
 def poles():
-    vertices, is_pole = addon("tile_report").marks(obj()["holomorph_report"])
+    vertices, is_pole = addon("results.stored").marks(obj()["holomorph_report"])
     return vertices[is_pole].tolist()
 
 
 def on_screen(vertex):
     """Where a vertex is seen, in the window."""
     view = region(area("VIEW_3D"), "WINDOW")
-    point = addon("mesh_io").world_points(obj(), [vertex])[0]
+    point = addon("scene.mesh_io").world_points(obj(), [vertex])[0]
     place = location_3d_to_region_2d(view, area("VIEW_3D").spaces.active.region_3d, point)
     return view.x + place.x, view.y + place.y
 
@@ -108,7 +108,7 @@ def redo_panel():
 
 def visible_pole():
     """Place in the report of a pole on the upper side."""
-    points = addon("mesh_io").world_points(obj(), poles())
+    points = addon("scene.mesh_io").world_points(obj(), poles())
     return int(np.argmax(points[:, 2]))
 
 
@@ -135,7 +135,7 @@ def drag_by_hand(pole, place):
 
 def dragging():
     pole, before, old = visible_pole(), uv(), poles()
-    points = addon("mesh_io").world_points(obj())
+    points = addon("scene.mesh_io").world_points(obj())
     place = int(np.argmin(np.linalg.norm(points - (0, -1.0, 0.4), axis=1)))
     for key in ("ESC", "RET"):
         yield from drag_by_hand(pole, place)

@@ -15,12 +15,12 @@ def main_uv(surface, parts, maps):
     """(#C, 2) of the whole surface: tilings from (0, 0) on, moved by whole units only; then the other parts, which fill
     the UV square where there is no tiling. Corners of parts without a map are 0."""
     uv = np.zeros((len(surface.corner_vertices), 2))
-    done = [part for part in parts if part.structure is not None]
-    tiled, rest = [part for part in done if part.tiling], [part for part in done if not part.tiling]
+    done = [part for part in parts if part.map is not None]
+    tiled, rest = [part for part in done if part.map.tiling], [part for part in done if not part.map.tiling]
     right = _place_tilings(uv, surface, tiled)
     if rest:
-        unit = float(np.median([part.unit_length for part in tiled])) if tiled else None
-        placed, side = _packed(rest, [part.uv for part in rest], maps, unit)
+        unit = float(np.median([part.map.unit_length for part in tiled])) if tiled else None
+        placed, side = _packed(rest, [part.map.uv for part in rest], maps, unit)
         shift = right + maps.margin * side + side / 2 - CENTRE.real if tiled else 0.0
         for part, values in zip(rest, placed):
             uv[_corners(surface, part)] = values + [shift, 0.0]
@@ -29,7 +29,7 @@ def main_uv(surface, parts, maps):
 
 def form_uvs(surface, parts, maps):
     """(#C, 2) for each form that gets a map of its own; parts that lack the form are 0 there."""
-    done = [part for part in parts if part.structure is not None]
+    done = [part for part in parts if part.map is not None]
     counts = [len(part.structure.balanced_coefficients()) for part in done]
     for form in range(min(maps.forms, max(counts, default=0))):
         having = [part for part, count in zip(done, counts) if form < count]
@@ -54,12 +54,12 @@ def _place_tilings(uv, surface, tiled):
     """Writes the tilings on shelves of whole units; returns where they end on the right."""
     if not tiled:
         return 0.0
-    lows = [np.floor(part.uv.min(axis=0)) for part in tiled]
-    sizes = np.array([np.ceil(part.uv.max(axis=0)) - low for part, low in zip(tiled, lows)])
+    lows = [np.floor(part.map.uv.min(axis=0)) for part in tiled]
+    sizes = np.array([np.ceil(part.map.uv.max(axis=0)) - low for part, low in zip(tiled, lows)])
     width = max(math.ceil(math.sqrt(np.prod(sizes, axis=1).sum())), sizes[:, 0].max())
     corners, whole = rows(sizes, width, 0.0)
     for part, low, corner in zip(tiled, lows, corners):
-        uv[_corners(surface, part)] = part.uv + (corner - low)
+        uv[_corners(surface, part)] = part.map.uv + (corner - low)
     return float(math.ceil(whole[0]))
 
 

@@ -1,37 +1,31 @@
 """The maps of one mesh by a recipe: those of its parts, side by side in the UV plane."""
 
-import math
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from .. import choice
 from .._native import Error, TopologyError
+from ..automatic_map import automatic_maps
+from ..automatic_structure import automatic_structure
+from ..cut import cut_along
+from ..disk import disk_map, free_boundary_map, rectangle_map
+from ..log_map import log_map
+from ..map import Map
 from ..plain_data import plain
 from ..report import component_report, map_report, refused_report, skipped_report
 from ..structure import conformal_structure
-from ..surface import Surface
 
 
 @dataclass(eq=False)
 class Part:
-    """A connected part; `uv` (#C of the part, 2) and `quality` are those of its main map, `reason` says why it has
-    none."""
+    """A connected part; `reason` says why it has no `map`."""
 
-    surface: Surface
+    surface: object
     structure: object = None
-    tiling: object = None
-    uv: np.ndarray | None = None
-    quality: object = None
-    coefficients: np.ndarray = ()
+    map: Map | None = None
     reason: str = ""
+    is_chosen: bool = False  # whether the recipe chooses something about its structure
     report: dict = field(default_factory=dict)
-
-    @property
-    def unit_length(self):
-        """On the surface, of a UV unit where the density is the median one."""
-        density = self.quality.median_density
-        return 1 / math.sqrt(density) if density > 0 else 0.0
 
 
 def map_parts(surface, recipe, cut_edges=None, threads=None):
@@ -42,12 +36,12 @@ def map_parts(surface, recipe, cut_edges=None, threads=None):
     _check_chosen(surface, recipe.maps)
     for part in parts:
         try:
-            _solve(part, recipe, cut_edges, threads)
+            _solve(part, recipe.maps, cut_edges, threads)
         except MemoryError:  # of the asset, not of this part
             raise
         except Error as error:
             part.reason = str(error)
-    _tile(parts, recipe)
+    _map([part for part in parts if part.structure is not None], recipe)
     for part in parts:
         part.report = _report(part)
     return parts
@@ -59,30 +53,39 @@ def refused_reports(surface):
 
 
 def _check_chosen(surface, maps):
-    for vertex in (*maps.punctures, *maps.rectangle_corners):
+    for vertex in (*maps.poles, *maps.rectangle_corners):
         if not np.any(surface.vertex_index == vertex):
             raise TopologyError(f"vertex {vertex}, which the recipe chooses, lies on no part of the mesh")
 
 
-def _solve(part, recipe, cut_edges, threads):
-    maps = recipe.maps
-    punctures, taken = _own(part.surface, maps.punctures)
-    corners, _ = _own(part.surface, maps.rectangle_corners)
-    residues = [complex(*np.atleast_1d(maps.residues[index])) for index in taken] if maps.residues else None
-    part.structure = conformal_structure(
-        part.surface,
-        boundary=maps.boundary if part.surface.boundary_count else "natural",
-        punctures=punctures or None,
-        residues=residues or None,
-        rectangle_corners=corners or None,
-        cut_edges=_own_edges(part.surface, cut_edges) if maps.cut_at_seams else None,
-        solver=maps.solver,
-        threads=threads,
-        memory_limit=maps.memory_limit,
-    )
-    part.coefficients = part.structure.balanced_coefficients()
-    part.uv = part.structure.uv(part.coefficients)
-    part.quality = part.structure.quality(part.uv)
+def _solve(part, maps, cut_edges, threads):
+    options = {"solver": maps.solver, "threads": threads}
+    part.structure = _chosen_structure(part.surface, maps, options)
+    cuts = _own_edges(part.surface, cut_edges) if maps.cut_at_seams else None
+    part.is_chosen = part.structure is not None or maps.solver == "paper" or (cuts is not None and len(cuts) > 0)
+    if part.structure is None:
+        part.structure = automatic_structure(part.surface, memory_limit=maps.memory_limit, **options)
+    if cuts is not None:
+        part.structure = cut_along(part.structure, cuts)
+
+
+def _chosen_structure(surface, maps, options):
+    """What the recipe chooses for a part; None where it chooses nothing."""
+    poles, taken = _own(surface, maps.poles)
+    corners, _ = _own(surface, maps.rectangle_corners)
+    is_disk = (surface.genus, surface.boundary_count) == (0, 1)
+    if corners:
+        return rectangle_map(surface, corners, **options)
+    if is_disk and len(poles) == 1 and not maps.residues:
+        return disk_map(surface, poles[0], **options)
+    if poles:
+        residues = [complex(*np.atleast_1d(maps.residues[index])) for index in taken] if maps.residues else None
+        return log_map(surface, poles, residues, memory_limit=maps.memory_limit, **options)
+    if maps.boundary == "free" and surface.boundary_count:
+        return free_boundary_map(surface, **options)
+    if maps.boundary == "double_cover" and surface.boundary_count:
+        return conformal_structure(surface, boundary="double_cover", memory_limit=maps.memory_limit, **options)
+    return None
 
 
 def _own(surface, vertices):
@@ -101,80 +104,43 @@ def _own_edges(surface, edges):
     return own[(surface.vertex_index[own] == edges).all(axis=1)]
 
 
-def _tile(parts, recipe):
-    """Tilings, where they are asked for and taken; all with the density of the largest, but for a number of tiles."""
-    asked = sorted((part for part in parts if _asks_for_tiling(part, recipe.maps)), key=lambda part: -part.surface.area)
-    total, density = sum(part.surface.area for part in asked), recipe.tiling.density
-    for part in asked:
-        tiles = recipe.tiling.tiles * part.surface.area / total if total > 0 else 0.0
-        try:
-            made = _taken_tiling(part, recipe, tiles or None, None if tiles else density)
-        except MemoryError:
-            raise
-        except Error as error:
-            part.structure, part.reason = None, str(error)
-            continue
-        if made is not None:
-            part.tiling, part.uv, part.quality, part.coefficients = made, made.uv, made.quality, ()
-            density = density or made.tiles / part.surface.area
-
-
-def _asks_for_tiling(part, maps):
-    if part.structure is None or part.surface.area == 0 or maps.main == "balanced":
-        return False
-    if maps.main == "seamless":
-        return True
-    is_plain = maps.density == 1 and maps.rotation == 0 and not (maps.punctures or maps.rectangle_corners)
-    return is_plain and choice.is_worth_a_tiling(part.structure, part.quality.density_ratio)
-
-
-def _taken_tiling(part, recipe, tiles, density):
-    """The tiling that takes the place of the balanced map; None where that stays.
-
-    @throws Error where a tiling was asked for and cannot be made"""
-    wanted = recipe.tiling
-    poles = wanted.poles
-    if isinstance(poles, tuple):
-        poles = _own(part.surface, poles)[0] or "auto"
-    if recipe.maps.main == "seamless":
-        return _tiling(part, wanted, poles, tiles, density)
-    for tried in choice.POLES if poles == "auto" else (poles,):
-        try:
-            made = _tiling(part, wanted, tried, tiles, density)
-        except MemoryError:
-            raise
-        except Error:
-            continue
-        if choice.is_better(made, part.quality.density_ratio, part.quality.capped_mean_angle):
-            return made
-    return None
-
-
-def _tiling(part, wanted, poles, tiles, density):
-    return part.structure.tile(
-        tiles,
-        density,
-        poles,
-        wanted.lattice,
-        wanted.direction,
-        wanted.boundary,
-        wanted.max_turn,
-        wanted.turn,
-        wanted.max_added,
+def _map(parts, recipe):
+    """A map that was chosen, turned or scaled is no tiling unless one is asked for."""
+    maps, wanted = recipe.maps, recipe.tiling
+    is_plain = maps.density == 1 and maps.rotation == 0
+    is_kept = [maps.main == "automatic" and (part.is_chosen or not is_plain) for part in parts]
+    made = automatic_maps(
+        [part.surface for part in parts],
+        [part.structure for part in parts],
+        main=["balanced" if kept else maps.main for kept in is_kept],
+        tiles=wanted.tiles or None,
+        density=wanted.density,
+        poles=wanted.poles,
+        lattice=wanted.lattice,
+        direction=None if wanted.direction == "none" else wanted.direction,
+        boundary=wanted.boundary,
+        turn=wanted.turn,
+        max_turn=wanted.max_turn,
+        max_added=wanted.max_added,
     )
+    for part, found in zip(parts, made):
+        if isinstance(found, Map):
+            part.map = found
+        else:
+            part.reason = str(found)
 
 
 def _report(part):
-    if part.structure is None:
+    if part.map is None:
         return skipped_report(part.surface, part.reason)
-    entry = component_report(
-        part.surface, part.structure, map_report(part.coefficients, part.quality, part.tiling and part.tiling.verdict)
-    )
-    return entry | {"tiling": _tiling_report(part)} if part.tiling else entry
+    found = part.map
+    main = map_report(found.coefficients, found.quality, found.verdict) | {"kind": found.kind, "why": found.why}
+    entry = component_report(part.surface, found.structure, main)
+    return entry | {"tiling": _tiling_report(part)} if found.tiling else entry
 
 
 def _tiling_report(part):
-    made, index = part.tiling, part.surface.vertex_index
+    made, index = part.map.tiling, part.surface.vertex_index
     zeros, orders = made.zeros
     return plain(
         {

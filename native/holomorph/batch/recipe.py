@@ -9,12 +9,12 @@ from dataclasses import asdict, dataclass, field, fields
 import tomllib
 
 from .. import formats, tiling_options
+from ..automatic_map import MAIN_MAPS
 from ..checks import SOLVERS
-from ..structure import BOUNDARIES
 from .errors import UsageError
 
+BOUNDARIES = ("natural", "double_cover", "free")
 FORMATS = ("npz", *formats.WRITERS, "blend")
-MAIN_MAPS = ("automatic", "seamless", "balanced")
 
 
 def _option(default, wanted, is_valid):
@@ -63,13 +63,13 @@ def _is_complex(value):
 
 @dataclass(frozen=True)
 class Maps:
-    """Options of `holomorph.conformal_structure` and of the operator *Holomorphic UV Maps*."""
+    """What the structures of the parts are, and how their maps lie in the UV plane."""
 
     main: str = _one_of(MAIN_MAPS, "automatic")
     forms: int = _count(0)  # maps of single forms, at most
     boundary: str = _one_of(BOUNDARIES, "natural")
     solver: str = _one_of(SOLVERS, "auto")
-    punctures: tuple = _vertices("a list of vertices")
+    poles: tuple = _vertices("a list of vertices")
     residues: tuple = _option((), "a list of numbers or of pairs [real, imaginary]", lambda v: _is_list(v, _is_complex))
     rectangle_corners: tuple = _vertices("a list of four vertices", lambda size: size == 4)
     cut_at_seams: bool = _flag(False)  # of .blend files
@@ -92,8 +92,10 @@ class Tiles:
         lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count),
     )
     lattice: str = _one_of(tuple(tiling_options.LATTICES), "square")
-    direction: tuple | None = _option(
-        None, "a list of three numbers that are not all 0", lambda v: _is_list(v, _is_number) and len(v) == 3 and any(v)
+    direction: str | tuple = _option(
+        "upright",
+        '"upright", "none" or a list of three numbers that are not all 0',
+        lambda v: v in ("upright", "none") or (_is_list(v, _is_number) and len(v) == 3 and any(v)),
     )
     boundary: str = _one_of(tiling_options.BOUNDARIES, "straight")
     turn: float | None = _optional_number("an angle in radians", lambda value: True)
@@ -179,9 +181,9 @@ def _check_names(given, known, noun):
 
 
 def _check_together(recipe):
-    if recipe.maps.punctures and recipe.maps.rectangle_corners:
-        raise UsageError("maps.punctures and maps.rectangle_corners exclude each other")
-    if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.punctures):
-        raise UsageError("maps.residues has not as many entries as maps.punctures")
+    if recipe.maps.poles and recipe.maps.rectangle_corners:
+        raise UsageError("maps.poles and maps.rectangle_corners exclude each other")
+    if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.poles):
+        raise UsageError("maps.residues has not as many entries as maps.poles")
     if recipe.tiling.density is not None and recipe.tiling.tiles:
         raise UsageError("tiling.density and tiling.tiles exclude each other")

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__, formats
 from .._native import Error
+from ..plane_maps import DiskMap
 from ..report import overall_report, repairs_report
 from . import arrangement, blend, mapping, picture
 from .recipe import Recipe
@@ -80,7 +81,7 @@ def _mapped(task):
     }
     up = recipe.output.up or ("Y" if task.path.suffix.lower() == ".obj" else "Z")
     files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), up)}
-    if any(part.structure for part in parts):
+    if any(part.map for part in parts):
         files |= _files(task, surface, uv, parts)
     return content, files, timings
 
@@ -96,7 +97,7 @@ def _read(path):
 
 def _is_mapped(surface, parts):
     """(#T,) bool: triangles of parts that have a map."""
-    faces = [part.surface.face_index for part in parts if part.structure]
+    faces = [part.surface.face_index for part in parts if part.map]
     if not faces:
         return np.zeros(len(surface.triangles), bool)
     return np.isin(surface.face_index[surface.triangle_faces], np.concatenate(faces))
@@ -129,15 +130,9 @@ def _arrays(maps, surface, uv, parts):
     """What a .npz file holds besides the mesh; indices lead to the elements of the source."""
     numbered = {f"uv_{n}": form for n, form in enumerate(arrangement.form_uvs(surface, parts, maps), 1)}
     index = {name: getattr(surface, name) for name in ("vertex_index", "face_index", "corner_index")}
-    seams = [_seams(part) for part in parts if part.structure]
-    arrays = {"uv": uv, **numbered, **index, "seams": np.concatenate(seams)}
+    seams = [part.surface.vertex_index[part.map.seams] for part in parts if part.map]
+    arrays = {"uv": uv, **numbered, **index, "seams": np.concatenate(seams)}  # of the main map
     return arrays | {"shape": _shape(surface, parts)} if maps.shape else arrays
-
-
-def _seams(part):
-    """(#S, 2) vertices of the source at the edges where the main map jumps."""
-    own = part.tiling.seams if part.tiling else part.structure.edges[part.structure.seams]
-    return part.surface.vertex_index[own]
 
 
 def _shape(surface, parts):
@@ -145,10 +140,10 @@ def _shape(surface, parts):
     points = np.full((len(surface.vertex_index), 3), np.nan)
     for part in parts:
         structure, rows = part.structure, np.searchsorted(surface.vertex_index, part.surface.vertex_index)
-        topology = (part.surface.genus, part.surface.boundary_count)
-        if structure and topology == (0, 0) and len(structure.punctures) == 2:
+        is_sphere = (part.surface.genus, part.surface.boundary_count) == (0, 0)
+        if is_sphere and structure and len(structure.poles) == 2:
             points[rows] = structure.sphere_map()
-        elif structure and topology == (0, 1) and hasattr(structure, "disk_map"):
+        elif isinstance(structure, DiskMap):
             disk = structure.disk_map()
             points[rows] = np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
     return points

@@ -45,9 +45,9 @@ Pointer conformal(const SurfacePointer& surface, bool over_double, const std::st
   });
 }
 
-Pointer punctured(const SurfacePointer& surface, const std::vector<int>& vertices,
-                  const std::vector<std::complex<double>>& residues, const std::vector<int>& names,
-                  const std::string& solver, int threads, std::int64_t memory_limit, const py::object& progress) {
+Pointer with_poles(const SurfacePointer& surface, const std::vector<int>& vertices,
+                   const std::vector<std::complex<double>>& residues, const std::vector<int>& names,
+                   const std::string& solver, int threads, std::int64_t memory_limit, const py::object& progress) {
   return make({solver, memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
     return structure::pole_structure(surface, {vertices, residues, names}, options, execution);
   });
@@ -81,8 +81,12 @@ void prepare_uv(Structure& s, const py::object& progress) {
 }
 
 py::tuple uv_solver(Structure& s) {
-  s.with_forms([](auto& forms, Execution& execution) { forms.prepare(execution); });
-  return report(s.forms->solver());
+  structure::SolverReport found;
+  s.with_forms([&](auto& forms, Execution& execution) {
+    forms.prepare(execution);
+    found = forms.solver();
+  });
+  return report(found);
 }
 
 // UVs of sum_k p_k h_k, #C x 2.
@@ -130,10 +134,15 @@ py::array sphere_map(Structure& s) {
   return give_matrix(std::move(points));
 }
 
-void cut_along(Structure& s, const std::vector<int>& edges, const std::vector<int>& names) {
-  s.with_forms([&](auto&, Execution& execution) {
-    s.value = structure::cut_along(std::move(s.value), edges, names, execution);
-  });
+// The same structure cut elsewhere; the forms are shared.
+Pointer cut_along(const Pointer& s, const std::vector<int>& edges, const std::vector<int>& names) {
+  auto made = std::make_shared<Structure>();
+  made->options = s->options;
+  made->threads = s->threads;
+  made->uncut = s->uncut ? s->uncut : s;
+  s->with_forms(
+      [&](auto&, Execution& execution) { made->value = structure::cut_along(s->value, edges, names, execution); });
+  return made;
 }
 
 py::list loops_of_vertices(const mesh::EdgeEnds& ends, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
@@ -176,7 +185,7 @@ void bind_values(py::class_<Structure, Pointer>& type) {
       .def("intersection_matrix", [](const Structure& s) { return copy(s.value.topology.canonical.intersection); })
       .def("canonical_basis", [](const Structure& s) { return copy(s.value.topology.canonical.cycles); })
       .def("seams", [](const Structure& s) { return copy(s.value.topology.seams); })
-      .def("punctures",
+      .def("poles",
            [](const Structure& s) { return copy(s.value.poles ? s.value.poles->chosen.vertices : std::vector<int>()); })
       .def("residues",
            [](const Structure& s) {
@@ -205,7 +214,7 @@ void bind_structure(py::module_& m) {
   bind_values(type);
   bind_invariants(type);
   m.def("conformal_structure", &conformal);
-  m.def("punctured_structure", &punctured);
+  m.def("pole_structure", &with_poles);
   m.def("paper_structure", &paper);
   m.def("conformal_structure_of_level", &conformal_of_level);
   m.def("paper_structure_of_level", &paper_of_level);

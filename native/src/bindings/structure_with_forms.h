@@ -17,15 +17,17 @@ struct Structure {
   int threads = 0;
   structure::Structure value;
   std::mutex mutex;
-  std::unique_ptr<structure::UvForms> forms;
+  std::unique_ptr<structure::UvForms> forms;  ///< none of a structure that was cut
+  std::shared_ptr<Structure> uncut;           ///< of a structure that was cut: the one whose forms it shares
 
   /// `use(forms, execution)` without the interpreter's lock, one call at a time.
   template <class Use>
   void with_forms(Use use, Execution::Callback progress = interruptible()) {
+    Structure& owner = uncut ? *uncut : *this;
     Execution execution(threads, std::move(progress));  // it goes with the lock held: it owns Python's function
     const py::gil_scoped_release unlocked;
-    const std::lock_guard<std::mutex> one_at_a_time(mutex);
-    use(*forms, execution);
+    const std::lock_guard<std::mutex> one_at_a_time(owner.mutex);
+    use(*owner.forms, execution);
   }
 };
 using StructurePointer = std::shared_ptr<Structure>;

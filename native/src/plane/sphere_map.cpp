@@ -22,7 +22,7 @@ double balancing_shift(const Eigen::VectorXd& x, const Eigen::VectorXd& areas) {
 
 void require_sphere(const structure::Structure& s) {
   if (s.topology.type.closed() && s.topology.type.genus == 0 && s.stars().size() == 2) return;
-  throw TopologyError("only a closed surface of genus 0 with two punctures has a map to the sphere here");
+  throw TopologyError("only a closed surface of genus 0 with two poles has a map to the sphere here");
 }
 
 PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {

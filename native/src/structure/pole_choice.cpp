@@ -51,11 +51,11 @@ void check_vertices(const Poles& poles, int vertex_count, bool closed) {
   std::vector<char> met(vertex_count, 0);
   for (const int v : vertices) {
     if (v < 0 || v >= vertex_count)
-      throw TopologyError("puncture " + std::to_string(v) + " is no vertex: there are " + std::to_string(vertex_count));
-    if (std::exchange(met[v], 1)) throw TopologyError("puncture " + label(poles, v) + " is given twice");
+      throw TopologyError("pole " + std::to_string(v) + " is no vertex: there are " + std::to_string(vertex_count));
+    if (std::exchange(met[v], 1)) throw TopologyError("pole " + label(poles, v) + " is given twice");
   }
   if (closed && vertices.size() == 1) {
-    throw TopologyError("puncture " + label(poles, vertices[0]) +
+    throw TopologyError("pole " + label(poles, vertices[0]) +
                         " is the only one: a closed surface needs two or more, as the residues sum to 0");
   }
 }
@@ -64,7 +64,7 @@ void check_residues(const Poles& poles, bool closed) {
   const auto& residues = poles.residues;
   if (residues.size() != poles.vertices.size()) {
     throw TopologyError("there are " + std::to_string(residues.size()) + " residues for " +
-                        std::to_string(poles.vertices.size()) + " punctures");
+                        std::to_string(poles.vertices.size()) + " poles");
   }
   std::complex<double> sum = 0;
   double size = 0;

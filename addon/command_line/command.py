@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The headless command: makes maps and levels of detail, writes files and the report."""
+
+import sys
+import time
+from pathlib import Path
+
+import bpy
+
+from .. import native
+from ..levels import source
+from ..levels.level_objects import Arrangement
+from ..levels.levels import LevelOptions
+from ..operators.run import Run
+from ..results import report, stored
+from . import exchange, sources, studio
+from .options import UsageError, parse
+
+EXIT_REFUSED, EXIT_STRICT = 1, 3
+
+
+class NotFit(Exception):
+    """What --strict does not let pass, though everything was written; the text is one sentence."""
+
+
+def main(arguments):
+    """Ends the process with another status than 0 where the job is not done."""
+    try:
+        for sentence in process(parse(arguments)):
+            print(f"Holomorph: {sentence}", file=sys.stderr)
+    except (UsageError, OSError, RuntimeError) as error:
+        # RuntimeError is how Blender's own operators report a file that cannot be written.
+        _fail(EXIT_REFUSED, error)
+    except NotFit as error:
+        _fail(EXIT_STRICT, error)
+
+
+def _fail(status, error):
+    print(f"Holomorph: {native.sentence(error)}", file=sys.stderr)
+    sys.stderr.flush()
+    sys.exit(status)
+
+
+def process(options):
+    """Does the job; returns the sentences about what was not done."""
+    if native.problem():
+        raise UsageError(native.problem())
+    start = time.perf_counter()
+    try:
+        outcome = _make_maps(options)
+    except UsageError as error:
+        source = options.mesh.stem if options.mesh is not None else Path(bpy.data.filepath).stem
+        _write_report(options, report.run_report([report.refusal_report(source, str(error))]))
+        raise
+    levels = _add_levels(options, outcome)
+    content = report.run_report(outcome.entries)
+    content["seconds"] = time.perf_counter() - start
+    _write_report(options, content)
+    if not outcome.done:
+        raise UsageError("no maps were made: " + "; ".join(outcome.problems))
+    print(f"Holomorph: maps written to {', '.join(outcome.done)} in {content['seconds']:.2f} s")
+    _write_files(options, [bpy.data.objects[name] for name in outcome.done] + levels)
+    if options.strict:
+        _check_strictly(outcome.entries)
+    return outcome.problems + outcome.notes
+
+
+def _make_maps(options):
+    """The `outcome.Outcome`. @throws UsageError"""
+    found = sources.collect(options)
+    try:
+        run = Run(options, found)
+    except ValueError as error:
+        raise UsageError(str(error)) from error
+    job = run.job()
+    job.run()
+    return run.write(bpy.context, job)
+
+
+def _add_levels(options, outcome):
+    """Levels of detail of every object that got maps; they are added to the report's entries."""
+    wanted, made = LevelOptions(options.levels, options.ratio), []
+    arrangement = Arrangement(side_by_side=options.side_by_side, finest=options.lod0)
+    for entry in [entry for entry in outcome.entries if entry["done"]] if options.levels else ():
+        obj = bpy.data.objects[entry["object"]]
+        found, told = source.make(bpy.context, obj, wanted, arrangement)
+        entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
+        outcome.problems += [] if found else [f"{obj.name}: no levels of detail: {told[0]}"]
+        made += found
+    return made
+
+
+def _write_report(options, content):
+    if options.report is not None:
+        options.report.write_text(report.as_json(content, indent=1) + "\n", encoding="utf-8")
+
+
+def _write_files(options, objects):
+    """The scene, with its own materials in a format of exchange, and a picture of the objects."""
+    is_blend = options.output is not None and options.output.suffix.lower() == ".blend"
+    if is_blend:
+        path = str(options.output.resolve())
+        bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
+    own = set(bpy.data.objects)
+    if options.render is not None:
+        studio.render(objects, str(options.render.resolve()), options.resolution, options.samples)
+        if not options.render.is_file():
+            raise UsageError(f"{options.render}: the picture could not be written")
+    if options.output is not None and not is_blend:
+        bpy.data.batch_remove(set(bpy.data.objects) - own)
+        try:
+            exchange.write(options.output)
+        except exchange.ExchangeError as error:
+            raise UsageError(str(error)) from error
+
+
+def _check_strictly(entries):
+    """@throws NotFit"""
+    for entry in entries:
+        skipped = [part["reason"] for part in entry.get("components", []) if not part["done"]]
+        for reason in [entry["refused"]] if "refused" in entry else skipped:
+            raise NotFit(f"{entry['object']}: a part has no map: {reason}")
+        found = stored.verdict(entry)
+        if not found.is_fit:
+            raise NotFit(f"{entry['object']}: {found.text}")

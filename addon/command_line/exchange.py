@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files of other programs, read and written by Blender's own importers and exporters: with objects, materials, UV maps.
+
+In glTF each corner has a position of its own: vertices in one place are joined after reading, or every seam would be a
+boundary.
+"""
+
+import bmesh
+import bpy
+import numpy as np
+
+from .. import compatibility
+from ..materials import material
+from ..scene import mesh_io
+
+USD = (".usd", ".usda", ".usdc", ".usdz")
+GLTF = (".glb", ".gltf")
+SUFFIXES = (*GLTF, ".fbx", *USD, ".obj")
+SAME_PLACE = 1e-6  # of a mesh's largest extent: equal positions, for Blender joins nothing at a distance of 0
+KEPT_OF_OBJ = (b"vt ", b"usemtl ")  # lines of OBJ files for which Blender's importer is taken
+KINDS = {".obj": "OBJ", ".fbx": "FBX", **dict.fromkeys(GLTF, "glTF"), **dict.fromkeys(USD, "USD")}
+
+
+class ExchangeError(Exception):
+    """A file cannot be read or written; the text is one sentence."""
+
+
+def is_read_here(path):
+    """Whether Blender's importers are to read a file: an OBJ file if it has more than one bare mesh."""
+    if path.suffix.lower() != ".obj":
+        return path.suffix.lower() in SUFFIXES
+    objects = 0
+    with open(path, "rb") as lines:
+        for line in lines:
+            objects += line.startswith(b"o ")
+            if objects > 1 or line.startswith(KEPT_OF_OBJ):
+                return True
+    return False
+
+
+def read(path, up):
+    """The mesh objects of a file, all selected, the first one active. @throws ExchangeError
+
+    up : "Y" or "Z", the axis of an OBJ file
+    """
+    before = set(bpy.data.objects)
+    kind = path.suffix.lower()
+    if kind in GLTF:
+        with compatibility.old_numpy_names():
+            _call(path, "read", bpy.ops.import_scene.gltf)
+    elif kind in USD:
+        _call(path, "read", bpy.ops.wm.usd_import)
+    elif kind == ".obj":
+        _call(path, "read", bpy.ops.wm.obj_import, up_axis=up, forward_axis=compatibility.forward_axis(up))
+    else:
+        _call(path, "read", compatibility.fbx_importer())
+    layer = bpy.context.view_layer
+    layer.update()
+    meshes = sorted((o for o in layer.objects if o.type == "MESH" and o not in before), key=lambda o: o.name)
+    if not meshes:
+        raise ExchangeError(f"{path}: there is no mesh in it")
+    for mesh in {obj.data for obj in meshes} if kind in GLTF else ():
+        _join(mesh)
+    for obj in layer.objects:
+        obj.select_set(obj in meshes)
+    layer.objects.active = meshes[0]
+    return meshes
+
+
+def write(path):
+    """Writes the scene with the objects' own materials. @throws ExchangeError"""
+    for obj in bpy.context.view_layer.objects:
+        if obj.type == "MESH":
+            material.uncover(obj)
+    kind = path.suffix.lower()
+    if kind in GLTF:
+        form = "GLB" if kind == ".glb" else "GLTF_SEPARATE"
+        _call(path, "write", bpy.ops.export_scene.gltf, export_format=form)
+    elif kind in USD:
+        _call(path, "write", bpy.ops.wm.usd_export, export_uvmaps=True, rename_uvmaps=False)
+    elif kind == ".obj":
+        _call(path, "write", bpy.ops.wm.obj_export)
+    else:
+        _call(path, "write", bpy.ops.export_scene.fbx)
+    if not path.is_file():
+        raise ExchangeError(f"{path}: Blender has not written it")
+
+
+def _call(path, verb, operator, **options):
+    """Calls an importer or exporter; what it raises may be a whole traceback, whose last line tells."""
+    kind = KINDS[path.suffix.lower()]
+    if not compatibility.is_there(operator):
+        raise ExchangeError(f"{path}: this Blender cannot {verb} {kind}")
+    known = operator.get_rna_type().properties.keys()
+    options = {name: value for name, value in options.items() if name in known}  # some are new in later versions
+    try:
+        operator(filepath=str(path.resolve()), **options)
+    except RuntimeError as error:
+        lines = [line.strip() for line in str(error).splitlines() if line.strip()]
+        told = [line for line in lines if not line.startswith(("Location:", "File "))]
+        raise ExchangeError(f"{path}: Blender cannot {verb} this {kind} file: {told[-1] if told else kind}") from error
+
+
+def _join(mesh):
+    """Joins vertices in the very same place; normals of corners stay."""
+    if not len(mesh.vertices):
+        return
+    normals = mesh_io.corner_normals(mesh)
+    extent = np.ptp(mesh_io.read_values(compatibility.position_values(mesh)), axis=0).max()
+    edited = bmesh.new()
+    edited.from_mesh(mesh)
+    bmesh.ops.remove_doubles(edited, verts=edited.verts, dist=SAME_PLACE * extent)
+    edited.to_mesh(mesh)
+    edited.free()
+    if len(mesh.loops) == len(normals):
+        compatibility.set_corner_normals(mesh, normals)
+    mesh.update()

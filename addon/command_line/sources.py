@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The objects that the headless command is about: those of a mesh file, or of the .blend."""
+
+import math
+from dataclasses import replace
+
+import bpy
+
+from .. import native
+from ..scene import mesh_io, targets
+from ..solving import choices
+from . import exchange
+from .options import UsageError
+
+SHARP_ANGLE = 0.7  # radians, 40 degrees: sharper edges of an imported mesh stay sharp
+Z_UP_FROM_Y_UP = math.pi / 2  # radians about the x axis, as Blender's own importers rotate OBJ files
+
+
+def collect(options):
+    """The `targets.Target`s. @throws UsageError"""
+    if options.mesh is not None and not options.mesh.is_file():
+        raise UsageError(f"{options.mesh}: no such file")
+    try:
+        if options.mesh is not None and not exchange.is_read_here(options.mesh):
+            obj, positions = _import_mesh(options)
+            return [targets.with_positions(target, positions) for target in targets.collect([obj], _request(options))]
+        asked, objects = _request(options), _named(options, _mesh_objects(options))
+        if asked.vertices is not None and len(objects) > 1:
+            raise UsageError("vertices are chosen on one object: name it with --object")
+        bpy.context.view_layer.update()  # the objects' matrices
+        return targets.collect(objects, asked)
+    except (ValueError, native.load().Error, exchange.ExchangeError) as error:
+        raise UsageError(str(error)) from error
+
+
+def _request(options):
+    """What is asked of every object; vertices are named for a single one. @throws ValueError"""
+    solvers = native.load().SOLVERS
+    if options.solver not in solvers:
+        raise UsageError(f"--solver: {options.solver!r} is none of {', '.join(solvers)}")
+    asked = replace(options.choices().request(options), solver=options.solver)
+    if asked.faces != choices.ASKED:
+        asked = replace(asked, faces=choices.WHOLE)
+    if options.puncture:
+        return replace(asked, use=choices.PUNCTURES, vertices=tuple(options.puncture))
+    if options.rectangle:
+        return replace(asked, use=choices.RECTANGLE, vertices=tuple(options.rectangle))
+    return asked
+
+
+def _import_mesh(options):
+    """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
+    surface = native.load().Surface.read(str(options.mesh))
+    _empty_scene()
+    mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
+    mesh_io.shade_smooth(mesh, SHARP_ANGLE)
+    obj = bpy.data.objects.new(mesh.name, mesh)
+    up = options.up or ("Y" if options.mesh.suffix.lower() == ".obj" else "Z")
+    if up == "Y":
+        obj.rotation_euler.x = Z_UP_FROM_Y_UP
+    bpy.context.scene.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    return obj, surface.vertices
+
+
+def _empty_scene():
+    if not bpy.data.filepath:
+        for obj in list(bpy.data.objects):
+            bpy.data.objects.remove(obj)
+
+
+def _mesh_objects(options):
+    if options.mesh is not None:
+        _empty_scene()
+        return exchange.read(options.mesh, options.up or "Y")
+    if not bpy.data.filepath:
+        raise UsageError("name a mesh file after --, or a .blend file before --python")
+    return [o for o in bpy.context.view_layer.objects if o.type == "MESH"]
+
+
+def _named(options, meshes):
+    """Those of the mesh objects that --object names, or all."""
+    missing = set(options.object) - {o.name for o in meshes}
+    if missing:
+        raise UsageError(f"there is no mesh object named {sorted(missing)[0]!r} in the scene")
+    if options.object:
+        meshes = [o for o in meshes if o.name in options.object]
+    if not meshes:
+        raise UsageError("there is no mesh object in the scene")
+    return meshes

@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sidebar tab "Holomorph" of the 3D view and the UV editor, its sub-panels, and the entries in both UV menus."""
+
+import bpy
+
+from .. import native
+from ..operators import carry, compare, drag, lod, submit, texel_operators, tools
+from ..operators.availability import CONVERT, CONVERTIBLE
+from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..overlays import overlay
+from . import lines
+
+INDENT = 8  # spaces before what is continued on a further line
+
+
+class _Panel:
+    bl_label = "Holomorph"
+    bl_category = "Holomorph"
+    bl_region_type = "UI"
+
+
+class _HolomorphPanel(_Panel):
+    def draw(self, context):
+        layout = self.layout
+        column = layout.column(align=True)
+        column.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")
+        column.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
+        if native.problem():
+            lines.draw(layout.column(align=True), context, native.problem(), "ERROR")
+            return
+        if context.mode == "EDIT_MESH":
+            _draw_choices(layout)
+        obj = context.active_object
+        if obj is not None and obj.type == "MESH":
+            if context.mode == "OBJECT":
+                _draw_modifiers(column, context, obj)
+                layout.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
+            _draw_result(layout, context, obj)
+        elif obj is not None and obj.type in CONVERTIBLE:
+            lines.draw(column, context, CONVERT, "INFO")
+        if context.mode == "OBJECT":
+            layout.operator(compare.HOLOMORPH_OT_compare.bl_idname, icon="ARROW_LEFTRIGHT")
+            _draw_overlays(layout, context)
+
+
+class _DetailsPanel(_Panel):
+    """The mathematics of the last result."""
+
+    bl_label = "Details"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        if native.problem() or context.active_object is None:
+            return False
+        from ..results import report
+
+        return report.PROPERTY in context.active_object
+
+    def draw(self, context):
+        from ..results import report, stored
+
+        column = self.layout.column(align=True)
+        for line in stored.summary(context.active_object[report.PROPERTY]):
+            lines.draw(column, context, line, indent=INDENT)
+
+
+class _ToolsPanel(_Panel):
+    bl_label = "Tools"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        column = self.layout.column(align=True)
+        column.prop(context.window_manager, texel_operators.TEXELS)
+        column.prop(context.window_manager, texel_operators.IMAGE)
+        row = column.row(align=True)
+        row.operator(texel_operators.HOLOMORPH_OT_texels_get.bl_idname, text="Get")
+        row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
+        column = self.layout.column(align=True)
+        column.operator(tools.HOLOMORPH_OT_select_bad.bl_idname)
+        column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
+        submit.draw(column)
+        if self.bl_space_type == "VIEW_3D":
+            column = self.layout.column(align=True)
+            column.operator(compare.HOLOMORPH_OT_compare.bl_idname)
+            column.operator(carry.HOLOMORPH_OT_carry.bl_idname)
+
+
+def _draw_choices(layout):
+    """The button again, for what the selected vertices are to be."""
+    column = layout.column(align=True)
+    column.label(text="Selected vertices as")
+    for use, text in (("PUNCTURES", "Punctures"), ("RECTANGLE", "Corners of a Rectangle")):
+        column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
+
+
+def _draw_modifiers(layout, context, obj):
+    """The button again, for an object whose modifiers change its shape."""
+    from ..scene import targets
+
+    if targets.first_modifier(obj):
+        if not len(obj.data.polygons):
+            lines.draw(layout, context, "Only its modifiers make faces", "INFO")
+        layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Map with Modifiers", icon="MODIFIER").modifiers = True
+
+
+def _draw_overlays(layout, context):
+    column = layout.column(align=True)
+    column.label(text="Heat map of the active UV map")
+    column.row(align=True).prop(context.window_manager, overlay.HEAT, expand=True)
+    column.operator(tools.HOLOMORPH_OT_heat.bl_idname, text="Store as Face Attributes")
+    row = layout.row(align=True)
+    row.prop(context.window_manager, overlay.MARKS, toggle=True)
+    row.operator(drag.HOLOMORPH_OT_drag_poles.bl_idname)
+
+
+def _draw_result(layout, context, obj):
+    from ..results import report, restore
+    from . import verdict_view
+
+    if restore.is_possible(obj):
+        layout.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
+    if obj.get(report.PROPERTY):
+        verdict_view.draw(
+            layout, context, obj[report.PROPERTY], HOLOMORPH_OT_tile.bl_idname, HOLOMORPH_OT_islands.bl_idname
+        )
+
+
+def _draw_menu_entry(self, _context):
+    self.layout.separator()
+    self.layout.operator_context = "INVOKE_DEFAULT"
+    self.layout.operator(HOLOMORPH_OT_maps.bl_idname)
+    self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
+
+
+def _panels(name, space):
+    """The panels of one kind of editor."""
+
+    def made(base, end=""):
+        settings = {"bl_space_type": space} | ({"bl_parent_id": name} if end else {})
+        return type(name + end, (base, bpy.types.Panel), settings)
+
+    return [made(_HolomorphPanel), made(_DetailsPanel, "_details"), made(_ToolsPanel, "_tools")]
+
+
+_register_panels, _unregister_panels = bpy.utils.register_classes_factory(
+    [*_panels("HOLOMORPH_PT_view3d", "VIEW_3D"), *_panels("HOLOMORPH_PT_image", "IMAGE_EDITOR")]
+)
+MENUS = ("VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
+
+
+def register():
+    _register_panels()
+    for name in MENUS:
+        getattr(bpy.types, name).append(_draw_menu_entry)
+
+
+def unregister():
+    for name in MENUS:
+        getattr(bpy.types, name).remove(_draw_menu_entry)
+    _unregister_panels()

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pie menu, and the keys: Shift U for it, Ctrl Shift U for the maps. Both are in Preferences, Keymap, and can be
+changed there."""
+
+import bpy
+
+from ..operators import texel_operators
+from ..operators.drag import HOLOMORPH_OT_drag_poles
+from ..operators.lod import HOLOMORPH_OT_levels
+from ..operators.mapping import HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
+from ..operators.tools import HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_restore_materials, HOLOMORPH_OT_select_bad
+
+KEY = "U"
+KEYMAPS = ("Object Mode", "EMPTY"), ("Mesh", "EMPTY"), ("UV Editor", "EMPTY")  # name, kind of space
+
+_entries = []  # (keymap, its item)
+
+
+class HOLOMORPH_MT_pie(bpy.types.Menu):
+    bl_label = "Holomorph"
+
+    def draw(self, context):
+        pie = self.layout.menu_pie()
+        pie.operator_context = "INVOKE_DEFAULT"
+        pie.operator(HOLOMORPH_OT_maps.bl_idname, icon="UV")  # from the left, then right, below, above, the corners
+        pie.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
+        if context.mode == "EDIT_MESH":
+            pie.operator(HOLOMORPH_OT_maps.bl_idname, text="Corners of a Rectangle").use_selection = "RECTANGLE"
+            pie.operator(HOLOMORPH_OT_maps.bl_idname, text="Punctures").use_selection = "PUNCTURES"
+        else:
+            pie.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
+            pie.operator(HOLOMORPH_OT_drag_poles.bl_idname)
+        pie.operator(HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
+        pie.operator(HOLOMORPH_OT_remove_maps.bl_idname, icon="X")
+        pie.operator(HOLOMORPH_OT_select_bad.bl_idname, icon="ERROR")
+        pie.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname)
+
+
+def register():
+    bpy.utils.register_class(HOLOMORPH_MT_pie)
+    keys = bpy.context.window_manager.keyconfigs.addon
+    if keys is None:  # without a window
+        return
+    for name, space in KEYMAPS:
+        keymap = keys.keymaps.new(name=name, space_type=space)
+        pie = keymap.keymap_items.new("wm.call_menu_pie", KEY, "PRESS", shift=True)
+        pie.properties.name = HOLOMORPH_MT_pie.__name__
+        maps = keymap.keymap_items.new(HOLOMORPH_OT_maps.bl_idname, KEY, "PRESS", shift=True, ctrl=True)
+        _entries.extend([(keymap, pie), (keymap, maps)])
+
+
+def unregister():
+    while _entries:
+        keymap, item = _entries.pop()
+        keymap.keymap_items.remove(item)
+    bpy.utils.unregister_class(HOLOMORPH_MT_pie)

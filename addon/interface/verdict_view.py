@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The verdict on an object's map in a panel: words, what would help, plain numbers."""
+
+import functools
+import math
+
+from ..maps import coarse
+from ..results import stored
+from . import lines
+
+ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
+
+
+def draw(layout, context, text, tile_operator, islands_operator):
+    """Out of a stored report; the operators are offered where poles would help, and islands."""
+    found, places, measured = read(text)
+    if found is None:
+        return
+    box = layout.box().column(align=True)
+    lines.draw(box, context, found.sentence, ICONS[found.level])
+    if places:
+        lines.draw(box, context, places)
+        box.operator(tile_operator, text="Add Poles There").poles = "COARSE"
+    elif found.advice and not found.is_fit:
+        lines.draw(box, context, f"Try: {found.advice}")
+    if found.offers_islands and not found.is_fit:
+        box.operator(islands_operator)
+    for name, value in measured:
+        row = box.split(factor=0.72)
+        row.label(text=name)
+        row.label(text=value)
+
+
+@functools.lru_cache(maxsize=16)
+def read(text):
+    """(`Verdict`, sentence about coarse places, `numbers`) out of a stored report; (None, "", []) if there is none, or
+    someone has edited it."""
+    entry = stored.parsed(text)
+    try:
+        found, places = stored.verdict(entry), entry.get("coarse_places")
+        return found, coarse.sentence(places) if places else "", numbers(entry) if found else []
+    except (KeyError, TypeError, IndexError, AttributeError):
+        return None, "", []
+
+
+def numbers(entry):
+    """(name, value) of what is measured: the largest of the parts, or the sum of what is counted."""
+    measured = [part["main_map"] for part in entry["components"] if part["done"]]
+    ratio = max(math.inf if one["density_ratio"] is None else one["density_ratio"] for one in measured)
+    shear = max(one["capped_mean_angle"] for one in measured)
+    size = math.sqrt(ratio)
+    return [
+        ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000+"),
+        ("Stretch", f"{shear:.2f} : 1"),
+        ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
+        ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
+    ]

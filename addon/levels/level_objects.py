@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Levels of detail as objects: copies of the object with the meshes of the levels, in a collection of their own."""
+
+from dataclasses import dataclass
+
+import bpy
+
+from .. import compatibility
+from ..results import report
+from ..scene import mesh_io
+from . import transfer
+
+OF = "holomorph_levels_of"  # custom property of levels and their collection: name of the object they are levels of
+FINEST = "_LOD0"  # end of the name of the finest level: engines know levels by such names
+GAP = 1.2  # distance of levels side by side, in widths of the object
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """How levels come into the scene."""
+
+    side_by_side: bool = False  # in a row along X, not in the object's place
+    hidden: bool = False  # in the view layer and for renders
+    finest: bool = False  # whether there is a copy of the object, too: its level 0
+
+
+def write(context, obj, data, work, arrangement=Arrangement()):
+    """Replaces the levels of an earlier run; `data` is the object's `transfer.MeshData`, `work` a `LevelsWork`."""
+    _remove_levels(obj.name)
+    collection, name = _collection(context, obj), obj.name.removesuffix(FINEST)
+    levels = [
+        _level_object(obj, data, level, work.names, f"{name}_LOD{number}")
+        for number, level in enumerate(work.levels, 1)
+    ]
+    # An object that is called so is level 0 itself.
+    copies = [_copy(obj, obj.data.copy(), name + FINEST)] if arrangement.finest and name == obj.name else []
+    made = copies + levels
+    for level_object in made:
+        collection.objects.link(level_object)
+    context.view_layer.update()
+    step = GAP * _width(obj) if arrangement.side_by_side else 0.0
+    for index, level_object in enumerate(made, 1):
+        matrix = obj.matrix_world.copy()
+        matrix.translation.x += index * step
+        level_object.matrix_world = matrix
+    _transfer_weights(context, obj, levels)
+    _put_away(context, made, arrangement.hidden)
+    return made
+
+
+def _put_away(context, made, hidden):
+    for level_object in made:
+        level_object.hide_render = hidden
+        if level_object.name in context.view_layer.objects:
+            level_object.select_set(False)  # the next operator is meant for the object alone
+            level_object.hide_set(hidden)
+
+
+def _level_object(obj, data, level, names, name):
+    """A copy of the object, with its materials, modifiers and parent, but with the mesh of the level."""
+    positions = data.positions[level.surface.vertex_index]
+    mesh = mesh_io.new_mesh(name, positions, level.surface.corner_vertices, level.surface.face_offsets)
+    for material in obj.data.materials:
+        mesh.materials.append(material)
+    transfer.write(mesh, data, level, names)
+    compatibility.copy_auto_smooth(obj.data, mesh)
+    return _copy(obj, mesh, name)
+
+
+def _copy(obj, mesh, name):
+    copy = obj.copy()
+    copy.data = mesh
+    copy.name = mesh.name = name
+    copy.pop(report.PROPERTY, None)
+    copy[OF] = obj.name
+    return copy
+
+
+def _remove_levels(name):
+    """Removes the levels of an earlier run."""
+    for level in [o for o in bpy.data.objects if o.library is None and o.get(OF) == name and o.name != name]:
+        mesh = level.data
+        bpy.data.objects.remove(level)
+        if mesh is not None and mesh.users == 0:
+            bpy.data.meshes.remove(mesh)
+
+
+def _collection(context, obj):
+    """The collection of the levels: a child of a visible, editable collection of the object, else of the scene's."""
+    shown = _shown_collections(context.view_layer.layer_collection)
+    parent = next((c for c in shown if obj.name in c.objects and c.library is None), context.scene.collection)
+    for collection in parent.children:
+        if collection.get(OF) == obj.name:
+            return collection
+    collection = bpy.data.collections.new(f"{obj.name} LODs")
+    collection[OF] = obj.name
+    parent.children.link(collection)
+    return collection
+
+
+def _shown_collections(layer):
+    """The collections of a layer and its children, without those that are excluded from the view layer."""
+    if not layer.exclude:
+        yield layer.collection
+        for child in layer.children:
+            yield from _shown_collections(child)
+
+
+def _width(obj):
+    """Size along X in world space."""
+    points = mesh_io.world_points(obj)
+    return float(points[:, 0].max() - points[:, 0].min())
+
+
+def _transfer_weights(context, obj, made):
+    """Weights by Blender's own transfer, from a bare object of the same mesh: vertices of levels have not moved, and
+    the nearest vertex is the same one."""
+    if not obj.vertex_groups:
+        return
+    bare = bpy.data.objects.new("Holomorph Weights", obj.data)
+    bare.matrix_world = obj.matrix_world
+    context.scene.collection.objects.link(bare)
+    context.view_layer.update()
+    objects = {"selected_objects": [bare, *made], "selected_editable_objects": [bare, *made]}
+    try:
+        with context.temp_override(object=bare, active_object=bare, **objects):
+            bpy.ops.object.data_transfer(
+                data_type="VGROUP_WEIGHTS",
+                use_create=True,
+                vert_mapping="NEAREST",
+                use_object_transform=False,
+                layers_select_src="ALL",
+                layers_select_dst="NAME",
+            )
+    finally:
+        bpy.data.objects.remove(bare)

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Levels of detail as arrays. No bpy here: it runs in a worker thread."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import native
+from ..maps import mapped
+from ..maps.options import BALANCED, MapOptions
+from ..solving import jobs
+
+SOLVE_PART = 0.5  # share of the whole work, where a map has to be made first
+COLLAPSE_PART = 0.8  # share of the rest; then the maps are transferred
+
+
+@dataclass(frozen=True)
+class LevelOptions:
+    """How many levels, and how coarse each one is."""
+
+    levels: int = 4
+    ratio: float = 0.25  # triangles of a level over those of the one before
+    coarsest: int = 0  # triangles of the last level; 0: the ratio decides
+
+    def counts(self, triangles):
+        """Numbers of triangles, finest level first."""
+        ratio = self.ratio
+        if self.coarsest:
+            ratio = min(1.0, self.coarsest / triangles) ** (1 / self.levels)
+        return [max(1, round(triangles * ratio ** (k + 1))) for k in range(self.levels)]
+
+
+@dataclass(frozen=True)
+class Level:
+    """One level, its maps, and its vertex for each of the original's."""
+
+    surface: object  # vertex_index and face_index into the original
+    corners: np.ndarray  # (#C,) corner of the original whose data each corner has
+    uv: np.ndarray  # (#C, m, 2)
+    vertex_map: np.ndarray  # (#V of the original,) vertex of this level, -1 for one of no face
+
+
+@dataclass
+class LevelsWork(jobs.Work):
+    """Makes the levels of one mesh; a map of its own first where there is none.
+
+    After `run`, `levels` has one entry for each level, finest first, each coarser than the one before; `names` are
+    those of their maps; `mapped` is the `mapped.MappedObject` that was needed.
+    """
+
+    task: object  # solve.Task
+    names: list  # names of the maps that are transferred
+    uv: np.ndarray  # (#C, m, 2), in the order of the polygons' corners
+    needs_map: bool
+    options: LevelOptions
+    progress: object = None
+    levels: list = field(default_factory=list)
+    mapped: object = None
+
+    def __post_init__(self):
+        super().__init__(self.progress)
+
+    def work(self):
+        holomorph = native.load()
+        start = SOLVE_PART if self.needs_map else 0.0
+        if self.needs_map:
+            solved = jobs.solved(self.task, self.part(0, start))
+            self.mapped = mapped.mapped(solved, MapOptions(forms=0, main=BALANCED))
+            self._add_main_map()
+        surface = self.task.polygons.surface()
+        if not self.names:
+            return
+        collapsed = start + (1 - start) * COLLAPSE_PART
+        mesh = holomorph.ProgressiveMesh(surface, progress=self.part(start, collapsed))
+        counts = self.options.counts(len(surface.triangles))
+        if not self.ask(collapsed, "levels of detail"):
+            raise holomorph.Cancelled("cancelled before the levels of detail")
+        made = []
+        for level, count in zip(mesh.levels_of_detail(self.uv, counts), counts):
+            before = len(made[-1].surface.triangles) if made else len(surface.triangles)
+            if len(level.surface.triangles) < before:
+                made.append(Level(level.surface, level.corners, level.uv, mesh.vertex_map(count)))
+        self.levels = made
+
+    def _add_main_map(self):
+        """Bit for bit the one that is written to the object as well."""
+        if self.mapped.done:
+            name, values = next(self.mapped.maps())
+            self.names = [*self.names, name]
+            self.uv = np.concatenate([self.uv, values[:, None].astype(np.float64)], axis=1)

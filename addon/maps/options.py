@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is asked of the maps of one object. None of it needs a new solve."""
+
+from dataclasses import dataclass
+
+# What the main map is. TILING: tilings alone, so that parts without one have no map.
+AUTOMATIC, SEAMLESS, BALANCED, ISLANDS, TILING = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS", "TILING"
+
+
+@dataclass(frozen=True)
+class TileOptions:
+    """What is asked of `holomorph.Structure.tile` for one object."""
+
+    tiles: float = 0.0  # of the texture over the whole object; 0 lets the library choose
+    poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
+    lattice: str = "square"
+    direction: object = "upright"  # or a vector in the frame of the solved polygons, or None
+    boundary: str = "straight"
+    turn: float = 0.0  # radians by which the texture is rotated
+    quarters: int = 0  # turns of the map by 90 degrees after it is made
+    pole_group: str = ""  # the vertex group that `allowed` was read of
+    allowed: bytes | None = None  # of the bools that tell where poles may be that are not chosen; None for anywhere
+    moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
+
+
+@dataclass(frozen=True)
+class MapOptions:
+    """What the redo panel changes."""
+
+    forms: int = 8  # basis forms that get a map of their own, at most
+    density: float = 1.0  # factor of UV lengths, about the middle of the UV square
+    rotation: float = 0.0  # radians, counter-clockwise, of every part
+    amounts: tuple = ()  # factor of each form's share in the main map; none means 1
+    turns: tuple = ()  # radians, phase of each form's share in the main map
+    margin: float = 0.02  # least distance between parts, in sides of the UV square
+    main: str = AUTOMATIC  # what the main map is
+    per_length: float = 0.0  # UV length for a length on the surface, at density 1; 0 fills the UV square
+    tiling: TileOptions = TileOptions()
+
+    @property
+    def are_plain(self):
+        """Whether nothing is chosen of the main map but what it is."""
+        dials = (*self.amounts, *(1 + turn for turn in self.turns))
+        return self.density == 1 and self.rotation == 0 and all(dial == 1 for dial in dials)

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Islands in the UV square without overlap, by Blender's own packer, turned as it likes."""
+
+import math
+from contextlib import contextmanager
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from .. import compatibility, native
+from ..scene import mesh_io, uv_maps
+from ..solving import choices
+from . import forms
+
+
+def packed(context, mapped):
+    """The `mapped.MappedObject` with its islands as Blender packs them, all by the same factor, and the density that
+    its map has. They fill the UV square, unless the options say a density."""
+    solved, options = mapped.solved, mapped.options
+    shelves = forms.values(solved, 0, replace(options, density=1.0, per_length=0.0))
+    parts = [part.surface for part in solved.done]
+    corners, joined = np.concatenate([part.corner_index for part in parts]), _joined(parts)
+    with _mesh_of(context, joined) as mesh:
+        uv_maps.write_map(mesh, joined, uv_maps.MAIN_MAP, shelves[corners])
+        _pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
+        found = uv_maps.read_map(mesh, uv_maps.MAIN_MAP)
+    filling = forms.filling(solved, options) * _length(parts, found) / _length(parts, shelves[corners])
+    options = replace(options, per_length=options.per_length or filling)
+    result = np.zeros_like(shelves)
+    result[corners] = forms.CENTRE.real + options.density * options.per_length / filling * (found - forms.CENTRE.real)
+    return replace(mapped, options=options, packed=result)
+
+
+def cuts(parts):
+    """(#S, 2) vertices of the mesh, of the edges along which these parts of it were cut: two boundaries have them."""
+    ends = np.concatenate([np.stack(choices.boundary_edges(part), axis=1) for part in parts])
+    rows, count = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
+    return rows[count > 1]
+
+
+def _length(parts, uv):
+    """The side of a square with the area of the map."""
+    first, area = 0, 0.0
+    for part in parts:
+        count = len(part.corner_vertices)
+        area += native.load().frame(part, uv[first : first + count]).area
+        first += count
+    return math.sqrt(area)
+
+
+@contextmanager
+def _mesh_of(context, polygons):
+    """A mesh of these polygons, as the only object that is selected, and the active one; it is gone in the end."""
+    layer = context.view_layer
+    before, active = compatibility.selected_objects(context), layer.objects.active
+    mesh = mesh_io.new_mesh("Holomorphic Islands", polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    obj = bpy.data.objects.new(mesh.name, mesh)
+    context.scene.collection.objects.link(obj)
+    for other in before:
+        other.select_set(False)
+    layer.objects.active = obj
+    obj.select_set(True)
+    try:
+        yield mesh
+    finally:
+        bpy.data.objects.remove(obj)
+        bpy.data.meshes.remove(mesh)
+        for other in before:
+            other.select_set(True)
+        layer.objects.active = active
+
+
+def _joined(parts):
+    """The `mesh_io.Polygons` of surfaces side by side, without a common vertex: the packer joins none of them."""
+    first_vertices = np.cumsum([0] + [len(part.vertices) for part in parts])
+    first_corners = np.cumsum([0] + [len(part.corner_vertices) for part in parts])
+    corners = [part.corner_vertices + first for part, first in zip(parts, first_vertices)]
+    ends = [part.face_offsets[1:] + first for part, first in zip(parts, first_corners)]
+    vertices = np.concatenate([part.vertices for part in parts])
+    return mesh_io.Polygons(vertices, np.concatenate(corners), np.concatenate([[0], *ends]), None)
+
+
+def _pack(context, margin):
+    """Packs the UVs of the active object."""
+    settings = context.scene.tool_settings
+    was_synced, settings.use_uv_select_sync = settings.use_uv_select_sync, True  # what is selected is packed
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        bpy.ops.mesh.select_all(action="SELECT")
+        # The margin is added before the packer's factor, which is near 1; an exact one would take several packings.
+        bpy.ops.uv.pack_islands(rotate=True, margin_method="ADD", margin=margin)
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+        settings.use_uv_select_sync = was_synced

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A material that shows a map, put over the mesh's own materials without touching them.
+
+The material slots are linked to the object while it is shown, so the mesh keeps its own materials and
+`uncover` brings them back.
+"""
+
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+
+from ..compatibility import Values
+from ..scene import mesh_io
+from . import nodes, textures
+from .patterns import TEXTURES
+
+CHECKER = "CHECKER"
+CHECKER_CELLS = 2  # squares of the checker after which it repeats
+REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
+EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
+OURS = "holomorph_checker"  # custom property that tells our materials
+
+
+def cells(texture):
+    """How many squares, bricks, scales ... there are across an image of a texture."""
+    return CHECKER_CELLS if texture == CHECKER else TEXTURES[texture].cells
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is shown of a map."""
+
+    texture: str  # CHECKER or one of `patterns.TEXTURES`
+    cells: float  # squares, bricks, scales ... across a UV unit
+    unit_length: float  # on the surface, of a UV unit
+    is_tiling: bool = False  # whether the map is cut by whole units: such a map has a material of its own
+
+    @property
+    def repeats(self):
+        """Images per UV unit: whole numbers, so that they fit where a map is cut by whole units."""
+        return max(1, round(self.cells / TEXTURES[self.texture].cells))
+
+
+def showing(map_name, is_attribute, look):
+    """The material that shows `map_name`; made once, then adjusted."""
+    name = f"{map_name} {textures.label(look.texture)}" + (" (attribute)" if is_attribute else "")
+    name += " (tiling)" if look.is_tiling else ""
+    material = bpy.data.materials.get((name, None))
+    is_new = material is None or OURS not in material or material.node_tree is None
+    if is_new:
+        material = bpy.data.materials.new(name)
+        material[OURS] = True
+    if look.texture == CHECKER:
+        if is_new:
+            nodes.build_checker(material, map_name, is_attribute)
+        nodes.adjust_checker(material, look.cells)
+    else:
+        if is_new:
+            nodes.build_texture(material, look.texture, map_name, is_attribute)
+        nodes.adjust_texture(material, look.texture, look.repeats, look.unit_length)
+    return material
+
+
+def cover(obj, material):
+    """Shows `material` in every slot of `obj`; the mesh's own materials stay where they are."""
+    if not obj.material_slots:
+        obj.data.materials.append(material)
+        return
+    replaced = dict(obj.get(REPLACED, {}))
+    for index, slot in enumerate(obj.material_slots):
+        if _is_ours(slot.material):
+            slot.material = material
+            continue
+        if slot.link == "OBJECT":
+            replaced[str(index)] = slot.material or EMPTY
+        slot.link = "OBJECT"
+        slot.material = material
+    if replaced:
+        obj[REPLACED] = replaced
+
+
+def uncover(obj):
+    """Brings back what `cover` covered; returns whether there was something."""
+    found = is_covered(obj)
+    replaced = obj.get(REPLACED, {})
+    for index, slot in enumerate(obj.material_slots):
+        if not _is_ours(slot.material):
+            continue
+        if slot.link == "OBJECT":
+            before = replaced.get(str(index))
+            slot.material = None if before == EMPTY else before
+            slot.link = "DATA" if before is None else "OBJECT"
+    if len(obj.data.materials) == 1 and _is_ours(obj.data.materials[0]):
+        _clear(obj.data)
+    if REPLACED in obj:
+        del obj[REPLACED]
+    return found
+
+
+def _clear(mesh):
+    """Takes all slots away; the faces keep their numbers of slots, which Blender sets to 0."""
+    numbers = Values(mesh.polygons, "material_index", np.int32)
+    before = mesh_io.read_values(numbers)
+    mesh.materials.clear()
+    mesh_io.write_values(numbers, before)
+
+
+def is_covered(obj):
+    return any(_is_ours(slot.material) for slot in obj.material_slots)
+
+
+def _is_ours(material):
+    return material is not None and OURS in material

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that carries a UV map to another object by the conformal map between the two."""
+
+import bpy
+from bpy.props import FloatProperty
+
+from .. import native
+from .compare import TwoMeshes
+from .modal import WorkOperator
+
+
+class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
+    """Give the active mesh the UV map of the other selected one: by the conformal map between the two, which keeps all
+    angles. For two meshes of one shape, such as a simplification, a bent or a mirrored copy, with handles or holes"""
+
+    bl_idname = "object.holomorphic_carry"
+    bl_label = "Transfer UVs Conformally"
+    bl_options = {"REGISTER", "UNDO"}
+
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="By how much the periods of the two surfaces may differ, which no map brings to nothing",
+        subtype="PERCENTAGE",
+        default=5.0,
+        min=0.0,
+        soft_max=20.0,
+        max=100.0,
+    )
+
+    def draw_options(self, layout, _obj):
+        layout.prop(self, "tolerance")
+
+    def prepare(self, context):
+        from .. import compatibility
+        from ..scene import targets, uv_maps
+
+        taking, given = targets.mesh_objects(context)
+        layer = given.data.uv_layers.active
+        if layer is None:
+            raise ValueError(f"{given.name} has no UV map")
+        if taking.data.library is not None:
+            raise ValueError(f"{taking.name}: its mesh is linked from another file; make it local first")
+        if len(taking.data.uv_layers) >= compatibility.UV_MAP_LIMIT:
+            raise ValueError(f"{taking.name} has {compatibility.UV_MAP_LIMIT} UV maps, and Blender takes no more")
+        self._sides = self.read_sides([given, taking])
+        self._map = layer.name
+        self._uv = uv_maps.read_corners(given.data, self._sides[0].polygons, layer.name)
+        self._taking = taking.name, taking.library.filepath if taking.library else None
+
+    def make_work(self, progress):
+        from ..maps import carried_map
+
+        return carried_map.CarriedMap(*self._sides, self._uv, self.tolerance / 100, progress)
+
+    def finish(self, context, work, time_has_passed):
+        from ..scene import targets, uv_maps
+
+        given, taking = self._sides
+        obj = bpy.data.objects.get(self._taking)
+        problem = native.sentence(work.error) if work.error else ""
+        if obj is None or (time_has_passed and not targets.read(obj).equals(taking.polygons)):
+            problem = f"{taking.name} was changed meanwhile"
+        if problem:
+            return self.refuse(problem)
+        written = uv_maps.write_map(obj.data, taking.polygons, self._map, work.uv)
+        uv_maps.show_map(obj.data, written.name)
+        source = context.scene.objects.get(given.name)
+        if source is not None and not any(obj.data.materials) and source.active_material is not None:
+            obj.active_material = source.active_material
+        obj.data.update()
+        self.report({"INFO"}, f'{given.name} to {taking.name}, UV map "{written.name}": {work.found.sentence}')
+        return {"FINISHED"}
+
+
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_carry])

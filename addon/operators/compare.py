@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that says whether two objects are conformally equivalent."""
+
+import bpy
+
+from .. import native
+from .modal import WorkOperator
+
+
+class TwoMeshes:
+    """A mixin: an operator on the two selected meshes."""
+
+    @classmethod
+    def why_not(cls, context):
+        if context.mode != "OBJECT":
+            return "Go to Object Mode"
+        selected = context.view_layer.objects.selected
+        return "" if sum(o.type == "MESH" for o in selected) == 2 else "Select two meshes"
+
+    @staticmethod
+    def read_sides(objects):
+        from ..maps import comparison
+        from ..scene import targets
+
+        return [comparison.Side(o.name, targets.read(o), o.matrix_world.determinant() < 0) for o in objects]
+
+    def waiting_faces(self):
+        return sum(side.polygons.face_count for side in self._sides)
+
+
+class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
+    """Say whether there is a map between the two selected meshes that keeps all angles: whether they are the same
+    surface, mirror images, different, or cannot be told apart at this resolution"""
+
+    bl_idname = "object.holomorphic_compare"
+    bl_label = "Compare Conformally"
+    bl_options = {"REGISTER"}
+
+    def draw_options(self, _layout, _obj):
+        """There are none."""
+
+    def prepare(self, context):
+        from ..scene import targets
+
+        self._sides = self.read_sides(targets.mesh_objects(context))
+
+    def make_work(self, progress):
+        from ..maps import comparison
+
+        return comparison.Comparison(self._sides, progress)
+
+    def finish(self, _context, work, time_has_passed):
+        if work.error:
+            return self.refuse(native.sentence(work.error))
+        first, second = self._sides
+        self.report({"INFO"}, f"{first.name}, {second.name}: {work.found.sentence}")
+        return {"FINISHED"}
+
+
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_compare])

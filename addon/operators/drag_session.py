@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A tiling while its poles are dragged: what there was, what comes of a move, and its end. No events in here."""
+
+from dataclasses import fields, replace
+from functools import partial
+
+import numpy as np
+
+from .. import native
+from ..maps import mapped
+from ..maps.options import TILING, MapOptions
+from ..results import report, stored, write
+from ..scene import targets, uv_maps
+from ..solving import jobs
+from . import tile_choices
+
+AGAIN = "run Seamless Tiling again"
+
+
+class Session:
+    """Poles are counted as in the report: part by part."""
+
+    def __init__(self, obj):
+        """Takes up the tiling that the report tells of. @throws ValueError where there is none, or no longer"""
+        text = obj.get(report.PROPERTY)
+        if stored.parsed(text).get("is_selection"):
+            raise ValueError(f"{obj.name}: poles are dragged where a whole mesh was tiled, not selected faces")
+        self.target, asked = targets.collect([obj])[0], stored.asked(text)
+        self._map = uv_maps.main_map(obj.data)
+        if asked is None or self.target.refused or self._map not in obj.data.uv_layers:
+            raise ValueError(f"{obj.name}: there is no tiling whose poles could be dragged; {AGAIN}")
+        self._asked = replace(asked, allowed=tile_choices.allowed(asked.pole_group, obj))
+        dials = stored.parsed(text)["dials"]
+        self._write_options = write.WriteOptions(**{one.name: dials[one.name] for one in fields(write.WriteOptions)})
+        self._task = targets.tasks([self.target])[0]
+        self.mapped = None
+        self.mapped = self.made({})
+        vertices, is_pole = stored.marks(text)
+        if not np.array_equal(self.poles, vertices[is_pole]):
+            raise ValueError(f"{obj.name}: its mesh is not the one that was tiled; {AGAIN}")
+        self._uv = uv_maps.read_map(obj.data, self._map)
+        self._parts = [part.component.surface.vertex_index for part in self.mapped.tiled]
+        self.allowed = None if self._asked.allowed is None else np.frombuffer(self._asked.allowed, bool)
+
+    @property
+    def poles(self):
+        """(n,) vertices of the object, where they are now."""
+        return np.concatenate([part.vertices(part.tiling.poles) for part in self.mapped.tiled])
+
+    @property
+    def zeros(self):
+        """(n,) vertices of the object."""
+        return np.concatenate([part.vertices(part.tiling.zeros[0]) for part in self.mapped.tiled])
+
+    def place(self, pole):
+        """(number of its part among those with a tiling, its index there)"""
+        for number, part in enumerate(self.mapped.tiled):
+            if pole < len(part.tiling.poles):
+                return number, pole
+            pole -= len(part.tiling.poles)
+        raise ValueError(f"there are {len(self.poles)} poles")
+
+    def may_go_to(self, pole, vertex):
+        """Whether the vertex is on the pole's part, and where poles are allowed."""
+        is_there = vertex in self._parts[self.place(pole)[0]]
+        return bool(is_there and (self.allowed is None or self.allowed[vertex]))
+
+    def job(self, moves):
+        """A `jobs.Job` that makes the tiling with poles at other vertices, {pole: vertex}; what was dragged in an
+        earlier session stays there."""
+        asked = replace(self._asked, moved=self._earlier_and(moves) if moves else self._asked.moved)
+        options = MapOptions(forms=0, main=TILING, tiling=asked)
+        return jobs.Job([self._task], then=[partial(mapped.mapped, options=options)])
+
+    def _earlier_and(self, moves):
+        """((index in its part, vertex), ...): an earlier move of a pole gives way to a new one."""
+        new = {self.place(pole): vertex for pole, vertex in moves.items()}
+        for index, vertex in self._asked.moved:
+            (part,) = (number for number, own in enumerate(self._parts) if vertex in own)
+            new.setdefault((part, index), vertex)
+        return tuple((index, vertex) for (_, index), vertex in new.items())
+
+    def made(self, moves):
+        """What the job of these moves gives, here and now. @throws ValueError for a vertex where the pole cannot go"""
+        for pole, vertex in moves.items():
+            if not self.may_go_to(pole, vertex):
+                raise ValueError(f"pole {pole} cannot go to vertex {vertex}: it is of another part, or not allowed")
+        job = self.job(moves)
+        job.run()
+        return self.taken(job)
+
+    def taken(self, job):
+        """The `mapped.MappedObject` of a job that is done. @throws ValueError where the library refused the move"""
+        result = job.results[0]
+        if isinstance(result, native.refusals()):
+            raise ValueError(native.sentence(result))
+        before = [part.component for part in self.mapped.tiled] if self.mapped else []
+        for part in result.parts:
+            if part.skipped and any(part.component is component for component in before):
+                raise ValueError(part.skipped)
+        return result
+
+    def show(self, made):
+        """Writes the map alone."""
+        self.mapped = made
+        _, uv = next(made.maps())
+        uv_maps.overwrite_map(self.target.find().data, self.target.polygons, self._map, uv)
+
+    def restore(self):
+        """Every bit of the map as it was."""
+        uv_maps.overwrite_map(self.target.find().data, None, self._map, self._uv)
+
+    def finish(self, context):
+        """Writes all that belongs to a tiling; the `outcome.Outcome`."""
+        return write.write(context, [self.target], [self.mapped], self._write_options, time_has_passed=True)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator for levels of detail of the active object, with UV maps that stay in place."""
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty, IntProperty
+
+from .modal import WorkOperator
+
+ABOUT = {
+    "levels": "How many levels are made",
+    "ratio": "Triangles of each level over those of the one before",
+    "coarsest": "Triangles of the last level; 0 lets the ratio decide. A surface with handles needs some, and is never "
+    "made coarser than that",
+    "side_by_side": "Place the levels in a row along X beside the object. Off: at its location, as engines want them",
+    "hidden": "Hide the levels, in the view and in renders: the eyes in the Outliner show them",
+    "finest": "A copy of the object becomes the finest level, Name_LOD0, unless the object itself is called so",
+}
+
+
+class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
+    """Make coarser copies of the active object, of triangles, on which every texture stays in place: UV maps have the
+    same values at the same vertices and the same seams. Where there is no map "Holomorphic" it is made first.
+    Levels of an earlier run are replaced"""
+
+    bl_idname = "object.holomorphic_levels"
+    bl_label = "Holomorphic Levels of Detail"
+    bl_options = {"REGISTER", "UNDO"}
+
+    levels: IntProperty(name="Levels", description=ABOUT["levels"], default=4, min=1, max=12)
+    ratio: FloatProperty(name="Ratio", description=ABOUT["ratio"], default=0.25, min=0.01, max=0.95)
+    coarsest: IntProperty(name="Coarsest", description=ABOUT["coarsest"], default=0, min=0)
+    side_by_side: BoolProperty(name="Side by Side", description=ABOUT["side_by_side"], default=True)
+    hidden: BoolProperty(name="Hidden", description=ABOUT["hidden"], default=True)
+    finest: BoolProperty(name="Copy as LOD0", description=ABOUT["finest"], default=True)
+
+    @classmethod
+    def why_not(cls, context):
+        if context.mode != "OBJECT":
+            return "Go to Object Mode"
+        obj = context.view_layer.objects.active
+        return "" if obj is not None and obj.type == "MESH" else "Make a mesh object active"
+
+    def draw_options(self, layout, _obj):
+        for name in ("levels", "ratio", "coarsest", "side_by_side", "hidden", "finest"):
+            row = layout.row()
+            row.active = name != "ratio" or self.coarsest == 0
+            row.prop(self, name)
+
+    def prepare(self, context):
+        from ..levels import source
+
+        self._source = source.Source(context.view_layer.objects.active)
+        if self._source.target.refused:
+            raise ValueError(f"{self._source.target.name}: {self._source.target.refused}")
+
+    def make_work(self, progress):
+        from ..levels import levels
+
+        return self._source.work(levels.LevelOptions(self.levels, self.ratio, self.coarsest), progress)
+
+    def waiting_faces(self):
+        return self._source.target.polygons.face_count
+
+    def finish(self, context, work, time_has_passed):
+        from ..levels.level_objects import Arrangement
+
+        name, arrangement = self._source.target.name, Arrangement(self.side_by_side, self.hidden, self.finest)
+        made, told = self._source.write(context, work, arrangement, time_has_passed)
+        if not made:
+            return self.refuse(f"{name}: {told[0]}")
+        for sentence in told:
+            self.report({"WARNING"}, sentence)
+        counts = ", ".join(str(len(level.surface.triangles)) for level in work.levels)
+        kept = f"; {name} allows no coarser one" if len(work.levels) < self.levels else ""
+        self.report({"INFO"}, f"{name}: levels of {counts} triangles{kept}")
+        return {"FINISHED"}
+
+
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_levels])

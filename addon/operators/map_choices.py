@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is asked for by the properties of the operators of maps, or by the headless command under the same names."""
+
+import math
+
+from ..maps.options import MapOptions
+from ..results.write import WriteOptions
+from ..solving import choices
+
+FACES = {"AUTOMATIC": choices.SELECTED, "FACES": choices.ASKED}  # by the use of the selection
+
+
+def request(properties):
+    """The `choices.Choices`. @throws ValueError residues that are no numbers"""
+    are_islands, use = properties.main == "ISLANDS", properties.use_selection
+    return choices.Choices(
+        use=choices.NONE if use == choices.FACES else use,
+        faces=FACES.get(use, choices.WHOLE),
+        residues=choices.numbers(properties.residues),
+        cut_at_seams=properties.cut_at_seams or are_islands,
+        boundary=choices.ISLANDS if are_islands else properties.boundary,
+        solver=properties.solver,
+        modifiers=properties.modifiers,
+        hard_edges=math.degrees(properties.hard_edges) if are_islands else 0.0,
+        most_stretch=properties.most_stretch if are_islands else 0.0,
+    )
+
+
+def options(properties, _target):
+    """The `options.MapOptions`, the same for every object."""
+    return MapOptions(
+        properties.forms,
+        properties.density,
+        properties.rotation,
+        tuple(properties.amounts),
+        tuple(properties.turns),
+        properties.margin,
+        properties.main,
+    )
+
+
+def write_options(properties):
+    show = properties.shown, properties.checker, properties.texture, properties.checker_scale
+    return WriteOptions(*show, properties.seams, properties.shape)

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators that make maps: the button, islands, seamless tilings."""
+
+import bpy
+from bpy.props import FloatProperty
+
+from .. import native
+from .availability import OnMeshes
+from .modal import MODAL_FACES, MODAL_TILED_FACES, WorkOperator
+from .properties import ABOUT, HARD_EDGE, MapProperties, hard_edges_property, main_property
+from .tile_properties import TileProperties
+
+
+class _MapsOperator(OnMeshes, WorkOperator):
+    """What the operators that make maps share. Each has one of the groups of properties, whose `choices` are made of
+    them."""
+
+    def prepare(self, context):
+        from ..scene import targets
+        from . import run
+
+        self._run = run.Run(self, targets.collect(targets.mesh_objects(context), self.choices().request(self)))
+
+    def make_work(self, progress):
+        return self._run.job(progress)
+
+    def waiting_faces(self):
+        from ..solving import cache
+
+        waiting = [task for task in self._run.tasks if self.may_tile() or cache.find(task) is None]
+        return sum(task.polygons.face_count for task in waiting)
+
+    def modal_faces(self):
+        return MODAL_TILED_FACES if self.may_tile() else MODAL_FACES
+
+    def finish(self, context, work, time_has_passed):
+        outcome = self._run.write(context, work, time_has_passed)
+        self.form_count = outcome.forms
+        self.show(context, outcome, self.checker)
+        return self.tell(outcome)
+
+
+class HOLOMORPH_OT_maps(MapProperties, _MapsOperator, bpy.types.Operator):
+    """Compute conformal UV maps for the selected meshes, whatever their shape; in edit mode for the selected faces.
+    Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
+
+    bl_idname = "uv.holomorphic_maps"
+    bl_label = "Holomorphic UV Maps"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+
+class HOLOMORPH_OT_islands(MapProperties, _MapsOperator, bpy.types.Operator):
+    """Cut the selected meshes along their hard edges and seams, and flatten each island without shearing: for meshes of
+    few or long thin faces, which no seamless map can fit"""
+
+    bl_idname = "uv.holomorphic_islands"
+    bl_label = "Islands by Hard Edges"
+    bl_options = {"REGISTER", "UNDO"}
+
+    # Of its own, so that the maps operator does not remember them.
+    main: main_property("ISLANDS")
+    hard_edges: hard_edges_property(HARD_EDGE)
+    most_stretch: FloatProperty(name="Most Stretch", description=ABOUT["most_stretch"], min=0.0, soft_max=10.0)
+
+
+class HOLOMORPH_OT_tile(TileProperties, _MapsOperator, bpy.types.Operator):
+    """Make a UV map on which a texture that tiles shows no seam, keeps its angles and has about the same size
+    everywhere. Maps named "Holomorphic" of an earlier run are replaced, other maps are kept"""
+
+    bl_idname = "uv.holomorphic_tile"
+    bl_label = "Seamless Tiling"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}
+
+
+@bpy.app.handlers.persistent
+def _forget_solves(*_arguments):
+    """Another file has other meshes; what was kept for the old one would only take memory."""
+    if native.problem():
+        return
+    from ..solving import cache
+
+    cache.clear()
+
+
+_register, _unregister = bpy.utils.register_classes_factory(
+    [HOLOMORPH_OT_maps, HOLOMORPH_OT_islands, HOLOMORPH_OT_tile]
+)
+
+
+def register():
+    _register()
+    bpy.app.handlers.load_pre.append(_forget_solves)
+
+
+def unregister():
+    bpy.app.handlers.load_pre.remove(_forget_solves)
+    _unregister()
+    _forget_solves()

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of the maps operators as Blender's properties, and those that the tile operator has, too."""
+
+import functools
+import math
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
+
+from .. import native
+
+DIALS = 8
+HARD_EDGE = math.radians(40)
+
+
+def items(**texts):
+    """The items of an `EnumProperty`, whose labels are their names."""
+    return tuple((name, name.replace("_", " ").title(), text) for name, text in texts.items())
+
+
+SELECTION_USES = items(
+    AUTOMATIC="In edit mode: selected faces alone are mapped. Without any, four selected boundary vertices of a disk "
+    "become the corners of a rectangle, other single vertices punctures; edges and what does not fit are no choice",
+    FACES="The selected faces are mapped, as a surface with a boundary; the others keep their UVs",
+    PUNCTURES="The texture runs around each selected vertex, and its density grows towards it without end: at least "
+    "two on a closed surface, one on a disk",
+    RECTANGLE="The four selected vertices on the boundary of a disk become the corners of an exact rectangle",
+    NONE="The selection does not matter",
+)
+BOUNDARIES = items(
+    natural="Solve on the surface itself: fast",
+    double_cover="Glue two copies of the surface along the boundary and solve on the closed double: the same result at "
+    "more than twice the cost",
+)
+SOLVER_TEXTS = {
+    "auto": ("Automatic", "By size and number of forms"),
+    "direct": ("Direct", "Sparse Cholesky factorisation"),
+    "multigrid": ("Multigrid", "Linear time and memory"),
+    "paper": ("Paper", "The published multiresolution method, on closed parts with handles: for comparison"),
+}
+MAIN_MAPS = items(
+    AUTOMATIC="Seamless on each part where that is no less even; balanced where something else is chosen for a part, "
+    "or density, rotation or the forms' shares are set",
+    SEAMLESS="A texture that tiles shows no seam; density, rotation and forms' shares do not matter",
+    BALANCED="The combination of the forms whose density is most even: exactly conformal, with seams",
+    ISLANDS="The mesh is cut along the seams that you marked, each part is flattened without shearing, and Blender "
+    "packs the parts without overlap: for baking and painting",
+)
+TEXTURES = items(
+    CHECKER="Squares",
+    NUMBERED="Coloured tiles from A1 to H8 with arrows: seams, flips and rotations are seen at once",
+    BRICKS="A brick wall",
+    SCALES="Scales of a dragon or a fish",
+    WEAVE="Woven cloth",
+    PLANKS="Wooden boards",
+    HEXAGONS="Glazed hexagonal tiles",
+)
+OF_ISLANDS = {"hard_edges", "most_stretch"}
+ABOUT = {
+    "modifiers": "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result "
+    "becomes an object of its own and the object is hidden",
+    "checker": "Show the map by a material; the mesh's own materials stay and can be brought back",
+    "texture": "What the material shows",
+    "seams": "Mark the edges where the maps are cut as seams; existing seams are kept",
+    "main": "What the main map is",
+    "forms": "At most so many maps of single forms, besides the main one: one for each handle, more with holes",
+    "shown": "The map that the texture shows: 0 is the main one, 1 that of the first form",
+    "density": "How fine the texture is: at 2 squares are half as large. At 1 the parts fill the UV square together, "
+    "with equal texel density",
+    "equal": "Several objects get the same texels per metre, that of a tiling if there is one, else that of the object "
+    "with the largest map, which fills the UV square. Off: each object fills it",
+    "margin": "Empty space between connected parts in the UV editor, as a share of the UV square; less where there are "
+    "many",
+    "rotation": "Turns the squares on the surface, by turning every part of all maps",
+    "hard_edges": "Islands are cut along edges that are sharper than this, and those marked sharp, as well as along "
+    "seams. 0: along seams alone",
+    "most_stretch": "Islands are cut open, from the place that is stretched or squeezed most to its border, until "
+    "lengths change by less than this factor: seams for an even texture. 0: no such cuts",
+    "selection": "What the selection is. Hidden faces are not mapped in edit mode",
+    "residues": "One number for each puncture, in the order of selection, for example 1 1 -2; they sum to 0 on a "
+    "closed surface, and may be complex (1+0.5j). Empty: chosen by themselves",
+    "cut": "Cut the maps along your seams where these make each part a disk; else the report says why not",
+    "boundary": "How surfaces with a boundary are solved",
+    "solver": "How the linear systems are solved",
+    "amounts": "How much of each form is in the main map: it moves the places where squares are large and small. At 1 "
+    "their sizes are most even",
+    "turns": "Turns each form's share in the main map: squares turn and change their size around its handle. Not on "
+    "parts with a boundary, which stays straight",
+    "squares": "Squares, bricks, scales ... per UV unit, rounded to whole images of a texture: more are smaller. 0 "
+    "chooses a number that suits the object's size",
+    "shape": "Store the conformal map to the unit sphere (parts without handles and holes) or to the unit disk as a "
+    "vector attribute of the vertices, for Geometry Nodes",
+}
+# Not remembered for the next object, which has a selection and modifiers of its own.
+ONCE = {"SKIP_SAVE"}
+
+
+@functools.lru_cache(maxsize=1)
+def _items_of(names):
+    return [(name, *SOLVER_TEXTS.get(name, (name.title(), ""))) for name in names]
+
+
+def solver_items(_properties, _context):
+    """The library's solvers, the first one the default. Blender keeps no reference to the texts: `_items_of` does."""
+    return _items_of(("auto",) if native.problem() else native.load().SOLVERS)
+
+
+def main_property(default):
+    return EnumProperty(name="Main Map", description=ABOUT["main"], items=MAIN_MAPS, default=default)
+
+
+def hard_edges_property(default):
+    text = ABOUT["hard_edges"]
+    return FloatProperty(name="Hard Edges", description=text, default=default, min=0.0, max=math.pi, subtype="ANGLE")
+
+
+class SharedProperties:
+    """A mixin for operators that make maps: what all of them have, and how it is drawn. Each has
+
+    drawn : names of its properties, in groups
+    is_drawn(name) : whether a property has a meaning
+    choices() : the module that tells what its properties ask for
+    may_tile() : whether tilings are made, or tried
+    """
+
+    modifiers: BoolProperty(name="With Modifiers", description=ABOUT["modifiers"], default=False, options=ONCE)
+    checker: BoolProperty(name="Show Texture", description=ABOUT["checker"], default=True)
+    texture: EnumProperty(name="Texture", description=ABOUT["texture"], items=TEXTURES, default="CHECKER")
+    seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
+    form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    def draw_options(self, layout, obj):
+        for group in self.drawn:
+            column = layout.column()
+            for name in filter(self.is_drawn, group):
+                if name == "pole_group" and obj is not None:
+                    column.prop_search(self, name, obj, "vertex_groups")
+                else:
+                    column.prop(self, name)
+
+
+class MapProperties(SharedProperties):
+    """A mixin for the maps operators."""
+
+    drawn = (
+        ("main", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
+        ("checker", "texture", "checker_scale", "seams", "shape"),
+        ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
+    )
+    main: main_property("AUTOMATIC")
+    forms: IntProperty(name="Form Maps", description=ABOUT["forms"], default=8, min=0, soft_max=32)
+    shown: IntProperty(name="Shown Map", description=ABOUT["shown"], default=0, min=0, soft_max=8)
+    density: FloatProperty(
+        name="Density", description=ABOUT["density"], default=1.0, min=1e-4, soft_min=0.1, soft_max=10.0
+    )
+    equal: BoolProperty(name="Equal Density", description=ABOUT["equal"], default=True)
+    margin: FloatProperty(name="Margin", description=ABOUT["margin"], default=0.02, min=0.0, max=0.2)
+    rotation: FloatProperty(name="Rotation", description=ABOUT["rotation"], subtype="ANGLE", unit="ROTATION")
+    hard_edges: hard_edges_property(0.0)
+    most_stretch: FloatProperty(name="Most Stretch", description=ABOUT["most_stretch"], min=0.0, soft_max=10.0)
+    use_selection: EnumProperty(
+        name="Use Selection", description=ABOUT["selection"], items=SELECTION_USES, default="AUTOMATIC", options=ONCE
+    )
+    residues: StringProperty(name="Residues", description=ABOUT["residues"], default="", options=ONCE)
+    cut_at_seams: BoolProperty(name="Use Seams as Cut", description=ABOUT["cut"], default=False)
+    boundary: EnumProperty(name="Boundary", description=ABOUT["boundary"], items=BOUNDARIES, default="natural")
+    solver: EnumProperty(name="Solver", description=ABOUT["solver"], items=solver_items, default=0)
+    amounts: FloatVectorProperty(
+        name="Amount", description=ABOUT["amounts"], size=DIALS, default=(1.0,) * DIALS, soft_min=0.0, soft_max=4.0
+    )
+    turns: FloatVectorProperty(
+        name="Phase", description=ABOUT["turns"], size=DIALS, default=(0.0,) * DIALS, subtype="EULER", unit="ROTATION"
+    )
+    checker_scale: FloatProperty(name="Squares", description=ABOUT["squares"], default=0.0, min=0.0, soft_max=200.0)
+    shape: BoolProperty(name="Store Shape", description=ABOUT["shape"], default=False)
+
+    @staticmethod
+    def choices():
+        from . import map_choices
+
+        return map_choices
+
+    def may_tile(self):
+        return self.main != "BALANCED"
+
+    def is_drawn(self, name):
+        return name not in OF_ISLANDS or self.main == "ISLANDS"
+
+    def draw_options(self, layout, obj):
+        super().draw_options(layout, obj)
+        for index in range(min(self.form_count, DIALS) if self.form_count > 1 else 0):  # a single form has no share
+            row = layout.row(align=True)
+            row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
+            row.prop(self, "turns", index=index, text="")

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How maps are made: a request, the solves, the maps, writing, the report."""
+
+from functools import partial
+
+from ..maps import mapped
+from ..results import write
+from ..scene import targets
+from ..solving import jobs
+
+
+class Run:
+    """What is asked for by properties of an operator, or by the headless command under the same names, of these
+    `targets.Target`s. @throws ValueError there is nothing of what is asked for on one of them"""
+
+    def __init__(self, properties, found):
+        self.tasks, self._found, self._properties = targets.tasks(found), found, properties
+        self._choices, self._mapper = properties.choices(), mapped.Mapper(properties.equal)
+        self._options = [self._choices.options(properties, target) for target in found if not target.refused]
+
+    def job(self, progress=None):
+        """The `jobs.Job` that solves and maps."""
+        return jobs.Job(self.tasks, progress, [partial(self._mapper, options=options) for options in self._options])
+
+    def write(self, context, job, time_has_passed=False):
+        """Writes what the job gave; the `outcome.Outcome`."""
+        results = targets.align(self._found, self._mapper.equalised(job.results))
+        options = self._choices.write_options(self._properties)
+        return write.write(context, self._found, results, options, time_has_passed)

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operators for texels per metre, and the two numbers of the panel: texels, and the width of the image."""
+
+import bpy
+from bpy.props import FloatProperty, IntProperty
+
+from .availability import OnMeshes
+
+TEXELS, IMAGE = "holomorphic_texels", "holomorphic_image"  # properties of the window manager
+TEXELS_TEXT = "Texels of the image on a metre of the surface"
+IMAGE_TEXT = "Width of the image in texels"
+DEFAULT_IMAGE = 2048
+
+
+class _TexelOperator(OnMeshes):
+    """A mixin: on the active UV maps of the selected meshes, in edit mode on their selected faces."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    image: IntProperty(name="Image", description=IMAGE_TEXT, default=DEFAULT_IMAGE, min=1)
+
+    def invoke(self, context, _event):
+        for name, stored in (("texels", TEXELS), ("image", IMAGE)):
+            if name in self.properties.bl_rna.properties and not self.properties.is_property_set(name):
+                setattr(self, name, getattr(context.window_manager, stored))
+        return self.execute(context)
+
+    def execute(self, context):
+        from ..results import texels, write
+        from ..scene import targets
+        from ..solving.choices import SELECTED, Choices
+
+        found = targets.collect(targets.mesh_objects(context), Choices(faces=SELECTED))
+        metres = context.scene.unit_settings.scale_length
+        done = 0
+        with write.object_mode(context):
+            for target in found:
+                problem = texels.why_not(target)
+                before = 0.0 if problem else texels.measured(target, self.image, metres)
+                if before > 0:
+                    self.treat(context, target, before)
+                    done += 1
+                else:
+                    self.report({"WARNING"}, f"{target.name}: {problem or 'its UV map has no area'}")
+        return {"FINISHED"} if done else {"CANCELLED"}
+
+
+class HOLOMORPH_OT_texels_get(_TexelOperator, bpy.types.Operator):
+    """Measure the texels per metre of the active UV maps of the selected meshes, in edit mode of the selected faces.
+    Those of the active object are taken over for Set"""
+
+    bl_idname = "uv.holomorphic_texels_get"
+    bl_label = "Get Texels per Metre"
+
+    def treat(self, context, target, before):
+        self.report({"INFO"}, f"{target.name}: {before:.5g} texels per metre")
+        if target.find() == context.view_layer.objects.active:
+            setattr(context.window_manager, TEXELS, before)
+
+
+class HOLOMORPH_OT_texels_set(_TexelOperator, bpy.types.Operator):
+    """Scale the active UV maps of the selected meshes, in edit mode the selected faces, to this number of texels per
+    metre, each map as a whole. Seamless tilings are scaled by whole numbers alone, so that they stay seamless"""
+
+    bl_idname = "uv.holomorphic_texels_set"
+    bl_label = "Set Texels per Metre"
+
+    texels: FloatProperty(name="Texels", description=TEXELS_TEXT, default=512.0, min=1e-3)
+
+    def treat(self, _context, target, before):
+        from ..results import texels
+
+        factor = texels.scale(target, self.texels / before)
+        if not texels.is_met(self.texels, factor, before):
+            nearest = f"{before * factor:.5g} texels per metre, the nearest that stays seamless"
+            self.report({"INFO"}, f"{target.name}: {nearest}; Tiles changes them, too")
+
+
+_register, _unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_texels_get, HOLOMORPH_OT_texels_set])
+
+
+def register():
+    _register()
+    manager = bpy.types.WindowManager
+    setattr(manager, TEXELS, FloatProperty(name="Texels / m", description=TEXELS_TEXT, default=512.0, min=1e-3))
+    setattr(manager, IMAGE, IntProperty(name="Image", description=IMAGE_TEXT, default=DEFAULT_IMAGE, min=1))
+
+
+def unregister():
+    for name in (IMAGE, TEXELS):
+        delattr(bpy.types.WindowManager, name)
+    _unregister()

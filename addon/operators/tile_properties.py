@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of the tile operator: as Blender's properties, their drawing, and what they ask for."""
+
+import math
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+
+from .properties import ONCE, SharedProperties, items
+
+MOST_POLES = 16
+POLES = (
+    ("AUTOMATIC", "Automatic", "As many as the evenness of the texture asks for, where they are hardly seen"),
+    ("COUNT", "Number", "So many on each part, placed by themselves"),
+    ("KEPT", "As They Are", "Those of the object's last tiling, as they were placed or dragged"),
+    (
+        "COARSE",
+        "Where It Is Coarse",
+        "Those of the object's last tiling, and one on each place that it left coarse; automatic without a tiling",
+    ),
+    ("SELECTED", "Selected Vertices", "The selected vertices; automatic on parts without any"),
+)
+LATTICES = (
+    ("square", "Square", "The texture repeats in rows and columns"),
+    ("brick", "Brick", "Each row is shifted by half a tile"),
+    ("hex", "Hexagonal", "The texture repeats in three directions, 60 degrees apart"),
+)
+DIRECTIONS = (
+    ("UPRIGHT", "Upright", "The texture stands as the object does: its rows run level, as far as they can"),
+    ("NONE", "Any", "The one that is most even"),
+    *((axis, axis, f"Rows run along the object's {axis} axis, as far as they can") for axis in "XYZ"),
+    ("EDGES", "Selected Edges", "Rows run along the selected edges, as far as they can"),
+)
+BOUNDARIES = items(
+    straight="Boundary loops lie along rows of the texture",
+    free="Boundary loops cut through the texture: more even",
+)
+ABOUT = {
+    "tiles": "Tiles of the texture over each object, about: more are smaller, and less is distorted. 0 chooses a "
+    "number that suits the shape",
+    "poles": "Vertices around which the texture closes up: the more of them, the less squares differ in size between "
+    "the body and ears or limbs",
+    "pole_group": "A vertex group: poles are placed only where its weight is above 0.5; empty for anywhere",
+    "equal": "Several objects get the same texels per metre: Tiles is for the active one. Off: for each",
+    "lattice": "How the texture repeats",
+    "direction": "Where the rows of the texture run",
+    "turn": "Rotates the texture on the surface, beside the direction, to about this angle: where it closes up",
+    "quarters": "Turns the texture by 90 degrees each",
+    "boundary": "What becomes of holes",
+    "repeats": "Images of the texture side by side in one tile",
+    "empties": "Put an empty at each pole and at each branch point",
+}
+
+
+class TileProperties(SharedProperties):
+    """A mixin for the tile operator."""
+
+    drawn = (
+        ("tiles", "equal", "modifiers", "poles", "pole_count", "pole_group"),
+        ("lattice", "direction", "turn", "quarters", "boundary"),
+        ("checker", "texture", "repeats", "seams", "empties"),
+    )
+    tiles: IntProperty(name="Tiles", description=ABOUT["tiles"], default=0, min=0, soft_max=2000)
+    poles: EnumProperty(name="Poles", description=ABOUT["poles"], items=POLES, default="AUTOMATIC")
+    pole_count: IntProperty(name="Number of Poles", description="On each part", default=8, min=0, max=MOST_POLES)
+    pole_group: StringProperty(name="Pole Group", description=ABOUT["pole_group"], default="", options=ONCE)
+    equal: BoolProperty(name="Equal Density", description=ABOUT["equal"], default=True)
+    lattice: EnumProperty(name="Lattice", description=ABOUT["lattice"], items=LATTICES, default="square")
+    direction: EnumProperty(name="Direction", description=ABOUT["direction"], items=DIRECTIONS, default="UPRIGHT")
+    turn: FloatProperty(
+        name="Rotation",
+        description=ABOUT["turn"],
+        subtype="ANGLE",
+        unit="ROTATION",
+        soft_min=-math.pi,
+        soft_max=math.pi,
+    )
+    quarters: IntProperty(name="Quarter Turns", description=ABOUT["quarters"], default=0, min=0, max=3)
+    boundary: EnumProperty(name="Boundary", description=ABOUT["boundary"], items=BOUNDARIES, default="straight")
+    repeats: IntProperty(name="Repeats", description=ABOUT["repeats"], default=1, min=1, soft_max=8)
+    empties: BoolProperty(name="Poles as Empties", description=ABOUT["empties"], default=False)
+
+    @staticmethod
+    def choices():
+        from . import tile_choices
+
+        return tile_choices
+
+    def may_tile(self):
+        return True
+
+    def is_drawn(self, name):
+        return name != "pole_count" or self.poles == "COUNT"
+
+    def draw_options(self, layout, obj):
+        draw_tiling(layout, obj)
+        super().draw_options(layout, obj)
+
+
+def draw_tiling(layout, obj):
+    """What is told of the tiling of an object or None in a redo panel."""
+    from ..results import report, stored
+
+    lines = stored.tiling_summary(obj.get(report.PROPERTY)) if obj is not None else []
+    if lines:
+        column = layout.box().column(align=True)
+        for line in lines:
+            column.label(text=line)

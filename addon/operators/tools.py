@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Operators for what is there already: materials brought back, heat maps, maps removed, bad elements selected."""
+
+import bpy
+from bpy.props import EnumProperty
+
+from .availability import Explained, OnMeshes
+
+KINDS = (
+    ("REFUSED", "Refused", "Edges with more than two faces; the faces of parts that are one-sided"),
+    ("NO_AREA", "No Area", "Faces with a triangle without area"),
+    ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; they are mapped as if apart"),
+    ("LOOSE", "Loose", "Vertices of no face; they do not matter"),
+    ("FLIPPED", "Flipped UVs", "Faces that the active UV map turns over, or leaves without area"),
+)
+
+
+class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
+    """Bring back what was shown before: the materials that the checker or a texture covers, on all objects with the
+    same mesh, the UV maps that were active in the editors and for renders, and the shading of the 3D views"""
+
+    bl_idname = "uv.holomorphic_restore_materials"
+    bl_label = "Restore Materials"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.mode in {"OBJECT", "EDIT_MESH"}
+
+    def execute(self, context):
+        from ..materials import viewport
+        from ..results import restore
+        from ..scene import targets
+
+        own = [obj for obj in targets.mesh_objects(context) if obj.data.library is None]
+        restored = [restore.restore(obj) for obj in own]
+        viewport.restore_without_textures(context)
+        return {"FINISHED"} if any(restored) else {"CANCELLED"}
+
+
+class HOLOMORPH_OT_heat(Explained, bpy.types.Operator):
+    """Write how the active UV map distorts, as attributes of the faces of the selected meshes: "Holomorphic Density",
+    the binary logarithm of UV area per surface area over its median, and "Holomorphic Angle", s1 / s2"""
+
+    bl_idname = "uv.holomorphic_heat"
+    bl_label = "Holomorphic Heat Maps"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def why_not(cls, context):
+        if context.mode not in {"OBJECT", "EDIT_MESH"}:
+            return "Go to Object Mode or Edit Mode"
+        selected = context.view_layer.objects.selected
+        return "" if any(o.type == "MESH" and o.data.uv_layers for o in selected) else "Select a mesh with a UV map"
+
+    def execute(self, context):
+        from ..results import heat, write
+        from ..scene import targets
+
+        with write.object_mode(context):
+            objects = [o for o in targets.mesh_objects(context) if heat.is_possible(o)]
+            for obj in objects:
+                found = heat.write(obj)
+                name = obj.data.uv_layers.active.name
+                density, angle = f"95 : 5 % of density {found.density_text}", f"mean angle {found.mean_angle:.4f}"
+                self.report({"INFO"}, f"{obj.name}, {name}: {density}, {angle}")
+        return {"FINISHED"} if objects else {"CANCELLED"}
+
+
+class HOLOMORPH_OT_remove_maps(OnMeshes, bpy.types.Operator):
+    """Remove all maps named "Holomorphic" from the selected meshes, with their report, their material and the empties
+    of their poles. Your materials and the UV map that was active before come back; seams and levels of detail stay"""
+
+    bl_idname = "uv.holomorphic_remove_maps"
+    bl_label = "Remove Maps"
+    bl_options = {"REGISTER", "UNDO"}
+
+    needs_library = False
+
+    def execute(self, context):
+        from ..materials import viewport
+        from ..results import restore, write
+        from ..scene import targets
+
+        meshes = {obj.data: obj for obj in reversed(targets.mesh_objects(context))}
+        removed = False
+        with write.object_mode(context):
+            for mesh, obj in meshes.items():
+                if mesh.library is not None:
+                    self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
+                else:
+                    removed |= restore.remove_maps(obj)
+        context.view_layer.update()  # or it lists empties that are gone
+        viewport.restore_without_textures(context)
+        return {"FINISHED"} if removed else {"CANCELLED"}
+
+
+class HOLOMORPH_OT_select_bad(OnMeshes, bpy.types.Operator):
+    """Go to edit mode and select what keeps parts of the selected meshes from being mapped, or spoils a map"""
+
+    bl_idname = "mesh.holomorphic_select_bad"
+    bl_label = "Select Bad Elements"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kinds: EnumProperty(
+        name="Elements",
+        description="What is selected",
+        items=KINDS,
+        options={"ENUM_FLAG"},
+        default={"REFUSED", "NO_AREA"},
+    )
+
+    def draw(self, _context):
+        self.layout.column().prop(self, "kinds")
+
+    def execute(self, context):
+        from ..results import bad, write
+        from ..scene import targets
+
+        objects = targets.mesh_objects(context)
+        with write.object_mode(context):
+            found = {target.find(): self._elements(target) for target in targets.collect(objects)}
+            if any(found.values()):
+                for obj, elements in found.items():
+                    if elements is not None:
+                        bad.select(obj.data, elements)
+                context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
+        if not any(found.values()):
+            self.report({"INFO"}, "There are no bad elements")
+            return {"CANCELLED"}
+        if context.mode == "OBJECT":
+            _edit(context, [obj for obj, elements in found.items() if elements])
+        return {"FINISHED"}
+
+    def _elements(self, target):
+        """The `bad.Elements` of a target; None for one that is refused."""
+        from ..results import bad, heat
+
+        if target.refused:
+            self.report({"WARNING"}, f"{target.name}: {target.refused}")
+            return None
+        mesh = target.find().data
+        uv = heat.active_map(mesh, target.polygons) if mesh.uv_layers.active else None
+        elements = bad.find(target.polygons, uv, self.kinds)
+        if elements:
+            self.report({"INFO"}, f"{target.name}: {elements}")
+        return elements
+
+
+def _edit(context, objects):
+    """Edit mode for these objects alone, the active one among them."""
+    for obj in list(context.view_layer.objects.selected):
+        obj.select_set(obj in objects)
+    if context.view_layer.objects.active not in objects:
+        context.view_layer.objects.active = objects[0]
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+register, unregister = bpy.utils.register_classes_factory(
+    [HOLOMORPH_OT_restore_materials, HOLOMORPH_OT_heat, HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad]
+)

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Poles and branch points of tilings as dots in the 3D view. Called from draw handlers only.
+
+A dot is a disc in space that faces the viewer and has the same size on the screen at every distance.
+"""
+
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from ..results import report, stored
+from ..scene import mesh_io
+from . import on_screen
+
+POLE, ZERO, LIT = (1.0, 0.55, 0.10), (0.95, 0.95, 0.95), (1.0, 0.85, 0.25)  # sRGB
+HOVERED = 1.5  # times as large is the pole under the pointer
+RIM = (0.05, 0.05, 0.05)
+RADIUS, RIM_WIDTH = 6.0, 1.5  # pixels, in a user interface of normal size
+CORNERS = 20  # of a disc
+HIDDEN = 0.25  # opacity behind something
+# Pixels of the legend's first dot, from the middle of the view's lower edge: the corners have panels, and above is the
+# heat map's legend.
+LEGEND = (-90.0, 14.0)
+GAP = 12.0  # pixels between a dot and its words, and half of what is between these and the next dot
+NEARER = 2.0  # radii by which a disc is moved towards the viewer: the faces around its vertex must not cut it
+
+
+def draw(context, objects, dragged):
+    """`dragged`: see `overlay.dragged`."""
+    points, is_pole, is_hovered = _all_points(objects, dragged)
+    if not len(points):
+        return
+    view = context.region_data
+    unit = context.preferences.system.ui_scale
+    radii = RADIUS * unit * pixel_sizes(points, view, context.region.height) * np.where(is_hovered, HOVERED, 1)
+    axes = np.array(view.view_matrix.inverted())
+    towards = axes[:3, 3] - points if view.is_perspective else np.tile(axes[:3, 2], (len(points), 1))
+    towards = radii[:, None] * towards / np.linalg.norm(towards, axis=1, keepdims=True)
+    colours = np.where(is_hovered[:, None], LIT, np.where(is_pole[:, None], POLE, ZERO))
+    colours = np.repeat(colours, 3 * CORNERS, axis=0)
+    dots = discs(points + NEARER * towards, radii, axes[:3, :2].T)
+    rims = discs(points + NEARER * towards, (1 + RIM_WIDTH / RADIUS) * radii, axes[:3, :2].T)
+    gpu.state.depth_mask_set(False)  # a disc is drawn over its rim, and hidden or not by the meshes alone
+    gpu.state.blend_set("ALPHA")
+    for test, opacity in (("GREATER", HIDDEN), ("LESS_EQUAL", 1.0)):
+        _draw_discs(rims, RIM, opacity, test)
+        _draw_discs(dots, colours, opacity, test)
+    gpu.state.blend_set("NONE")
+    gpu.state.depth_test_set("NONE")
+    gpu.state.depth_mask_set(True)
+
+
+def draw_legend(context, objects, dragged):
+    """What the dots are, and how many there are of each kind."""
+    _, is_pole, _ = _all_points(objects, dragged)
+    unit = context.preferences.system.ui_scale
+    x, y = context.region.width / 2 + LEGEND[0] * unit, LEGEND[1] * unit
+    for count, noun, colour in legend(is_pole):
+        middle, flat = np.array([[x, y, 0.0]]), np.eye(3)[:2]
+        for radius, fill in ((RADIUS + RIM_WIDTH, RIM), (RADIUS, colour)):
+            _draw_discs(discs(middle, np.array([radius * unit]), flat), fill, 1.0, "NONE")
+        words = f"{count} {noun}{'' if count == 1 else 's'}"
+        on_screen.text_from(words, x + GAP * unit, y - on_screen.TEXT_SIZE * unit / 3, unit)
+        x += on_screen.text_width(words, unit) + 3 * GAP * unit
+
+
+def legend(is_pole):
+    """(number, name, colour) of each kind of dot that there is."""
+    kinds = [(int(np.sum(is_pole)), "pole", POLE), (int(np.sum(~is_pole)), "branch point", ZERO)]
+    return [kind for kind in kinds if kind[0]]
+
+
+def _all_points(objects, dragged):
+    """`_points` of all objects."""
+    found = [_points(obj, dragged.get(obj.name)) for obj in objects if obj.get(report.PROPERTY)]
+    nothing = np.empty((0, 3)), np.empty(0, bool), np.empty(0, bool)
+    return tuple(np.concatenate(parts) for parts in zip(nothing, *found))
+
+
+def _points(obj, dragged):
+    """Of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the pointer is on
+    it."""
+    vertices, is_pole = stored.marks(obj[report.PROPERTY])
+    if dragged is not None:
+        vertices = np.concatenate([dragged.poles, dragged.zeros])
+        is_pole = np.arange(len(vertices)) < len(dragged.poles)
+    if len(vertices) and vertices.max() >= len(obj.data.vertices):  # the mesh is not what it was
+        vertices, is_pole = vertices[:0], is_pole[:0]
+    hovered = None if dragged is None else dragged.hovered
+    is_hovered = np.arange(len(vertices)) == (-1 if hovered is None else hovered)
+    return mesh_io.world_points(obj, vertices), is_pole, is_hovered
+
+
+def pixel_sizes(points, view, height):
+    """(n,) length of a pixel at each point, in a view (a `RegionView3D`) whose region has this height."""
+    perspective, window = np.array(view.perspective_matrix), np.array(view.window_matrix)
+    w = points @ perspective[3, :3] + perspective[3, 3]
+    return np.abs(w) * 2 / (height * window[1, 1])
+
+
+def discs(points, radii, axes):
+    """(n * 3 CORNERS, 3) float32: triangles of a disc around each point, in the plane of two unit vectors."""
+    turn = 2 * np.pi * np.arange(CORNERS + 1) / CORNERS
+    rim = np.stack([np.cos(turn), np.sin(turn)], axis=1) @ axes
+    fan = np.stack([np.zeros((CORNERS, 3)), rim[:-1], rim[1:]], axis=1).reshape(-1, 3)
+    return (points[:, None] + radii[:, None, None] * fan[None]).reshape(-1, 3).astype(np.float32)
+
+
+def _draw_discs(points, colours, opacity, depth_test):
+    """Triangles in one colour or in one for each corner."""
+    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
+    with_opacity = np.full((len(points), 4), opacity, np.float32)
+    with_opacity[:, :3] = colours
+    gpu.state.depth_test_set(depth_test)
+    batch_for_shader(shader, "TRIS", {"pos": points, "color": with_opacity}).draw(shader)

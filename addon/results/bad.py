@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The elements of a mesh for which parts of it are refused or repaired, or for which its UV map is bad; and selecting
+them."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import compatibility, native
+from ..compatibility import Values
+from ..maps import distortion
+from ..scene import mesh_io
+from ..scene.faces import edge_ends
+
+REFUSED, NO_AREA, TOUCHING, LOOSE, FLIPPED = "REFUSED", "NO_AREA", "TOUCHING", "LOOSE", "FLIPPED"
+NONE = np.empty(0, np.int64)
+NO_EDGES = np.empty((0, 2), np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class Elements:
+    """Indices of vertices and faces, and edges by their vertices."""
+
+    vertices: np.ndarray = field(default_factory=lambda: NONE)
+    edges: np.ndarray = field(default_factory=lambda: NO_EDGES)
+    faces: np.ndarray = field(default_factory=lambda: NONE)
+
+    def __str__(self):
+        counts = (self.vertices, "vertex", "vertices"), (self.edges, "edge", "edges"), (self.faces, "face", "faces")
+        return ", ".join(f"{len(of)} {one if len(of) == 1 else many}" for of, one, many in counts if len(of))
+
+    def __bool__(self):
+        return bool(len(self.vertices) or len(self.edges) or len(self.faces))
+
+
+def find(polygons, uv, kinds):
+    """The `Elements` of these kinds; uv : (#C, 2), or None where there is no map."""
+    unusable = np.flatnonzero(~np.isfinite(polygons.vertices).all(axis=1))
+    if len(unusable):
+        return Elements(vertices=unusable)
+    if not polygons.face_count:
+        return Elements(vertices=_loose(polygons) if LOOSE in kinds else NONE)
+    holomorph = native.load()
+    try:
+        surface = polygons.surface(strict=False)
+    except (holomorph.InvalidMesh, holomorph.TopologyError):  # there is no sound part
+        edges, faces = _refused(polygons, [np.arange(polygons.face_count)])
+        return Elements(edges=edges, faces=faces)
+    refused = [part.faces for part in surface.refused]
+    edges, faces = _refused(polygons, refused) if REFUSED in kinds else (NO_EDGES, NONE)
+    repairs = surface.repairs
+    vertices = [repairs.split_vertices] * (TOUCHING in kinds) + [_loose(polygons)] * (LOOSE in kinds)
+    faces = [faces] + [repairs.zero_area_faces] * (NO_AREA in kinds)
+    if FLIPPED in kinds and uv is not None:
+        faces.append(_flipped(polygons.face_offsets, uv))
+    return Elements(np.concatenate([NONE, *vertices]), edges, np.unique(np.concatenate(faces)))
+
+
+def _loose(polygons):
+    """Vertices of no face."""
+    return np.setdiff1d(np.arange(len(polygons.vertices)), polygons.corner_vertices)
+
+
+def _refused(polygons, parts):
+    """((n, 2) edges with more than two faces, faces of those of the refused `parts` that have no such edge)"""
+    ends = edge_ends(polygons)
+    pairs, index, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    is_bad = (count > 2)[index.ravel()]
+    face_of_corner = np.repeat(np.arange(polygons.face_count), np.diff(polygons.face_offsets))
+    with_bad_edges = face_of_corner[is_bad]
+    others = [faces for faces in parts if not np.isin(faces, with_bad_edges).any()]
+    return pairs[count > 2], np.concatenate([NONE, *others])
+
+
+def _flipped(face_offsets, uv):
+    """Faces that the map turns over beside the others, or leaves without area."""
+    corners, polygon = distortion.fans(face_offsets)
+    first, second = (uv[corners[:, side]].astype(np.float64) - uv[corners[:, 0]] for side in (1, 2))
+    area = np.bincount(polygon, first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0], len(face_offsets) - 1)
+    return np.flatnonzero(area <= 0 if area.sum() >= 0 else area >= 0)
+
+
+def select(mesh, elements):
+    """Selects these elements of a mesh that is not being edited, and no others; hidden ones appear."""
+    corners = polygon_corners(mesh, elements.faces)
+    vertices = np.concatenate([elements.vertices, elements.edges.ravel(), corners])
+    compatibility.make_edges_selectable(mesh)
+    mesh_io.mark_edges(mesh, "select", elements.edges)
+    for owner, own in ((mesh.vertices, vertices), (mesh.polygons, elements.faces)):
+        flags = np.zeros(len(owner), bool)
+        flags[own] = True
+        mesh_io.write_values(Values(owner, "select", bool), flags)
+        hidden = Values(owner, "hide", bool)
+        mesh_io.write_values(hidden, mesh_io.read_values(hidden) & ~flags)
+
+
+def polygon_corners(mesh, faces):
+    """The vertices of these faces."""
+    polygons = mesh_io.read_polygons(mesh, np.eye(3))
+    is_own = np.zeros(polygons.face_count, bool)
+    is_own[faces] = True
+    return polygons.corner_vertices[np.repeat(is_own, np.diff(polygons.face_offsets))]
+
+
+def select_mode(found):
+    """(vertices, edges, faces) for Blender: the simplest kind of element among `Elements`."""
+    has_vertices, has_edges = any(len(e.vertices) for e in found), any(len(e.edges) for e in found)
+    return has_vertices, has_edges and not has_vertices, not has_edges and not has_vertices

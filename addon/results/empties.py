@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Poles and branch points of a tiling as empties: children of the object, in its collections."""
+
+import bpy
+import numpy as np
+
+from ..scene import mesh_io
+
+OF = "holomorph_mark_of"  # custom property: name of the object whose pole or branch point it is
+SIZE = 0.02  # of the object's largest extent
+
+
+def write(context, obj, vertices, is_pole):
+    """One empty at each of these vertices; @pre `remove(obj)`."""
+    points = mesh_io.world_points(obj)
+    size = SIZE * float(np.ptp(points, axis=0).max())
+    context.view_layer.update()
+    for vertex, pole in zip(vertices.tolist(), is_pole.tolist()):
+        empty = bpy.data.objects.new(f"{obj.name} {'Pole' if pole else 'Branch Point'}", None)
+        empty[OF] = obj.name
+        empty.empty_display_type = "SPHERE" if pole else "PLAIN_AXES"
+        empty.empty_display_size = size
+        for collection in obj.users_collection:
+            collection.objects.link(empty)
+        empty.parent = obj
+        empty.matrix_parent_inverse = obj.matrix_world.inverted_safe()
+        empty.location = points[vertex]
+
+
+def remove(obj):
+    """Removes those of an earlier run."""
+    for empty in [o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o.type == "EMPTY"]:
+        bpy.data.objects.remove(empty)

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a run did, in sentences for the user and entries of the report."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import compatibility, native
+from ..maps import coarse, distortion
+from ..scene import uv_maps
+from . import report, stored
+
+OVERLAPS = "overlaps itself: UV > Select Overlap shows where"
+CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
+
+
+@dataclass
+class Outcome:
+    """What a run did: names of the objects that got maps, sentences for the user, the report's entries."""
+
+    done: list = field(default_factory=list)
+    problems: list = field(default_factory=list)
+    notes: list = field(default_factory=list)
+    entries: list = field(default_factory=list)
+    forms: int = 0
+    looks: dict = field(default_factory=dict)  # `material.Look` of tilings (True) and of other maps, for all objects
+
+    def refuse(self, name, sentence):
+        self.problems.append(f"{name}: {sentence}")
+        self.entries.append(report.refusal_report(name, sentence))
+
+    def skip(self, obj, made):
+        """An object of which no part has a map."""
+        self.problems += _problems(obj, made)
+        self.entries.append(report.object_report(obj, made))
+
+    def add(self, obj, target, made, written, entry):
+        """An object that got its maps."""
+        self.done.append(obj.name)
+        self.entries.append(entry)
+        self.forms = max(self.forms, made.solved.form_count)
+        self.problems += _problems(obj, made)
+        self.judge(obj, entry)
+        if target.polygons.faces is None:
+            self.notes += _modifier_notes(obj, made.solved)
+        extra = sum(w.kind == "attribute" for w in written)
+        if extra:
+            maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
+            self.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
+        self.notes += [target.note] if target.note else []
+
+    def judge(self, obj, entry):
+        """Adds the verdict on an object's map: among the problems where no texture can be put on."""
+        found = stored.verdict(entry)
+        (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {found.text}")
+        for index, part in enumerate(entry["components"], 1):
+            if part["done"] and (part["main_map"]["overlapping_part"] or 0.0) > native.load().verdicts.OVERLAPPING[0]:
+                self.problems.append(f"{obj.name}: island {index} {OVERLAPS}")
+        count = entry["faces_without_area"]
+        if count:
+            self.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
+
+
+def _problems(obj, made):
+    """What was not done, or not as it was chosen; the parts that are no surface."""
+    count = len(made.parts)
+    for index, part in enumerate(made.parts, 1):
+        which = "" if count == 1 else f"part {index} of {count} "
+        told = {"skipped": part.skipped, "made without your choice": part.component.note}
+        told["not seamless"] = part.not_seamless
+        yield from (f"{obj.name}: {which}{what}: {why}" for what, why in told.items() if why)
+    for refused in made.solved.surface.refused:
+        yield f"{obj.name}: {len(refused.faces)} faces left out: {native.sentence(refused.reason)}"
+    if made.solved.surface.is_unwelded:
+        yield f"{obj.name}: every face is apart; Mesh > Merge > By Distance joins those that touch"
+
+
+def _modifier_notes(obj, solved):
+    closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
+    if closing and any(c.surface.boundary_count for c in solved.components):
+        yield f"{obj.name}: modifiers are ignored: take Map with Modifiers if {closing[0]!r} closes the surface"
+
+
+def with_coarse_places(obj, polygons, entry):
+    """The report's entry with the places that the main map leaves coarse, where it is uneven, and how many faces are
+    too small in it for the single precision of Blender's UV maps."""
+    ratios = [part["main_map"]["density_ratio"] for part in entry["components"] if part["done"]]
+    if all(ratio is not None and ratio <= native.load().UNEVEN[0] for ratio in ratios):
+        return entry | {"coarse_places": [], "faces_without_area": 0}
+    found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
+    places = [vars(place) for place in coarse.places(obj, polygons, found.density)]
+    without_area = int(np.count_nonzero(found.angle >= distortion.MOST_ANGLE))
+    return entry | {"coarse_places": places, "faces_without_area": without_area}

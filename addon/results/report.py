@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report: what was computed, as JSON in a custom property of each object and in a text datablock."""
+
+import json
+from dataclasses import asdict
+
+import bpy
+import numpy as np
+
+from .. import native
+from ..maps import forms
+from ..maps.options import TILING
+from ..scene import faces
+
+PROPERTY = "holomorph_report"
+PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
+MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
+TEXT = "Holomorphic Report"
+
+
+def object_report(obj, made, written=(), new_seams=0, write_options=None):
+    """One object: its maps as written, the options with which they were, and the report of each part."""
+    package, solved = native.load().report, made.solved
+    parts = [part_report(part, made.options) for part in made.parts]
+    dials = asdict(made.options)
+    asked = dials.pop("tiling")
+    del asked["allowed"]  # a vertex group of the object says it
+    entry = {
+        "object": obj.name,
+        "mesh": obj.data.name,
+        "vertices": len(solved.polygons.vertices),
+        "faces": solved.polygons.face_count,
+        "is_selection": solved.polygons.faces is not None,
+        "done": bool(made.done),
+        "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
+        "dials": dials | (asdict(write_options) if write_options else {}),
+        "seams_added": new_seams,
+        "verdict": package.overall_report(parts, solved.surface.is_unwelded),
+        "repairs": package.repairs_report(faces.repairs(solved)),
+        "seconds": solved.seconds,
+        "components": parts + [package.refused_report(refused) for refused in solved.surface.refused],
+    }
+    return entry | ({"asked": asked} if made.options.main == TILING else {})
+
+
+def part_report(part, options):
+    """The package's report of one `mapped.MappedPart`, its tiling, and the choice that was not followed on it."""
+    package, component = native.load().report, part.component
+    if part.skipped:
+        entry = package.skipped_report(component.surface, part.skipped)
+    elif part.tiling:
+        main_map = package.map_report([], part.tiling.quality, part.tiling.verdict)
+        entry = package.component_report(component.surface, component.structure, main_map)
+        entry |= {"forms": component.form_count, "tiling": _tiling_report(part)}
+    else:
+        main_map = forms.main_map(component, options).report
+        entry = package.component_report(component.surface, component.structure, main_map)
+    return entry | ({"not_followed": component.note} if component.note else {})
+
+
+def _tiling_report(part):
+    """Vertices are those of the object."""
+    made = part.tiling
+    zeros, orders = made.zeros
+    return native.load().report.plain(
+        {
+            "added_distortion": float(made.added_distortion),
+            "density_ratio": float(made.density_ratio),
+            "beltrami_rms": float(made.beltrami_rms),
+            "poles": part.vertices(made.poles),
+            "residues": made.residues,
+            "zeros": part.vertices(zeros),
+            "orders": np.asarray(orders),
+            "periods": np.asarray(made.periods),
+        }
+    )
+
+
+def refusal_report(name, sentence):
+    """One object that was left untouched, and why."""
+    return {"object": name, "done": False, "refused": sentence}
+
+
+def as_json(value, indent=None):
+    """Standard JSON of a report."""
+    return json.dumps(value, indent=indent, allow_nan=False)
+
+
+def store_on_object(obj, entry):
+    """The custom property; without the matrices where they would make it long, for they are in the text as well."""
+    text = as_json(entry)
+    if len(text) > PROPERTY_LIMIT:
+        parts = [{k: v for k, v in part.items() if k not in MATRICES} for part in entry["components"]]
+        text = as_json({**entry, "components": parts})
+    obj[PROPERTY] = text
+
+
+def store_text(entries):
+    """Replaces the text datablock with the report of all objects of one run."""
+    text = bpy.data.texts.get((TEXT, None)) or bpy.data.texts.new(TEXT)
+    text.from_string(as_json(run_report(entries), indent=1))
+
+
+def run_report(entries):
+    return {
+        "holomorph": getattr(native.load(), "__version__", ""),
+        "blender": bpy.app.version_string,
+        "objects": entries,
+    }

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is read out of a stored report: for panels, and for what goes on with a tiling.
+
+Someone may have edited it: then there is less to read.
+"""
+
+import functools
+import json
+
+import numpy as np
+
+from .. import native
+from ..maps.options import TileOptions
+
+SUMMARISED = 8  # parts that a panel shows
+SHOWN_PERIODS = 4  # likewise, of each part
+COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
+
+
+@functools.lru_cache(maxsize=16)
+def parsed(stored):
+    """A stored report; an empty one for none, or for what is no report."""
+    try:
+        entry = json.loads(stored)
+    except (ValueError, TypeError):
+        return {}
+    return entry if isinstance(entry, dict) else {}
+
+
+def tilings(stored):
+    """Of the parts that have one."""
+    return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
+
+
+def marks(stored):
+    """((n,) vertices, (n,) whether it is a pole): those of all tilings."""
+    poles = [vertex for tiling in tilings(stored) for vertex in tiling["poles"]]
+    zeros = [vertex for tiling in tilings(stored) for vertex in tiling["zeros"]]
+    return np.array(poles + zeros, np.int64), np.arange(len(poles) + len(zeros)) < len(poles)
+
+
+def asked(stored):
+    """The `options.TileOptions` that a tiling was made with, but for where its poles may be; None where there are
+    none."""
+    values = parsed(stored).get("asked")
+    return None if values is None else TileOptions(**{name: _as_tuple(value) for name, value in values.items()})
+
+
+def _as_tuple(value):
+    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value
+
+
+def verdict(entry):
+    """The package's `Verdict` on an object or a part in a report; None where there is none."""
+    found = entry.get("verdict")
+    return native.load().Verdict(**found) if found else None
+
+
+@functools.lru_cache(maxsize=16)
+def summary(stored):
+    """Short lines for the panel."""
+    try:
+        return list(_summary(parsed(stored)))
+    except (ValueError, KeyError, TypeError, IndexError):
+        return []
+
+
+def _summary(entry):
+    parts, count = entry["components"], len(entry["maps"])
+    yield "1 map" if count == 1 else f"{count} maps"
+    for index, part in enumerate(parts[:SUMMARISED], 1):
+        yield f"Part {index}: {_topology(part)}" + ("" if part["done"] else ", skipped")
+        if part["done"]:
+            yield from (f"    {line}" for line in _result_lines(part))
+    if len(parts) > SUMMARISED:
+        yield f"... {len(parts) - SUMMARISED} more parts in the report"
+
+
+def _topology(part):
+    if "genus" not in part:
+        return "no surface"
+    loops = part["boundary_count"]
+    return f"genus {part['genus']}" + ("" if not loops else ", 1 hole" if loops == 1 else f", {loops} holes")
+
+
+def _result_lines(part):
+    yield _sentence(part)
+    yield from _tiling_lines(part["tiling"]) if "tiling" in part else [part["description"]]
+    angle = part["main_map"]["mean_angle"]  # none where it is infinite
+    collapsed = angle is None or angle > COLLAPSED
+    yield "a UV triangle has collapsed" if collapsed else f"angle distortion {angle:.4f}"
+    if part.get("modulus") is not None:
+        yield f"modulus {part['modulus']:.6g}"
+        if part["modulus_bounds"] is not None:
+            yield "    between {:.6g} and {:.6g}".format(*part["modulus_bounds"])
+    if part["genus"] == 1 and part["boundary_count"] == 0 and "period_matrix" in part:
+        real, imaginary = part["period_matrix"][0][0]
+        yield f"tau = {round(real, 4) + 0.0:.4f} + {imaginary:.4f} i"
+
+
+def _sentence(part):
+    """The verdict on the main map of a part, in short."""
+    return part["main_map"]["verdict"]["sentence"]
+
+
+def _tiling_lines(tiling):
+    yield f"added distortion {tiling['added_distortion']:.4f}"
+    yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
+    yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
+    if tiling["periods"]:
+        shown = ", ".join(f"({u}, {v})" for u, v in tiling["periods"][:SHOWN_PERIODS])
+        yield f"periods: {shown}" + (", ..." if len(tiling["periods"]) > SHOWN_PERIODS else "")
+
+
+def tiling_summary(stored):
+    """Short lines on the parts with a tiling, for a redo panel."""
+    parts = [part for part in parsed(stored).get("components", []) if "tiling" in part]
+    if len(parts) == 1:
+        return [_sentence(parts[0]), *_tiling_lines(parts[0]["tiling"])]
+    return [f"Part {index}: {_sentence(part)}" for index, part in enumerate(parts[:SUMMARISED], 1)]

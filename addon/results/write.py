@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The end of a run, in Blender's main thread: maps are written to the objects and reported."""
+
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+
+from .. import compatibility, native
+from ..maps import forms, packing
+from ..maps.options import ISLANDS
+from ..materials import material
+from ..scene import faces, mesh_io, uv_maps
+from . import empties, heat, report, restore, stand_in, stored
+from .outcome import Outcome, with_coarse_places
+
+
+@contextmanager
+def object_mode(context):
+    """Leaves edit mode for the time of writing, for Blender gives no UV layers in it."""
+    if context.mode != "EDIT_MESH":
+        yield
+        return
+    edited = [o for o in context.view_layer.objects if o.mode == "EDIT"]
+    selected = list(compatibility.selected_objects(context))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        for obj in selected:
+            obj.select_set(obj in edited)
+        for obj in edited:
+            obj.select_set(True)
+        bpy.ops.object.mode_set(mode="EDIT")
+        for obj in selected:
+            obj.select_set(True)
+
+
+@dataclass(frozen=True)
+class WriteOptions:
+    """What is written besides the maps."""
+
+    shown: int = 0  # 0 the main map, j the map of form j
+    checker: bool = True  # whether the map is shown by a material
+    texture: str = material.CHECKER  # what it shows
+    checker_scale: float = 0.0  # squares, bricks, scales ... per UV unit; 0 lets the first object decide
+    seams: bool = False
+    shape: bool = False  # the conformal image in space
+    empties: bool = False  # at poles and branch points
+
+
+def write(context, targets, results, options, time_has_passed=False):
+    """Writes the maps of every `mapped.MappedObject` and reports every other result; an object that is refused is not
+    touched. Gives the `Outcome`.
+
+    time_has_passed : Blender was alive during the solve, so each mesh is compared with what was read
+    """
+    outcome = Outcome()
+    with object_mode(context):
+        for target, result in zip(targets, results):
+            reason = _why_not(target, result, time_has_passed)
+            if reason:
+                outcome.refuse(target.name, reason)
+            elif not result.done:
+                outcome.skip(target.find(), result)
+            else:
+                _write_object(context, outcome, target, result, options)
+        if outcome.done:
+            report.store_text(outcome.entries)
+    return outcome
+
+
+def _why_not(target, result, time_has_passed):
+    """Why nothing is written to an object, or ""."""
+    if target.refused:
+        return target.refused
+    if isinstance(result, native.refusals()):
+        return native.sentence(result)
+    has_changed = target.has_changed(time_has_passed)
+    return "it was changed while it was solved; please run it again" if has_changed else ""
+
+
+def _write_object(context, outcome, target, made, options):
+    obj, polygons = target.find(), target.polygons
+    if target.makes_object:
+        obj = stand_in.make(context, obj)
+    if made.options.main == ISLANDS:
+        made = packing.packed(context, made)
+    restore.remember(obj.data)
+    written, new_seams = _write_maps(obj.data, polygons, made, options)
+    if options.checker:
+        shown = _shown(written, options)
+        look = _look(made, options, shown is written[0] and bool(made.tiled))
+        look = outcome.looks.setdefault(look.is_tiling, look)
+        material.cover(obj, material.showing(shown.name, shown.kind == "attribute", look))
+    heat.refresh(obj)
+    obj.data.update()
+    entry = report.object_report(obj, made, written, new_seams, options)
+    entry = with_coarse_places(obj, polygons, entry)
+    report.store_on_object(obj, entry)
+    empties.remove(obj)
+    if options.empties:
+        empties.write(context, obj, *stored.marks(obj[report.PROPERTY]))
+    outcome.add(obj, target, made, written, entry)
+
+
+def _write_maps(mesh, polygons, made, options):
+    """Maps, seams and shape; gives the `uv_maps.WrittenMap`s and the number of new seams."""
+    if polygons.faces is None:
+        uv_maps.remove_maps(mesh)
+    written = [uv_maps.write_map(mesh, polygons, name, uv) for name, uv in made.maps()]
+    uv_maps.add_own_maps(mesh, [w.name for w in written])
+    uv_maps.show_map(mesh, _shown(written, options).name)
+    new_seams = mesh_io.add_seams(mesh, _cuts(mesh, polygons, made)) if options.seams else 0
+    shape = forms.shape_points(made.solved) if options.shape else None
+    if shape is not None:
+        uv_maps.write_shape(mesh, shape)
+    return written, new_seams
+
+
+def _shown(written, options):
+    return written[min(options.shown, len(written) - 1)]
+
+
+def _cuts(mesh, polygons, made):
+    """(#S,2) vertices of the object: where the main map is cut, and where the mapped faces end."""
+    islands = packing.cuts([part.component.surface for part in made.parts])
+    return np.concatenate([islands, faces.border(mesh, polygons), *(part.seams for part in made.done)])
+
+
+def _look(made, options, is_tiling):
+    """Of a tiling, as many images in each tile as the wanted number of squares comes nearest to. Elsewhere density is
+    to be seen: the squares are those of density 1, so that there are more of them where it is higher."""
+    if is_tiling:
+        cells = material.cells(options.texture)
+        cells *= max(1, round(options.checker_scale / cells))
+        return material.Look(options.texture, cells, made.unit_length, is_tiling=True)
+    cells = options.checker_scale or forms.squares_that_fit(made.solved, replace(made.options, density=1.0))
+    return material.Look(options.texture, cells, forms.unit_length(made.solved, made.options))

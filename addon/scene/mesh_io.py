@@ -1,0 +1,218 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Between Blender's meshes, images and arrays: the only module that calls foreach_get and foreach_set.
+
+Positions are double precision on our side and float32 on Blender's. Corners are in the order of
+the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
+"""
+
+from dataclasses import dataclass
+
+import bmesh
+import bpy
+import numpy as np
+
+from .. import compatibility, native
+from ..compatibility import Values
+
+
+@dataclass(eq=False)
+class Polygons:
+    """A mesh's polygons as arrays, or some of them; `loops` gives the loop of each corner, or None where they agree."""
+
+    vertices: np.ndarray  # (#V,3) float64, in the object's frame without its translation
+    corner_vertices: np.ndarray  # (#C,) int32
+    face_offsets: np.ndarray  # (#F+1,) int32
+    loops: np.ndarray | None
+    faces: np.ndarray | None = None  # (#F,) which polygons of the mesh they are, None for all
+
+    @property
+    def face_count(self):
+        return len(self.face_offsets) - 1
+
+    def surface(self, strict=True):
+        """The `holomorph.Surface` of them, or of their sound part."""
+        arrays = self.vertices, self.corner_vertices, self.face_offsets
+        return native.load().Surface.from_polygons(*arrays, strict=strict)
+
+    def share(self, surface):
+        """Takes the arrays of the surface that was made of these, where they are equal: one copy of them is left."""
+        if not surface.is_whole:
+            return
+        self.vertices, self.corner_vertices = surface.vertices, surface.corner_vertices
+        self.face_offsets = surface.face_offsets
+
+    def has_faces_of(self, other):
+        """Whether the faces are the same, as where modifiers move vertices alone."""
+        same = np.array_equal(self.face_offsets, other.face_offsets)
+        return same and np.array_equal(self.corner_vertices, other.corner_vertices)
+
+    def equals(self, other):
+        """Whether geometry and topology are the same, whatever the order of the loops; never with a NaN."""
+        return self.has_faces_of(other) and np.array_equal(self.vertices, other.vertices)
+
+
+def read_values(values):
+    """(n,) or, for a width above 1, (n, width) array of `compatibility.Values`."""
+    array = np.empty(len(values.elements) * values.width, values.dtype)
+    values.elements.foreach_get(values.name, array)
+    return array if values.width == 1 else array.reshape(-1, values.width)
+
+
+def write_values(values, array):
+    """The reverse of `read_values`."""
+    values.elements.foreach_set(values.name, np.ascontiguousarray(array, values.dtype).ravel())
+
+
+def write_pixels(image, pixels):
+    """Writes (height, width, 4) float32, the lowest row first, in the image's own colour space."""
+    image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())
+
+
+def read_indices(values):
+    """Vertices, loops or lengths as int32, which they fit: Blender has at most 2^31 of each."""
+    return read_values(values).view(np.int32)
+
+
+def read_polygons(mesh, linear):
+    """Copies the polygons out of `mesh`, positions multiplied by the 3x3 matrix `linear`.
+
+    The object's rotation and translation do not change angles, its scale and shear do. The library
+    checks the arrays: Blender's own ``validate`` would change the mesh.
+    """
+    positions, corner_vertices = compatibility.polygon_values(mesh)
+    positions, corner_vertices = read_values(positions), read_indices(corner_vertices)
+    vertices, linear = positions.astype(np.float64), np.asarray(linear, np.float64)
+    if not np.array_equal(linear, np.eye(3)):
+        with np.errstate(all="ignore"):  # the library names the vertex of a NaN
+            vertices = vertices @ linear.T
+    starts = read_indices(Values(mesh.polygons, "loop_start", np.uint32))
+    sizes = read_indices(Values(mesh.polygons, "loop_total", np.uint32))
+    offsets = np.zeros(len(starts) + 1, np.int32)
+    np.cumsum(sizes, out=offsets[1:])
+    loops = None
+    if not np.array_equal(starts, offsets[:-1]) or offsets[-1] != len(corner_vertices):
+        loops = np.repeat(starts - offsets[:-1], sizes) + np.arange(offsets[-1], dtype=np.int32)
+        corner_vertices = corner_vertices[loops]
+    return Polygons(vertices, corner_vertices, offsets, loops)
+
+
+def write_face_values(mesh, name, values):
+    """Writes (#F,) numbers as a float attribute of the faces, in place of an attribute of that name."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None or (attribute.domain, attribute.data_type) != ("FACE", "FLOAT"):
+        if attribute is not None:
+            mesh.attributes.remove(attribute)
+        attribute = mesh.attributes.new(name, "FLOAT", "FACE")
+    write_values(Values(attribute.data, "value", np.float32), values)
+
+
+def read_shown(obj, linear, own):
+    """(`Polygons`, (n, 2) vertices of the seams, whether the faces are those of `own`) of an object with its modifiers
+    as the viewport shows them."""
+    shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = shown.to_mesh()
+    try:
+        found = read_polygons(mesh, linear)
+        return found, marked_edges(mesh, "use_seam"), found.has_faces_of(own)
+    finally:
+        shown.to_mesh_clear()
+
+
+def marked_edges(mesh, *marks):
+    """(n, 2) vertices of the edges with one of these marks after the other: "use_seam", "use_edge_sharp", "select"."""
+    found = [_edge_vertices(mesh)[read_values(_marks(mesh, mark))] for mark in marks]
+    return np.concatenate([np.empty((0, 2), np.int64), *found])
+
+
+def mark_edges(mesh, mark, vertex_pairs):
+    """Gives the edges between these (n, 2) vertices the mark, and no other edge."""
+    write_values(_marks(mesh, mark), _edges_between(mesh, vertex_pairs))
+
+
+def read_seams(mesh):
+    """(#mesh edges,) bool."""
+    return read_values(_marks(mesh, "use_seam"))
+
+
+def add_seams(mesh, vertex_pairs):
+    """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
+    wanted = _edges_between(mesh, vertex_pairs)
+    before = read_seams(mesh)
+    write_values(_marks(mesh, "use_seam"), before | wanted)
+    return int(np.count_nonzero(wanted & ~before))
+
+
+def are_neighbours(mesh, vertices):
+    """Whether some edge joins two of the vertices."""
+    return bool(np.isin(_edge_vertices(mesh), vertices).all(axis=1).any())
+
+
+def edge_vectors(mesh, vertex_pairs):
+    """(n, 3) from the first to the second of (n, 2) vertices."""
+    positions = read_values(compatibility.position_values(mesh)).astype(np.float64)
+    return positions[vertex_pairs[:, 1]] - positions[vertex_pairs[:, 0]]
+
+
+def _edge_vertices(mesh):
+    return read_indices(compatibility.edge_vertex_values(mesh))
+
+
+def _marks(mesh, mark):
+    return Values(mesh.edges, mark, bool)
+
+
+def _edges_between(mesh, vertex_pairs):
+    """(#mesh edges,) bool: the edges whose vertices are one of the pairs."""
+    ends = np.sort(_edge_vertices(mesh), axis=1)
+    pairs = np.sort(np.asarray(vertex_pairs, np.int64).reshape(-1, 2), axis=1)
+    count = len(mesh.vertices)
+    return np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])
+
+
+def selected_vertices(mesh):
+    """(n,) selected vertices: in edit mode in the order in which they were picked, as far as Blender remembers it."""
+    selected = np.flatnonzero(read_values(Values(mesh.vertices, "select", bool)))
+    if not mesh.is_editmode:
+        return selected
+    history = bmesh.from_edit_mesh(mesh).select_history
+    picked = np.array([e.index for e in history if isinstance(e, bmesh.types.BMVert)], np.int64)
+    return np.concatenate([picked[np.isin(picked, selected)], selected[~np.isin(selected, picked)]])
+
+
+def weights(mesh, group):
+    """(#V,) weights in the vertex group of this index; one by one, for Blender has no array of them."""
+    of_each = (next((g.weight for g in vertex.groups if g.group == group), 0.0) for vertex in mesh.vertices)
+    return np.fromiter(of_each, np.float64, len(mesh.vertices))
+
+
+def corner_normals(mesh):
+    """(#loops, 3)"""
+    return read_values(compatibility.corner_normal_values(mesh))
+
+
+def new_mesh(name, vertices, corner_vertices, face_offsets):
+    """A Blender mesh of these polygons, vertices and corners in their order."""
+    mesh = bpy.data.meshes.new(name)
+    mesh.vertices.add(len(vertices))
+    write_values(compatibility.position_values(mesh), vertices)
+    mesh.loops.add(len(corner_vertices))
+    write_values(Values(mesh.loops, "vertex_index", np.uint32), corner_vertices)
+    mesh.polygons.add(len(face_offsets) - 1)
+    write_values(Values(mesh.polygons, "loop_start", np.uint32), face_offsets[:-1])
+    write_values(Values(mesh.polygons, "loop_total", np.uint32), np.diff(face_offsets))  # needed before 4.1
+    mesh.update(calc_edges=True)
+    return mesh
+
+
+def shade_smooth(mesh, sharp_angle):
+    """Smooth shading, edges sharper than `sharp_angle` (radians) excepted."""
+    write_values(Values(mesh.polygons, "use_smooth", bool), np.ones(len(mesh.polygons), bool))
+    compatibility.keep_sharp_edges(mesh, sharp_angle)
+    mesh.update()
+
+
+def world_points(obj, vertices=slice(None)):
+    """(n,3) float64 positions in the world of vertices of an object's mesh, by default of all."""
+    positions = read_values(compatibility.position_values(obj.data))[vertices]
+    matrix = np.array(obj.matrix_world, np.float64)
+    return positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The objects of a run, as they are when it begins: their polygons, and what is chosen on them."""
+
+from dataclasses import dataclass, replace
+
+import bpy
+import numpy as np
+
+from .. import compatibility
+from ..compatibility import Values
+from ..solving import choices, solve
+from ..solving.choices import Choices
+from . import faces, mesh_io
+
+SAME_SCALE = 1e-5  # relative: matrices of objects are float32
+EVERYTHING = Choices()
+MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
+
+
+@dataclass(frozen=True)
+class Target:
+    """An object to treat; it is found again by name, since Python's references do not survive everything."""
+
+    name: str
+    library: str | None
+    polygons: mesh_io.Polygons | None
+    chosen: Choices = Choices()
+    refused: str = ""
+    note: str = ""
+    mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
+    modifiers: bool = False  # whether the polygons are those that the modifiers make
+    makes_object: bool = False  # whether these become an object of their own
+
+    def find(self):
+        return bpy.data.objects.get((self.name, self.library))
+
+    def has_changed(self, time_has_passed):
+        """Whether the object is gone or, where Blender was alive meanwhile, its mesh is not what was read."""
+        obj = self.find()
+        return obj is None or (time_has_passed and not self._is_what_was_read(obj))
+
+    def _is_what_was_read(self, obj):
+        if self.modifiers:
+            return mesh_io.read_shown(obj, _linear(obj), self.polygons)[0].equals(self.polygons)
+        has_faces = self.mask is None or len(obj.data.polygons) == len(self.mask)
+        return has_faces and read(obj, self.mask).equals(self.polygons)
+
+
+def mesh_objects(context):
+    """The mesh objects the operator is about, the active one first."""
+    if context.mode == "EDIT_MESH":
+        objects = compatibility.objects_being_edited(context)
+    else:
+        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH"]
+    active = context.view_layer.objects.active
+    return sorted(objects, key=lambda o: o != active)
+
+
+def collect(objects, asked=EVERYTHING):
+    """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts.
+    @throws ValueError there are none of the faces that are asked for"""
+    targets, first = [], {}
+    for obj in objects:
+        if obj.mode == "EDIT":
+            obj.update_from_editmode()
+    masks = _masks(objects, asked.faces)
+    for obj in (o for o in objects if o.data in masks):
+        mesh = obj.data
+        target = _target(obj, masks[mesh], asked) if mesh not in first or asked.modifiers else None
+        if target is None or (mesh in first and not target.makes_object):
+            index, other = first[mesh]
+            if not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
+                note = f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts"
+                targets[index] = replace(targets[index], note=note)
+            continue
+        if not target.makes_object:
+            first[mesh] = len(targets), obj
+        targets.append(target)
+    return targets
+
+
+def _masks(objects, wanted):
+    """{mesh: (#F,) bool, or None for all faces}; meshes of which nothing is selected are left out where something is
+    selected on others. @pre pending edits are written to the meshes. @throws ValueError as `collect`"""
+    meshes = list(dict.fromkeys(obj.data for obj in objects))
+    own = [mesh for mesh in meshes if mesh.library is None and (mesh.is_editmode or wanted == choices.ASKED)]
+    selected = {mesh: _flags(mesh, "select") & ~_flags(mesh, "hide") for mesh in own if wanted != choices.WHOLE}
+    if any(flags.any() for flags in selected.values()):
+        return {mesh: _or_all(flags) for mesh, flags in selected.items() if flags.any()}
+    if wanted == choices.ASKED:
+        raise ValueError("select the faces that are to be mapped")
+    return {mesh: _or_all(~_flags(mesh, "hide")) if mesh.is_editmode else None for mesh in meshes}
+
+
+def _or_all(mask):
+    return None if mask.all() else mask
+
+
+def _flags(mesh, name):
+    return mesh_io.read_values(Values(mesh.polygons, name, bool))
+
+
+def _target(obj, mask, asked):
+    library = obj.library.filepath if obj.library else None
+    target = Target(obj.name, library, None, mask=mask)
+    if obj.data.library is not None:
+        return replace(target, refused="its mesh is linked from another file; make it local first")
+    if asked.are_islands and asked.is_explicit:
+        return replace(target, refused="islands have no punctures or corners: choose those or another main map")
+    takes_modifiers, modifier, own = asked.modifiers and obj.mode != "EDIT", first_modifier(obj), read(obj, mask)
+    if takes_modifiers or (modifier and not own.face_count):
+        shown, seams, are_own = mesh_io.read_shown(obj, _linear(obj), own)
+        if takes_modifiers and not (mask is None and are_own):
+            return _with_modifiers(replace(target, modifiers=True), asked, shown, seams, modifier)
+        if takes_modifiers:
+            target, own = replace(target, modifiers=True), replace(own, vertices=shown.vertices)
+        elif shown.face_count:
+            sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
+            return replace(target, refused=sentence)
+    return replace(target, polygons=own, chosen=_chosen(obj, asked))
+
+
+def _with_modifiers(target, asked, shown, seams, modifier):
+    """The target where the modifiers make other faces, and so an object of their own."""
+    if not shown.face_count:
+        return replace(target, refused=f"its modifiers leave no faces; the first is {modifier}")
+    if target.mask is not None or asked.is_explicit:
+        return replace(target, refused="the selection is one of the mesh itself, not of what its modifiers make")
+    chosen = replace(asked, use=choices.NONE, seams=seams if asked.cut_at_seams else choices.NO_EDGES)
+    note = f"{target.name}: what its modifiers make is an object now; the object itself is hidden"
+    return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=note)
+
+
+def first_modifier(obj):
+    """The name of the first modifier that is shown, in quotes, or ""."""
+    return next((repr(m.name) for m in obj.modifiers if m.show_viewport), "")
+
+
+def _chosen(obj, asked):
+    """What is asked, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
+    marks = ["use_seam"] * bool(asked.cut_at_seams) + ["use_edge_sharp"] * bool(asked.hard_edges)
+    vertices = _selected(obj, asked.use) if asked.vertices is None else asked.vertices
+    return replace(asked, vertices=vertices, seams=mesh_io.marked_edges(obj.data, *marks))
+
+
+def _selected(obj, use):
+    """The selected vertices. Automatic use takes single vertices in edit mode, not faces or edges that are selected."""
+    if use == choices.NONE or (use == choices.AUTOMATIC and obj.mode != "EDIT"):
+        return ()
+    selected = mesh_io.selected_vertices(obj.data)
+    if use == choices.AUTOMATIC and (len(selected) > MOST_PICKED or mesh_io.are_neighbours(obj.data, selected)):
+        return ()
+    return tuple(selected.tolist())
+
+
+def _linear(obj):
+    return np.array(obj.matrix_world, np.float64)[:3, :3]
+
+
+def _metric(obj):
+    """How the object's matrix changes shapes: equal for matrices that differ by rotation, reflection or factor."""
+    metric = _linear(obj).T @ _linear(obj)
+    size = np.trace(metric)
+    return metric / size if size > 0 else metric
+
+
+def with_positions(target, vertices):
+    """The same target with these (#V,3) float64 positions: those of a file are more precise than Blender's."""
+    return replace(target, polygons=replace(target.polygons, vertices=vertices))
+
+
+def tasks(targets):
+    return [solve.Task(t.polygons, t.chosen) for t in targets if not t.refused]
+
+
+def align(targets, results):
+    """The results in the order of all targets; a target that was refused at once has none."""
+    solved = iter(results)
+    return [None if t.refused else next(solved) for t in targets]
+
+
+def read(obj, mask=None):
+    """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
+    return faces.part(mesh_io.read_polygons(obj.data, _linear(obj)), mask)

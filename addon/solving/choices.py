@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is chosen on a mesh (vertices, seams, method), and what it means for each connected part. No bpy here.
+
+A choice becomes keywords of `structure`. Where an explicit choice does not fit, the library refuses it; an implicit one
+(a selection under "Automatic", seams) is dropped.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+# What the selection is.
+AUTOMATIC, FACES, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "PUNCTURES", "RECTANGLE", "NONE"
+EXPLICIT = (PUNCTURES, RECTANGLE)
+# Which faces are mapped: all; in edit mode the selected ones if there are any; these, or a refusal.
+WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
+ISLANDS = "islands"  # as a boundary: the mesh is cut along its seams into parts, each flattened by itself
+CORNERS = 4
+NO_EDGES = np.empty((0, 2), np.int64)
+
+
+@dataclass(frozen=True)
+class Choices:
+    """What is asked of every object of a run, and then, with its own vertices and seams, of each. Vertices are those of
+    the whole mesh."""
+
+    use: str = NONE  # what the chosen vertices are
+    vertices: tuple | None = None  # in the order in which they were selected, as far as that is known; None before
+    residues: tuple = ()  # complex, one for each pole; none lets the library choose
+    seams: np.ndarray = field(default_factory=lambda: NO_EDGES, compare=False)  # (#S,2) vertices
+    boundary: str = "natural"
+    solver: str = "auto"
+    hard_edges: float = 0.0  # degrees: islands are cut along sharper edges, too; 0 for the seams alone
+    most_stretch: float = 0.0  # islands are cut open where lengths change by a larger factor; 0 for no such cuts
+    cut_at_seams: bool = False
+    faces: str = WHOLE  # which ones are mapped
+    modifiers: bool = False  # whether they count, in object mode
+
+    @property
+    def key(self):
+        """Equal for choices that give the same solve."""
+        chosen = (self.use, self.vertices, self.residues) if self.vertices else ()
+        return (*chosen, self.seams.tobytes(), self.boundary, self.solver, self.hard_edges, self.most_stretch)
+
+    @property
+    def is_explicit(self):
+        return self.use in EXPLICIT
+
+    @property
+    def are_islands(self):
+        return self.boundary == ISLANDS
+
+
+def attempts(part, choices):
+    """Keywords for a connected part, the most wanted first; the later ones leave out implicit choices. Vertices are
+    those of the whole mesh."""
+    if choices.are_islands:
+        base = _with_fitting_method(part, {"solver": choices.solver, "boundary": "natural"})
+        return [base | {"boundary": "free"}, base]
+    base = {"solver": choices.solver, "boundary": choices.boundary}
+    selection = _selection(part, choices)
+    seams = choices.seams
+    if len(seams):
+        seams = seams[np.isin(seams, part.vertex_index).all(axis=1)]
+    cut = {"cuts": seams} if len(seams) else {}
+    wanted = [base]
+    if cut:
+        wanted.insert(0, base | cut)
+    if selection:
+        with_selection = [keywords | selection for keywords in wanted]
+        wanted = with_selection if choices.is_explicit else with_selection + wanted
+    return [_with_fitting_method(part, keywords) for keywords in wanted]
+
+
+def _with_fitting_method(part, keywords):
+    """The double is for the forms of surfaces with boundary, the paper's solver for closed parts with handles: other
+    parts of a mesh are solved as usual."""
+    is_chosen = not keywords.keys().isdisjoint({"poles", "corners"})
+    is_open = part.boundary_count > 0
+    has_forms = not is_chosen and 2 * part.genus + part.boundary_count - is_open > 0
+    if not (is_open and has_forms):
+        keywords = keywords | {"boundary": "natural"}
+    if keywords["solver"] == "paper" and (is_open or not has_forms):
+        keywords = keywords | {"solver": "auto"}
+    return keywords
+
+
+def structure(holomorph, surface, keywords, progress):
+    """What the keywords ask for, by the function of the library that gives it."""
+    options = {"solver": keywords["solver"], "progress": progress}
+    poles, residues = keywords.get("poles"), keywords.get("residues")
+    if "corners" in keywords:
+        made = holomorph.rectangle_map(surface, keywords["corners"], **options)
+    elif poles is not None and len(poles) == 1 and residues is None and _is_disk(surface):
+        made = holomorph.disk_map(surface, int(poles[0]), **options)
+    elif poles is not None:
+        made = holomorph.log_map(surface, poles, residues, **options)
+    elif keywords["boundary"] == "free":
+        made = holomorph.free_boundary_map(surface, **options)
+    else:
+        made = holomorph.automatic_structure(surface, boundary=keywords["boundary"], **options)
+    return holomorph.cut_along(made, keywords["cuts"]) if "cuts" in keywords else made
+
+
+def name_vertices(keywords):
+    """Whether the keywords name vertices."""
+    return not keywords.keys().isdisjoint({"poles", "corners", "cuts"})
+
+
+def ask_for_a_kind(keywords):
+    """Whether the keywords say how the map is to be made, and not just how fast."""
+    return name_vertices(keywords) or keywords["boundary"] != "natural" or keywords["solver"] == "paper"
+
+
+def are_explicit(keywords, choices):
+    """Whether the keywords hold what the library is to refuse where it does not fit."""
+    return choices.is_explicit and not keywords.keys().isdisjoint({"poles", "corners"})
+
+
+def numbers(text):
+    """The complex numbers in a text like "1 1 -2" or "1+0.5j, -1-0.5j"; raises ValueError naming what is none."""
+    result = []
+    for word in text.replace(",", " ").split():
+        try:
+            number = complex(word)
+        except ValueError:
+            number = complex("nan")
+        if not np.isfinite(number):
+            raise ValueError(f"residues: {word!r} is not a number")
+        result.append(number)
+    return tuple(result)
+
+
+def stray_vertex(corner_vertices, choices):
+    """The first explicitly chosen vertex that no face has, or None."""
+    chosen = np.array(choices.vertices if choices.is_explicit else (), np.int64)
+    stray = chosen[~np.isin(chosen, corner_vertices)]
+    return int(stray[0]) if len(stray) else None
+
+
+def _selection(part, choices):
+    """The selected vertices of this part as poles or corners; nothing where there are none."""
+    if choices.use == NONE or not choices.vertices:
+        return {}
+    selected = np.asarray(choices.vertices, np.int64)
+    is_own = np.isin(selected, part.vertex_index)
+    own = selected[is_own]
+    if len(own) == 0:
+        return {}
+    if choices.use == RECTANGLE or (choices.use == AUTOMATIC and _are_corners_of_a_disk(part, own)):
+        return {"corners": around_boundary(part, own)}
+    if not choices.residues:
+        return {"poles": own}
+    residues = np.asarray(choices.residues, complex)
+    # The library refuses a wrong number of residues.
+    return {"poles": own, "residues": residues[is_own] if len(residues) == len(is_own) else residues}
+
+
+def _are_corners_of_a_disk(part, vertices):
+    return _is_disk(part) and len(vertices) == CORNERS and bool(np.isin(vertices, boundary_edges(part)[0]).all())
+
+
+def _is_disk(surface):
+    return surface.genus == 0 and surface.boundary_count == 1
+
+
+def boundary_edges(part):
+    """(starts, ends) of the boundary edges, directed as in their triangles, in vertices of the whole mesh."""
+    triangles = part.triangles.astype(np.int64)
+    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    count = triangles.max() + 1
+    is_boundary = ~np.isin(start * count + end, end * count + start)  # also both sides of a cut
+    return part.vertex_index[start[is_boundary]], part.vertex_index[end[is_boundary]]
+
+
+def around_boundary(part, vertices):
+    """The vertices in the order in which the boundary loop of the first passes them, surface on the left; as they are
+    where they do not lie on one loop.
+
+    Steps to the first vertex by pointer doubling, O(n log n) for n vertices of the whole mesh.
+    """
+    start, end = boundary_edges(part)
+    if not np.isin(vertices, start).all():
+        return vertices
+    following = np.arange(start.max() + 1)
+    following[start] = end
+    following[vertices[0]] = vertices[0]
+    steps = np.ones(len(following), np.int64)
+    steps[vertices[0]] = 0
+    for _ in range(len(start).bit_length()):
+        steps[start], following[start] = steps[start] + steps[following[start]], following[following[start]]
+    if (following[vertices] != vertices[0]).any():
+        return vertices
+    return vertices[np.concatenate([[0], 1 + np.argsort(-steps[vertices[1:]], kind="stable")])]

@@ -1,0 +1,224 @@
+"""Which map a part gets: the balanced one of its structure, or a seamless tiling where that is no less even."""
+
+import math
+import numbers
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ._native import InvalidMesh, SolverError, TopologyError
+from .array_types import Progress
+from .automatic_structure import AnyStructure, automatic_structure
+from .map import Map
+from .progress import scaled
+from .surface import Surface
+from .tiling import Poles
+
+Refusal = InvalidMesh | TopologyError | SolverError  # what is said about one part, others go on
+REFUSALS = (InvalidMesh, TopologyError, SolverError)
+
+MAIN_MAPS = ("automatic", "seamless", "balanced")
+
+EVEN = 2.0  # 95 : 5 % ratio of the density below which a map without seams stays: the squares' sizes hardly differ
+LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
+MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
+MOST_FLIPPED = 0.02  # part of the area: what flips lies beside branch points, and few are seen
+
+# The poles of the tilings that are tried; the first one that is better is taken. Without any, the map of a ring, such
+# as a pipe, is the balanced one, scaled until whole tiles fit around it.
+POLES = ("auto", 0)
+
+SOLVING = 0.5  # of the work, for the structure
+
+
+def automatic_map(
+    surface: Surface,
+    structure: AnyStructure | None = None,
+    *,
+    main: str = "automatic",
+    tiles: float | None = None,
+    density: float | None = None,
+    poles: Poles = "auto",
+    lattice: str | ArrayLike = "square",
+    direction: ArrayLike | str | None = "upright",
+    boundary: str = "straight",
+    turn: float | None = None,
+    max_turn: float = 0.2,
+    max_added: float | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Map:
+    """The `Map` of one connected part of any kind.
+
+    A texture breaks off at the seams of the balanced map, and its size follows the density. Where there is a seam, or
+    the density ratio is above 2, tilings are tried. One takes the place of the balanced map where its density is about
+    as even, its mean s1 / s2 at most a tenth larger, and hardly any area is flipped.
+
+    Parameters
+    ----------
+    surface : Surface, connected; isolated vertices are ignored
+    structure : what was solved of it, default `automatic_structure`. It keeps the poles that were placed: another call
+        with other tiles, lattice or direction is quick
+    main : "automatic"; "seamless" for a tiling in any case; "balanced" for none, as where something was chosen about
+        the structure
+    tiles, density, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
+    direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
+    threads : as in `conformal_structure`
+    progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
+
+    Raises what `automatic_structure` does; TopologyError or SolverError where a tiling was asked for and cannot be
+    made.
+    """
+    solving = SOLVING if structure is None else 0.0
+    found = _found(surface, structure, main, threads, scaled(progress, 0.0, solving))
+    if isinstance(found, Map):
+        return found
+    options = {"lattice": lattice, "direction": direction, "boundary": boundary}
+    options |= {"turn": turn, "max_turn": max_turn, "max_added": max_added}
+    return found.tiled(poles, {"tiles": tiles, "density": density, **options}, scaled(progress, solving, 1.0))
+
+
+def automatic_maps(
+    surfaces: Surface | Sequence[Surface],
+    structures: Sequence[AnyStructure] | None = None,
+    *,
+    main: str | Sequence[str] = "automatic",
+    tiles: float | None = None,
+    density: float | None = None,
+    poles: Poles = "auto",
+    direction: ArrayLike | str | None = "upright",
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> list[Map | Refusal]:
+    """The `Map` of each part of a mesh, and the error that says why in the place of one that cannot be made. All
+    tilings have the same number of tiles per area: that of the largest, which is made first.
+
+    Parameters
+    ----------
+    surfaces : the connected parts, or a Surface whose components they are
+    structures : of all parts, as in `automatic_map`
+    main : of all parts, or of each
+    tiles, density : tiles over all the parts that get tilings, or per unit of area
+    poles : "auto", a number for each part, or a list of vertices of the mesh as given; "auto" on parts without any
+    direction, options, threads, progress : as in `automatic_map`
+    """
+    if tiles is not None and density is not None:
+        raise ValueError("a density is given without tiles: either says how many there are")
+    parts = surfaces.components if isinstance(surfaces, Surface) else tuple(surfaces)
+    mains = [main] * len(parts) if isinstance(main, str) else main
+    solved, solving = (structures, 0.0) if structures is not None else ([None] * len(parts), SOLVING)
+    made: list[Any] = []
+    for k, part in enumerate(parts):
+        step = scaled(progress, solving * k / len(parts), solving * (k + 1) / len(parts))
+        made.append(_attempt(_found, part, solved[k], mains[k], threads, step))
+    asked = sorted((k for k, found in enumerate(made) if isinstance(found, _Undecided)), key=lambda k: -parts[k].area)
+    total, done = sum(parts[k].area for k in asked) or 1.0, solving
+    for k in asked:
+        part, share = parts[k], parts[k].area / total
+        step = scaled(progress, done, done + (1 - solving) * share)
+        amount = {"tiles": tiles * share} if tiles else {"density": density}
+        own = {"direction": direction} | amount | options
+        made[k] = _attempt(made[k].tiled, _poles_on(part, poles), own, step)
+        if density is None and isinstance(made[k], Map) and made[k].tiling:
+            density = made[k].density
+        done += (1 - solving) * share
+    return made
+
+
+def _attempt(make, *arguments):
+    """What it gives, or how it refuses."""
+    try:
+        return make(*arguments)
+    except REFUSALS as error:
+        return error
+
+
+def _poles_on(part, poles):
+    """Those of the chosen vertices of a mesh that lie on a part, as it counts them, in their order."""
+    if isinstance(poles, (str, numbers.Real)):
+        return poles
+    own = [np.flatnonzero(part.vertex_index == vertex) for vertex in poles]
+    return np.concatenate([np.empty(0, int), *own]).tolist() or "auto"
+
+
+def _found(surface, structure, main, threads, progress):
+    """The balanced `Map` where it stays; `_Undecided` where a tiling may take its place."""
+    if main not in MAIN_MAPS:
+        raise ValueError(f"main is {main!r}; one of {', '.join(MAIN_MAPS)} is needed")
+    if structure is None:
+        structure = automatic_structure(surface, threads=threads, progress=progress)
+    if main == "seamless":
+        return _Undecided(surface, structure, None)
+    coefficients = structure.balanced_coefficients()
+    uv = structure.uv(coefficients)
+    balanced = Map(surface, structure, uv, structure.quality(uv), coefficients, "it was asked for")
+    if main == "balanced":
+        return balanced
+    why = _why_it_stays(balanced)
+    return replace(balanced, why=why) if why else _Undecided(surface, structure, balanced)
+
+
+def _why_it_stays(balanced):
+    """ "" where a texture would break off at a seam, or vary in size."""
+    if balanced.surface.area == 0:
+        return "the surface has no area"
+    ratio = balanced.quality.density_ratio
+    if len(balanced.structure.seams) or not ratio <= EVEN:
+        return ""
+    return f"it has no seams, and its squares hardly differ in size: {_ratio(ratio)}"
+
+
+@dataclass(frozen=True)
+class _Undecided:
+    """A part that may get a tiling; `balanced` is its other map, None where a tiling was asked for."""
+
+    surface: Surface
+    structure: AnyStructure
+    balanced: Map | None
+
+    def tiled(self, poles, options, progress):
+        """The `Map`, by `options` of `Structure.tile`."""
+        if self.balanced is None:
+            return self._map(self._tiling(poles, options, progress), "it was asked for")
+        tried = POLES if isinstance(poles, str) and poles == "auto" else (poles,)
+        reasons = []
+        for k, own in enumerate(tried):
+            try:
+                made = self._tiling(own, options, scaled(progress, k / len(tried), (k + 1) / len(tried)))
+            except REFUSALS as error:
+                reasons.append(f"no tiling can be made: {error}")
+                continue
+            drawback = _drawback(made, self.balanced.quality)
+            if not drawback:
+                return self._map(made, f"it has no visible seams and is no less even: {_ratio(made.density_ratio)}")
+            reasons.append(f"a tiling {drawback}")
+        return replace(self.balanced, why=reasons[0])
+
+    def _tiling(self, poles, options, progress):
+        return self.structure.tile(poles=poles, surface=self.surface, progress=progress, **options)
+
+    def _map(self, made, why):
+        return Map(self.surface, self.structure, made.uv, made.quality, np.empty(0), why, made)
+
+
+def _drawback(tiling, balanced):
+    """Why a tiling does not take the place of a map with the quality `balanced`, "" where it does. It has no visible
+    seam: it is to be about as even, and hardly more sheared."""
+    quality = tiling.quality
+    if not quality.flipped_part < MOST_FLIPPED:
+        return f"would flip {100 * quality.flipped_part:.2g} % of the area"
+    if not quality.capped_mean_angle < MORE_SHEARED * balanced.capped_mean_angle:
+        sheared = f"{quality.capped_mean_angle:.3g} instead of {balanced.capped_mean_angle:.3g}"
+        return f"would be more sheared: mean s1/s2 {sheared}"
+    ratio = math.inf if math.isnan(balanced.density_ratio) else balanced.density_ratio
+    if not tiling.density_ratio < LESS_EVEN * ratio:
+        return f"would be less even: {_ratio(tiling.density_ratio)} instead of {ratio:.3g}"
+    return ""
+
+
+def _ratio(value):
+    return f"density ratio {value:.3g}"

@@ -1,0 +1,90 @@
+"""The UV map of one connected part, of whichever kind."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from . import arrays
+from .array_types import Complexes, Integers, Reals
+from .automatic_structure import AnyStructure
+from .pole_structure import PoleStructure
+from .quality import Quality
+from .surface import Surface
+from .tiling import Tiling
+from .value import Value
+from .verdicts import Verdict
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Map(Value):
+    """Result of `automatic_map`. All arrays are read-only; vertices are those of `surface`.
+
+    surface : Surface, connected
+    structure : the conformal structure that the map is made of, or beside
+    uv : (#C, 2) UVs. Those of a tiling may be multiplied and moved by integers only
+    quality : `Quality`
+    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a tiling
+    why : why it is this map, in one sentence
+    tiling : `Tiling`, None for other kinds
+    """
+
+    surface: Surface
+    structure: AnyStructure
+    uv: Reals
+    quality: Quality
+    coefficients: Complexes | Reals
+    why: str
+    tiling: Tiling | None = None
+
+    @property
+    def kind(self) -> str:
+        """What the map is.
+
+        "tiling" : without visible seams under a texture that tiles
+        "forms" : a combination of holomorphic forms, cut along seams
+        "strip" : an annulus as a rectangle whose two other sides are a seam
+        "log" : around poles, which lie at infinity, also a sphere as a strip
+        "disk", "rectangle", "triangle" : a disk with a straight or round boundary
+        "flat" : a disk with a free boundary
+        """
+        return "tiling" if self.tiling else self.structure.map_kind
+
+    @property
+    def verdict(self) -> Verdict:
+        """The `Verdict` on the map."""
+        return self.tiling.verdict if self.tiling else self.quality.verdict
+
+    @cached_property
+    def seams(self) -> Integers:
+        """(#S, 2) vertices of the edges where the UVs jump."""
+        if self.tiling:
+            return self.tiling.seams
+        return self._of_surface(self.structure._triangulation.edges[self.structure.seams])
+
+    @cached_property
+    def poles(self) -> Integers:
+        """(k,) vertices around which the UVs change by a residue."""
+        if self.tiling:
+            return self.tiling.poles
+        is_log = isinstance(self.structure, PoleStructure)
+        return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
+
+    @property
+    def density(self) -> float:
+        """UV area per area of the surface: tiles of a tiling, else the median."""
+        return self.tiling.tiles / self.surface.area if self.tiling else self.quality.median_density
+
+    @property
+    def unit_length(self) -> float:
+        """Length on the surface of a UV unit where the density is the median one; 0 for a map without area."""
+        density = self.quality.median_density
+        return 1 / math.sqrt(density) if density > 0 else 0.0
+
+    def _facts(self):
+        return [self.kind, self.why, self.verdict.level]
+
+    def _of_surface(self, vertices):
+        component = self.surface.components[0]
+        return arrays.frozen(vertices if component is self.surface else component.vertex_index[vertices])

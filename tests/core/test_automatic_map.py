@@ -1,0 +1,188 @@
+"""Which map a part gets: by itself, in the command, and beside other parts."""
+
+import importlib
+import json
+import math
+from types import SimpleNamespace
+
+import holomorph
+import numpy as np
+import pytest
+from families import cylinder, geodesic_sphere, hemisphere, torus, united
+from holomorph.__main__ import main
+from holomorph.batch import arrangement
+from holomorph.batch.recipe import Maps
+
+automatic = importlib.import_module("holomorph.automatic_map")  # the package has the function under this name
+
+SHARED = {"hand": "hand_lowres_b1.obj", "pretzel": "double-torus.obj"}
+FAMILIES = {
+    "torus": lambda: torus(24, 12),
+    "tube": lambda: cylinder(16, 24),
+    "sphere": lambda: geodesic_sphere(6),
+    "disk": lambda: hemisphere(8),
+    "two parts": lambda: united(torus(24, 12, R=3.0), torus(24, 12)),
+}
+
+
+def surface_of(mesh):
+    return holomorph.Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
+
+
+def quality(ratio, sheared, flipped=0.0):
+    return SimpleNamespace(density_ratio=ratio, capped_mean_angle=sheared, flipped_part=flipped)
+
+
+def tiling(ratio, *others):
+    return SimpleNamespace(density_ratio=ratio, quality=quality(ratio, *others))
+
+
+@pytest.mark.parametrize(
+    ("made", "balanced", "drawback"),
+    [
+        (tiling(5.0, 1.1), (200.0, 1.1), ""),
+        (tiling(5.0, 1.1), (math.inf, 1.1), ""),
+        (tiling(5.0, 1.1), (math.nan, 1.1), ""),
+        (tiling(5.0, 1.2), (5.0, 1.1), ""),  # as even, and without a seam
+        (tiling(5.2, 1.1), (5.0, 1.1), "less even"),
+        (tiling(5.0, 1.25), (200.0, 1.1), "more sheared"),
+        (tiling(6.5, 1.45, 0.0135), (1.1e5, 2.0), ""),  # a penguin of 200 quads
+        (tiling(6.5, 1.45, 0.03), (1.1e5, 2.0), "flip"),
+    ],
+)
+def test_a_tiling_is_to_be_about_as_even_and_hardly_more_sheared(made, balanced, drawback):
+    found = automatic._drawback(made, quality(*balanced))
+    assert drawback in found and bool(found) == bool(drawback)
+
+
+def test_an_even_map_without_seams_is_not_compared():
+    for seams in ([], [3]):
+        for ratio in (1.9, 2.1, math.inf, math.nan):
+            balanced = SimpleNamespace(
+                surface=SimpleNamespace(area=1.0), structure=SimpleNamespace(seams=seams), quality=quality(ratio, 1.0)
+            )
+            assert bool(automatic._why_it_stays(balanced)) == (not seams and ratio == 1.9)
+
+
+@pytest.fixture(params=[*FAMILIES, *SHARED])
+def mesh_file(request, tmp_path):
+    """A mesh of a family, or a real one, as a file."""
+    if request.param in SHARED:
+        return request.getfixturevalue("meshes") / SHARED[request.param]
+    path = tmp_path / "mesh.obj"
+    surface = surface_of(FAMILIES[request.param]())
+    surface.write(path)
+    return path
+
+
+def test_the_command_gives_the_same_map(mesh_file, tmp_path):
+    """Its UVs are those of `automatic_maps`, side by side, to the last bit; so are kind and reason."""
+    surface = holomorph.Surface.read(mesh_file)
+    made = holomorph.automatic_maps(surface)
+    parts = [SimpleNamespace(surface=m.surface, structure=m.structure, map=m) for m in made]
+    output, report = tmp_path / "mapped.obj", tmp_path / "report.json"
+    assert main([str(mesh_file), "--output", str(output), "--report", str(report)]) == 0
+    texts = [line.split()[1:] for line in output.read_text().splitlines() if line.startswith("vt ")]
+    own = arrangement.main_uv(surface, parts, Maps())
+    assert np.array_equal(np.unique(np.array(texts, float), axis=0), np.unique(own, axis=0))
+    said = [part["main_map"] for part in json.loads(report.read_text())["components"]]
+    assert [(m["kind"], m["why"]) for m in said] == [(m.kind, m.why) for m in made]
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_a_part_alone_gets_the_map_that_it_gets_beside_others(name):
+    surface = surface_of(FAMILIES[name]())
+    made, density = holomorph.automatic_maps(surface), None
+    for part, found in sorted(zip(surface.components, made), key=lambda pair: -pair[0].area):
+        alone = holomorph.automatic_map(part, density=density)
+        assert np.array_equal(alone.uv, found.uv) and alone.kind == found.kind
+        density = density or (alone.density if alone.tiling else None)
+
+
+def test_what_was_solved_is_taken():
+    surface = surface_of(torus(24, 12))
+    structure = holomorph.conformal_structure(surface)
+    made = [holomorph.automatic_map(surface, given, main="seamless") for given in (structure, None)]
+    assert made[0].structure is structure and np.array_equal(made[0].uv, made[1].uv)
+    stages = []
+    holomorph.automatic_map(
+        surface, structure, main="seamless", tiles=40, progress=lambda _fraction, stage: stages.append(stage)
+    )
+    assert "poles" not in stages  # they were placed
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_balanced_map_is_that_of_the_structure(name):
+    for part in surface_of(FAMILIES[name]()).components:
+        found = holomorph.automatic_map(part, main="balanced")
+        assert found.tiling is None and found.kind == found.structure.map_kind
+        assert np.array_equal(found.uv, found.structure.uv(found.coefficients))
+        assert np.array_equal(found.seams, found.structure.edges[found.structure.seams])
+
+
+def test_kinds():
+    kinds = [holomorph.automatic_map(surface_of(FAMILIES[name]()), main="balanced").kind for name in list(FAMILIES)[:4]]
+    assert kinds == ["forms", "strip", "log", "disk"]
+
+
+def test_a_tiling_that_is_asked_for_and_cannot_be_made_is_an_error_of_its_part():
+    parts = surface_of(FAMILIES["two parts"]()).components
+    with pytest.raises(holomorph.TopologyError, match="max_added"):
+        holomorph.automatic_map(parts[1], main="seamless", tiles=3, poles=2, max_added=1.0)
+    made = holomorph.automatic_maps(parts, main=["balanced", "seamless"], tiles=3, poles=2, max_added=1.0)
+    assert isinstance(made[0], holomorph.Map) and "max_added" in str(made[1])
+    (stays,) = holomorph.automatic_maps(parts[1:], tiles=3, poles=2, max_added=1.0)
+    assert stays.tiling is None and "max_added" in stays.why
+
+
+def test_tilings_have_one_density():
+    parts = surface_of(FAMILIES["two parts"]()).components
+    for options in ({"tiles": 100.0}, {"density": 2.0}, {}):
+        made = holomorph.automatic_maps(parts, main="seamless", **options)
+        assert made[0].density == pytest.approx(made[1].density, rel=1e-9)
+        if "tiles" in options:
+            assert sum(m.tiling.tiles for m in made) == pytest.approx(100.0, rel=1e-9)
+    with pytest.raises(ValueError, match="without tiles"):
+        holomorph.automatic_maps(parts, tiles=3, density=2.0)
+
+
+def test_upright():
+    """Rows run level: on a tube that stands, v runs up."""
+    tube, ring = surface_of(cylinder(24, 12)), surface_of(torus(24, 12))
+    found = holomorph.automatic_map(tube, main="seamless", poles=0)
+    height, v = tube.vertices[tube.corner_vertices, 2], found.uv[:, 1]
+    assert np.corrcoef(height, v)[0, 1] > 1 - 1e-9
+    along = {"direction": (0, 0, 1), "turn": np.pi / 2}
+    made = [
+        holomorph.automatic_map(ring, main="seamless", **options).uv for options in ({}, along, {"direction": None})
+    ]
+    assert np.array_equal(made[0], made[1]) and not np.array_equal(made[0], made[2])
+    with pytest.raises(ValueError, match="direction is 'up'"):
+        holomorph.automatic_map(tube, main="seamless", direction="up")
+
+
+def test_an_intrinsic_surface_has_no_upright():
+    surface = surface_of(torus(24, 12))
+    points = surface.vertices[surface.triangles]
+    lengths = np.linalg.norm(np.roll(points, -1, axis=1) - np.roll(points, -2, axis=1), axis=2)
+    intrinsic = holomorph.Surface.from_edge_lengths(surface.triangles, lengths)
+    made = [holomorph.automatic_map(intrinsic, main="seamless", direction=d).uv for d in ("upright", None)]
+    assert np.array_equal(*made)
+
+
+def test_vertices_are_those_of_the_surface_with_isolated_ones():
+    mesh = torus(24, 12)
+    shifted = holomorph.Surface.from_polygons(
+        np.concatenate([np.zeros((5, 3)), mesh.vertices]), mesh.corners + 5, mesh.offsets
+    )
+    plain = surface_of(mesh)
+    for main_map in ("seamless", "balanced"):
+        one = holomorph.automatic_map(plain, main=main_map, poles=[7, 200])
+        other = holomorph.automatic_map(shifted, main=main_map, poles=[12, 205])
+        assert np.array_equal(one.uv, other.uv)
+        assert np.array_equal(one.seams + 5, other.seams) and np.array_equal(one.poles + 5, other.poles)
+
+
+def test_unknown_main_map():
+    with pytest.raises(ValueError, match="main is 'best'; one of automatic, seamless, balanced"):
+        holomorph.automatic_map(surface_of(torus(24, 12)), main="best")
