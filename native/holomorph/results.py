@@ -237,12 +237,12 @@ class Structure(Value):
         count, chosen = asked_poles(poles)
         mask = None if allowed is None else np.asarray(allowed, bool).tobytes()
         key = surface, count, tuple(chosen), str(boundary), mask
-        if key not in self._tilers:
+        tiler = self._tilers.get(key)
+        if tiler is None:
+            tiler = Tiler(surface, poles, boundary=boundary, allowed=allowed, threads=self._threads, progress=progress)
             self._tilers.clear()
-            self._tilers[key] = Tiler(
-                surface, poles, boundary=boundary, allowed=allowed, threads=self._threads, progress=progress
-            )
-        return self._tilers[key]
+            self._tilers[key] = tiler
+        return tiler
 
     @cached_property
     def _tilers(self):

@@ -278,7 +278,7 @@ def test_a_pole_is_moved_without_rounding_again(name):
     before, stages = tiler.tile(**options), []
     place = neighbour(mesh, before.poles[0], 1)
     moved = tiler.move_poles(before, {0: place}, progress=lambda _, stage: stages.append(stage))
-    assert "rounding" not in stages and "poles" not in stages
+    assert not {"rounding", "search for poles"} & set(stages)
     assert moved.poles[0] == place != before.poles[0]
     assert np.allclose(moved.residues, before.residues, rtol=0, atol=EXACT)
     found = jumps(mesh, moved.uv, moved.poles)

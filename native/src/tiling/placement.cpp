@@ -54,7 +54,7 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   for (const int v : level.vertex) {
     if (!options.allowed.empty()) place_options.allowed.push_back(options.allowed[v]);
   }
-  execution.stage("poles", 0.25, 0.6);
+  execution.stage("search for poles", 0.25, 0.6);
   MeromorphicForm form = options.count ? placed_poles(greens, place_options, *options.count, execution)
                                        : placed_poles(greens, place_options, execution);
   execution.stage("forms of the surface", 0.6, 1.0);
