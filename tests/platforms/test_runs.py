@@ -22,7 +22,7 @@ WITH_BLENDER = ["operator", "tile", "refusals", "faces"]
 WITH_QEMU = ["topology", "surface", "exact_values", "uv", "cut", "rectangle", "boundary_values"]
 WITH_WINE = [
     *WITH_QEMU,
-    *["conformal", "bounded", "punctures", "disk", "laplace", "levels", "zeros", "tiling", "islands", "hard_edges"],
+    *["conformal", "bounded", "log_map", "disk", "laplace", "levels", "zeros", "tiling", "islands", "hard_edges"],
     *["read", "invalid_meshes", "values", "faults", "running", "threads"],
 ]
 # The add-on looks for the package in the build folder of the checkout, which has none for Windows.

@@ -1,35 +1,10 @@
 #include "structure/harmonic_forms.h"
 
 #include <utility>
-#include <vector>
 
 #include "structure/streamed_forms.h"
 
 namespace holomorph::structure {
-namespace {
-
-// W measured on one combination of the Dirichlet forms, with coefficients 1 and -1 in turn: cost #T n instead of #T
-// n^2.
-double largest_pairing_error(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
-                             const Topology& topology, Execution& execution) {
-  const auto n = topology.pairing.rows();
-  if (topology.families.dirichlet == 0) return 0;
-  Eigen::VectorXd signs = Eigen::VectorXd::Ones(n);
-  for (Eigen::Index j = 1; j < n; j += 2) signs[j] = -1;
-  Eigen::VectorXd c = Eigen::VectorXd::Zero(2 * n);
-  c.tail(n) = signs;
-  const Eigen::VectorXd products =
-      forms::wedges(half_edges, forms, forms::combination(half_edges, forms, c), execution);
-  return (products.head(n) - topology.pairing.cast<double>() * signs).cwiseAbs().maxCoeff();
-}
-
-std::vector<int> sizes(const Families& families) {
-  std::vector<int> result{families.natural};
-  if (families.dirichlet > 0) result.push_back(families.dirichlet);
-  return result;
-}
-
-}  // namespace
 
 HarmonicForms harmonic_forms(const mesh::Surface& surface, const Topology& topology, HarmonicSolver& solver,
                              Execution& execution) {
@@ -49,31 +24,6 @@ forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolve
   auto functions = solver.solve(classes, topology.families.natural, execution);
   add_loop_indicators(topology, functions);
   return functions;
-}
-
-HarmonicForms measured(const mesh::Surface& surface, const Topology& topology,
-                       const mesh::Discretisation& discretisation, const topology::IntegerForms& classes,
-                       forms::RowMajorMatrix functions, Execution& execution) {
-  const auto& [natural, dirichlet, poles] = topology.families;
-  const auto fixed = mesh::boundary_vertices(topology.boundary);
-  // Admissible are functions that are 0 there exactly.
-  functions(fixed, Eigen::lastN(dirichlet)).setZero();
-  const forms::ClosedForms forms{classes, functions};
-  execution.part(0, 0.3);
-  auto energies = certain_energies(discretisation, forms, sizes(topology.families), execution);
-  execution.part(0.3, 1);
-  HarmonicForms result;
-  Certificate& certificate = result.certificate;
-  certificate.metric = discretisation.metric_error;
-  certificate.residuals =
-      forms::residuals(discretisation.half_edges, discretisation.weights, forms, execution, natural, fixed);
-  certificate.pairing = largest_pairing_error(discretisation.half_edges, forms, topology, execution);
-  // The loops run along edges of the surface itself, and so do its classes; the functions are the same.
-  add_loop_indicators(topology, functions);
-  certificate.periods = forms::period_residual(surface, {topology.classes, functions}, topology.homology_basis);
-  result.invariants = invariants(topology, std::move(energies));
-  result.functions = std::make_shared<const forms::RowMajorMatrix>(std::move(functions));
-  return result;
 }
 
 }  // namespace holomorph::structure

@@ -1,7 +1,8 @@
 // What is known of harmonic forms that are never there all at once.
 #pragma once
 
-#include "structure/harmonic_forms.h"
+#include "structure/harmonic_solver.h"
+#include "structure/measured_forms.h"
 
 namespace holomorph::structure {
 
