@@ -78,7 +78,12 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
     def waiting_faces(self):
         return self._source.target.polygons.face_count
 
-    def finish(self, context, work, time_has_passed):
+    def written_objects(self):
+        from ..scene import targets
+
+        return targets.objects([self._source.target])
+
+    def finish(self, step, work, time_has_passed):
         from ..levels import level_objects
 
         source, name = self._source, self._source.target.name
@@ -86,9 +91,9 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         if problem:
             self.report({"ERROR"}, f"{name}: {problem}")
             return {"CANCELLED"}
-        notes = source.write_map(context, work)
+        notes = source.write_map(step, work)
         arrangement = level_objects.Arrangement(self.side_by_side, self.hidden, self.finest)
-        source.write_levels(context, work, arrangement)
+        source.write_levels(step, work, arrangement)
         for sentence in notes:
             self.report({"WARNING"}, sentence)
         counts = ", ".join(str(len(level.surface.triangles)) for level in work.levels)
@@ -103,6 +108,7 @@ def make_levels(context, obj, options, **arrangement):
     arrangement : of `level_objects.Arrangement`
     """
     from ..levels import level_objects
+    from ..writing import transaction
 
     source = Source(obj)
     if source.target.refused:
@@ -112,8 +118,9 @@ def make_levels(context, obj, options, **arrangement):
     problem = source.problem(work)
     if problem:
         return [], problem
-    source.write_map(context, work)
-    return source.write_levels(context, work, level_objects.Arrangement(**arrangement)), ""
+    with transaction.one_step(context, [obj]) as step:
+        source.write_map(step, work)
+        return source.write_levels(step, work, level_objects.Arrangement(**arrangement)), ""
 
 
 class Source:
@@ -147,20 +154,20 @@ class Source:
             return "it has no coarser level"
         return ""
 
-    def write_map(self, context, work):
+    def write_map(self, step, work):
         """Writes the map that was made to the object itself; sentences about what was not done."""
         from ..results import write
 
         if work.mapped is None:
             return []
-        outcome = write.write(context, [self.target], [work.mapped], write.WriteOptions(checker=False))
+        outcome = write.write(step, [self.target], [work.mapped], write.WriteOptions(checker=False))
         return outcome.problems + outcome.notes
 
-    def write_levels(self, context, work, arrangement):
+    def write_levels(self, step, work, arrangement):
         """The levels as objects, in a collection of their own."""
         from ..levels import level_objects
 
-        return level_objects.write(context, self.target.find(), self.data, work, arrangement)
+        return level_objects.write(step, self.target.find(), self.data, work, arrangement)
 
 
 register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_levels])
