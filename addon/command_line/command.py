@@ -13,6 +13,7 @@ from ..levels.level_objects import Arrangement
 from ..levels.levels import LevelOptions
 from ..operators.run import Run
 from ..results import report, stored
+from ..writing import transaction
 from . import exchange, sources, studio
 from .options import UsageError, parse
 
@@ -74,7 +75,8 @@ def _make_maps(options):
         raise UsageError(str(error)) from error
     job = run.job()
     job.run()
-    return run.write(bpy.context, job)
+    with transaction.one_step(bpy.context, run.objects) as step:
+        return run.write(step, job)
 
 
 def _add_levels(options, outcome):

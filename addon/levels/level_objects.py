@@ -24,9 +24,10 @@ class Arrangement:
     finest: bool = False  # whether there is a copy of the object, too: its level 0
 
 
-def write(context, obj, data, work, arrangement=Arrangement()):
+def write(step, obj, data, work, arrangement=Arrangement()):
     """Replaces the levels of an earlier run; `data` is the object's `transfer.MeshData`, `work` a `LevelsWork`."""
-    _remove_levels(obj.name)
+    step.remove(o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o != obj)
+    context = step.context
     collection, name = _collection(context, obj), obj.name.removesuffix(FINEST)
     levels = [
         _level_object(obj, data, level, work.names, f"{name}_LOD{number}")
@@ -38,10 +39,10 @@ def write(context, obj, data, work, arrangement=Arrangement()):
     for level_object in made:
         collection.objects.link(level_object)
     context.view_layer.update()
-    step = GAP * _width(obj) if arrangement.side_by_side else 0.0
+    apart = GAP * _width(obj) if arrangement.side_by_side else 0.0
     for index, level_object in enumerate(made, 1):
         matrix = obj.matrix_world.copy()
-        matrix.translation.x += index * step
+        matrix.translation.x += index * apart
         level_object.matrix_world = matrix
     _transfer_weights(context, obj, levels)
     _put_away(context, made, arrangement.hidden)
@@ -74,15 +75,6 @@ def _copy(obj, mesh, name):
     copy.pop(report.PROPERTY, None)
     copy[OF] = obj.name
     return copy
-
-
-def _remove_levels(name):
-    """Removes the levels of an earlier run."""
-    for level in [o for o in bpy.data.objects if o.library is None and o.get(OF) == name and o.name != name]:
-        mesh = level.data
-        bpy.data.objects.remove(level)
-        if mesh is not None and mesh.users == 0:
-            bpy.data.meshes.remove(mesh)
 
 
 def _collection(context, obj):

@@ -4,6 +4,7 @@
 from .. import native
 from ..results import write
 from ..scene import targets
+from ..writing import transaction
 from . import level_objects, levels, transfer
 
 
@@ -20,16 +21,19 @@ class Source:
         needs_map = not set(self._data.own_maps) & set(self._data.maps)
         return levels.LevelsWork(task, self._data.maps, self._data.uv, needs_map, options, progress)
 
-    def write(self, context, work, arrangement, time_has_passed=False):
-        """(objects of the levels, sentences about the map that they needed); the one sentence why there are none."""
+    def write(self, step, work, arrangement, time_has_passed=False):
+        """(objects of the levels, sentences about the map that they needed), or the one sentence why there are none.
+
+        step : the `transaction.Step` of the object
+        """
         problem = self.problem(work, time_has_passed)
         if problem:
             return [], [problem]
         told = []
         if work.mapped is not None:
-            outcome = write.write(context, [self.target], [work.mapped], write.WriteOptions(checker=False))
+            outcome = write.write(step, [self.target], [work.mapped], write.WriteOptions(checker=False))
             told = outcome.problems + outcome.notes
-        return level_objects.write(context, self.target.find(), self._data, work, arrangement), told
+        return level_objects.write(step, self.target.find(), self._data, work, arrangement), told
 
     def problem(self, work, time_has_passed):
         if work.error is not None:
@@ -49,4 +53,5 @@ def make(context, obj, options, arrangement):
         return [], [source.target.refused]
     work = source.work(options)
     work.run()
-    return source.write(context, work, arrangement)
+    with transaction.one_step(context, [obj]) as step:
+        return source.write(step, work, arrangement)

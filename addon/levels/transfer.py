@@ -7,19 +7,8 @@ import numpy as np
 
 from .. import compatibility
 from ..compatibility import Values
-from ..scene import mesh_io, uv_maps
+from ..scene import attributes, mesh_io, uv_maps
 
-# Types of attributes that are transferred: name, type and number of their values.
-KINDS = {
-    "FLOAT": ("value", np.float32),
-    "INT": ("value", np.int32),
-    "INT8": ("value", np.int32),
-    "BOOLEAN": ("value", bool),
-    "FLOAT_VECTOR": ("vector", np.float32, 3),
-    "FLOAT2": ("vector", np.float32, 2),
-    "FLOAT_COLOR": ("color", np.float32, 4),
-    "BYTE_COLOR": ("color", np.float32, 4),
-}
 # Attributes of Blender's own, or that are written in another way here.
 BUILT_IN = {"position", "material_index", "sharp_face", "shade_smooth", "id", "normal"}
 EDGE_MARKS = ("use_seam", "use_edge_sharp")
@@ -109,7 +98,7 @@ def _is_transferred(attribute, maps):
     name, built_in = attribute.name, attribute.name in BUILT_IN or attribute.name.startswith(".")
     return (
         attribute.domain in {"POINT", "FACE", "CORNER"}
-        and attribute.data_type in KINDS
+        and attribute.data_type in attributes.VALUES
         and not (built_in or name in maps)
     )
 
@@ -122,7 +111,7 @@ def _read_attribute(attribute, polygons):
 
 
 def _attribute_values(attribute):
-    return Values(attribute.data, *KINDS[attribute.data_type])
+    return Values(attribute.data, *attributes.VALUES[attribute.data_type])
 
 
 def _of_corners(values, polygons):

@@ -84,9 +84,10 @@ def _joined(parts):
 def _pack(context, margin):
     """Packs the UVs of the active object."""
     settings = context.scene.tool_settings
-    was_synced, settings.use_uv_select_sync = settings.use_uv_select_sync, True  # what is selected is packed
-    bpy.ops.object.mode_set(mode="EDIT")
+    was_synced = settings.use_uv_select_sync
     try:
+        settings.use_uv_select_sync = True  # what is selected is packed
+        bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="SELECT")
         # The margin is added before the packer's factor, which is near 1; an exact one would take several packings.
         bpy.ops.uv.pack_islands(rotate=True, margin_method="ADD", margin=margin)

@@ -86,7 +86,7 @@ def adjust_checker(material, squares):
     nodes = material.node_tree.nodes
     if not all(name in nodes for name in (SCALE_NODE, IMAGE_NODE, SQUARES_NODE)):
         return  # the user has rebuilt them
-    image, shown = textures.checker_image(material.name, squares, LIGHT, DARK)
+    image, shown = textures.checker_image(squares, LIGHT, DARK)
     nodes[SCALE_NODE].outputs[0].default_value = squares
     nodes[IMAGE_NODE].image = image
     nodes[SQUARES_NODE].inputs[1].default_value = shown

@@ -42,21 +42,17 @@ def preview_image(texture, repeats):
     return _image(name, f"{texture} {repeats}", lambda: _srgb(_repeated(texture, repeats)))
 
 
-def checker_image(name, squares, light, dark):
-    """An even number of squares across, as near to `squares` as there is; remade where the number is another one."""
+def checker_image(squares, light, dark):
+    """An even number of squares across, as near to `squares` as there is; and that number."""
     squares = min(max(2 * round(squares / 2), 2), CHECKER_SIZE)
-    key, width = f"checker {squares}", CHECKER_SIZE // squares
-    image = bpy.data.images.get((name, None))
-    if image is None or OURS not in image:
-        image = bpy.data.images.new(name, CHECKER_SIZE, CHECKER_SIZE)
-        image[OURS] = ""
-    if image[OURS] != key:
-        place = np.arange(squares * width) // width
-        is_light = (place[:, None] + place[None, :]) % 2 == 0
-        image.scale(squares * width, squares * width)
-        _fill(image, _srgb(np.where(is_light[..., None], light, dark)))
-        image[OURS] = key
-    return image, squares
+    return _image(f"Holomorph Checker {squares}", f"checker {squares}", lambda: _squares(squares, light, dark)), squares
+
+
+def _squares(squares, light, dark):
+    width = CHECKER_SIZE // squares
+    place = np.arange(squares * width) // width
+    is_light = (place[:, None] + place[None, :]) % 2 == 0
+    return _srgb(np.where(is_light[..., None], light, dark))
 
 
 def _image(name, key, draw, colour_space="sRGB"):

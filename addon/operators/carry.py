@@ -52,7 +52,11 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
 
         return carried_map.CarriedMap(*self._sides, self._uv, self.tolerance / 100, progress)
 
-    def finish(self, context, work, time_has_passed):
+    def written_objects(self):
+        obj = bpy.data.objects.get(self._taking)
+        return [] if obj is None else [obj]
+
+    def finish(self, step, work, time_has_passed):
         from ..scene import targets, uv_maps
 
         given, taking = self._sides
@@ -64,7 +68,7 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
             return self.refuse(problem)
         written = uv_maps.write_map(obj.data, taking.polygons, self._map, work.uv)
         uv_maps.show_map(obj.data, written.name)
-        source = context.scene.objects.get(given.name)
+        source = step.context.scene.objects.get(given.name)
         if source is not None and not any(obj.data.materials) and source.active_material is not None:
             obj.active_material = source.active_material
         obj.data.update()

@@ -49,7 +49,10 @@ class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
 
         return comparison.Comparison(self._sides, progress)
 
-    def finish(self, _context, work, time_has_passed):
+    def written_objects(self):
+        return []
+
+    def finish(self, _step, work, time_has_passed):
         if work.error:
             return self.refuse(native.sentence(work.error))
         first, second = self._sides

@@ -79,6 +79,13 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
+        try:
+            return self._handle(context, event)
+        except BaseException:
+            self.cancel(context)
+            raise
+
+    def _handle(self, context, event):
         if event.type in GIVE_UP and event.value == "PRESS":
             self.cancel(context)
             return {"CANCELLED"}
@@ -162,7 +169,9 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
             self._job.cancel()
             self._job.wait()
             self._job = None
-        context.window_manager.event_timer_remove(self._timer)
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
         context.workspace.status_text_set(None)
         overlay.dragged.clear()
         context.area.tag_redraw()

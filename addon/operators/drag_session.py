@@ -12,6 +12,7 @@ from ..maps.options import TILING, MapOptions
 from ..results import report, stored, write
 from ..scene import targets, uv_maps
 from ..solving import jobs
+from ..writing import transaction
 from . import tile_choices
 
 AGAIN = "run Seamless Tiling again"
@@ -112,4 +113,5 @@ class Session:
 
     def finish(self, context):
         """Writes all that belongs to a tiling; the `outcome.Outcome`."""
-        return write.write(context, [self.target], [self.mapped], self._write_options, time_has_passed=True)
+        with transaction.one_step(context, targets.objects([self.target])) as step:
+            return write.write(step, [self.target], [self.mapped], self._write_options, time_has_passed=True)

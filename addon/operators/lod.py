@@ -61,11 +61,16 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
     def waiting_faces(self):
         return self._source.target.polygons.face_count
 
-    def finish(self, context, work, time_has_passed):
+    def written_objects(self):
+        from ..scene import targets
+
+        return targets.objects([self._source.target])
+
+    def finish(self, step, work, time_has_passed):
         from ..levels.level_objects import Arrangement
 
         name, arrangement = self._source.target.name, Arrangement(self.side_by_side, self.hidden, self.finest)
-        made, told = self._source.write(context, work, arrangement, time_has_passed)
+        made, told = self._source.write(step, work, arrangement, time_has_passed)
         if not made:
             return self.refuse(f"{name}: {told[0]}")
         for sentence in told:

@@ -33,10 +33,13 @@ class _MapsOperator(OnMeshes, WorkOperator):
     def modal_faces(self):
         return MODAL_TILED_FACES if self.may_tile() else MODAL_FACES
 
-    def finish(self, context, work, time_has_passed):
-        outcome = self._run.write(context, work, time_has_passed)
+    def written_objects(self):
+        return self._run.objects
+
+    def finish(self, step, work, time_has_passed):
+        outcome = self._run.write(step, work, time_has_passed)
         self.form_count = outcome.forms
-        self.show(context, outcome, self.checker)
+        self.show(step.context, outcome, self.checker)
         return self.tell(outcome)
 
 

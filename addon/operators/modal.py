@@ -17,7 +17,8 @@ class WorkOperator(Explained):
     prepare(context) : reads what the work needs; raises ValueError where there is none, with one sentence why
     make_work(progress) : a `jobs.Work` of what was read
     waiting_faces() : how many polygons there are to solve; from `modal_faces` on this is done in the background
-    finish(context, work, time_has_passed) : writes the results; the set that an operator returns
+    written_objects() : those that it may change
+    finish(step, work, time_has_passed) : writes the results, in a `transaction.Step`; the set that an operator returns
     """
 
     def modal_faces(self):
@@ -63,7 +64,7 @@ class WorkOperator(Explained):
             return {"RUNNING_MODAL"}
         self._end_modal(context)
         self._work.wait()
-        return self.finish(context, self._work, time_has_passed=True)
+        return self._finish(context, self._work, time_has_passed=True)
 
     def cancel(self, context):
         """ESC, or another file is loaded, or the program ends in the middle of the work.
@@ -90,7 +91,17 @@ class WorkOperator(Explained):
             work.run()
         finally:
             manager.progress_end()
-        return self.finish(context, work, time_has_passed=False)
+        return self._finish(context, work, time_has_passed=False)
+
+    def _finish(self, context, work, time_has_passed):
+        from ..writing import transaction
+
+        try:
+            with transaction.one_step(context, self.written_objects()) as step:
+                return self.finish(step, work, time_has_passed)
+        except Exception as error:
+            self.report({"ERROR"}, " ".join([f"{type(error).__name__}: {error}.", *getattr(error, "__notes__", ())]))
+            raise
 
     def _show_progress(self, context):
         percent = round(100 * self._work.fraction)

@@ -22,8 +22,13 @@ class Run:
         """The `jobs.Job` that solves and maps."""
         return jobs.Job(self.tasks, progress, [partial(self._mapper, options=options) for options in self._options])
 
-    def write(self, context, job, time_has_passed=False):
-        """Writes what the job gave; the `outcome.Outcome`."""
+    @property
+    def objects(self):
+        """Those that may be written to."""
+        return targets.objects(self._found)
+
+    def write(self, step, job, time_has_passed=False):
+        """Writes what the job gave, in a `transaction.Step` of the objects; the `outcome.Outcome`."""
         results = targets.align(self._found, self._mapper.equalised(job.results))
         options = self._choices.write_options(self._properties)
-        return write.write(context, self._found, results, options, time_has_passed)
+        return write.write(step, self._found, results, options, time_has_passed)

@@ -26,14 +26,15 @@ class _TexelOperator(OnMeshes):
         return self.execute(context)
 
     def execute(self, context):
-        from ..results import texels, write
+        from ..results import texels
         from ..scene import targets
         from ..solving.choices import SELECTED, Choices
+        from ..writing import transaction
 
         found = targets.collect(targets.mesh_objects(context), Choices(faces=SELECTED))
         metres = context.scene.unit_settings.scale_length
         done = 0
-        with write.object_mode(context):
+        with transaction.one_step(context, targets.objects(found)):
             for target in found:
                 problem = texels.why_not(target)
                 before = 0.0 if problem else texels.measured(target, self.image, metres)

@@ -31,10 +31,12 @@ class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
         from ..materials import viewport
         from ..results import restore
         from ..scene import targets
+        from ..writing import transaction
 
         own = [obj for obj in targets.mesh_objects(context) if obj.data.library is None]
-        restored = [restore.restore(obj) for obj in own]
-        viewport.restore_without_textures(context)
+        with transaction.one_step(context, own):
+            restored = [restore.restore(obj) for obj in own]
+            viewport.restore_without_textures(context)
         return {"FINISHED"} if any(restored) else {"CANCELLED"}
 
 
@@ -54,11 +56,13 @@ class HOLOMORPH_OT_heat(Explained, bpy.types.Operator):
         return "" if any(o.type == "MESH" and o.data.uv_layers for o in selected) else "Select a mesh with a UV map"
 
     def execute(self, context):
-        from ..results import heat, write
+        from ..results import heat
         from ..scene import targets
+        from ..writing import transaction
 
-        with write.object_mode(context):
-            objects = [o for o in targets.mesh_objects(context) if heat.is_possible(o)]
+        objects = targets.mesh_objects(context)
+        with transaction.one_step(context, objects):
+            objects = [o for o in objects if heat.is_possible(o)]
             for obj in objects:
                 found = heat.write(obj)
                 name = obj.data.uv_layers.active.name
@@ -79,19 +83,20 @@ class HOLOMORPH_OT_remove_maps(OnMeshes, bpy.types.Operator):
 
     def execute(self, context):
         from ..materials import viewport
-        from ..results import restore, write
+        from ..results import restore
         from ..scene import targets
+        from ..writing import transaction
 
         meshes = {obj.data: obj for obj in reversed(targets.mesh_objects(context))}
         removed = False
-        with write.object_mode(context):
+        with transaction.one_step(context, meshes.values()) as step:
             for mesh, obj in meshes.items():
                 if mesh.library is not None:
                     self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
                 else:
-                    removed |= restore.remove_maps(obj)
+                    removed |= restore.remove_maps(step, obj)
+            viewport.restore_without_textures(context)
         context.view_layer.update()  # or it lists empties that are gone
-        viewport.restore_without_textures(context)
         return {"FINISHED"} if removed else {"CANCELLED"}
 
 
@@ -114,23 +119,24 @@ class HOLOMORPH_OT_select_bad(OnMeshes, bpy.types.Operator):
         self.layout.column().prop(self, "kinds")
 
     def execute(self, context):
-        from ..results import bad, write
+        from ..results import bad
         from ..scene import targets
+        from ..writing import transaction
 
-        objects = targets.mesh_objects(context)
-        with write.object_mode(context):
+        objects, mode = targets.mesh_objects(context), context.mode
+        with transaction.one_step(context, objects):
             found = {target.find(): self._elements(target) for target in targets.collect(objects)}
             if any(found.values()):
                 for obj, elements in found.items():
                     if elements is not None:
                         bad.select(obj.data, elements)
                 context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
-        if not any(found.values()):
-            self.report({"INFO"}, "There are no bad elements")
-            return {"CANCELLED"}
-        if context.mode == "OBJECT":
-            _edit(context, [obj for obj, elements in found.items() if elements])
-        return {"FINISHED"}
+                if mode == "OBJECT":
+                    _edit(context, [obj for obj, elements in found.items() if elements])
+        if any(found.values()):
+            return {"FINISHED"}
+        self.report({"INFO"}, "There are no bad elements")
+        return {"CANCELLED"}
 
     def _elements(self, target):
         """The `bad.Elements` of a target; None for one that is refused."""

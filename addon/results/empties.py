@@ -11,7 +11,7 @@ SIZE = 0.02  # of the object's largest extent
 
 
 def write(context, obj, vertices, is_pole):
-    """One empty at each of these vertices; @pre `remove(obj)`."""
+    """One empty at each of these vertices; @pre those of an earlier run are to be removed."""
     points = mesh_io.world_points(obj)
     size = SIZE * float(np.ptp(points, axis=0).max())
     context.view_layer.update()
@@ -27,7 +27,6 @@ def write(context, obj, vertices, is_pole):
         empty.location = points[vertex]
 
 
-def remove(obj):
-    """Removes those of an earlier run."""
-    for empty in [o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o.type == "EMPTY"]:
-        bpy.data.objects.remove(empty)
+def of(obj):
+    """Those of an earlier run."""
+    return [o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o.type == "EMPTY"]

@@ -43,7 +43,7 @@ def restore(obj):
     return True
 
 
-def remove_maps(obj):
+def remove_maps(step, obj):
     """Restores, and removes our maps with all that tells of them from the objects with this mesh; returns whether there
     was something. Seams and levels of detail stay."""
     mesh = obj.data
@@ -52,7 +52,7 @@ def remove_maps(obj):
     heat.refresh(obj)
     mesh.update()
     for user in users(mesh):
-        empties.remove(user)
+        step.remove(empties.of(user))
         found |= user.pop(report.PROPERTY, None) is not None
     return found
 

@@ -9,10 +9,11 @@ from . import report
 OF = "holomorph_mapped_of"  # custom property of such an object: name of the one whose modifiers made it
 
 
-def make(context, obj):
+def make(step, obj):
     """A new object with the mesh that the modifiers of `obj` make, in place of that of an earlier run; it is selected
     instead of `obj`, which is hidden."""
-    _remove_earlier(obj)
+    step.remove(o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o != obj)
+    context = step.context
     shown = context.evaluated_depsgraph_get()
     mesh = bpy.data.meshes.new_from_object(obj.evaluated_get(shown), preserve_all_data_layers=True, depsgraph=shown)
     made = obj.copy()
@@ -27,14 +28,6 @@ def make(context, obj):
     context.view_layer.update()
     _show_instead(context, made, obj)
     return made
-
-
-def _remove_earlier(obj):
-    for old in [o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o != obj]:
-        mesh = old.data
-        bpy.data.objects.remove(old)
-        if mesh.users == 0:
-            bpy.data.meshes.remove(mesh)
 
 
 def _show_instead(context, made, obj):

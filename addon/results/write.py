@@ -1,40 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The end of a run, in Blender's main thread: maps are written to the objects and reported."""
 
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-import bpy
 import numpy as np
 
-from .. import compatibility, native
+from .. import native
 from ..maps import forms, packing
 from ..maps.options import ISLANDS
 from ..materials import material
 from ..scene import faces, mesh_io, uv_maps
+from ..writing import transaction
 from . import empties, heat, report, restore, stand_in, stored
 from .outcome import Outcome, with_coarse_places
-
-
-@contextmanager
-def object_mode(context):
-    """Leaves edit mode for the time of writing, for Blender gives no UV layers in it."""
-    if context.mode != "EDIT_MESH":
-        yield
-        return
-    edited = [o for o in context.view_layer.objects if o.mode == "EDIT"]
-    selected = list(compatibility.selected_objects(context))
-    bpy.ops.object.mode_set(mode="OBJECT")
-    try:
-        yield
-    finally:
-        for obj in selected:
-            obj.select_set(obj in edited)
-        for obj in edited:
-            obj.select_set(True)
-        bpy.ops.object.mode_set(mode="EDIT")
-        for obj in selected:
-            obj.select_set(True)
 
 
 @dataclass(frozen=True)
@@ -50,24 +28,25 @@ class WriteOptions:
     empties: bool = False  # at poles and branch points
 
 
-def write(context, targets, results, options, time_has_passed=False):
+def write(step, targets, results, options, time_has_passed=False):
     """Writes the maps of every `mapped.MappedObject` and reports every other result; an object that is refused is not
     touched. Gives the `Outcome`.
 
+    step : the `transaction.Step` of the targets' objects
     time_has_passed : Blender was alive during the solve, so each mesh is compared with what was read
     """
     outcome = Outcome()
-    with object_mode(context):
-        for target, result in zip(targets, results):
-            reason = _why_not(target, result, time_has_passed)
-            if reason:
-                outcome.refuse(target.name, reason)
-            elif not result.done:
-                outcome.skip(target.find(), result)
-            else:
-                _write_object(context, outcome, target, result, options)
-        if outcome.done:
-            report.store_text(outcome.entries)
+    for target, result in zip(targets, results):
+        reason = _why_not(target, result, time_has_passed)
+        if reason:
+            outcome.refuse(target.name, reason)
+        elif not result.done:
+            outcome.skip(target.find(), result)
+        else:
+            with transaction.naming(target):
+                _write_object(step, outcome, target, result, options)
+    if outcome.done:
+        report.store_text(outcome.entries)
     return outcome
 
 
@@ -81,12 +60,12 @@ def _why_not(target, result, time_has_passed):
     return "it was changed while it was solved; please run it again" if has_changed else ""
 
 
-def _write_object(context, outcome, target, made, options):
+def _write_object(step, outcome, target, made, options):
     obj, polygons = target.find(), target.polygons
     if target.makes_object:
-        obj = stand_in.make(context, obj)
+        obj = stand_in.make(step, obj)
     if made.options.main == ISLANDS:
-        made = packing.packed(context, made)
+        made = packing.packed(step.context, made)
     restore.remember(obj.data)
     written, new_seams = _write_maps(obj.data, polygons, made, options)
     if options.checker:
@@ -99,9 +78,9 @@ def _write_object(context, outcome, target, made, options):
     entry = report.object_report(obj, made, written, new_seams, options)
     entry = with_coarse_places(obj, polygons, entry)
     report.store_on_object(obj, entry)
-    empties.remove(obj)
+    step.remove(empties.of(obj))
     if options.empties:
-        empties.write(context, obj, *stored.marks(obj[report.PROPERTY]))
+        empties.write(step.context, obj, *stored.marks(obj[report.PROPERTY]))
     outcome.add(obj, target, made, written, entry)
 
 

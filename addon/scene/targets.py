@@ -173,6 +173,12 @@ def tasks(targets):
     return [solve.Task(t.polygons, t.chosen) for t in targets if not t.refused]
 
 
+def objects(targets):
+    """The objects that may be written to."""
+    found = (target.find() for target in targets if not target.refused)
+    return [obj for obj in found if obj is not None]
+
+
 def align(targets, results):
     """The results in the order of all targets; a target that was refused at once has none."""
     solved = iter(results)

@@ -22,7 +22,7 @@ def test_the_button_tiles_in_the_background(seen):
 def test_a_preset_acts_at_once_and_places_no_poles_again(seen):
     assert seen["texture after the preset"] == "PLANKS"
     assert "rounding" in seen["stages of the preset"]
-    assert not {"poles", "forms for the poles", "harmonic forms"} & set(seen["stages of the preset"])
+    assert not {"level for the poles", "forms for the poles", "harmonic forms"} & set(seen["stages of the preset"])
 
 
 @pytest.mark.parametrize("key", ["ESC", "RET"])

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writing in one step: all that an operator writes is done, or Blender's data are put back as they were."""
+
+from contextlib import ExitStack, contextmanager
+
+import bpy
+
+from . import mesh_state, states
+
+MADE = ("objects", "meshes", "materials", "images", "texts", "collections")  # kinds of data-blocks that are made here
+REMOVED = "Holomorph Removed"  # name of what is about to be removed
+PUT_BACK = "Nothing is changed: what had been written was put back"
+
+
+@contextmanager
+def one_step(context, objects):
+    """Does all that is written within, or puts everything back and raises the error again.
+
+    Gives the `Step`, which takes objects that are to be removed. Edit mode is left meanwhile, since Blender gives no
+    UV layers in it.
+
+    objects : whose meshes, materials and properties are going to be changed; those that share their meshes count too
+    """
+    before, step = _Before(context), Step(context)
+    try:
+        before.leave_edit_mode()
+        before.read(objects, step)
+        yield step
+        before.return_to_edit_mode()
+        step.finish()
+    except BaseException as error:
+        if not step.is_finished():
+            before.restore(step)
+            error.add_note(PUT_BACK)
+        raise
+
+
+@contextmanager
+def naming(target):
+    """Tells in what is raised within that this `targets.Target` was being written."""
+    try:
+        yield
+    except BaseException as error:
+        error.add_note(f"This happened while {target.name} was written.")
+        raise
+
+
+class Step:
+    """Removes objects at its end, in one call, since Blender cannot bring them back."""
+
+    def __init__(self, context):
+        self.context = context
+        self._objects, self._names, self._copies = [], {}, []
+
+    def remove(self, objects):
+        """These objects, and their data where nothing else uses them. Their names are free at once."""
+        self._objects += [obj for obj in objects if obj not in self._objects]
+        used = [obj.data for obj in self._objects if obj.data is not None]
+        for block in self._objects + [data for data in used if data.users == used.count(data)]:
+            if block not in self._names:
+                self._names[block] = block.name
+                block.name = REMOVED
+
+    def keep(self, copies):
+        """Data-blocks that are there until the end."""
+        self._copies += copies
+
+    def finish(self):
+        if self._names or self._copies:
+            bpy.data.batch_remove([*self._names, *self._copies])
+
+    def is_finished(self):
+        try:
+            return any(not block.name for block in (*self._names, *self._copies))
+        except ReferenceError:  # a data-block that is gone
+            return True
+
+    def restore(self):
+        for block, name in self._names.items():
+            block.name = name
+
+
+class _Before:
+    """The open file when a step begins, as far as it is going to be changed."""
+
+    def __init__(self, context):
+        layer = context.view_layer
+        self._context = context
+        self._active, self._selected = layer.objects.active, set(layer.objects.selected)
+        self._hidden = {obj for obj in layer.objects if obj.hide_get()}
+        self._edited = [obj for obj in layer.objects if obj.mode == "EDIT"]
+        self._blocks = {block.as_pointer() for block in _blocks()}
+        self._kept = [states.Attributes(context.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
+
+    def read(self, objects, step):
+        """@pre edit mode is left"""
+        meshes = {obj.data for obj in objects if obj.data.library is None}
+        users = [obj for obj in bpy.data.objects if obj.data in meshes and obj.library is None]
+        self._kept += [*states.texts(), *states.materials(), *states.views(self._context.window)]
+        of_objects = [states.ObjectState(obj) for obj in users]
+        of_meshes = [mesh_state.MeshState(mesh) for mesh in meshes]
+        step.keep([state.copy for state in of_meshes])
+        self._kept += of_objects + of_meshes
+        for state in of_objects:
+            state.read_own_materials()
+
+    def restore(self, step):
+        """Goes on where a part of it fails."""
+        with ExitStack() as last_first:
+            last_first.callback(self._restore_view)
+            last_first.callback(step.restore)  # when new objects have given the names back
+            last_first.callback(self._remove_new)
+            for state in self._kept:
+                last_first.callback(state.restore)
+            last_first.callback(self.leave_edit_mode)
+
+    def leave_edit_mode(self):
+        if self._context.mode == "EDIT_MESH":
+            bpy.ops.object.mode_set(mode="OBJECT")
+
+    def return_to_edit_mode(self):
+        if self._edited and self._context.mode != "EDIT_MESH":
+            for obj in self._selected | set(self._edited):
+                obj.select_set(obj in self._edited)
+            bpy.ops.object.mode_set(mode="EDIT")
+            for obj in self._selected | set(self._edited):
+                obj.select_set(obj in self._selected)
+
+    def _restore_view(self):
+        layer = self._context.view_layer
+        for obj in layer.objects:
+            obj.hide_set(obj in self._hidden)
+            obj.select_set(obj in self._selected)
+        layer.objects.active = self._active
+        self.return_to_edit_mode()
+
+    def _remove_new(self):
+        new = [block for block in _blocks() if block.as_pointer() not in self._blocks]
+        if new:
+            bpy.data.batch_remove(new)
+
+
+def _blocks():
+    return [block for kind in MADE for block in getattr(bpy.data, kind)]

@@ -1,0 +1,180 @@
+"""Everything in the open file that an operator could change, for comparison bit for bit."""
+
+import functools
+import hashlib
+
+import bpy
+import numpy as np
+
+# Collections of bpy.data that hold no part of the scene: windows, brushes and their like.
+NOT_THE_SCENE = {"window_managers", "workspaces", "brushes", "palettes", "paint_curves", "libraries", "all_ids"}
+# What Blender computes, or counts, by itself.
+COMPUTED = {"rna_type", "original", "is_evaluated", "session_uid", "tag", "preview", "is_runtime_data", "bl_rna"}
+COMPUTED |= {"id_data", "is_updated", "is_updated_data", "depsgraph", "pixels", "is_dirty", "has_data", "bindcode"}
+COMPUTED |= {"rendered_preview", "render_slots", "keying_sets_all", "total_vert_sel", "total_edge_sel"}
+COMPUTED |= {"total_face_sel", "is_modified", "is_in_memory", "bound_box", "depth", "type_info", "packed_file"}
+COMPUTED |= {"loop_triangle_polygons", "cycles", "wireframe_color_type"}
+LARGE = 1_000_000  # values of an image
+# Elements of meshes, which are read as arrays.
+ELEMENTS = {"vertices", "edges", "loops", "polygons", "loop_triangles", "vertex_normals", "polygon_normals"}
+ELEMENTS |= {"corner_normals", "uv_layers", "attributes", "color_attributes", "vertex_colors", "vertex_layers_float"}
+ELEMENTS |= {"vertex_layers_int", "vertex_layers_string", "polygon_layers_float", "polygon_layers_int"}
+ELEMENTS |= {"polygon_layers_string", "sculpt_vertex_colors", "vertex_creases", "edge_creases", "vertex_paint_masks"}
+ELEMENTS |= {"face_maps", "skin_vertices", "uv_layer_clone", "uv_layer_stencil"}
+
+
+def file_state():
+    """{path: value}; of meshes and images hashes of their arrays."""
+    if bpy.context.mode == "EDIT_MESH":  # where Blender gives nothing of meshes
+        edited = [obj.name for obj in bpy.context.view_layer.objects if obj.mode == "EDIT"]
+        bpy.ops.object.mode_set(mode="OBJECT")
+        state = file_state() | {"edited": edited}
+        bpy.ops.object.mode_set(mode="EDIT")
+        return state
+    bpy.context.view_layer.update()  # what Blender computes of it
+    state = {}
+    for name in _collections():
+        for block in getattr(bpy.data, name):
+            _add(state, block, f"{name}[{block.name_full}]", set())
+    view = bpy.context.view_layer
+    state["selected"] = sorted(o.name_full for o in view.objects.selected)
+    state["hidden"] = sorted(o.name_full for o in view.objects if o.hide_get())
+    state["mode"] = bpy.context.mode
+    for screen in bpy.data.screens:
+        state[f"screens[{screen.name}]"] = {key: _custom(screen[key]) for key in list(screen.keys())}
+        for index, area in enumerate(screen.areas):
+            if area.type == "VIEW_3D":
+                shading = area.spaces.active.shading
+                state[f"screens[{screen.name}].areas[{index}]"] = shading.type, shading.color_type
+    return state
+
+
+def differences(before, after):
+    """Lines that tell what is another."""
+    paths = sorted(path for path in before.keys() | after.keys() if before.get(path) != after.get(path))
+    return [f"{path}: {before.get(path)!r:.200} -> {after.get(path)!r:.200}" for path in paths]
+
+
+@functools.lru_cache(maxsize=1)
+def _collections():
+    names = [p.identifier for p in bpy.data.bl_rna.properties if p.type == "COLLECTION"]
+    return [name for name in names if name not in NOT_THE_SCENE and name != "screens"]
+
+
+@functools.cache
+def _properties(kind):
+    """(name, type, whether an array) of a kind of struct."""
+    own = [p for p in kind.bl_rna.properties if p.identifier not in COMPUTED]
+    if kind is bpy.types.Mesh:
+        own = [p for p in own if p.identifier not in ELEMENTS]
+    return [(p.identifier, p.type, getattr(p, "is_array", False)) for p in own]
+
+
+def _add(state, struct, path, seen):
+    """Adds all properties of a struct, those of the structs that belong to it, and its custom properties."""
+    if struct.as_pointer() in seen:
+        return
+    seen.add(struct.as_pointer())
+    for name, kind, is_array in _properties(type(struct)):
+        value = getattr(struct, name, None)
+        where = f"{path}.{name}"
+        if kind == "POINTER":
+            _add_value(state, value, where, seen)
+        elif kind == "COLLECTION":
+            for index, element in enumerate(value):
+                _add_value(state, element, f"{where}[{index}]", seen)
+        else:
+            state[where] = _plain(value) if is_array else value
+    if isinstance(struct, bpy.types.Mesh):
+        _add_mesh(state, struct, path)
+    if isinstance(struct, bpy.types.Image):
+        _add_image(state, struct, path)
+    if isinstance(struct, bpy.types.Object):
+        _add_slots(state, struct, path)
+    if isinstance(struct, bpy.types.ID):
+        for key in list(struct.keys()):
+            state[f"{path}[{key!r}]"] = _custom(struct[key])
+
+
+def _add_value(state, value, path, seen):
+    if isinstance(value, bpy.types.ID) and not value.is_embedded_data:
+        state[path] = f"{type(value).__name__} {value.name_full}"
+    elif isinstance(value, bpy.types.bpy_struct):
+        _add(state, value, path, seen)
+    else:
+        state[path] = value
+
+
+def _plain(value):
+    return tuple(_plain(v) if hasattr(v, "__len__") else v for v in value)
+
+
+def _custom(value):
+    if hasattr(value, "to_dict"):
+        return {key: _custom(value[key]) for key in sorted(value.keys())}
+    if isinstance(value, bpy.types.ID):
+        return value.name_full
+    return value.to_list() if hasattr(value, "to_list") else value
+
+
+def _digest(array):
+    return hashlib.sha1(np.ascontiguousarray(array)).hexdigest()
+
+
+def _array(elements, name):
+    """A property of all elements; also where Blender gives no arrays of it."""
+    if not len(elements):
+        return np.empty(0)
+    kind = type(elements[0]).bl_rna.properties[name]
+    dtype = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": bool}.get(kind.type)
+    if dtype is None:
+        return np.array([getattr(e, name) for e in elements])
+    array = np.empty(len(elements) * max(1, kind.array_length), dtype)
+    elements.foreach_get(name, array)
+    return array
+
+
+def _add_mesh(state, mesh, path):
+    """Flags that Blender drops where none is set, as it does in edit mode, count as if they were there."""
+    marks = {
+        "vertices": ("co", "select", "hide"),
+        "edges": ("vertices", "select", "hide", "use_seam", "use_edge_sharp"),
+        "loops": ("vertex_index",),
+        "polygons": ("loop_start", "loop_total", "material_index", "use_smooth", "select", "hide"),
+    }
+    for collection, names in marks.items():
+        for name in names:
+            state[f"{path}.{collection}.{name}"] = _digest(_array(getattr(mesh, collection), name))
+    state[f"{path}.attributes"] = []
+    for attribute in mesh.attributes:
+        if attribute.name.startswith("."):
+            continue
+        state[f"{path}.attributes"].append((attribute.name, attribute.domain, attribute.data_type))
+        (name,) = {"value", "vector", "color"} & set(type(attribute.data[0]).bl_rna.properties.keys())
+        state[f"{path}.attributes[{attribute.name}]"] = _digest(_array(attribute.data, name))
+    for name in ("active", "active_color"):
+        state[f"{path}.{name}"] = getattr(getattr(mesh.attributes, name), "name", "")
+    for index, layer in enumerate(mesh.uv_layers):
+        where = f"{path}.uv_layers[{index}]"
+        state[where] = layer.name, layer.active, layer.active_render, layer.active_clone
+        for name in list(type(layer.data[0]).bl_rna.properties.keys()):
+            if name != "rna_type":
+                state[f"{where}.{name}"] = _digest(_array(layer.data, name))
+
+
+def _add_image(state, image, path):
+    """Of a large image that is packed into the file, its file alone: reading the pixels takes long."""
+    state[f"{path}.packed"] = hashlib.sha1(image.packed_file.data).hexdigest() if image.packed_file else ""
+    if len(image.pixels) < LARGE or not image.packed_file:
+        pixels = np.empty(len(image.pixels), np.float32)
+        image.pixels.foreach_get(pixels)
+        state[f"{path}.pixels"] = _digest(pixels)
+
+
+def _add_slots(state, obj, path):
+    """The materials that slots linked to the mesh have on the object: Blender shows those of the mesh."""
+    for index, slot in enumerate(obj.material_slots if obj.library is None else ()):
+        link = slot.link
+        slot.link = "OBJECT"
+        state[f"{path}.own_material[{index}]"] = getattr(slot.material, "name_full", "")
+        slot.link = link
