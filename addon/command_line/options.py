@@ -93,10 +93,10 @@ def _take_over(options):
 
 def _add_choices(parser):
     group = parser.add_argument_group("choices on one object (vertices counted from 0)")
-    group.add_argument("--puncture", type=int, action="append", default=[], metavar="V", help="may be repeated")
-    group.add_argument("--residues", default="", metavar='"R R ..."', help="one for each puncture, may be complex")
+    group.add_argument("--pole", type=int, action="append", default=[], metavar="V", help="may be repeated")
+    group.add_argument("--residues", default="", metavar='"R R ..."', help="one for each pole, may be complex")
     group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
-    group.add_argument("--selection", choices=("automatic", "faces", "punctures", "rectangle", "none"), default="none")
+    group.add_argument("--selection", choices=("automatic", "faces", "poles", "rectangle", "none"), default="none")
     group.add_argument("--modifiers", action="store_true", help="map what the modifiers make")
     group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
     text = "with --main islands: cut along edges sharper than so many degrees, too, and those marked sharp"
@@ -144,7 +144,7 @@ def _check_values(options):
     _refuse_if(not 0 <= options.margin < 1, "--margin must be at least 0 and less than 1")
     is_ratio = 0 < options.ratio < 1
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
-    _refuse_if(options.puncture and options.rectangle, "--puncture and --rectangle exclude each other")
+    _refuse_if(options.pole and options.rectangle, "--pole and --rectangle exclude each other")
     _refuse_if(not 0 <= options.hard_edges < math.pi, "--hard-edges must be at least 0 and less than 180")
     is_factor = options.most_stretch == 0 or 1 < options.most_stretch < math.inf
     _refuse_if(not is_factor, "--most-stretch must be above 1, or 0 for no cuts")
@@ -159,8 +159,8 @@ def _check_values(options):
     is_number = poles.isdecimal() and int(poles) <= most
     sentence = f"--poles: {poles!r} is none of automatic, selected, and 0 to {most}"
     _refuse_if(poles not in ("automatic", "selected") and not is_number, sentence)
-    chosen = options.puncture or options.rectangle
-    _refuse_if(options.seamless and chosen, "--puncture and --rectangle go without --seamless: it has --poles")
+    chosen = options.pole or options.rectangle
+    _refuse_if(options.seamless and chosen, "--pole and --rectangle go without --seamless: it has --poles")
     _refuse_if(min(options.resolution, options.samples) < 1, "--resolution and --samples must be at least 1")
 
 

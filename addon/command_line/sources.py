@@ -41,8 +41,8 @@ def _request(options):
     asked = replace(options.choices().request(options), solver=options.solver)
     if asked.faces != choices.ASKED:
         asked = replace(asked, faces=choices.WHOLE)
-    if options.puncture:
-        return replace(asked, use=choices.PUNCTURES, vertices=tuple(options.puncture))
+    if options.pole:
+        return replace(asked, use=choices.POLES, vertices=tuple(options.pole))
     if options.rectangle:
         return replace(asked, use=choices.RECTANGLE, vertices=tuple(options.rectangle))
     return asked

@@ -90,7 +90,7 @@ def _draw_choices(layout):
     """The button again, for what the selected vertices are to be."""
     column = layout.column(align=True)
     column.label(text="Selected vertices as")
-    for use, text in (("PUNCTURES", "Punctures"), ("RECTANGLE", "Corners of a Rectangle")):
+    for use, text in (("POLES", "Poles"), ("RECTANGLE", "Corners of a Rectangle")):
         column.operator(HOLOMORPH_OT_maps.bl_idname, text=text).use_selection = use
 
 

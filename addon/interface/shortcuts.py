@@ -26,7 +26,7 @@ class HOLOMORPH_MT_pie(bpy.types.Menu):
         pie.operator(HOLOMORPH_OT_tile.bl_idname, icon="TEXTURE")
         if context.mode == "EDIT_MESH":
             pie.operator(HOLOMORPH_OT_maps.bl_idname, text="Corners of a Rectangle").use_selection = "RECTANGLE"
-            pie.operator(HOLOMORPH_OT_maps.bl_idname, text="Punctures").use_selection = "PUNCTURES"
+            pie.operator(HOLOMORPH_OT_maps.bl_idname, text="Poles").use_selection = "POLES"
         else:
             pie.operator(HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
             pie.operator(HOLOMORPH_OT_drag_poles.bl_idname)

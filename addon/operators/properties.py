@@ -19,9 +19,9 @@ def items(**texts):
 
 SELECTION_USES = items(
     AUTOMATIC="In edit mode: selected faces alone are mapped. Without any, four selected boundary vertices of a disk "
-    "become the corners of a rectangle, other single vertices punctures; edges and what does not fit are no choice",
+    "become the corners of a rectangle, other single vertices poles; edges and what does not fit are no choice",
     FACES="The selected faces are mapped, as a surface with a boundary; the others keep their UVs",
-    PUNCTURES="The texture runs around each selected vertex, and its density grows towards it without end: at least "
+    POLES="The texture runs around each selected vertex, and its density grows towards it without end: at least "
     "two on a closed surface, one on a disk",
     RECTANGLE="The four selected vertices on the boundary of a disk become the corners of an exact rectangle",
     NONE="The selection does not matter",
@@ -76,7 +76,7 @@ ABOUT = {
     "most_stretch": "Islands are cut open, from the place that is stretched or squeezed most to its border, until "
     "lengths change by less than this factor: seams for an even texture. 0: no such cuts",
     "selection": "What the selection is. Hidden faces are not mapped in edit mode",
-    "residues": "One number for each puncture, in the order of selection, for example 1 1 -2; they sum to 0 on a "
+    "residues": "One number for each pole, in the order of selection, for example 1 1 -2; they sum to 0 on a "
     "closed surface, and may be complex (1+0.5j). Empty: chosen by themselves",
     "cut": "Cut the maps along your seams where these make each part a disk; else the report says why not",
     "boundary": "How surfaces with a boundary are solved",

@@ -106,7 +106,7 @@ def _target(obj, mask, asked):
     if obj.data.library is not None:
         return replace(target, refused="its mesh is linked from another file; make it local first")
     if asked.are_islands and asked.is_explicit:
-        return replace(target, refused="islands have no punctures or corners: choose those or another main map")
+        return replace(target, refused="islands have no poles or corners: choose those or another main map")
     takes_modifiers, modifier, own = asked.modifiers and obj.mode != "EDIT", first_modifier(obj), read(obj, mask)
     if takes_modifiers or (modifier and not own.face_count):
         shown, seams, are_own = mesh_io.read_shown(obj, _linear(obj), own)

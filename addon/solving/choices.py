@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 # What the selection is.
-AUTOMATIC, FACES, PUNCTURES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "PUNCTURES", "RECTANGLE", "NONE"
-EXPLICIT = (PUNCTURES, RECTANGLE)
+AUTOMATIC, FACES, POLES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "POLES", "RECTANGLE", "NONE"
+EXPLICIT = (POLES, RECTANGLE)
 # Which faces are mapped: all; in edit mode the selected ones if there are any; these, or a refusal.
 WHOLE, SELECTED, ASKED = "WHOLE", "SELECTED", "ASKED"
 ISLANDS = "islands"  # as a boundary: the mesh is cut along its seams into parts, each flattened by itself

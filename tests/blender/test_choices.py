@@ -40,7 +40,7 @@ def test_numbers():
 
 
 def test_each_part_gets_its_own_vertices_and_residues():
-    chosen = choices.Choices(choices.PUNCTURES, (17, 40, 6), residues=(1, 2, 3))
+    chosen = choices.Choices(choices.POLES, (17, 40, 6), residues=(1, 2, 3))
     first, second = two_grids().components
     if first.vertex_index[0] != 0:
         first, second = second, first
@@ -58,7 +58,7 @@ def test_what_was_only_found_is_left_out_in_the_end():
     wanted = choices.attempts(part, found)
     assert [("poles" in w, "cuts" in w) for w in wanted] == [(1, 1), (1, 0), (0, 1), (0, 0)]
     assert all(w["boundary"] == "natural" for w in wanted)  # a disk has no forms
-    explicit = choices.Choices(choices.PUNCTURES, (24,), seams=seams)
+    explicit = choices.Choices(choices.POLES, (24,), seams=seams)
     assert [("poles" in w, "cuts" in w) for w in choices.attempts(part, explicit)] == [(1, 1), (1, 0)]
     assert choices.attempts(part, choices.Choices(choices.NONE, (24,))) == [{"solver": "auto", "boundary": "natural"}]
 
@@ -71,8 +71,8 @@ def test_methods_are_taken_where_they_fit():
     found = [choices.attempts(part, chosen)[0] for part in (ring, torus_part, sphere)]
     assert [k["boundary"] for k in found] == ["double_cover", "natural", "natural"]
     assert [k["solver"] for k in found] == ["auto", "paper", "auto"]
-    punctured = choices.Choices(choices.PUNCTURES, (3, 150), solver="paper")
-    assert choices.attempts(torus_part, punctured)[0]["solver"] == "auto"
+    poled = choices.Choices(choices.POLES, (3, 150), solver="paper")
+    assert choices.attempts(torus_part, poled)[0]["solver"] == "auto"
 
 
 def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop():
@@ -110,11 +110,11 @@ def test_the_selection_is_read_in_its_order():
     obj = torus()
     pick(obj, [50, 7, 120])
     assert collected(obj, choices.AUTOMATIC) == (50, 7, 120)
-    assert collected(obj, choices.PUNCTURES) == (50, 7, 120)
+    assert collected(obj, choices.POLES) == (50, 7, 120)
     assert collected(obj, choices.NONE) == ()
     bpy.ops.object.mode_set(mode="OBJECT")
     assert collected(obj, choices.AUTOMATIC) == ()
-    assert collected(obj, choices.PUNCTURES) == (7, 50, 120)
+    assert collected(obj, choices.POLES) == (7, 50, 120)
 
 
 def test_selected_edges_and_everything_selected_are_no_choice():
@@ -123,13 +123,13 @@ def test_selected_edges_and_everything_selected_are_no_choice():
     assert collected(obj, choices.AUTOMATIC) == ()
     bpy.ops.mesh.select_all(action="SELECT")
     assert collected(obj, choices.AUTOMATIC) == ()
-    assert len(collected(obj, choices.PUNCTURES)) == len(torus_arrays()[0])
+    assert len(collected(obj, choices.POLES)) == len(torus_arrays()[0])
 
 
 def test_a_loose_vertex_cannot_be_chosen():
     vertices, faces = sphere_arrays()
     obj = mesh_object("Sphere", [*vertices, (3, 3, 3)], faces)
-    (task,) = targets.tasks(targets.collect([obj], choices.Choices(choices.PUNCTURES, (0, 162))))
+    (task,) = targets.tasks(targets.collect([obj], choices.Choices(choices.POLES, (0, 162))))
     with pytest.raises(native.load().InvalidMesh, match="vertex 162 belongs to no face"):
         module("solving.solve").solve(task)
 

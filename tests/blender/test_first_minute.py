@@ -43,7 +43,7 @@ def drawn(obj, width=220):
 
 
 def spikes():
-    """A ball with three spikes; the log map has its punctures in two of them."""
+    """A ball with three spikes; the log map has its poles in two of them."""
     vertices, faces = sphere_arrays(4)
     vertices = np.array(vertices)
     factor = 1 + 6 * np.exp(-24 * (0.5 - vertices.max(axis=1)))
@@ -191,7 +191,7 @@ def spiked(obj, place):
     return int(np.argmax(point)), np.linalg.norm(point)
 
 
-def test_a_spike_without_a_puncture_is_coarse_and_named():
+def test_a_spike_without_a_pole_is_coarse_and_named():
     obj = spikes()
     run()
     entry = stored_report(obj)

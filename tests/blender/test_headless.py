@@ -230,9 +230,9 @@ def reported(path):
     return entry
 
 
-def test_punctures_and_residues(torus_file, tmp_path):
+def test_poles_and_residues(torus_file, tmp_path):
     report = tmp_path / "report.json"
-    chosen = ("--puncture", 3, "--puncture", 150, "--residues", "2+1j -2-1j")
+    chosen = ("--pole", 3, "--pole", 150, "--residues", "2+1j -2-1j")
     assert headless(torus_file, "--report", report, *chosen).returncode == 0
     assert reported(report)["poles"] == [3, 150]
     assert reported(report)["residues"] == [[2, 1], [-2, -1]]
@@ -240,11 +240,11 @@ def test_punctures_and_residues(torus_file, tmp_path):
 
 def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
     for path, options, word in (
-        (torus_file, ("--puncture", 3), "pole 3"),
-        (torus_file, ("--puncture", 3, "--puncture", 100000), "100000"),
-        (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "1 1"), "residues"),
-        (torus_file, ("--puncture", 3, "--rectangle", 0, 1, 2, 3), "exclude"),
-        (torus_file, ("--puncture", 3, "--puncture", 150, "--residues", "a b"), "'a' is not a number"),
+        (torus_file, ("--pole", 3), "pole 3"),
+        (torus_file, ("--pole", 3, "--pole", 100000), "100000"),
+        (torus_file, ("--pole", 3, "--pole", 150, "--residues", "1 1"), "residues"),
+        (torus_file, ("--pole", 3, "--rectangle", 0, 1, 2, 3), "exclude"),
+        (torus_file, ("--pole", 3, "--pole", 150, "--residues", "a b"), "'a' is not a number"),
         (grid_file(tmp_path), ("--rectangle", 0, 168, 156, 84), "84"),
     ):
         done = headless(path, *options)
@@ -253,7 +253,7 @@ def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
 
 
 def test_choices_need_one_object(tmp_path):
-    done = headless("--puncture", 3, blend=ROOT / "blend_examples" / "mixed.blend")
+    done = headless("--pole", 3, blend=ROOT / "blend_examples" / "mixed.blend")
     assert done.returncode == 1 and "--object" in our_lines(done)[0]
 
 
@@ -271,7 +271,7 @@ def test_rectangle_and_disk(tmp_path):
     report, path = tmp_path / "report.json", grid_file(tmp_path)
     assert headless(path, "--report", report, "--rectangle", 0, 168, 156, 12).returncode == 0
     assert reported(report)["description"].startswith("rectangle")
-    assert headless(path, "--report", report, "--puncture", 84).returncode == 0
+    assert headless(path, "--report", report, "--pole", 84).returncode == 0
     assert reported(report)["description"].startswith("disk")
 
 

@@ -195,11 +195,11 @@ def test_an_island_with_several_loops_or_handles_is_cut_open(genus):
         assert_packed(obj)
 
 
-def test_punctures_and_islands_exclude_each_other():
+def test_poles_and_islands_exclude_each_other():
     obj = capped_cylinder()
     obj.data.vertices[0].select = True
     with pytest.raises(RuntimeError, match="choose those or another main map"):
-        islands(obj, use_selection="PUNCTURES")
+        islands(obj, use_selection="POLES")
 
 
 def test_selection_mode_and_scene_are_as_before():

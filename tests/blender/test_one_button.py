@@ -135,7 +135,7 @@ def test_what_is_set_of_the_balanced_map_is_followed(options):
     assert tilings(obj) != [None]
 
 
-def test_punctures_are_followed_and_seamless_is_for_all():
+def test_poles_are_followed_and_seamless_is_for_all():
     obj = limb()
     heights = np.array(limb_arrays()[0])[:, 2]
     pick(obj, [int(heights.argmin()), int(heights.argmax())])

@@ -1,4 +1,4 @@
-"""What each kind of surface gets in Blender: straight boundaries, rectangles, disks, punctures; and choices that do not
+"""What each kind of surface gets in Blender: straight boundaries, rectangles, disks, poles; and choices that do not
 fit."""
 
 import json
@@ -70,7 +70,7 @@ def test_all_maps_of_a_surface_with_handles_and_holes_have_straight_boundaries(n
     assert straightness(part, uv(obj, name)) < FLOAT32
 
 
-def test_a_sphere_gets_two_punctures_by_itself_or_those_that_are_picked():
+def test_a_sphere_gets_two_poles_by_itself_or_those_that_are_picked():
     obj = mesh_object("Sphere", *sphere_arrays())
     assert run() == {"FINISHED"}
     assert len(only_part(obj)["poles"]) == 2
@@ -81,7 +81,7 @@ def test_a_sphere_gets_two_punctures_by_itself_or_those_that_are_picked():
 
 
 def test_a_sphere_that_was_spun_gets_uvs_at_every_corner():
-    """Each pole is a ring of coincident vertices: beside a puncture there are edges without length."""
+    """Each pole is a ring of coincident vertices: beside a pole there are edges without length."""
     around, along = 16, 8
     theta, phi = np.arange(along + 1) * np.pi / along, 2 * np.pi * np.arange(around) / around
     radius = np.where(np.arange(along + 1) % along > 0, np.sin(theta), 0.0)[:, None]
@@ -96,10 +96,10 @@ def test_a_sphere_that_was_spun_gets_uvs_at_every_corner():
     assert only_part(obj)["done"] and only_part(obj)["main_map"]["collapsed_triangles"] == 0
 
 
-def test_punctures_with_residues_on_a_torus():
+def test_poles_with_residues_on_a_torus():
     obj = torus(around=80, across=40)
     pick(obj, [0, 840, 2000])
-    assert run(use_selection="PUNCTURES", residues="1 1 -2") == {"FINISHED"}
+    assert run(use_selection="POLES", residues="1 1 -2") == {"FINISHED"}
     entry = only_part(obj)
     assert entry["poles"] == [0, 840, 2000]
     assert entry["residues"] == [[1, 0], [1, 0], [-2, 0]]
@@ -144,19 +144,19 @@ def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
     picked = [len(torus_arrays()[0]) + pole for pole in poles()]
     pick(obj, picked)
     assert run() == {"FINISHED"}
-    closed, punctured = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
+    closed, poled = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
     assert "poles" not in closed
-    assert sorted(punctured["poles"]) == sorted(picked)
-    assert all(str(vertex) in punctured["description"] for vertex in picked)
+    assert sorted(poled["poles"]) == sorted(picked)
+    assert all(str(vertex) in poled["description"] for vertex in picked)
 
 
 @pytest.mark.parametrize(
     ("picked", "options", "word"),
     [
-        ([3], {"use_selection": "PUNCTURES"}, "pole"),
-        (poles(), {"use_selection": "PUNCTURES", "residues": "1 1"}, "residue"),
-        (poles(), {"use_selection": "PUNCTURES", "residues": "1"}, "residue"),
-        (poles(), {"use_selection": "PUNCTURES", "residues": "one two"}, "'one' is not a number"),
+        ([3], {"use_selection": "POLES"}, "pole"),
+        (poles(), {"use_selection": "POLES", "residues": "1 1"}, "residue"),
+        (poles(), {"use_selection": "POLES", "residues": "1"}, "residue"),
+        (poles(), {"use_selection": "POLES", "residues": "one two"}, "'one' is not a number"),
         ([3, 7, 20, 30], {"use_selection": "RECTANGLE"}, "rectangle"),
     ],
 )
@@ -189,9 +189,9 @@ def test_the_solver_can_be_chosen(solver):
 def test_the_papers_solver_is_for_the_parts_that_it_fits():
     obj = two_parts("Two", torus_arrays(), sphere_arrays())
     assert run(solver="paper") == {"FINISHED"}
-    closed, punctured = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
+    closed, poled = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
     assert closed["solver"]["name"].startswith("paper")
-    assert punctured["done"] and not punctured["solver"]["name"].startswith("paper")
+    assert poled["done"] and not poled["solver"]["name"].startswith("paper")
 
 
 def test_a_modifier_that_may_close_the_surface_is_told():

@@ -48,6 +48,14 @@ ADDON_BELOW = {
 }
 ADDON_TOP = {ADDON / "__init__.py", ADDON / "headless.py"}  # these start the rooms
 WITHOUT_BPY = {"solving"}
+# One word for one thing: what is not said, and what is said instead.
+WORDS = {
+    r"punctur": "pole",
+    r"\bleverage\b": "Jacobian",
+    r"\blandscape\b": "pole basis",
+    r"\bwishe[ds]\b": "options",
+    r"(?:HalfEdges|EdgeEnds)&? mesh\b": "half_edges",
+}
 HEADER_LINES = 110
 FILE_LINES = 250
 
@@ -290,6 +298,14 @@ def test_long_files_are_listed():
     for path in [*cpp_files(), *python_files(FACADE), *python_files(ADDON)]:
         if length(path) > FILE_LINES:
             warnings.warn(f"{identify(path)} has {length(path)} lines", stacklevel=1)
+
+
+def test_one_thing_has_one_word():
+    wrong = []
+    for path in [*cpp_files(), *python_files(FACADE), *python_files(ADDON)]:
+        text = path.read_text(encoding="utf-8")
+        wrong += [f"{identify(path)}: {word}" for said, word in WORDS.items() if re.search(said, text, re.IGNORECASE)]
+    assert not wrong
 
 
 def test_nothing_is_left_for_later():

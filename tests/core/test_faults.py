@@ -12,7 +12,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Cancelled, ProgressiveMesh, Surface, Tiler, conformal_structure
+from holomorph import Cancelled, ProgressiveMesh, Surface, Tiler, automatic_structure
 from solved import surface_of
 from test_read import off
 
@@ -25,7 +25,7 @@ needs_library = pytest.mark.skipif(not LIBRARY, reason="no library that lets req
 
 
 def bits_of_structure(mesh, options, progress=None):
-    structure = conformal_structure(surface_of(mesh), **options, progress=progress)
+    structure = automatic_structure(surface_of(mesh), **options, progress=progress)
     uv = structure.uv(structure.balanced_coefficients())
     return uv.tobytes() + np.array(structure.quality(uv).density_ratio).tobytes()
 

@@ -82,7 +82,7 @@ def add_object(name, vertices, corners):
 
 
 def spikes(name):
-    """A ball with three spikes; the log map has its punctures in two of them."""
+    """A ball with three spikes; the log map has its poles in two of them."""
     edited = bmesh.new()
     bmesh.ops.create_icosphere(edited, subdivisions=4, radius=0.5)
     for vertex in edited.verts:

@@ -165,7 +165,7 @@ def chosen_vertices():
     with inside(view):
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.view3d.view_selected()
-    for button, vertices in (("rectangle", (0, 8, 72, 80)), ("punctures", (40,))):
+    for button, vertices in (("rectangle", (0, 8, 72, 80)), ("poles", (40,))):
         pick_vertices("Sheet", vertices)
         hover(view)
         yield 1

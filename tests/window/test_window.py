@@ -3,7 +3,7 @@
 import pytest
 
 BOTH_MAPS = ["Holomorphic", "Holomorphic 1"]
-PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "rectangle.png", "punctures.png"]
+PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "rectangle.png", "poles.png"]
 PICTURES += ["running.png", "modal.png", "levels.png"]
 
 
@@ -72,8 +72,8 @@ def test_selected_vertices_become_the_corners_of_a_rectangle(seen):
     assert low <= part["modulus"] <= high
 
 
-def test_a_selected_vertex_becomes_a_puncture(seen):
-    assert seen["part after punctures"]["description"] == "disk map, centre at vertex 40"
+def test_a_selected_vertex_becomes_a_pole(seen):
+    assert seen["part after poles"]["description"] == "disk map, centre at vertex 40"
 
 
 @pytest.mark.parametrize("name", PICTURES)

@@ -80,8 +80,8 @@ StarPart star_part(const HalfEdges& half_edges, std::span<const double> lengths,
     // `flux` with the weights of the ends a, b, and `excess` with the normal derivatives of the hat functions
     const std::size_t at_a = (j + count - 1) % count;
     const double at_b = -t.t0 / t.length / t.height, at_p = -1 / t.height;
-    const auto add = [&](double flux_b, double flux, double excess, std::vector<double>& b, double& b_at_puncture) {
-      b_at_puncture += scale * at_p * excess;
+    const auto add = [&](double flux_b, double flux, double excess, std::vector<double>& b, double& b_at_pole) {
+      b_at_pole += scale * at_p * excess;
       b[at_a] += scale * (flux - flux_b - (at_p + at_b) * excess);
       b[j] += scale * (flux_b + at_b * excess);
     };
