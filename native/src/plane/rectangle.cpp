@@ -37,17 +37,15 @@ Coordinates coordinates(const mesh::Discretisation& discretisation, const Sides&
   return result;
 }
 
-// The energies of u and of v.
-structure::CertainGram energies(const mesh::Discretisation& discretisation, const Coordinates& coordinates,
-                                Execution& execution) {
+// Energies of u and of v that are certainly not below those of the surface, 1 x 1 each.
+std::vector<Eigen::MatrixXd> certain_energies(const mesh::Discretisation& discretisation,
+                                              const Coordinates& coordinates, Execution& execution) {
   topology::IntegerForms no_classes;
   no_classes.rows.resize(discretisation.weights.size());
-  structure::CertainGram result;
+  std::vector<Eigen::MatrixXd> result;
   for (const DirichletSolution* f : {&coordinates.u, &coordinates.v}) {
     const forms::RowMajorMatrix functions = f->functions;
-    auto one = structure::certain_energies(discretisation, {no_classes, functions}, {1}, execution);
-    result.gram.push_back(std::move(one.gram[0]));
-    result.certain.push_back(std::move(one.certain[0]));
+    result.push_back(structure::certain_energies(discretisation, {no_classes, functions}, {1}, execution).certain[0]);
   }
   return result;
 }
@@ -69,8 +67,8 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   result.mollification = delaunay.mollification;
   const bool flipped = result.flip_count > 0;
   const Coordinates sharp = coordinates(delaunay, sides, options, 0.2, flipped ? 0.6 : 1.0, execution);
-  const auto [gram, certain] = energies(delaunay, sharp, execution);
-  result.modulus = std::sqrt(gram[0](0, 0) * (1 / gram[1](0, 0)));
+  const auto certain = certain_energies(delaunay, sharp, execution);
+  result.modulus = std::sqrt(sharp.u.energies[0] * (1 / sharp.v.energies[0]));
   result.metric = delaunay.metric_error;
   const Eigen::MatrixXd lower = conformal::below_inverse(certain[1]);
   if (result.mollification == 0) structure::require_ordered(lower, certain[0]);

@@ -17,7 +17,7 @@ MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, const
   if (level.is_whole(*surface))
     greens = GreensFunctions(std::make_shared<const PoleBasis>(std::move(surface), options, execution));
   else
-    greens = greens.on(
+    greens = std::move(greens).on(
         std::make_shared<const PoleBasis>(std::move(surface), options, greens.shared_basis(), level, execution));
   greens.solve_at(form.poles, execution);
   const PoleBasis& basis = greens.basis();

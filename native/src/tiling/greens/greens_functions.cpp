@@ -4,9 +4,9 @@
 
 namespace holomorph::tiling {
 
-GreensFunctions GreensFunctions::on(std::shared_ptr<const PoleBasis> surface) const {
+GreensFunctions GreensFunctions::on(std::shared_ptr<const PoleBasis> surface) && {
   GreensFunctions result(std::move(surface));
-  result.known_ = known_;
+  result.known_ = std::move(known_);
   return result;
 }
 

@@ -16,8 +16,8 @@ class GreensFunctions {
  public:
   explicit GreensFunctions(std::shared_ptr<const PoleBasis> basis) : basis_(std::move(basis)) {}
 
-  /// The same on the samples of the surface whose coarse level these are on.
-  GreensFunctions on(std::shared_ptr<const PoleBasis> surface) const;
+  /// Those of the surface whose coarse level these are on, which are given up for them: each takes memory.
+  GreensFunctions on(std::shared_ptr<const PoleBasis> surface) &&;
 
   const PoleBasis& basis() const { return *basis_; }
   const std::shared_ptr<const PoleBasis>& shared_basis() const { return basis_; }
