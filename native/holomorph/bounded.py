@@ -71,12 +71,12 @@ class BoundedStructure(CertifiedStructure):
     def projected_gram_matrices(self) -> tuple[Reals, Reals]:
         """(natural, Dirichlet), (n, n) each: G_N# = G_N # (W G_D^-1 W^T), the geometric mean, and W^T (G_N#)^-1 W. They
         lie between the bounds W G_D^-1 W^T <= G_N and W^T G_N^-1 W <= G_D of the polyhedral surface."""
-        return self._native.projected()[:2]
+        return self._native.natural_gram(), self._native.dirichlet_gram()
 
     @cached_property
     def star(self) -> Reals:
         """(n, n) C#: the conjugate of h^N_i is sum_j C#_ij h^D_j; that of h^D_j is -sum_i (C#^-1)_ji h^N_i."""
-        return self._native.projected()[2]
+        return self._native.star()
 
     @cached_property
     def collapsed_triangles(self) -> Integers:

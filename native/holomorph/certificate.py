@@ -72,7 +72,7 @@ class Certificate(Value):
 def certificate(structure):
     """`Certificate` of a `ConformalStructure` or `BoundedStructure`."""
     native = structure._native
-    reason, rounding = why_uncertain(structure), native.intrinsic()[2]
+    reason, rounding = why_uncertain(structure), native.metric_error()
     bounds = structure.period_bounds
     imaginary = structure.period_matrix.imag
     return Certificate(
@@ -93,7 +93,7 @@ def certificate(structure):
 
 def why_uncertain(structure):
     """One sentence, or "" where the bounds are proven for the surface as given."""
-    _, mollification, rounding = structure._native.intrinsic()
+    mollification, rounding = structure._native.mollification(), structure._native.metric_error()
     if mollification:
         return f"degenerate triangles were lengthened, by up to {mollification:.1e}: another surface was solved on"
     if rounding >= OPEN:

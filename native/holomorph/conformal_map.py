@@ -108,7 +108,7 @@ class _Matching:
         }
 
     def run(self):
-        """(vertices, triangles, barycentric, residuals) of the best continuation."""
+        """The native images of the best continuation."""
         sign, start = self._start()
         continuation = self._continuations[sign]
         best, begin = None, SEARCH[2]
@@ -165,8 +165,7 @@ class _Matching:
 
     def _shift(self, made):
         """By how much the integrals of the start are wrong: what the images cannot follow, in the mean."""
-        vertices, triangles, _, residuals = made
-        slopes = self._slopes[1][triangles]
+        residuals, slopes = made.residuals, self._slopes[1][made.triangles]
         n = residuals.shape[1]
         if n == 2:
             return np.zeros(2)
@@ -175,7 +174,7 @@ class _Matching:
 
 
 def _result(a, b, made, found):
-    vertices, triangles, barycentric, residuals = made
+    triangles, barycentric, residuals = made.triangles, made.barycentric, made.residuals
     residual = float(np.sqrt((residuals**2).sum(axis=1).mean()))
     if residual > MOST_RESIDUAL:
         raise SolverError(f"no map was found: the forms' integrals differ by {residual:.2g} where it ends")
@@ -187,7 +186,7 @@ def _result(a, b, made, found):
     component, surface = a._component, a.surface
     all_triangles = np.full(surface._native.vertex_count, -1, dtype=np.int32)
     all_barycentric = np.full((len(all_triangles), 3), np.nan)
-    where = vertices if component is surface else component.vertex_index[vertices]
+    where = made.vertices if component is surface else component.vertex_index[made.vertices]
     all_triangles[where], all_barycentric[where] = triangles, barycentric
     corners = b._of_surface(b._triangulation.triangles)
     surfaces = surface, b.surface
@@ -197,4 +196,4 @@ def _result(a, b, made, found):
 
 
 def _size(made):
-    return float((made[3] ** 2).sum(axis=1).mean())
+    return float((made.residuals**2).sum(axis=1).mean())

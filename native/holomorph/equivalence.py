@@ -17,8 +17,8 @@ from .structure import conformal_structure
 from .surface import Surface
 from .value import Value
 
-VERDICTS = ("equivalent", "mirror_image", "not_equivalent", "undecided")
 ROUNDING = 1e-9  # of residuals
+VERDICTS = ("equivalent", "mirror_image", "not_equivalent", "undecided")
 STEPS = _native.isometry_steps  # limit of one search among integer matrices
 
 
@@ -88,10 +88,10 @@ def conformally_equivalent(
         for given, part, start in ((a, first, 0.0), (b, second, 0.4))
     ]
     lattices = [period_lattice(structure) for structure in structures]
-    made = _native.compare(*lattices, float(tolerance), scaled(progress, 0.8, 1.0))
-    verdict = VERDICTS[made[0]]
+    made = _native.compare(*lattices, allowed=float(tolerance), progress=scaled(progress, 0.8, 1.0))
+    verdict = made.verdict.name
     if verdict == "equivalent" and genus == 0 and loops > LOOPS_OF_ACHIRAL_SURFACES:
-        verdict = planar_verdict(*structures, made[1][0])
+        verdict = planar_verdict(*structures, made.isometry.matrix)
     return _equivalence(verdict, made, all(structure.period_bounds is not None for structure in structures))
 
 
@@ -123,12 +123,12 @@ def _topology_text(genus, loops):
 
 
 def _equivalence(verdict, made, is_exact):
-    _, isometry, _, tolerance, margin, is_complete = made
+    margin = made.margin
     if verdict == "undecided" or (verdict == "not_equivalent" and not is_exact):
         verdict, margin = "undecided", 0.0
-    matrix, residual, _ = isometry or (None, math.inf, math.inf)
-    sentence = _sentence(verdict, residual, tolerance, margin, is_complete, is_exact)
-    return Equivalence(verdict, sentence, matrix, residual, tolerance, margin)
+    matrix, residual = (made.isometry.matrix, made.isometry.residual) if made.isometry else (None, math.inf)
+    sentence = _sentence(verdict, residual, made.tolerance, margin, made.is_complete, is_exact)
+    return Equivalence(verdict, sentence, matrix, residual, made.tolerance, margin)
 
 
 def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):

@@ -54,7 +54,8 @@ class FormStructure(Structure):
     @cached_property
     def memory(self) -> MemoryPlan:
         """`MemoryPlan`: whether all forms are kept, and the memory that was reckoned with."""
-        return MemoryPlan(*self._native.memory())
+        plan = self._native.memory()
+        return MemoryPlan(plan.keeps_forms, plan.block, plan.bytes)
 
     def prepare_uv(self, progress: Progress | None = None) -> None:
         """Solves for the forms on the surface's own triangles, of which forms and UVs are made; done by itself when
@@ -67,7 +68,7 @@ class FormStructure(Structure):
     @cached_property
     def uv_solver(self) -> SolverReport:
         """`SolverReport` of the forms that UVs are made of: that of `prepare_uv`, else the same as `solver`."""
-        return SolverReport(*self._native.uv_solver())
+        return SolverReport.of(self._native.uv_solver())
 
     @cached_property
     def _differentials(self):
@@ -77,7 +78,7 @@ class FormStructure(Structure):
     @cached_property
     def _harmonic_forms(self):
         """(m, #E): all of them."""
-        count, edges = sum(self._native.families()) + self._native.families()[2], len(self.edges)
+        count, edges = self._native.families().count, len(self.edges)
         self._native.require_memory(f"the {count} harmonic forms on {edges} edges", 8 * count * edges)
         return self._native.basis_forms()
 
@@ -107,9 +108,9 @@ class FormStructure(Structure):
         """`Zeros` of the differential sum_j c_j theta_j, the coefficients as in `uv`. Its index at a vertex is the sum
         of the signed angles of the image over 2 pi, minus 1; a flipped triangle counts 1."""
         poles = self._native.poles()
-        vertices, orders = _native.zeros(self._triangulation, self.uv(coefficients), poles)
-        positions = self._component.vertices
-        return Zeros(self._of_surface(vertices), orders, None if positions is None else positions[vertices])
+        found, positions = _native.zeros(self._triangulation, self.uv(coefficients), poles), self._component.vertices
+        at = None if positions is None else positions[found.vertices]
+        return Zeros(self._of_surface(found.vertices), found.orders, at)
 
     def balanced_coefficients(self) -> Complexes:
         """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over

@@ -92,16 +92,17 @@ def levels_of_detail(
     splits = [mesh._split_count(n) for n in n_faces]
     collapsed = mesh._native.collapsed_corner_values(maps, splits)
     levels = []
-    for index, (count, (values, corners)) in enumerate(zip(splits, collapsed)):
-        surface, report = mesh._level(count), None
+    for index, (count, given) in enumerate(zip(splits, collapsed)):
+        surface, values, report = mesh._level(count), given.values, None
         moves = np.zeros((len(surface.vertices), values.shape[1]))
         if harmonic:
             part = _part(progress, index, len(splits))
-            moves, report = _native.harmonic_map(surface._native, values, solver, threads, part)
-            values, report = values + moves[surface.corner_vertices], SolverReport(*report)
+            made = _native.harmonic_map(surface._native, values, solver, threads, part)
+            moves, report = made.moves, SolverReport.of(made.solver)
+            values = values + moves[surface.corner_vertices]
         drift = np.linalg.norm(moves.reshape(len(moves), *uv.shape[1:]), axis=-1)
         values = arrays.frozen(values.reshape(-1, *uv.shape[1:]))
-        levels.append(LevelOfDetail(surface, values, corners, arrays.frozen(drift), report))
+        levels.append(LevelOfDetail(surface, values, given.corners, arrays.frozen(drift), report))
     return tuple(levels)
 
 
@@ -117,8 +118,8 @@ def level_corner_data(mesh: "ProgressiveMesh", n_faces: int) -> NDArray[Any] | N
     if rows.size:
         rows = rows.view(np.dtype((np.void, rows.dtype.itemsize * rows.shape[1])))[:, 0]
         kinds = np.unique(rows, return_inverse=True)[1].astype(float)
-    ((_, corners),) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)])
-    return arrays.frozen(data[corners])
+    (level,) = mesh._native.collapsed_corner_values(kinds[:, None], [mesh._split_count(n_faces)])
+    return arrays.frozen(data[level.corners])
 
 
 def _maps(uv, corner_count):

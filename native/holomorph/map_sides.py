@@ -39,7 +39,7 @@ def sides(a, b, found):
     is no obstacle: its side is the double, whose first triangles are those of the surface."""
     if isinstance(a, BoundedStructure):
         return _bounded_sides(a, b, found)
-    whiten = np.linalg.inv(np.linalg.cholesky(b._native.projected()[0]))
+    whiten = np.linalg.inv(np.linalg.cholesky(b._native.natural_gram()))
     forms = whiten @ found.matrix @ a.harmonic_forms, whiten @ b.harmonic_forms
     return tuple(_closed_side(structure, values) for structure, values in zip((a, b), forms))
 

@@ -42,25 +42,25 @@ def narrow(native, width, most_faces, solver, threads, memory_limit, progress=No
     farthest apart (`uniform`: everywhere). The classes of the forms are carried along as integers, so all levels have
     the same basis.
     """
-    natural = native.families()[0]
+    natural = native.families().natural
     surface, classes = native.surface(), native.side_classes()
     levels = []
     while True:
         stage = _stage(progress, levels)
         solved = _native.solve_level(surface, classes, natural, solver, threads, memory_limit, stage)
-        triangles, functions, gram, certain_gram, mollification = _level(solved)
+        triangles = _triangles(solved)
         rounding = float(triangles.errors.max())
-        if mollification or rounding >= OPEN:
+        if solved.mollification or rounding >= OPEN:
             reason = "triangles are too thin for bounds that are certain"
             break
-        native.narrow(gram, certain_gram, rounding)
+        native.narrow(solved.energies.gram, solved.energies.certain, metric_error=rounding)
         levels.append((len(triangles.corners), relative_width(*native.period_bounds(), native.period_matrix().imag)))
         reason = _ended(levels, width)
         if reason:
             break
         everywhere = np.ones(len(triangles.corners), dtype=bool)
         part = np.clip((1 - width / levels[-1][1]) / QUARTERED, *PART)  # the last level is hardly finer than asked for
-        pieces = refined(triangles, everywhere if uniform else worst(gaps(triangles, functions, natural), part))
+        pieces = refined(triangles, everywhere if uniform else worst(gaps(triangles, solved.functions, natural), part))
         if len(pieces.corners) > most_faces:
             reason = f"the next level would have {len(pieces.corners)} triangles, more than {most_faces}"
             break
@@ -77,11 +77,10 @@ def _ended(levels, width):
     return f"{MOST_LEVELS} levels were solved" if len(levels) == MOST_LEVELS else ""
 
 
-def _level(solved):
-    corners, edges, lengths, errors, classes, functions, gram, certain, mollification = solved
-    classes = classes.reshape(len(corners), 3, -1)
-    triangles = Triangles(corners, edges, lengths.ravel(), errors.ravel(), classes)
-    return triangles, functions, gram, certain, mollification
+def _triangles(solved):
+    """`Triangles` of a native level."""
+    classes = solved.classes.reshape(len(solved.triangles), 3, -1)
+    return Triangles(solved.triangles, solved.triangle_edges, solved.lengths, solved.errors, classes)
 
 
 def _surface(pieces):

@@ -22,7 +22,9 @@ class Frame:
 def frame(surface: Surface, uv: ArrayLike, rotation: float = 0.0) -> Frame:
     """The `Frame` of a (#C, 2) map of the surface's polygon corners, rotated by `rotation` (radians, counter-clockwise)
     about 0."""
-    return Frame(*_native.frame(surface._native, _corners(uv, len(surface.corner_vertices)), float(rotation), 0))
+    uv = _corners(uv, len(surface.corner_vertices))
+    found = _native.frame(surface._native, uv, rotation=float(rotation), threads=0)
+    return Frame(found.low, found.high, found.area)
 
 
 def place(
@@ -52,7 +54,7 @@ def place(
     if rows.size and (rows.min() < 0 or rows.max() >= len(placed)):
         raise ValueError(f"rows has an entry outside of 0 to {len(placed) - 1}")
     if len(uv):
-        _native.place(uv, complex(factor), complex(origin), complex(target), rows, placed, 0)
+        _native.place(uv, complex(factor), complex(origin), complex(target), rows, placed, threads=0)
 
 
 def _corners(uv, count):

@@ -108,13 +108,13 @@ class RectangleMap(PlaneMap):
     @property
     def modulus(self) -> float:
         """Height over width, between `modulus_bounds`: a conformal invariant of the surface with its four corners."""
-        return self._native.modulus()[0]
+        return self._native.modulus
 
     @property
     def modulus_bounds(self) -> tuple[float, float] | None:
         """(lower, upper): guaranteed bounds of the modulus of the polyhedral surface. None where degenerate triangles
         had to be mollified: another surface was solved on."""
-        return self._native.modulus()[1:] if self._is_exact else None
+        return (self._native.lower, self._native.upper) if self._is_exact else None
 
     @cached_property
     def collapsed_triangles(self) -> Integers:

@@ -231,7 +231,7 @@ class ProgressiveMesh(Value):
         -------
         list of integer arrays
         """
-        count = len(self._native.splits()[0])
+        count = len(self._native.splits().v_s)
         splits = count if n_faces is None else self._split_count(n_faces)
         given = [arrays.integer(loop, "loop") for loop in loops]
         for loop in given:

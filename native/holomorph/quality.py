@@ -40,7 +40,9 @@ class Quality(Value):
     @classmethod
     def of(cls, triangulation: object, uv: Reals, threads: int) -> "Quality":
         """That of (#C, 2) UVs on a native surface."""
-        return cls(*_native.quality(triangulation, uv, threads), triangulation)
+        found = _native.quality(triangulation, uv, threads)
+        parts = found.angle, found.area, found.flipped
+        return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
 
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]

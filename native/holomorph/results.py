@@ -37,6 +37,12 @@ class SolverReport(Value):
     residual: float
     levels: tuple[tuple[int, int, float], ...] = ()
 
+    @classmethod
+    def of(cls, native: object) -> Self:
+        """That of a native report."""
+        levels = tuple((level.faces, level.iterations, level.seconds) for level in native.levels)
+        return cls(native.name, native.reason, native.iterations, native.residual, levels)
+
     def _facts(self):
         return [self.name, self.reason, counted(self.iterations, "iteration"), f"residual {self.residual:.2g}"]
 
@@ -150,12 +156,12 @@ class Structure(Value):
     @cached_property
     def flip_count(self) -> int:
         """Edges flipped to make the intrinsic triangulation Delaunay."""
-        return self._native.intrinsic()[0]
+        return self._native.flip_count()
 
     @cached_property
     def _is_exact(self):
         """Whether the metric that invariants come from is that of the surface, without mollification."""
-        return self._native.intrinsic()[1] == 0
+        return self._native.mollification() == 0
 
     def quality(self, uv: ArrayLike) -> Quality:
         """`Quality` of a (#C, 2) UV map on the triangles of `edges`."""
@@ -282,7 +288,8 @@ def result(kind, surface, component, native, threads, **more):
     """A `kind` of `Structure` made of what the native core computed, and `more` fields of that kind."""
     seconds = dict(native.timings())
     seconds["total"] = sum(seconds.values())
-    certificate = dict(zip(("closedness", "harmonicity", "periods", "pairing", "asymmetry"), native.certificate()))
-    residuals = kind.residuals_kind(**{entry.name: certificate[entry.name] for entry in fields(kind.residuals_kind)})
-    report = SolverReport(*native.solver())
-    return kind(surface, report, residuals, seconds, Solution(native), component, threads, **more)
+    found = native.residuals()
+    residuals = kind.residuals_kind(**{entry.name: getattr(found, entry.name) for entry in fields(kind.residuals_kind)})
+    return kind(
+        surface, SolverReport.of(native.solver()), residuals, seconds, Solution(native), component, threads, **more
+    )

@@ -22,12 +22,13 @@ def structured_splits(native, corners):
 
     corners : (#T, 3) polygon corners of the original at the triangles' corners
     """
-    v_s, v_l, v_r, slot_l, slot_r = native.splits()
+    columns = native.splits()
+    v_s, v_l, v_r = columns.v_s, columns.v_l, columns.v_r
     splits = np.empty(len(v_s), SPLIT)
     first, count = native.base_vertex_count, len(v_s)
     splits["v_s"], splits["v_l"], splits["v_r"] = v_s, v_l, v_r
     splits["v_t"] = np.arange(first, first + count)
-    splits["slots"] = np.stack([slot_l, slot_r], axis=1)
+    splits["slots"] = np.stack([columns.slot_l, columns.slot_r], axis=1)
     splits["position"] = native.positions[first : first + count]
     splits["vertex"] = native.vertex_index[first : first + count]
     present = np.stack([v_l, v_r], axis=1) >= 0

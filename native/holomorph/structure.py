@@ -93,6 +93,6 @@ def _native_structure(component, boundary, solver, threads, memory_limit, progre
 
 def _narrowed(native, narrowing, solver, threads, memory_limit, progress):
     """The `Refinement`; the bounds of `native` become narrower."""
-    if not native.memory()[0]:
+    if not native.memory().keeps_forms:
         raise SolverError("bounds are narrowed with all forms in memory; they were solved for in blocks")
     return narrow(native, *narrowing, "auto" if solver == "paper" else solver, threads, memory_limit, progress)

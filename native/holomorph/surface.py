@@ -19,7 +19,14 @@ def _checked(vertices, corner_vertices, face_offsets, strict):
     """What `Surface._adopt` takes."""
     if strict:
         return (_native.Surface.from_polygons(vertices, corner_vertices, face_offsets),)
-    return _native.Surface.sound_part(vertices, corner_vertices, face_offsets)
+    return _of_part(_native.Surface.sound_part(vertices, corner_vertices, face_offsets))
+
+
+def _of_part(part):
+    """The same of a native part of a mesh."""
+    refused = [(component.faces, component.reason) for component in part.refused]
+    indices = part.vertex_index, part.face_index, part.corner_index
+    return part.surface, *indices, part.given_vertex_count, part.split_vertices, refused
 
 
 class Surface(Value):
@@ -106,7 +113,7 @@ class Surface(Value):
         InvalidMesh
             if the file is missing or malformed (names the line or byte), or no component of the mesh in it is valid.
         """
-        return cls._of(*_native.Surface.read(path, strict, weld))
+        return cls._of(*_of_part(_native.Surface.read(path, strict, weld)))
 
     def write(self, path: FilePath, uv: ArrayLike | None = None) -> None:
         """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles, which takes the library
@@ -220,8 +227,9 @@ class Surface(Value):
     def _parts(self):
         parts = []
         given = self._vertex_index, self._face_index, self._corner_index
-        for native, *indices in self._native.components():
-            parts.append(Surface._of(native, *map(self._given, given, indices), self.given_vertex_count))
+        for part in self._native.components():
+            own = part.vertex_index, part.face_index, part.corner_index
+            parts.append(Surface._of(part.surface, *map(self._given, given, own), self.given_vertex_count))
         return tuple(parts)
 
     @cached_property
@@ -241,12 +249,13 @@ class Surface(Value):
     @property
     def euler_characteristic(self) -> int:
         """#V - #E + #F, isolated vertices not counted."""
-        return self._topology[0]
+        self.require_connected()
+        return self._native.euler_characteristic()
 
     @property
     def boundary_count(self) -> int:
         """Number of boundary loops."""
-        return self._topology[1]
+        return self._topology.boundary_count
 
     @cached_property
     def area(self) -> float:
@@ -256,7 +265,7 @@ class Surface(Value):
     @property
     def genus(self) -> int:
         """Number of handles."""
-        return self._topology[2]
+        return self._topology.genus
 
     @cached_property
     def repairs(self) -> Repairs:

@@ -56,15 +56,15 @@ def automorphisms(
     lattice = period_lattice(structure)
     allowed = max(real_number(tolerance, "tolerance"), AGREEMENT * lattice.radius(), ROUNDING)
     projected = lattice.projected()
-    found, is_complete = _native.isometries(projected, projected, 1, allowed, progress)
-    if not is_complete:
+    search = _native.isometries(projected, projected, sign=1, slack=allowed, progress=progress)
+    if not search.is_complete:
         raise Error(f"the search among integer matrices reached its limit of {STEPS} steps")
-    found.sort(key=lambda isometry: isometry[1])
-    matrices, residuals = np.array([matrix for matrix, _, _ in found]), np.array([entry[1] for entry in found])
+    found = sorted(search.found, key=lambda isometry: isometry.residual)
+    matrices, residuals = np.array([each.matrix for each in found]), np.array([each.residual for each in found])
     count = _largest_group(matrices, residuals, allowed)
     group = matrices[:count]
-    others, is_complete = _native.isometries(lattice, lattice, 1, 0.0, progress)
-    at_most = len(others) if is_complete else None
+    others = _native.isometries(lattice, lattice, sign=1, slack=0.0, progress=progress)
+    at_most = len(others.found) if others.is_complete else None
     return Automorphisms(count, tuple(group[_generators(_table(group))]), float(residuals[count - 1]), at_most)
 
 

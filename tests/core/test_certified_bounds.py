@@ -128,11 +128,11 @@ def test_any_functions_give_bounds(noise):
     mesh = families.block_with_holes(2, refine=2, jitter=0.2)
     structure = conformal_structure(surface_of(mesh))
     native, classes = structure._native, structure._native.side_classes()
-    *_, functions, gram, certain, _ = _native.solve_level(native.surface(), classes, 4, "direct", 1, 0, None)
-    moved = functions + noise * np.random.default_rng(1).standard_normal(functions.shape)
-    _, above = _native.measure(native.surface(), classes, 4, moved)
-    assert least_eigenvalue(above[0] - gram[0]) > 0
-    assert least_eigenvalue(certain[0] - gram[0]) > 0
+    level = _native.solve_level(native.surface(), classes, 4, "direct", 1, 0, None)
+    moved = level.functions + noise * np.random.default_rng(1).standard_normal(level.functions.shape)
+    above, (gram,) = _native.measure(native.surface(), classes, 4, moved).certain, level.energies.gram
+    assert least_eigenvalue(above[0] - gram) > 0
+    assert least_eigenvalue(level.energies.certain[0] - gram) > 0
 
 
 # ---- the certificate ----------------------------------------------------------------------------------------------

@@ -30,8 +30,8 @@ def lattice(gram):
 
 
 def verdict(a, b):
-    code, isometry, sign, tolerance, margin, _ = _native.compare(lattice(a), lattice(b), 0.0, None)
-    return VERDICTS[code], isometry and isometry[0], sign, tolerance, margin
+    made = _native.compare(lattice(a), lattice(b), allowed=0.0, progress=None)
+    return made.verdict.name, made.isometry and made.isometry.matrix, made.sign, made.tolerance, made.margin
 
 
 def assert_certificate(R, sign):

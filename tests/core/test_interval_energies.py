@@ -22,12 +22,17 @@ def measured(mesh, noise):
     native, triangles = structure._native, surface._native.triangles
     classes = native.side_classes()
     count = 2 * surface.genus
-    corners, _, _, _, _, functions, *_ = _native.solve_level(native.surface(), classes, count, "direct", 1, 0, None)
+    functions = _native.solve_level(native.surface(), classes, count, "direct", 1, 0, None).functions
     random = np.random.default_rng(0)
     functions = functions + noise * random.standard_normal(functions.shape)
-    value, certain = _native.measure(native.surface(), classes, count, functions)
+    energies = _native.measure(native.surface(), classes, count, functions)
     sides = classes.reshape(len(triangles), 3, count)
-    return structure, value, certain, interval_energies.gram(surface.vertices, triangles, sides, functions)
+    return (
+        structure,
+        energies.gram,
+        energies.certain,
+        interval_energies.gram(surface.vertices, triangles, sides, functions),
+    )
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-3], ids=["solved", "stopped at 1e-3"])

@@ -108,8 +108,14 @@ class Solved:
         self.B, self.fixes = right_hand_sides(surface, *columns)
         problem = _native.LaplaceProblem(surface._native, list(self.vertices), solver, threads)
         self.X = problem.solve(self.B, list(self.fixes))
-        self.name, self.remark, self.iterations, self.residual = problem.report()
-        self.edges, self.weights = problem.edges()
+        report = problem.report()
+        self.name, self.remark, self.iterations, self.residual = (
+            report.name,
+            report.reason,
+            report.iterations,
+            report.residual,
+        )
+        self.edges, self.weights = problem.edges(), problem.weights()
 
     def residuals(self):
         """|L x - b| / |b| of every column, without the rows of fixed vertices; the weights may be large."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 import families
 import numpy as np
 import pytest
-from holomorph import InvalidMesh, Surface, TopologyError, __main__, conformal_structure
+from holomorph import InvalidMesh, Surface, TopologyError, __main__, automatic_structure, conformal_structure, log_map
 
 TORUS = families.torus(6, 5)
 TETRAHEDRON = families.tetrahedron()
@@ -89,8 +89,8 @@ def test_sound_components_are_those_of_a_sound_mesh():
         check_indices(part, mesh)
         alone = Surface.from_polygons(part.vertices, part.corner_vertices, part.face_offsets)
         assert alone.is_whole
-        expected = conformal_structure(alone)
-        found = conformal_structure(part)
+        expected = automatic_structure(alone)
+        found = automatic_structure(part)
         assert (found.uv(found.balanced_coefficients()) == expected.uv(expected.balanced_coefficients())).all()
 
 
@@ -135,7 +135,7 @@ def test_each_fault_is_named_and_the_rest_is_done(name):
     (refused,) = surface.refused
     assert re.search(reason, refused.reason), refused.reason
     assert surface.face_index.tolist() == [0, 1, 2, 3]
-    assert conformal_structure(surface).uv([1.0]).shape == (12, 2)
+    assert log_map(surface).uv([1.0]).shape == (12, 2)
 
 
 @pytest.mark.parametrize("mesh", [fin(TORUS), families.moebius(), with_nan(TORUS), broken(TORUS, 4, 99)])

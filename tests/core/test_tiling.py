@@ -4,7 +4,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Cancelled, InvalidMesh, Tiler, TopologyError, conformal_structure, place_poles
+from holomorph import Cancelled, InvalidMesh, Tiler, TopologyError, automatic_structure, place_poles
 from solved import CLOSED, surface_of
 
 EXACT = 1e-12
@@ -34,7 +34,7 @@ tiled = {}
 def tiling(name):
     if name not in tiled:
         mesh, options = CASES[name]
-        tiled[name] = conformal_structure(surface_of(mesh)).tile(**options)
+        tiled[name] = automatic_structure(surface_of(mesh)).tile(**options)
     return tiled[name]
 
 
@@ -96,7 +96,7 @@ def test_residues_are_on_the_lattice_and_sum_to_zero(name):
 @pytest.mark.parametrize(("mesh", "poles"), [(SPHERE, 2), (SPHERE, 3), (DOUBLE, 0)])
 def test_zeros_and_poles_count_the_genus(mesh, poles):
     """Where no zero lies in the star of a pole: poles are often beside zeros, and even the density there."""
-    made = conformal_structure(surface_of(mesh)).tile(256, poles=poles)
+    made = automatic_structure(surface_of(mesh)).tile(256, poles=poles)
     assert len(made.poles) == poles
     assert made.zeros[1].sum() - len(made.poles) == 2 * mesh.genus - 2
 
@@ -108,7 +108,7 @@ def test_planar_surfaces_are_conformal_exactly(name):
 
 
 def test_moving_poles_leave_nothing_over():
-    structure = conformal_structure(surface_of(families.torus(48, 36, shape="triangles", jitter=0.3)))
+    structure = automatic_structure(surface_of(families.torus(48, 36, shape="triangles", jitter=0.3)))
     without = structure.tile(60, poles=0)
     assert without.added_distortion > 1.001
     with_poles = structure.tile(60, poles=6)
@@ -119,7 +119,7 @@ def test_moving_poles_leave_nothing_over():
 def test_poles_make_the_density_even():
     capsule = families.moved(families.geodesic_sphere(14, jitter=0.1), scale=1.0)
     stretched = families.replace(capsule, vertices=capsule.vertices * [1, 1, 5])
-    structure = conformal_structure(surface_of(stretched))
+    structure = automatic_structure(surface_of(stretched))
     two, eight = structure.tile(100, poles=2), structure.tile(100, poles=8)
     assert eight.optimal_density_ratio < two.optimal_density_ratio
     assert eight.density_ratio < 1.5 * eight.optimal_density_ratio
@@ -127,7 +127,7 @@ def test_poles_make_the_density_even():
 
 def test_tiles_are_counted_at_the_median_density():
     surface = surface_of(SPHERE)
-    made = conformal_structure(surface).tile(density=60 / surface.area, poles=4)
+    made = automatic_structure(surface).tile(density=60 / surface.area, poles=4)
     assert made.tiles == pytest.approx(60)
     # The rounding may change lengths by 12 %, and the residues besides.
     assert made.quality.median_density * surface.area == pytest.approx(60, rel=0.4)
@@ -143,7 +143,7 @@ def shares_along(tiling, mesh, axis):
 def test_direction_turns_the_texture():
     """On a thin ring, along its axis and across it; turned by a right angle, v does."""
     ring = families.torus(60, 12, R=3.0, r=0.3, shape="triangles")
-    structure = conformal_structure(surface_of(ring))
+    structure = automatic_structure(surface_of(ring))
     axis = np.eye(3)[np.argmin(np.ptp(ring.vertices, axis=0))]
     for direction, turn in ((axis, None), (axis, np.pi / 2), (axis[[1, 2, 0]], None)):
         along_u, along_v = shares_along(structure.tile(400, poles=0, direction=direction, turn=turn), ring, direction)
@@ -158,13 +158,13 @@ def test_a_direction_normal_to_a_plane_is_none():
     i, j = np.meshgrid(np.arange(24), np.arange(3), indexing="ij")
     following = (i + 1) % 24
     quads = np.stack([4 * i + j, 4 * i + j + 1, 4 * following + j + 1, 4 * following + j], axis=-1).reshape(-1, 4)
-    flat = conformal_structure(holomorph.Surface(points, quads))
+    flat = automatic_structure(holomorph.Surface(points, quads))
     free = {"tiles": 60, "poles": 0, "boundary": "free"}
     assert np.array_equal(flat.tile(direction=(0, 0, 1), **free).uv, flat.tile(**free).uv)
 
 
 def test_chosen_poles_stay():
-    made = conformal_structure(surface_of(SPHERE)).tile(40, poles=[3, 100, 400])
+    made = automatic_structure(surface_of(SPHERE)).tile(40, poles=[3, 100, 400])
     assert set(made.poles) <= {3, 100, 400}
     assert len(made.poles) >= 2
 
@@ -197,7 +197,7 @@ def test_same_bits_at_any_number_of_threads(name):
 def test_large_surfaces_find_their_poles_on_a_level():
     surface = surface_of(families.torus(150, 50, shape="triangles", jitter=0.2))
     assert len(surface.triangles) > 10_000
-    made = conformal_structure(surface).tile(64, poles=4)
+    made = automatic_structure(surface).tile(64, poles=4)
     assert made.added_distortion < 1.001
     assert made.density_ratio < 2 * made.optimal_density_ratio
 
@@ -239,11 +239,11 @@ REFUSED = [
 @pytest.mark.parametrize("mesh, options, error, message", REFUSED)
 def test_refused(mesh, options, error, message):
     with pytest.raises(error, match=message):
-        conformal_structure(surface_of(mesh)).tile(**options)
+        automatic_structure(surface_of(mesh)).tile(**options)
 
 
 def test_an_intrinsic_surface_knows_no_direction():
-    torus = conformal_structure(surface_of(families.flat_torus(0.3 + 1.1j, 6)))
+    torus = automatic_structure(surface_of(families.flat_torus(0.3 + 1.1j, 6)))
     with pytest.raises(InvalidMesh, match="no direction in space"):
         torus.tile(60, poles=0, direction=(0, 0, 1))
     with pytest.raises(ValueError, match=r"\(36,\) is needed"):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, conformal_structure, overall, verdict
+from holomorph import Surface, automatic_structure, overall, verdict
 from holomorph.__main__ import main
 from holomorph.verdicts import LEVELS, LOST, OVERLAPPING, SHEARED, UNEVEN
 from solved import solved
@@ -32,7 +32,7 @@ class Measured:
 
 def disk():
     """(structure, UVs) of a flat disk: conformal and even."""
-    return conformal_structure(Surface(FLAT_PIECE, TRIANGLES)), POINTS[TRIANGLES.ravel()]
+    return automatic_structure(Surface(FLAT_PIECE, TRIANGLES)), POINTS[TRIANGLES.ravel()]
 
 
 # ---- levels -------------------------------------------------------------------------------------------------------
@@ -146,7 +146,7 @@ def test_shear_of_a_stretched_map():
 def test_long_faces_are_told_from_coarse_ones():
     """The cells of a flat grid, stretched by ten."""
     structure, uv = disk()
-    stretched = conformal_structure(Surface(FLAT_PIECE * [10.0, 1.0, 1.0], TRIANGLES))
+    stretched = automatic_structure(Surface(FLAT_PIECE * [10.0, 1.0, 1.0], TRIANGLES))
     assert structure.quality(uv).long_part == 0 and stretched.quality(uv).long_part > 0.5
 
 

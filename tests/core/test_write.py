@@ -7,7 +7,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import InvalidMesh, Surface, conformal_structure
+from holomorph import InvalidMesh, Surface, automatic_structure
 from holomorph.__main__ import main
 from solved import solved, surface_of
 from test_read import obj
@@ -106,7 +106,7 @@ def test_command_writes_the_balanced_maps_side_by_side(two_parts, tmp_path, caps
     uv, surface = obj_uv(tmp_path / "out.obj"), Surface.read(two_parts)
     assert (uv >= 0).all() and (uv <= 1).all()
     for part in surface.components:
-        structure = conformal_structure(part)
+        structure = automatic_structure(part)
         own = structure.quality(uv[part.corner_index])
         balanced = structure.quality(structure.uv(structure.balanced_coefficients()))
         np.testing.assert_allclose(own.angle, balanced.angle, rtol=1e-9)

@@ -4,6 +4,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "structure/laplace_problem.h"
+#include "structure/solver_report.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -32,9 +33,9 @@ py::array solve(Problem& problem, const Eigen::MatrixXd& B, const std::vector<bo
   return give_matrix(std::move(X));
 }
 
-py::tuple report(const Problem& problem) {
+structure::SolverReport report(const Problem& problem) {
   const auto& solver = *problem.solver;
-  return py::make_tuple(solver.name(), solver.remark(), solver.iterations(), solver.residual());
+  return {solver.name(), solver.remark(), solver.iterations(), solver.residual()};
 }
 
 Eigen::MatrixX2i ends(const Problem& problem) {
@@ -46,10 +47,11 @@ Eigen::MatrixX2i ends(const Problem& problem) {
 
 void bind_laplace_problem(py::module_& m) {
   py::class_<Problem, std::shared_ptr<Problem>>(m, "LaplaceProblem")
-      .def(py::init(&make))
-      .def("solve", &solve)
+      .def(py::init(&make), py::arg("surface"), py::arg("fixed"), py::arg("solver"), py::arg("threads"))
+      .def("solve", &solve, py::arg("right_hand_sides"), py::arg("dirichlet"))
       .def("report", &report)
-      .def("edges", [](const Problem& p) { return py::make_tuple(copy(ends(p)), copy(p.weights)); });
+      .def("edges", [](const Problem& p) { return copy(ends(p)); })
+      .def("weights", [](const Problem& p) { return copy(p.weights); });
 }
 
 }  // namespace holomorph::bindings

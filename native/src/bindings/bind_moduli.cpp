@@ -14,33 +14,17 @@ namespace {
 using moduli::PeriodLattice;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
-py::tuple as_tuple(const moduli::Isometry& isometry) {
-  return py::make_tuple(copy(isometry.matrix), isometry.residual, isometry.excess);
+moduli::Comparison compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, const py::object& progress) {
+  Execution execution(1, callback(progress));
+  const py::gil_scoped_release unlocked;
+  return moduli::compare(a, b, allowed, moduli::kMostSteps, execution);
 }
 
-py::tuple compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, const py::object& progress) {
+moduli::Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, int sign, double slack,
+                              const py::object& progress) {
   Execution execution(1, callback(progress));
-  moduli::Comparison made;
-  {
-    const py::gil_scoped_release unlocked;
-    made = moduli::compare(a, b, allowed, moduli::kMostSteps, execution);
-  }
-  const py::object isometry = made.isometry ? py::object(as_tuple(*made.isometry)) : py::none();
-  return py::make_tuple(static_cast<int>(made.verdict), isometry, made.sign, made.tolerance, made.margin,
-                        made.is_complete);
-}
-
-py::tuple isometries(const PeriodLattice& a, const PeriodLattice& b, int sign, double slack,
-                     const py::object& progress) {
-  Execution execution(1, callback(progress));
-  moduli::Isometries made;
-  {
-    const py::gil_scoped_release unlocked;
-    made = moduli::isometries(a, b, {sign, slack}, execution);
-  }
-  py::list found;
-  for (const auto& isometry : made.found) found.append(as_tuple(isometry));
-  return py::make_tuple(found, made.is_complete);
+  const py::gil_scoped_release unlocked;
+  return moduli::isometries(a, b, {sign, slack}, execution);
 }
 
 // The slopes of n forms on the edges in the triangles, #T x n x 2.
@@ -75,6 +59,11 @@ py::array carried_uv(const mesh::Surface& from, const Contiguous<int>& triangles
       reinterpret_cast<const double*>(carried.data()), static_cast<Eigen::Index>(carried.size()), 2));
 }
 
+/// Arrays of `moduli::ConformalImages`.
+struct Images {
+  py::array vertices, triangles, barycentric, residuals;
+};
+
 /// A continuation that keeps what it is made of.
 class Continuation {
  public:
@@ -85,9 +74,9 @@ class Continuation {
         to_forms_(std::move(to_forms)),
         value_({*from_, from_forms_}, {*to_, to_forms_}, execution_) {}
 
-  // From a vertex whose image is in the middle of a triangle: vertices, triangles, barycentric coordinates, residuals.
-  py::tuple run(int vertex, int triangle, const Eigen::VectorXd& residual, std::size_t most_vertices,
-                const py::object& progress) const {
+  // From a vertex whose image is in the middle of a triangle.
+  Images run(int vertex, int triangle, const Eigen::VectorXd& residual, std::size_t most_vertices,
+             const py::object& progress) const {
     const auto corner = mesh::corners(*to_, triangle);
     const mesh::SurfacePoint middle{triangle, (corner[0] + corner[1] + corner[2]) / 3.0};
     Execution execution(1, callback(progress));
@@ -103,8 +92,7 @@ class Continuation {
       barycentric.row(static_cast<Eigen::Index>(triangles.size())) = mesh::barycentric(*to_, point).transpose();
       triangles.push_back(point.triangle);
     }
-    return py::make_tuple(copy(images.vertices), copy(triangles), copy(barycentric),
-                          copy(images.residuals.transpose()));
+    return {copy(images.vertices), copy(triangles), copy(barycentric), copy(images.residuals.transpose())};
   }
 
  private:
@@ -117,20 +105,52 @@ class Continuation {
 }  // namespace
 
 void bind_moduli(py::module_& m) {
+  using moduli::Comparison;
+  using moduli::Isometries;
+  using moduli::Isometry;
+  py::enum_<moduli::Verdict>(m, "Verdict")
+      .value("equivalent", moduli::Verdict::equivalent)
+      .value("mirror_image", moduli::Verdict::mirror_image)
+      .value("not_equivalent", moduli::Verdict::not_equivalent)
+      .value("undecided", moduli::Verdict::undecided);
+  py::class_<Isometry>(m, "Isometry")
+      .def_property_readonly("matrix", [](const Isometry& isometry) { return copy(isometry.matrix); })
+      .def_readonly("residual", &Isometry::residual)
+      .def_readonly("excess", &Isometry::excess);
+  py::class_<Isometries>(m, "Isometries")
+      .def_readonly("found", &Isometries::found)
+      .def_readonly("is_complete", &Isometries::is_complete);
+  py::class_<Comparison>(m, "Comparison")
+      .def_readonly("verdict", &Comparison::verdict)
+      .def_readonly("isometry", &Comparison::isometry)
+      .def_readonly("sign", &Comparison::sign)
+      .def_readonly("tolerance", &Comparison::tolerance)
+      .def_readonly("margin", &Comparison::margin)
+      .def_readonly("is_complete", &Comparison::is_complete);
+  py::class_<Images>(m, "Images")
+      .def_readonly("vertices", &Images::vertices)
+      .def_readonly("triangles", &Images::triangles)
+      .def_readonly("barycentric", &Images::barycentric)
+      .def_readonly("residuals", &Images::residuals);
   py::class_<PeriodLattice>(m, "PeriodLattice")
-      .def_static("closed", &moduli::closed_lattice)
-      .def_static("bounded", &moduli::bounded_lattice)
+      .def_static("closed", &moduli::closed_lattice, py::arg("gram"), py::arg("wedge"))
+      .def_static("bounded", &moduli::bounded_lattice, py::arg("natural_gram"), py::arg("dirichlet_gram"),
+                  py::arg("pairing"), py::arg("genus"))
       .def("projected", &moduli::projected_lattice)
       .def("radius", &moduli::radius);
   py::class_<Continuation>(m, "Continuation")
-      .def(py::init<SurfacePointer, forms::RowMajorMatrix, SurfacePointer, forms::RowMajorMatrix>())
-      .def("run", &Continuation::run);
-  m.def("carried_uv", &carried_uv);
+      .def(py::init<SurfacePointer, forms::RowMajorMatrix, SurfacePointer, forms::RowMajorMatrix>(), py::arg("first"),
+           py::arg("first_forms"), py::arg("second"), py::arg("second_forms"))
+      .def("run", &Continuation::run, py::arg("vertex"), py::arg("triangle"), py::arg("residual"),
+           py::arg("most_vertices"), py::arg("progress"));
+  m.def("carried_uv", &carried_uv, py::arg("first"), py::arg("triangles"), py::arg("barycentric"), py::arg("second"),
+        py::arg("uv"), py::arg("progress"));
   m.def("form_slopes", &form_slopes);
   m.attr("isometry_steps") = moduli::kMostSteps;
   m.def("short_basis", [](const Eigen::MatrixXd& form) { return copy(moduli::short_basis(form)); });
-  m.def("compare", &compare);
-  m.def("isometries", &isometries);
+  m.def("compare", &compare, py::arg("first"), py::arg("second"), py::arg("allowed"), py::arg("progress"));
+  m.def("isometries", &isometries, py::arg("first"), py::arg("second"), py::arg("sign"), py::arg("slack"),
+        py::arg("progress"));
 }
 
 }  // namespace holomorph::bindings

@@ -29,40 +29,48 @@ std::shared_ptr<mesh::Surface> refined_surface(int vertex_count, const Contiguou
   return surface;
 }
 
-// triangles, triangle_edges, lengths, errors, classes, functions, gram, certain_gram, mollification
-py::tuple solve_level(const mesh::Surface& surface, const Contiguous<int>& classes, int natural,
-                      const std::string& solver, int threads, std::int64_t memory_limit, const py::object& progress) {
-  structure::NestedLevel level;
-  {
-    Execution execution(threads, callback(progress));
-    const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
-    const py::gil_scoped_release unlocked;
-    level = structure::solve_level(surface, given, natural, {solver, memory_limit}, execution);
-  }
-  const auto faces = static_cast<py::ssize_t>(level.triangles.size());
-  const auto triples = [faces](const std::vector<mesh::Triple>& list) {
-    return read_only(py::array_t<int>({faces, py::ssize_t{3}}, list.front().data()));
-  };
-  return py::make_tuple(triples(level.triangles), triples(level.triangle_edges), copy(level.lengths),
-                        copy(level.errors), copy(level.classes), copy(level.functions), level.energies.gram,
-                        level.energies.certain, level.mollification);
+structure::NestedLevel solve_level(const mesh::Surface& surface, const Contiguous<int>& classes, int natural,
+                                   const std::string& solver, int threads, std::int64_t memory_limit,
+                                   const py::object& progress) {
+  Execution execution(threads, callback(progress));
+  const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
+  const py::gil_scoped_release unlocked;
+  return structure::solve_level(surface, given, natural, {solver, memory_limit}, execution);
 }
 
-// (gram, certain gram matrices) of forms with these functions, on the Delaunay triangulation of the surface.
-py::tuple measure(const mesh::Surface& surface, const Contiguous<int>& classes, int natural,
-                  const forms::RowMajorMatrix& functions) {
+// Energies of forms with these functions, on the Delaunay triangulation of the surface.
+structure::CertainGram measure(const mesh::Surface& surface, const Contiguous<int>& classes, int natural,
+                               const forms::RowMajorMatrix& functions) {
   const Eigen::Map<const SideClasses> given(classes.data(), classes.shape(0), classes.shape(1));
   Execution execution;
-  const auto energies = structure::measure(surface, given, natural, functions, execution);
-  return py::make_tuple(energies.gram, energies.certain);
+  return structure::measure(surface, given, natural, functions, execution);
 }
 
 }  // namespace
 
 void bind_nested_level(py::module_& m) {
-  m.def("refined_surface", &refined_surface);
-  m.def("solve_level", &solve_level);
-  m.def("measure", &measure);
+  using structure::CertainGram;
+  using structure::NestedLevel;
+  py::class_<CertainGram>(m, "CertainGram")
+      .def_readonly("gram", &CertainGram::gram)
+      .def_readonly("certain", &CertainGram::certain);
+  const auto viewed = [](auto member) {
+    return [member](py::object self) { return view(self.cast<const NestedLevel&>().*member, self); };
+  };
+  py::class_<NestedLevel>(m, "NestedLevel")
+      .def_property_readonly("triangles", viewed(&NestedLevel::triangles))
+      .def_property_readonly("triangle_edges", viewed(&NestedLevel::triangle_edges))
+      .def_property_readonly("lengths", viewed(&NestedLevel::lengths))
+      .def_property_readonly("errors", viewed(&NestedLevel::errors))
+      .def_property_readonly("classes", [](const NestedLevel& level) { return copy(level.classes); })
+      .def_property_readonly("functions", [](const NestedLevel& level) { return copy(level.functions); })
+      .def_readonly("energies", &NestedLevel::energies)
+      .def_readonly("mollification", &NestedLevel::mollification);
+  m.def("refined_surface", &refined_surface, py::arg("vertex_count"), py::arg("faces"), py::arg("lengths"),
+        py::arg("face_edges"), py::arg("errors"));
+  m.def("solve_level", &solve_level, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("solver"),
+        py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
+  m.def("measure", &measure, py::arg("surface"), py::arg("classes"), py::arg("natural"), py::arg("functions"));
 }
 
 }  // namespace holomorph::bindings

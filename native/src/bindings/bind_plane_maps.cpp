@@ -7,7 +7,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
-#include "bindings/solver_report.h"
+#include "bindings/records.h"
 #include "plane/clear_corners.h"
 #include "plane/free_boundary.h"
 #include "plane/rectangle.h"
@@ -20,11 +20,11 @@ namespace {
 using plane::PlaneMap;
 
 std::shared_ptr<PlaneMap> rectangle(const mesh::Surface& surface, const std::vector<int>& corners,
-                                    const std::vector<int>& names, const std::string& solver, int threads,
+                                    const std::vector<int>& labels, const std::string& solver, int threads,
                                     const py::object& progress_function) {
   Execution execution(threads, callback(progress_function));
   const py::gil_scoped_release unlocked;
-  return std::make_shared<PlaneMap>(plane::rectangle_map(surface, corners, names, {solver}, execution));
+  return std::make_shared<PlaneMap>(plane::rectangle_map(surface, corners, labels, {solver}, execution));
 }
 
 // One without a choice.
@@ -53,17 +53,23 @@ void bind_plane_maps(py::module_& m) {
   py::class_<PlaneMap, std::shared_ptr<PlaneMap>>(m, "PlaneMap")
       .def("points", [](const PlaneMap& map) { return copy(map.points); })
       .def("corners", [](const PlaneMap& map) { return copy(map.corners); })
-      .def("modulus", [](const PlaneMap& map) { return py::make_tuple(map.modulus, map.lower, map.upper); })
+      .def_readonly("modulus", &PlaneMap::modulus)
+      .def_readonly("lower", &PlaneMap::lower)
+      .def_readonly("upper", &PlaneMap::upper)
       .def("scale_factors", [](const PlaneMap& map) { return copy(map.scale_factors); })
       .def("collapsed_triangles", [](const PlaneMap& map) { return copy(map.collapsed_triangles); })
-      .def("certificate", [](const PlaneMap& map) { return py::make_tuple(0.0, map.harmonicity, 0.0, 0.0, 0.0); })
-      .def("solver", [](const PlaneMap& map) { return report(map.solver); })
-      .def("intrinsic",
-           [](const PlaneMap& map) { return py::make_tuple(map.flip_count, map.mollification, map.metric); })
+      .def("residuals", [](const PlaneMap& map) { return Residuals{.harmonicity = map.harmonicity}; })
+      .def("solver", [](const PlaneMap& map) { return map.solver; })
+      .def("flip_count", [](const PlaneMap& map) { return map.flip_count; })
+      .def("mollification", [](const PlaneMap& map) { return map.mollification; })
+      .def("metric_error", [](const PlaneMap& map) { return map.metric; })
       .def("timings", [](const PlaneMap& map) { return map.seconds; });
-  m.def("rectangle_map", &rectangle);
-  m.def("triangle_map", plane_map(&plane::triangle_map));
-  m.def("free_boundary_map", plane_map(&plane::free_boundary_map));
+  m.def("rectangle_map", &rectangle, py::arg("surface"), py::arg("corners"), py::arg("labels"), py::arg("solver"),
+        py::arg("threads"), py::arg("progress"));
+  m.def("triangle_map", plane_map(&plane::triangle_map), py::arg("surface"), py::arg("solver"), py::arg("threads"),
+        py::arg("progress"));
+  m.def("free_boundary_map", plane_map(&plane::free_boundary_map), py::arg("surface"), py::arg("solver"),
+        py::arg("threads"), py::arg("progress"));
   m.def("boundary_length", of_surface(&plane::boundary_length));
   m.def("quarter_corners", of_surface(&plane::quarter_corners));
   m.def("clear_corners", of_surface(&plane::clear_corners));

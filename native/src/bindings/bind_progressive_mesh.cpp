@@ -59,8 +59,12 @@ SurfacePointer restored(const ProgressiveMesh& mesh) {
   return std::make_shared<mesh::Surface>(mesh::make_surface(progressive::restored(mesh), execution));
 }
 
-// Columns v_s, v_l, v_r, slot_l, slot_r.
-py::tuple splits(const ProgressiveMesh& mesh) {
+/// Columns of the splits.
+struct Splits {
+  py::array v_s, v_l, v_r, slot_l, slot_r;
+};
+
+Splits splits(const ProgressiveMesh& mesh) {
   const auto column = [&mesh](auto member) {
     std::vector<int> values;
     values.reserve(mesh.splits.size());
@@ -68,8 +72,8 @@ py::tuple splits(const ProgressiveMesh& mesh) {
     return copy(values);
   };
   using progressive::Split;
-  return py::make_tuple(column(&Split::v_s), column(&Split::v_l), column(&Split::v_r), column(&Split::slot_l),
-                        column(&Split::slot_r));
+  return {column(&Split::v_s), column(&Split::v_l), column(&Split::v_r), column(&Split::slot_l),
+          column(&Split::slot_r)};
 }
 
 py::list lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<std::vector<int>>& loops) {
@@ -83,9 +87,13 @@ py::list lift_loops(const ProgressiveMesh& mesh, int splits, const std::vector<s
   return result;
 }
 
-// For each level the values at its corners, and the corners of the original whose data they have.
-py::list collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
-                                 const std::vector<int>& splits) {
+/// The values at a level's corners, and the corners of the original whose data they have.
+struct LevelCorners {
+  py::array values, corners;
+};
+
+std::vector<LevelCorners> collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<double>& array,
+                                                  const std::vector<int>& splits) {
   const std::vector<double> given = values(array);
   const int width = static_cast<int>(array.shape(1));
   std::vector<progressive::CornerValues> levels;
@@ -93,10 +101,10 @@ py::list collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<d
     const py::gil_scoped_release unlocked;
     levels = progressive::collapsed_corner_values(mesh, given, width, splits);
   }
-  py::list result;
+  std::vector<LevelCorners> result;
   for (const auto& level : levels) {
     const py::array rows = copy(level.values).attr("reshape")(-1, width);
-    result.append(py::make_tuple(read_only(rows), copy(level.corners)));
+    result.push_back({read_only(rows), copy(level.corners)});
   }
   return result;
 }
@@ -104,8 +112,18 @@ py::list collapsed_corner_values(const ProgressiveMesh& mesh, const Contiguous<d
 }  // namespace
 
 void bind_progressive_mesh(py::module_& m) {
+  py::class_<Splits>(m, "Splits")
+      .def_readonly("v_s", &Splits::v_s)
+      .def_readonly("v_l", &Splits::v_l)
+      .def_readonly("v_r", &Splits::v_r)
+      .def_readonly("slot_l", &Splits::slot_l)
+      .def_readonly("slot_r", &Splits::slot_r);
+  py::class_<LevelCorners>(m, "LevelCorners")
+      .def_readonly("values", &LevelCorners::values)
+      .def_readonly("corners", &LevelCorners::corners);
   py::class_<ProgressiveMesh, Pointer>(m, "ProgressiveMesh")
-      .def_static("make", &make)
+      .def_static("make", &make, py::arg("surface"), py::arg("order"), py::arg("corner_type"), py::arg("corner_data"),
+                  py::arg("progress"))
       .def_static("from_bytes", &from_bytes)
       .def("to_bytes", &to_bytes)
       .def("level", &level)

@@ -7,7 +7,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
-#include "bindings/solver_report.h"
+#include "bindings/records.h"
 #include "bindings/structure_with_forms.h"
 #include "multiresolution/paper_structure.h"
 #include "plane/disk_map.h"
@@ -46,10 +46,10 @@ Pointer conformal(const SurfacePointer& surface, bool over_double, const std::st
 }
 
 Pointer with_poles(const SurfacePointer& surface, const std::vector<int>& vertices,
-                   const std::vector<std::complex<double>>& residues, const std::vector<int>& names,
+                   const std::vector<std::complex<double>>& residues, const std::vector<int>& labels,
                    const std::string& solver, int threads, std::int64_t memory_limit, const py::object& progress) {
   return make({solver, memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
-    return structure::pole_structure(surface, {vertices, residues, names}, options, execution);
+    return structure::pole_structure(surface, {vertices, residues, labels}, options, execution);
   });
 }
 
@@ -80,13 +80,13 @@ void prepare_uv(Structure& s, const py::object& progress) {
   s.with_forms([](auto& forms, Execution& execution) { forms.prepare(execution); }, callback(progress));
 }
 
-py::tuple uv_solver(Structure& s) {
+structure::SolverReport uv_solver(Structure& s) {
   structure::SolverReport found;
   s.with_forms([&](auto& forms, Execution& execution) {
     forms.prepare(execution);
     found = forms.solver();
   });
-  return report(found);
+  return found;
 }
 
 // UVs of sum_k p_k h_k, #C x 2.
@@ -135,13 +135,13 @@ py::array sphere_map(Structure& s) {
 }
 
 // The same structure cut elsewhere; the forms are shared.
-Pointer cut_along(const Pointer& s, const std::vector<int>& edges, const std::vector<int>& names) {
+Pointer cut_along(const Pointer& s, const std::vector<int>& edges, const std::vector<int>& labels) {
   auto made = std::make_shared<Structure>();
   made->options = s->options;
   made->threads = s->threads;
   made->uncut = s->uncut ? s->uncut : s;
   s->with_forms(
-      [&](auto&, Execution& execution) { made->value = structure::cut_along(s->value, edges, names, execution); });
+      [&](auto&, Execution& execution) { made->value = structure::cut_along(s->value, edges, labels, execution); });
   return made;
 }
 
@@ -163,7 +163,7 @@ void bind_actions(py::class_<Structure, Pointer>& type) {
       .def("balanced_coefficients", &balanced_coefficients)
       .def("disk_map", &disk_map)
       .def("sphere_map", &sphere_map)
-      .def("cut_along", &cut_along)
+      .def("cut_along", &cut_along, py::arg("edges"), py::arg("labels"))
       .def("require_memory", [](const Structure& s, const std::string& what, std::int64_t bytes) {
         structure::require_memory(what, bytes, s.options.memory_limit);
       });
@@ -171,11 +171,7 @@ void bind_actions(py::class_<Structure, Pointer>& type) {
 
 void bind_values(py::class_<Structure, Pointer>& type) {
   type.def("surface", [](const Structure& s) { return std::const_pointer_cast<mesh::Surface>(s.value.surface); })
-      .def("families",
-           [](const Structure& s) {
-             const auto& [natural, dirichlet, poles] = s.value.topology.families;
-             return py::make_tuple(natural, dirichlet, poles);
-           })
+      .def("families", [](const Structure& s) { return s.value.topology.families; })
       .def("differentials", [](const Structure& s) { return copy(s.value.differentials); })
       .def("homology_basis",
            [](const Structure& s) { return loops_of_vertices(*s.value.surface, s.value.topology.homology_basis); })
@@ -196,12 +192,8 @@ void bind_values(py::class_<Structure, Pointer>& type) {
            [](const Structure& s) {
              return copy(mesh::triangles_on_one_loop(*s.value.surface, s.value.topology.boundary));
            })
-      .def("memory",
-           [](const Structure& s) {
-             const auto& memory = s.value.record.memory;
-             return py::make_tuple(memory.keep_forms, memory.block, memory.bytes);
-           })
-      .def("solver", [](const Structure& s) { return report(s.value.record.solver); })
+      .def("memory", [](const Structure& s) { return s.value.record.memory; })
+      .def("solver", [](const Structure& s) { return s.value.record.solver; })
       .def("timings", [](const Structure& s) { return s.value.record.seconds; })
       .def_readonly("threads", &Structure::threads);
 }
@@ -209,15 +201,26 @@ void bind_values(py::class_<Structure, Pointer>& type) {
 }  // namespace
 
 void bind_structure(py::module_& m) {
+  using structure::Families;
+  py::class_<Families>(m, "Families")
+      .def_readonly("natural", &Families::natural)
+      .def_readonly("dirichlet", &Families::dirichlet)
+      .def_readonly("poles", &Families::poles)
+      .def_property_readonly("count", &Families::count);
   py::class_<Structure, Pointer> type(m, "Structure");
   bind_actions(type);
   bind_values(type);
   bind_invariants(type);
-  m.def("conformal_structure", &conformal);
-  m.def("pole_structure", &with_poles);
-  m.def("paper_structure", &paper);
-  m.def("conformal_structure_of_level", &conformal_of_level);
-  m.def("paper_structure_of_level", &paper_of_level);
+  m.def("conformal_structure", &conformal, py::arg("surface"), py::arg("over_double"), py::arg("solver"),
+        py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
+  m.def("pole_structure", &with_poles, py::arg("surface"), py::arg("poles"), py::arg("residues"), py::arg("labels"),
+        py::arg("solver"), py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
+  m.def("paper_structure", &paper, py::arg("surface"), py::arg("threads"), py::arg("memory_limit"),
+        py::arg("progress"));
+  m.def("conformal_structure_of_level", &conformal_of_level, py::arg("mesh"), py::arg("splits"), py::arg("surface"),
+        py::arg("solver"), py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
+  m.def("paper_structure_of_level", &paper_of_level, py::arg("mesh"), py::arg("splits"), py::arg("surface"),
+        py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
 }
 
 }  // namespace holomorph::bindings

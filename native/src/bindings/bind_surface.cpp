@@ -45,32 +45,40 @@ auto without_lock(const Work& work) {
   return work();
 }
 
-// (surface, vertex_index, face_index, corner_index, number of given vertices, split vertices, (faces, reason) of each
-// refused component); the indices are None where they are the surface's own.
-py::tuple as_tuple(mesh::SoundPart part) {
-  py::list refused;
-  for (const mesh::RefusedComponent& component : part.refused)
-    refused.append(py::make_tuple(copy(component.faces), component.reason));
-  const auto index = [whole = part.face_index.empty()](const std::vector<int>& list) {
-    return whole ? py::object(py::none()) : py::object(copy(list));
-  };
-  return py::make_tuple(std::make_shared<Surface>(std::move(part.surface)), index(part.vertex_index),
-                        index(part.face_index), index(part.corner_index), part.given_vertex_count,
-                        copy(part.split_vertices), refused);
+/// A surface that is a part of a mesh; the indices are None where they are the surface's own.
+struct Part {
+  SurfacePointer surface;
+  py::object vertex_index = py::none(), face_index = py::none(), corner_index = py::none();
+  int given_vertex_count = 0;
+  std::vector<int> split_vertices = {};
+  std::vector<mesh::RefusedComponent> refused = {};
+};
+
+Part as_part(mesh::SoundPart part) {
+  Part result{std::make_shared<Surface>(std::move(part.surface))};
+  if (!part.face_index.empty()) {
+    result.vertex_index = copy(part.vertex_index);
+    result.face_index = copy(part.face_index);
+    result.corner_index = copy(part.corner_index);
+  }
+  result.given_vertex_count = part.given_vertex_count;
+  result.split_vertices = std::move(part.split_vertices);
+  result.refused = std::move(part.refused);
+  return result;
 }
 
 template <class Index>
-py::tuple sound_part(const Contiguous<double>& vertices, const Contiguous<Index>& corner_vertices,
-                     const Contiguous<Index>& face_offsets) {
+Part sound_part(const Contiguous<double>& vertices, const Contiguous<Index>& corner_vertices,
+                const Contiguous<Index>& face_offsets) {
   mesh::BasicPolygons<Index> polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
-  return as_tuple(without_lock([&] {
+  return as_part(without_lock([&] {
     Execution execution;
     return mesh::sound_part(std::move(polygons), execution);
   }));
 }
 
-py::tuple read(const std::filesystem::path& path, bool strict, bool weld) {
-  return as_tuple(without_lock([&]() -> mesh::SoundPart {
+Part read(const std::filesystem::path& path, bool strict, bool weld) {
+  return as_part(without_lock([&]() -> mesh::SoundPart {
     Execution execution;
     mesh::GivenPolygons polygons = mesh::read(path);
     if (weld) polygons = mesh::welded(polygons);
@@ -81,18 +89,17 @@ py::tuple read(const std::filesystem::path& path, bool strict, bool weld) {
   }));
 }
 
-// (surface, vertex_index, face_index, corner_index) of each
-py::list components(const Surface& surface) {
+std::vector<Part> components(const Surface& surface) {
   std::vector<mesh::Component> parts;
   {
     const py::gil_scoped_release unlocked;
     Execution execution;
     parts = mesh::components(surface, execution);
   }
-  py::list result;
+  std::vector<Part> result;
   for (mesh::Component& part : parts) {
-    auto vertices = copy(part.vertex_index), faces = copy(part.face_index), corners = copy(part.corner_index);
-    result.append(py::make_tuple(std::make_shared<Surface>(std::move(part.surface)), vertices, faces, corners));
+    result.push_back({std::make_shared<Surface>(std::move(part.surface)), copy(part.vertex_index),
+                      copy(part.face_index), copy(part.corner_index)});
   }
   return result;
 }
@@ -105,10 +112,24 @@ py::array edge_distances(const Surface& surface, const Contiguous<double>& lengt
   }));
 }
 
-// (Euler characteristic, boundary loops, genus) of a connected surface.
-py::tuple topology(const Surface& surface) {
-  const auto type = mesh::topological_type(surface);
-  return py::make_tuple(mesh::euler_characteristic(surface), type.boundary_count, type.genus);
+// What reading and splitting give.
+void bind_parts(py::module_& m) {
+  using mesh::RefusedComponent;
+  using mesh::TopologicalType;
+  py::class_<TopologicalType>(m, "TopologicalType")
+      .def_readonly("genus", &TopologicalType::genus)
+      .def_readonly("boundary_count", &TopologicalType::boundary_count);
+  py::class_<RefusedComponent>(m, "RefusedComponent")
+      .def_property_readonly("faces", [](const RefusedComponent& c) { return copy(c.faces); })
+      .def_readonly("reason", &RefusedComponent::reason);
+  py::class_<Part>(m, "Part")
+      .def_readonly("surface", &Part::surface)
+      .def_readonly("vertex_index", &Part::vertex_index)
+      .def_readonly("face_index", &Part::face_index)
+      .def_readonly("corner_index", &Part::corner_index)
+      .def_readonly("given_vertex_count", &Part::given_vertex_count)
+      .def_property_readonly("split_vertices", [](const Part& part) { return copy(part.split_vertices); })
+      .def_readonly("refused", &Part::refused);
 }
 
 }  // namespace
@@ -123,17 +144,22 @@ void bind_surface(py::module_& m) {
   const auto repairs = [](auto member) {
     return [member](py::object self) { return view(self.cast<const Surface&>().repairs.*member, self); };
   };
-  py::class_<Surface, SurfacePointer>(m, "Surface")
-      .def_static("from_polygons", &from_polygons<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
+  py::class_<Surface, SurfacePointer> type(m, "Surface");
+  bind_parts(m);
+  type.def_static("from_polygons", &from_polygons<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
                   py::arg("face_offsets").noconvert())
-      .def_static("from_polygons", &from_polygons<std::int64_t>)
-      .def_static("from_edge_lengths", &from_edge_lengths)
+      .def_static("from_polygons", &from_polygons<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"),
+                  py::arg("face_offsets"))
+      .def_static("from_edge_lengths", &from_edge_lengths, py::arg("vertex_count"), py::arg("faces"),
+                  py::arg("lengths"), py::arg("face_edges"))
       .def_static("sound_part", &sound_part<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
                   py::arg("face_offsets").noconvert())
-      .def_static("sound_part", &sound_part<std::int64_t>)
+      .def_static("sound_part", &sound_part<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"),
+                  py::arg("face_offsets"))
       .def_static("read", &read, py::arg("path"), py::arg("strict"), py::arg("weld"))
       .def("components", &components)
-      .def("topology", &topology)
+      .def("topology", &mesh::topological_type)
+      .def("euler_characteristic", &mesh::euler_characteristic)
       .def("edge_distances", &edge_distances)
       .def("area",
            [](const Surface& s) {

@@ -4,7 +4,6 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
-#include "bindings/solver_report.h"
 #include "forms/averaged_star.h"
 #include "multiresolution/harmonic_map.h"
 #include "uv/placement.h"
@@ -18,36 +17,30 @@ using Complex = std::complex<double>;
 
 Eigen::Map<const uv::UvArray> corners(const Contiguous<double>& uv) { return {uv.data(), uv.shape(0), 2}; }
 
-py::tuple quality(const mesh::Surface& surface, const Contiguous<double>& uv, int threads) {
-  uv::Quality q;
-  {
-    const py::gil_scoped_release unlocked;
-    Workers workers(threads);
-    q = uv::quality(surface, corners(uv), workers);
-  }
-  const py::array flipped = give(std::move(q.flipped)).attr("view")("bool");
-  return py::make_tuple(give(std::move(q.angle)), give(std::move(q.area)), flipped, q.mean_angle, q.density_ratio,
-                        q.median_density);
+uv::Quality quality(const mesh::Surface& surface, const Contiguous<double>& uv, int threads) {
+  const py::gil_scoped_release unlocked;
+  Workers workers(threads);
+  return uv::quality(surface, corners(uv), workers);
 }
 
-py::tuple frame(const mesh::Surface& surface, const Contiguous<double>& uv, double rotation, int threads) {
-  uv::Frame found;
-  {
-    const py::gil_scoped_release unlocked;
-    Workers workers(threads);
-    found = uv::frame(surface, corners(uv), rotation, workers);
-  }
-  return py::make_tuple(found.low, found.high, found.area);
+uv::Frame frame(const mesh::Surface& surface, const Contiguous<double>& uv, double rotation, int threads) {
+  const py::gil_scoped_release unlocked;
+  Workers workers(threads);
+  return uv::frame(surface, corners(uv), rotation, workers);
 }
 
-// Vertices and orders.
-py::tuple zeros(const mesh::Surface& surface, const Contiguous<double>& uv, const std::vector<int>& poles) {
+/// Arrays of the zeros of a form.
+struct Zeros {
   std::vector<int> vertices, orders;
+};
+
+Zeros zeros(const mesh::Surface& surface, const Contiguous<double>& uv, const std::vector<int>& poles) {
+  Zeros found;
   for (const auto& [vertex, order] : uv::zeros(surface, corners(uv), poles)) {
-    vertices.push_back(vertex);
-    orders.push_back(order);
+    found.vertices.push_back(vertex);
+    found.orders.push_back(order);
   }
-  return py::make_tuple(copy(vertices), copy(orders));
+  return found;
 }
 
 // The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
@@ -61,18 +54,13 @@ void place(const Contiguous<double>& uv, Complex factor, Complex origin, Complex
   uv::place(corners(uv), {factor, origin, target}, at, values, workers);
 }
 
-// Moves of the vertices, and the solver's report.
-py::tuple harmonic_map(const mesh::Surface& surface, const Contiguous<double>& corner_values, const std::string& solver,
-                       int threads, const py::object& progress_function) {
+multiresolution::HarmonicMap harmonic_map(const mesh::Surface& surface, const Contiguous<double>& corner_values,
+                                          const std::string& solver, int threads, const py::object& progress_function) {
   using Rows = forms::RowMajorMatrix;
   const Rows given = Eigen::Map<const Rows>(corner_values.data(), corner_values.shape(0), corner_values.shape(1));
   Execution execution(threads, callback(progress_function));
-  multiresolution::HarmonicMap map;
-  {
-    const py::gil_scoped_release unlocked;
-    map = multiresolution::harmonic_map(surface, given, {solver}, execution);
-  }
-  return py::make_tuple(copy(map.moves), report(map.solver));
+  const py::gil_scoped_release unlocked;
+  return multiresolution::harmonic_map(surface, given, {solver}, execution);
 }
 
 // The star of a form on the edges of any surface.
@@ -88,12 +76,38 @@ py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& 
 }  // namespace
 
 void bind_uv_maps(py::module_& m) {
-  m.def("quality", &quality);
-  m.def("zeros", &zeros);
-  m.def("frame", &frame);
-  m.def("place", &place);
-  m.def("harmonic_map", &harmonic_map);
-  m.def("averaged_star", &averaged_star);
+  using multiresolution::HarmonicMap;
+  using uv::Quality;
+  const auto viewed = [](auto member) {
+    return [member](py::object self) { return view(self.cast<const Quality&>().*member, self); };
+  };
+  py::class_<Quality>(m, "Quality")
+      .def_property_readonly("angle", viewed(&Quality::angle))
+      .def_property_readonly("area", viewed(&Quality::area))
+      .def_property_readonly(
+          "flipped",
+          [](py::object self) { return view(self.cast<const Quality&>().flipped, self).attr("view")("bool"); })
+      .def_readonly("mean_angle", &Quality::mean_angle)
+      .def_readonly("density_ratio", &Quality::density_ratio)
+      .def_readonly("median_density", &Quality::median_density);
+  py::class_<uv::Frame>(m, "Frame")
+      .def_readonly("low", &uv::Frame::low)
+      .def_readonly("high", &uv::Frame::high)
+      .def_readonly("area", &uv::Frame::area);
+  py::class_<Zeros>(m, "Zeros")
+      .def_property_readonly("vertices", [](const Zeros& z) { return copy(z.vertices); })
+      .def_property_readonly("orders", [](const Zeros& z) { return copy(z.orders); });
+  py::class_<HarmonicMap>(m, "HarmonicMap")
+      .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
+      .def_readonly("solver", &HarmonicMap::solver);
+  m.def("quality", &quality, py::arg("surface"), py::arg("uv"), py::arg("threads"));
+  m.def("zeros", &zeros, py::arg("surface"), py::arg("uv"), py::arg("poles"));
+  m.def("frame", &frame, py::arg("surface"), py::arg("uv"), py::arg("rotation"), py::arg("threads"));
+  m.def("place", &place, py::arg("uv"), py::arg("factor"), py::arg("origin"), py::arg("target"), py::arg("rows"),
+        py::arg("placed"), py::arg("threads"));
+  m.def("harmonic_map", &harmonic_map, py::arg("surface"), py::arg("corner_values"), py::arg("solver"),
+        py::arg("threads"), py::arg("progress"));
+  m.def("averaged_star", &averaged_star, py::arg("surface"), py::arg("form"));
 }
 
 }  // namespace holomorph::bindings

@@ -51,9 +51,10 @@ PYBIND11_MODULE(_native, m) {
                        "A linear system was not solved to the accuracy asked for, or does not fit into memory.");
   declare<Cancelled>(m, "Cancelled", base, "The progress function returned False.");
   declare_out_of_memory(m, base);
+  bindings::bind_records(m);
   bindings::bind_surface(m);
-  bindings::bind_structure(m);
   bindings::bind_progressive_mesh(m);
+  bindings::bind_structure(m);
   bindings::bind_laplace_problem(m);
   bindings::bind_moduli(m);
   bindings::bind_nested_level(m);

@@ -141,7 +141,7 @@ forms::PoleForms cut_at_poles(Structure& s, const mesh::Discretisation& discreti
 SurfaceWithPoles surface_with_poles(std::shared_ptr<const mesh::Surface> given, Poles poles, Execution& execution) {
   SurfaceWithPoles made;
   Structure& result = made.structure;
-  execution.stage("poles", 0.0, 0.05);
+  execution.stage("stars", 0.0, 0.05);
   const bool closed = mesh::topological_type(*given).closed();
   const mesh::HalfEdges half_edges = mesh::half_edges(*given, execution);
   poles = placed(*given, half_edges, std::move(poles), closed);
