@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/records.h"
 #include "structure/memory_plan.h"
@@ -7,12 +8,14 @@
 
 namespace holomorph::bindings {
 
-namespace py = pybind11;
 using structure::LevelReport;
 using structure::MemoryPlan;
 using structure::SolverReport;
 
 void bind_records(py::module_& m) {
+  py::class_<Zeros>(m, "Zeros")
+      .def_property_readonly("vertices", [](const Zeros& z) { return copy(z.vertices); })
+      .def_property_readonly("orders", [](const Zeros& z) { return copy(z.orders); });
   py::class_<Residuals>(m, "Residuals")
       .def_readonly("closedness", &Residuals::closedness)
       .def_readonly("harmonicity", &Residuals::harmonicity)

@@ -5,8 +5,8 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
+#include "bindings/records.h"
 #include "tiling/tiling.h"
-#include "uv/zeros.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -15,19 +15,6 @@ using namespace pybind11::literals;
 using tiling::Placement;
 using tiling::RoundedForm;
 using tiling::Tiling;
-
-struct Zeros {
-  py::array vertices, orders;
-};
-
-Zeros zeros(const Tiling& t) {
-  std::vector<int> vertices, orders;
-  for (const auto& [vertex, order] : uv::zeros(*t.structure->surface, t.uv, t.poles)) {
-    vertices.push_back(vertex);
-    orders.push_back(order);
-  }
-  return {copy(vertices), copy(orders)};
-}
 
 /// `compute(execution)` without the interpreter's lock, which only the progress function takes.
 template <class Compute>
@@ -63,7 +50,6 @@ Tiling move_poles(const Placement& placement, const RoundedForm& form, const std
 }  // namespace
 
 void bind_tiling(py::module_& m) {
-  py::class_<Zeros>(m, "Zeros").def_readonly("vertices", &Zeros::vertices).def_readonly("orders", &Zeros::orders);
   py::class_<RoundedForm, std::shared_ptr<RoundedForm>>(m, "RoundedForm")
       .def_property_readonly("tiles", [](const RoundedForm& form) { return form.problem->tiles; })
       .def("lattice", [](const RoundedForm& form) {
@@ -76,7 +62,7 @@ void bind_tiling(py::module_& m) {
       .def("poles", [](const Tiling& t) { return copy(t.poles); })
       .def("residues", [](const Tiling& t) { return copy(t.residues); })
       .def("surface", [](const Tiling& t) { return std::const_pointer_cast<mesh::Surface>(t.structure->surface); })
-      .def("zeros", &zeros)
+      .def("zeros", [](const Tiling& t) { return zeros_of_map(*t.structure->surface, t.uv, t.poles); })
       .def("seams", [](const Tiling& t) { return copy(t.structure->topology.seams); })
       .def_readonly("distortion", &Tiling::distortion)
       .def_readonly("beltrami_rms", &Tiling::beltrami_rms);

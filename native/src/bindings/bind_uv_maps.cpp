@@ -4,11 +4,11 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
+#include "bindings/records.h"
 #include "forms/averaged_star.h"
 #include "multiresolution/harmonic_map.h"
 #include "uv/placement.h"
 #include "uv/quality.h"
-#include "uv/zeros.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -29,18 +29,8 @@ uv::Frame frame(const mesh::Surface& surface, const Contiguous<double>& uv, doub
   return uv::frame(surface, corners(uv), rotation, workers);
 }
 
-/// Arrays of the zeros of a form.
-struct Zeros {
-  std::vector<int> vertices, orders;
-};
-
 Zeros zeros(const mesh::Surface& surface, const Contiguous<double>& uv, const std::vector<int>& poles) {
-  Zeros found;
-  for (const auto& [vertex, order] : uv::zeros(surface, corners(uv), poles)) {
-    found.vertices.push_back(vertex);
-    found.orders.push_back(order);
-  }
-  return found;
+  return zeros_of_map(surface, corners(uv), poles);
 }
 
 // The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
@@ -94,9 +84,6 @@ void bind_uv_maps(py::module_& m) {
       .def_readonly("low", &uv::Frame::low)
       .def_readonly("high", &uv::Frame::high)
       .def_readonly("area", &uv::Frame::area);
-  py::class_<Zeros>(m, "Zeros")
-      .def_property_readonly("vertices", [](const Zeros& z) { return copy(z.vertices); })
-      .def_property_readonly("orders", [](const Zeros& z) { return copy(z.orders); });
   py::class_<HarmonicMap>(m, "HarmonicMap")
       .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
       .def_readonly("solver", &HarmonicMap::solver);
