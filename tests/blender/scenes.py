@@ -142,12 +142,13 @@ def then(**options):
 
 def written(obj, **options):
     """The `outcome.Outcome` of maps with these `options.MapOptions`."""
-    names = ("scene.targets", "solving.jobs", "results.write")
-    targets, jobs, write = (importlib.import_module(f"holomorph_addon.{name}") for name in names)
+    names = ("scene.targets", "solving.jobs", "results.write", "writing.transaction")
+    targets, jobs, write, transaction = (importlib.import_module(f"holomorph_addon.{name}") for name in names)
     found = targets.collect([obj])
     job = jobs.Job(targets.tasks(found), then=[then(**options)])
     job.run()
-    return write.write(bpy.context, found, job.results, write.WriteOptions())
+    with transaction.one_step(bpy.context, [obj]) as step:
+        return write.write(step, found, job.results, write.WriteOptions())
 
 
 def uv(obj, name="Holomorphic"):

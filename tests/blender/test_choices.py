@@ -71,8 +71,8 @@ def test_methods_are_taken_where_they_fit():
     found = [choices.attempts(part, chosen)[0] for part in (ring, torus_part, sphere)]
     assert [k["boundary"] for k in found] == ["double_cover", "natural", "natural"]
     assert [k["solver"] for k in found] == ["auto", "paper", "auto"]
-    poled = choices.Choices(choices.POLES, (3, 150), solver="paper")
-    assert choices.attempts(torus_part, poled)[0]["solver"] == "auto"
+    with_poles = choices.Choices(choices.POLES, (3, 150), solver="paper")
+    assert choices.attempts(torus_part, with_poles)[0]["solver"] == "auto"
 
 
 def test_four_boundary_vertices_of_a_disk_are_corners_in_the_order_of_the_loop():

@@ -57,7 +57,7 @@ SHARED = {
     "pizza_g73_b1.obj": (73, 1, 1),
     "plane_b27.obj": (0, 27, 1),
     "plate_holes_g5.stl": (5, 0, 1),
-    "poled_torus.obj": (1, 1, 1),
+    "punctured_torus.obj": (1, 1, 1),
     "rna_3JAJ_7.off": (4, 0, 1),
     "rna_4P70_YB.off": (3, 0, 1),
     "rna_4U4Q_7.off": (4, 15, 1),

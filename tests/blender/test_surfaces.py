@@ -144,10 +144,10 @@ def test_the_vertices_in_the_report_are_those_of_the_whole_mesh():
     picked = [len(torus_arrays()[0]) + pole for pole in poles()]
     pick(obj, picked)
     assert run() == {"FINISHED"}
-    closed, poled = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
+    closed, with_poles = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
     assert "poles" not in closed
-    assert sorted(poled["poles"]) == sorted(picked)
-    assert all(str(vertex) in poled["description"] for vertex in picked)
+    assert sorted(with_poles["poles"]) == sorted(picked)
+    assert all(str(vertex) in with_poles["description"] for vertex in picked)
 
 
 @pytest.mark.parametrize(
@@ -189,9 +189,9 @@ def test_the_solver_can_be_chosen(solver):
 def test_the_papers_solver_is_for_the_parts_that_it_fits():
     obj = two_parts("Two", torus_arrays(), sphere_arrays())
     assert run(solver="paper") == {"FINISHED"}
-    closed, poled = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
+    closed, with_poles = sorted(stored_report(obj)["components"], key=lambda c: -c["genus"])
     assert closed["solver"]["name"].startswith("paper")
-    assert poled["done"] and not poled["solver"]["name"].startswith("paper")
+    assert with_poles["done"] and not with_poles["solver"]["name"].startswith("paper")
 
 
 def test_a_modifier_that_may_close_the_surface_is_told():

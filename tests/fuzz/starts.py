@@ -17,7 +17,7 @@ STARTS = (
     families.torus(5, 4, shape="triangles"),
     families.square_ring(2),
     families.washer(3),
-    families.poled_torus(5, 4),
+    families.punctured_torus(5, 4),
     families.block_with_holes(2),
     families.punched(families.block_with_holes(1), 2),
     families.united(families.torus(4, 3), families.cube()),
