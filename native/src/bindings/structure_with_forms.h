@@ -18,7 +18,7 @@ struct Structure {
   structure::Structure value;
   std::mutex mutex;
   std::unique_ptr<structure::UvForms> forms;  ///< none of a structure that was cut
-  std::shared_ptr<Structure> uncut;           ///< of a structure that was cut: the one whose forms it shares
+  std::shared_ptr<Structure> uncut;           ///< where this was cut: the one whose forms it shares
 
   /// `use(forms, execution)` without the interpreter's lock, one call at a time.
   template <class Use>
