@@ -31,7 +31,7 @@ def values(solved, index, options):
     """(#C,2) float32: the main map for index 0, else that of a form."""
     write, parts = native.load().place, _parts(solved, index)
     whole = len(parts) == 1 and parts[0].surface.is_whole  # then every row is written
-    placed = (np.empty if whole else np.zeros)((len(solved.polygons.corner_vertices), 2), np.float32)
+    placed = (np.empty if whole else np.zeros)((len(solved.polygons.corner_vertices), 2))
     raw = [_raw(part, index, options) for part in parts]
     for part, uv, place in zip(parts, raw, _places(parts, index, options, raw)):
         if index == 0:
@@ -39,7 +39,7 @@ def values(solved, index, options):
         # The two copies of a seam edge stay equal to the last bits, and so does v along a straight boundary.
         rows = None if part.surface.is_whole else part.surface.corner_index
         write(uv, place.factor, place.origin, place.target, placed, rows)
-    return placed
+    return placed.astype(np.float32)
 
 
 def shape_points(solved):

@@ -12,9 +12,10 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
-from . import layout, report
+from . import arrangement, layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
-from .automatic_map import automatic_map, automatic_maps
+from .automatic_map import automatic_map
+from .automatic_maps import automatic_maps
 from .automatic_structure import AnyStructure, automatic_structure
 from .bounded import BoundedStructure
 from .certificate import Certificate
@@ -30,7 +31,7 @@ from .igusa import IgusaInvariants, igusa_invariants
 from .islands import islands
 from .levels import LevelOfDetail
 from .log_map import log_map
-from .map import Map
+from .map import Map, form_map
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
 from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
@@ -90,6 +91,7 @@ __all__ = [
     "Verdict",
     "Zeros",
     "__version__",
+    "arrangement",
     "automatic_map",
     "automatic_maps",
     "automatic_structure",
@@ -101,6 +103,7 @@ __all__ = [
     "cut_to_cones",
     "disk_map",
     "double_cover",
+    "form_map",
     "frame",
     "free_boundary_map",
     "hyperelliptic",

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from . import Error, Surface, Verdict, __version__, formats
 from .automatic_map import MAIN_MAPS
-from .batch import arrangement, mapping
+from .batch import mapping
 from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
 from .compare_command import compare
@@ -90,7 +90,7 @@ def mapped(options):
     }
     _write(report, options)
     if options.output and report["verdict"]:
-        surface.write(options.output, arrangement.main_uv(surface, parts, recipe.maps))
+        surface.write(options.output, mapping.main_uv(surface, parts, recipe.maps))
     return report
 
 

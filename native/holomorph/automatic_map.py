@@ -1,10 +1,7 @@
 """Which map a part gets: the balanced one of its structure, or a seamless tiling where that is no less even."""
 
 import math
-import numbers
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +9,12 @@ from numpy.typing import ArrayLike
 from ._native import InvalidMesh, SolverError, TopologyError
 from .array_types import Progress
 from .automatic_structure import AnyStructure, automatic_structure
-from .map import Map
+from .map import Map, form_map
 from .progress import scaled
 from .surface import Surface
 from .tiling import Poles
 
-Refusal = InvalidMesh | TopologyError | SolverError  # what is said about one part, others go on
-REFUSALS = (InvalidMesh, TopologyError, SolverError)
+REFUSALS = (InvalidMesh, TopologyError, SolverError)  # what is said about one part, others go on
 
 MAIN_MAPS = ("automatic", "seamless", "balanced")
 
@@ -73,7 +69,7 @@ def automatic_map(
     made.
     """
     solving = SOLVING if structure is None else 0.0
-    found = _found(surface, structure, main, threads, scaled(progress, 0.0, solving))
+    found = first_map(surface, structure, main, threads, scaled(progress, 0.0, solving))
     if isinstance(found, Map):
         return found
     options = {"lattice": lattice, "direction": direction, "boundary": boundary}
@@ -81,85 +77,19 @@ def automatic_map(
     return found.tiled(poles, {"tiles": tiles, "density": density, **options}, scaled(progress, solving, 1.0))
 
 
-def automatic_maps(
-    surfaces: Surface | Sequence[Surface],
-    structures: Sequence[AnyStructure] | None = None,
-    *,
-    main: str | Sequence[str] = "automatic",
-    tiles: float | None = None,
-    density: float | None = None,
-    poles: Poles = "auto",
-    direction: ArrayLike | str | None = "upright",
-    threads: int | None = None,
-    progress: Progress | None = None,
-    **options: Any,
-) -> list[Map | Refusal]:
-    """The `Map` of each part of a mesh, and the error that says why in the place of one that cannot be made. All
-    tilings have the same number of tiles per area: that of the largest, which is made first.
-
-    Parameters
-    ----------
-    surfaces : the connected parts, or a Surface whose components they are
-    structures : of all parts, as in `automatic_map`
-    main : of all parts, or of each
-    tiles, density : tiles over all the parts that get tilings, or per unit of area
-    poles : "auto", a number for each part, or a list of vertices of the mesh as given; "auto" on parts without any
-    direction, options, threads, progress : as in `automatic_map`
-    """
-    if tiles is not None and density is not None:
-        raise ValueError("a density is given without tiles: either says how many there are")
-    parts = surfaces.components if isinstance(surfaces, Surface) else tuple(surfaces)
-    mains = [main] * len(parts) if isinstance(main, str) else main
-    solved, solving = (structures, 0.0) if structures is not None else ([None] * len(parts), SOLVING)
-    made: list[Any] = []
-    for k, part in enumerate(parts):
-        step = scaled(progress, solving * k / len(parts), solving * (k + 1) / len(parts))
-        made.append(_attempt(_found, part, solved[k], mains[k], threads, step))
-    asked = sorted((k for k, found in enumerate(made) if isinstance(found, _Undecided)), key=lambda k: -parts[k].area)
-    total, done = sum(parts[k].area for k in asked) or 1.0, solving
-    for k in asked:
-        part, share = parts[k], parts[k].area / total
-        step = scaled(progress, done, done + (1 - solving) * share)
-        amount = {"tiles": tiles * share} if tiles else {"density": density}
-        own = {"direction": direction} | amount | options
-        made[k] = _attempt(made[k].tiled, _poles_on(part, poles), own, step)
-        if density is None and isinstance(made[k], Map) and made[k].tiling:
-            density = made[k].density
-        done += (1 - solving) * share
-    return made
-
-
-def _attempt(make, *arguments):
-    """What it gives, or how it refuses."""
-    try:
-        return make(*arguments)
-    except REFUSALS as error:
-        return error
-
-
-def _poles_on(part, poles):
-    """Those of the chosen vertices of a mesh that lie on a part, as it counts them, in their order."""
-    if isinstance(poles, (str, numbers.Real)):
-        return poles
-    own = [np.flatnonzero(part.vertex_index == vertex) for vertex in poles]
-    return np.concatenate([np.empty(0, int), *own]).tolist() or "auto"
-
-
-def _found(surface, structure, main, threads, progress):
-    """The balanced `Map` where it stays; `_Undecided` where a tiling may take its place."""
+def first_map(surface, structure, main, threads, progress):
+    """The balanced `Map` where it stays; `Undecided` where a tiling may take its place."""
     if main not in MAIN_MAPS:
         raise ValueError(f"main is {main!r}; one of {', '.join(MAIN_MAPS)} is needed")
     if structure is None:
         structure = automatic_structure(surface, threads=threads, progress=progress)
     if main == "seamless":
-        return _Undecided(surface, structure, None)
-    coefficients = structure.balanced_coefficients()
-    uv = structure.uv(coefficients)
-    balanced = Map(surface, structure, uv, structure.quality(uv), coefficients, "it was asked for")
+        return Undecided(surface, structure, None)
+    balanced = form_map(surface, structure)
     if main == "balanced":
         return balanced
     why = _why_it_stays(balanced)
-    return replace(balanced, why=why) if why else _Undecided(surface, structure, balanced)
+    return replace(balanced, why=why) if why else Undecided(surface, structure, balanced)
 
 
 def _why_it_stays(balanced):
@@ -173,7 +103,7 @@ def _why_it_stays(balanced):
 
 
 @dataclass(frozen=True)
-class _Undecided:
+class Undecided:
     """A part that may get a tiling; `balanced` is its other map, None where a tiling was asked for."""
 
     surface: Surface

@@ -1,12 +1,16 @@
-"""Which structure a part gets without a choice, by its topology."""
+"""Which structure a part gets, by what is chosen of it and by its topology."""
 
+from collections.abc import Sequence
 from typing import TypeAlias
 
-from .array_types import Progress
+from numpy.typing import ArrayLike
+
+from .array_types import Complexes, Integers, Progress
 from .bounded import BoundedStructure
 from .checks import only_component
 from .closed import ConformalStructure
-from .disk import default_disk_map
+from .cut import cut_along
+from .disk import default_disk_map, disk_map, free_boundary_map, rectangle_map
 from .log_map import log_map
 from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
@@ -16,26 +20,62 @@ from .surface import Surface
 AnyStructure: TypeAlias = (
     ConformalStructure | BoundedStructure | PoleStructure | DiskMap | FreeBoundaryMap | RectangleMap | TriangleMap
 )
+Vertices: TypeAlias = Sequence[int] | Integers
 
 
 def automatic_structure(
     surface: Surface,
     *,
+    poles: Vertices | None = None,
+    residues: Sequence[complex] | Complexes | None = None,
+    corners: Vertices | None = None,
     boundary: str = "natural",
+    cuts: ArrayLike | None = None,
     solver: str = "auto",
     threads: int | None = None,
     memory_limit: float | None = None,
     progress: Progress | None = None,
 ) -> AnyStructure:
-    """The structure of one connected surface of any kind: `conformal_structure` where there are holomorphic forms,
-    `log_map` of a sphere, and of a disk the rectangle with clear corners, the unit disk, or what is most even.
+    """The structure of one connected surface of any kind. Without a choice: `conformal_structure` where there are
+    holomorphic forms, `log_map` of a sphere, and of a disk the rectangle with clear corners, the unit disk, or what is
+    most even.
 
-    Parameters, errors : as in `conformal_structure`
+    Parameters
+    ----------
+    corners : list of vertices: `rectangle_map` with these
+    poles, residues : `disk_map` of a disk with one pole and without residues; else `log_map` with these
+    boundary : "natural", "double_cover" as in `conformal_structure`, or "free" for `free_boundary_map`
+    cuts : (#S, 2) vertices of edges, of `cut_along`
+    solver, threads, memory_limit, progress : as in `conformal_structure`
+
+    Of corners, poles and boundary the first that is given counts; an empty list is none. Raises what these functions
+    raise.
     """
+    options = {"solver": solver, "threads": threads, "progress": progress}
+    if corners is not None and len(corners):
+        made = rectangle_map(surface, corners, **options)
+    elif poles is not None and len(poles):
+        made = _with_poles(surface, poles, residues, memory_limit, options)
+    elif boundary == "free":
+        made = free_boundary_map(surface, **options)
+    else:
+        made = _by_topology(surface, boundary, memory_limit, options)
+    return made if cuts is None else cut_along(made, cuts)
+
+
+def _with_poles(surface, poles, residues, memory_limit, options):
     component = only_component(surface)
-    topology, options = (component.genus, component.boundary_count), {"solver": solver, "threads": threads}
+    is_disk = (component.genus, component.boundary_count) == (0, 1)
+    if is_disk and len(poles) == 1 and residues is None:
+        return disk_map(surface, int(poles[0]), **options)
+    return log_map(surface, poles, residues, memory_limit=memory_limit, **options)
+
+
+def _by_topology(surface, boundary, memory_limit, options):
+    component = only_component(surface)
+    topology = component.genus, component.boundary_count
     if topology == (0, 1) and boundary == "natural":
-        return default_disk_map(surface, progress=progress, **options)
+        return default_disk_map(surface, **options)
     if topology == (0, 0) and boundary in BOUNDARIES:
-        return log_map(surface, memory_limit=memory_limit, progress=progress, **options)
-    return conformal_structure(surface, boundary=boundary, memory_limit=memory_limit, progress=progress, **options)
+        return log_map(surface, memory_limit=memory_limit, **options)
+    return conformal_structure(surface, boundary=boundary, memory_limit=memory_limit, **options)

@@ -75,14 +75,9 @@ def conformally_equivalent(
     if real_number(tolerance, "tolerance") < 0:
         raise ValueError(f"tolerance is {tolerance!r}; it is not negative")
     first, second = _connected(a), _connected(b)
-    topology = [(part.genus, part.boundary_count) for part in (first, second)]
-    if topology[0] != topology[1]:
-        texts = [_topology_text(*entry) for entry in topology]
-        return Equivalence("not_equivalent", f"Not equivalent: {texts[0]}, and {texts[1]}.", margin=math.inf)
-    genus, loops = topology[0]
-    if genus == 0 and loops <= 1:
-        kind = "disks" if loops else "spheres"
-        return Equivalence("equivalent", f"Equivalent: all {kind} are.", residual=0.0, tolerance=0.0)
+    found = _by_topology(first, second)
+    if found is not None:
+        return found
     structures = [
         _structure(given, part, scaled(progress, start, start + 0.4))
         for given, part, start in ((a, first, 0.0), (b, second, 0.4))
@@ -90,9 +85,21 @@ def conformally_equivalent(
     lattices = [period_lattice(structure) for structure in structures]
     made = _native.compare(*lattices, allowed=float(tolerance), progress=scaled(progress, 0.8, 1.0))
     verdict = made.verdict.name
-    if verdict == "equivalent" and genus == 0 and loops > LOOPS_OF_ACHIRAL_SURFACES:
+    if verdict == "equivalent" and first.genus == 0 and first.boundary_count > LOOPS_OF_ACHIRAL_SURFACES:
         verdict = planar_verdict(*structures, made.isometry.matrix)
     return _equivalence(verdict, made, all(structure.period_bounds is not None for structure in structures))
+
+
+def _by_topology(first, second):
+    """The `Equivalence` of surfaces whose topology decides it, else None."""
+    genus, loops = first.genus, first.boundary_count
+    if (genus, loops) != (second.genus, second.boundary_count):
+        texts = [_topology_text(part.genus, part.boundary_count) for part in (first, second)]
+        return Equivalence("not_equivalent", f"Not equivalent: {texts[0]}, and {texts[1]}.", margin=math.inf)
+    if genus == 0 and loops <= 1:
+        kind = "disks" if loops else "spheres"
+        return Equivalence("equivalent", f"Equivalent: all {kind} are.", residual=0.0, tolerance=0.0)
+    return None
 
 
 def period_lattice(structure):

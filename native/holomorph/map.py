@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import arrays
 from .array_types import Complexes, Integers, Reals
@@ -88,3 +89,17 @@ class Map(Value):
     def _of_surface(self, vertices):
         component = self.surface.components[0]
         return arrays.frozen(vertices if component is self.surface else component.vertex_index[vertices])
+
+
+def form_map(
+    surface: Surface, structure: AnyStructure, coefficients: ArrayLike | None = None, why: str = "it was asked for"
+) -> Map:
+    """The `Map` of a combination of a structure's forms, by default the balanced one.
+
+    surface : the connected part, whose polygon corners are those that were solved on
+    coefficients : (n,) as `structure.uv` takes them
+    """
+    if coefficients is None:
+        coefficients = structure.balanced_coefficients()
+    uv = structure.uv(coefficients)
+    return Map(surface, structure, uv, structure.quality(uv), coefficients, why)

@@ -1,11 +1,12 @@
-"""Where a UV map lies in the plane, and the map moved elsewhere, as applications store it."""
+"""Where a UV map lies in the plane, and the map moved elsewhere."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import _native
+from .array_types import Reals
 from .surface import Surface
 
 
@@ -32,21 +33,21 @@ def place(
     factor: complex,
     origin: complex,
     target: complex,
-    placed: NDArray[np.float32],
+    placed: Reals,
     rows: ArrayLike | None = None,
 ) -> None:
-    """Writes ``factor * (z - origin) + target`` for every z = u + i v of a map into `placed`, rounded once, at the end:
-    corners with the same u or v keep them the same where `factor` is real.
+    """Writes ``factor * (z - origin) + target`` for every z = u + i v of a map into `placed`: corners with the same u
+    or v keep them the same where `factor` is real.
 
     Parameters
     ----------
     uv : (#C, 2) reals
     factor, origin, target : complex numbers
-    placed : (n, 2) float32, C-contiguous: changed
+    placed : (n, 2) float64, C-contiguous: changed
     rows : (#C,) integers below n, all different: the row of `placed` of each corner; None where it is the corner's own
     """
-    if not (isinstance(placed, np.ndarray) and placed.dtype == np.float32 and placed.flags.carray):
-        raise ValueError("placed must be a writable C-contiguous array of float32")
+    if not (isinstance(placed, np.ndarray) and placed.dtype == np.float64 and placed.flags.carray):
+        raise ValueError("placed must be a writable C-contiguous array of float64")
     if placed.ndim != 2 or placed.shape[1] != 2:
         raise ValueError(f"placed has the shape {placed.shape}; (rows, 2) is needed")
     uv = _corners(uv, len(placed) if rows is None else len(rows))

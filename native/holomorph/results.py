@@ -1,6 +1,7 @@
 """What the results of all kinds of surfaces have in common."""
 
-from collections.abc import Callable
+import numbers
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Self
@@ -117,7 +118,7 @@ class Structure(Value):
     """
 
     residuals_kind = Residuals
-    _unpickled = ("_triangulation", "_tilers")
+    _unpickled = ("_triangulation", "_tilers", "_tilings")
 
     surface: Surface
     solver: SolverReport
@@ -180,6 +181,8 @@ class Structure(Value):
         max_added: float | None = None,
         progress: Progress | None = None,
         *,
+        allowed: ArrayLike | None = None,
+        moves: Mapping[int, int] | None = None,
         surface: Surface | None = None,
     ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
@@ -200,7 +203,8 @@ class Structure(Value):
             beside it; max_turn : radians by which the rounding may turn it away
         boundary : "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
-        surface : as in `tiler`
+        allowed, surface : as in `tiler`
+        moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
         Raises
         ------
@@ -208,22 +212,32 @@ class Structure(Value):
             poles that do not fit; fewer tiles than the surface needs (names how many are enough); more added distortion
             than `max_added` (names what can be had)
 
-        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
+        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick; so is the last
+        rounding, for other moves.
         """
         if density is not None:
             if tiles is not None:
                 raise ValueError("a density is given without tiles: either says how many there are")
             tiles = real_number(density, "density", positive=True) * self._component.area
-        tiler = self.tiler(poles, boundary=boundary, surface=surface, progress=scaled(progress, 0.0, PLACING))
-        return tiler.tile(
-            tiles,
-            lattice=lattice,
-            direction=direction,
-            turn=turn,
-            max_turn=max_turn,
-            max_added=max_added,
-            progress=scaled(progress, PLACING, 1.0),
-        )
+        placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
+        tiler = self.tiler(poles, boundary=boundary, allowed=allowed, surface=surface, progress=placing)
+        options = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
+        made = self._rounded(tiler, {"tiles": tiles, "max_added": max_added} | options, rounding)
+        return tiler.move_poles(made, moves, progress=rounding) if moves else made
+
+    def _rounded(self, tiler, options, progress):
+        """What `Tiler.tile` gives; the last tiling is kept."""
+        key = tiler, *((name, _hashable(value)) for name, value in options.items())
+        made = self._tilings.get(key)
+        if made is None:
+            made = tiler.tile(**options, progress=progress)
+            self._tilings.clear()
+            self._tilings[key] = made
+        return made
+
+    @cached_property
+    def _tilings(self):
+        return {}
 
     def tiler(
         self,
@@ -282,6 +296,11 @@ class Structure(Value):
     def _of_surface(self, vertices):
         """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
+
+
+def _hashable(value):
+    """An option of a tiling as a key."""
+    return value if value is None or isinstance(value, (str, numbers.Real)) else repr(np.asarray(value).tolist())
 
 
 def result(kind, surface, component, native, threads, **more):

@@ -6,7 +6,7 @@ import holomorph
 import numpy as np
 import pytest
 from conftest import run, torus_obj
-from holomorph.batch import arrangement, mapping, recipe
+from holomorph.batch import mapping, recipe
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +25,7 @@ def two_parts(surface, apart=10.0):
 def mapped(surface, **tables):
     wanted = recipe.of(tables)
     parts = mapping.map_parts(surface, wanted)
-    return parts, arrangement.main_uv(surface, parts, wanted.maps)
+    return parts, mapping.main_uv(surface, parts, wanted.maps)
 
 
 def jumps(surface, uv):

@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, hemisphere, torus, united
 from holomorph.__main__ import main
-from holomorph.batch import arrangement
-from holomorph.batch.recipe import Maps
 
 automatic = importlib.import_module("holomorph.automatic_map")  # the package has the function under this name
 
@@ -79,11 +77,10 @@ def test_the_command_gives_the_same_map(mesh_file, tmp_path):
     """Its UVs are those of `automatic_maps`, side by side, to the last bit; so are kind and reason."""
     surface = holomorph.Surface.read(mesh_file)
     made = holomorph.automatic_maps(surface)
-    parts = [SimpleNamespace(surface=m.surface, structure=m.structure, map=m) for m in made]
     output, report = tmp_path / "mapped.obj", tmp_path / "report.json"
     assert main([str(mesh_file), "--output", str(output), "--report", str(report)]) == 0
     texts = [line.split()[1:] for line in output.read_text().splitlines() if line.startswith("vt ")]
-    own = arrangement.main_uv(surface, parts, Maps())
+    own = holomorph.arrangement.arranged(made, len(surface.corner_vertices))
     assert np.array_equal(np.unique(np.array(texts, float), axis=0), np.unique(own, axis=0))
     said = [part["main_map"] for part in json.loads(report.read_text())["components"]]
     assert [(m["kind"], m["why"]) for m in said] == [(m.kind, m.why) for m in made]

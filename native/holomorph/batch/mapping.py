@@ -1,19 +1,18 @@
 """The maps of one mesh by a recipe: those of its parts, side by side in the UV plane."""
 
-from dataclasses import dataclass, field
+import math
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
+from .. import arrangement
 from .._native import Error, TopologyError
-from ..automatic_map import automatic_maps
+from ..automatic_maps import automatic_maps
 from ..automatic_structure import automatic_structure
-from ..cut import cut_along
-from ..disk import disk_map, free_boundary_map, rectangle_map
-from ..log_map import log_map
+from ..given_vertices import on_part
 from ..map import Map
 from ..plain_data import plain
 from ..report import component_report, map_report, refused_report, skipped_report
-from ..structure import conformal_structure
 
 
 @dataclass(eq=False)
@@ -47,6 +46,30 @@ def map_parts(surface, recipe, cut_edges=None, threads=None):
     return parts
 
 
+def main_uv(surface, parts, maps):
+    """(#C, 2) of the whole surface; see `holomorph.arrangement`. Corners of parts without a map are 0."""
+    made = [part.map for part in parts if part.map is not None]
+    return arrangement.arranged(made, _corner_count(surface), _arrangement(maps))[surface.corner_index]
+
+
+def form_uvs(surface, parts, maps):
+    """(#C, 2) for each form that gets a map of its own; parts that lack the form are 0 there."""
+    done = [(part.surface, part.structure) for part in parts if part.map is not None]
+    count = max((len(structure.balanced_coefficients()) for _, structure in done), default=0)
+    for form in range(min(maps.forms, count)):
+        uv = arrangement.arranged_form(done, form, _corner_count(surface), _arrangement(maps))
+        yield uv[surface.corner_index]
+
+
+def _corner_count(surface):
+    """Of the file, up to the last corner of the surface; `corner_index` of parts counts these."""
+    return int(surface.corner_index.max()) + 1
+
+
+def _arrangement(maps):
+    return arrangement.Arrangement(density=maps.density, rotation=math.radians(maps.rotation), margin=maps.margin)
+
+
 def refused_reports(surface):
     """Those of the parts of the file that are no surface."""
     return [refused_report(refused) for refused in surface.refused]
@@ -59,75 +82,47 @@ def _check_chosen(surface, maps):
 
 
 def _solve(part, maps, cut_edges, threads):
-    options = {"solver": maps.solver, "threads": threads}
-    part.structure = _chosen_structure(part.surface, maps, options)
-    cuts = _own_edges(part.surface, cut_edges) if maps.cut_at_seams else None
-    part.is_chosen = part.structure is not None or maps.solver == "paper" or (cuts is not None and len(cuts) > 0)
-    if part.structure is None:
-        part.structure = automatic_structure(part.surface, memory_limit=maps.memory_limit, **options)
-    if cuts is not None:
-        part.structure = cut_along(part.structure, cuts)
+    chosen = _choices(part.surface, maps, cut_edges if maps.cut_at_seams else None)
+    options = {"solver": maps.solver, "threads": threads, "memory_limit": maps.memory_limit}
+    part.structure = automatic_structure(part.surface, **chosen, **options)
+    part.is_chosen = maps.solver == "paper" or any(len(value) for value in chosen.values())
 
 
-def _chosen_structure(surface, maps, options):
-    """What the recipe chooses for a part; None where it chooses nothing."""
-    poles, taken = _own(surface, maps.poles)
-    corners, _ = _own(surface, maps.rectangle_corners)
-    is_disk = (surface.genus, surface.boundary_count) == (0, 1)
-    if corners:
-        return rectangle_map(surface, corners, **options)
-    if is_disk and len(poles) == 1 and not maps.residues:
-        return disk_map(surface, poles[0], **options)
-    if poles:
-        residues = [complex(*np.atleast_1d(maps.residues[index])) for index in taken] if maps.residues else None
-        return log_map(surface, poles, residues, memory_limit=maps.memory_limit, **options)
-    if maps.boundary == "free" and surface.boundary_count:
-        return free_boundary_map(surface, **options)
-    if maps.boundary == "double_cover" and surface.boundary_count:
-        return conformal_structure(surface, boundary="double_cover", memory_limit=maps.memory_limit, **options)
-    return None
-
-
-def _own(surface, vertices):
-    """Those of the file's vertices that lie on a part, as it counts them; and their places in the list."""
-    found = [np.flatnonzero(surface.vertex_index == vertex) for vertex in vertices]
-    return [int(own[0]) for own in found if own.size], [place for place, own in enumerate(found) if own.size]
-
-
-def _own_edges(surface, edges):
-    """The edges of the file whose ends lie on a part, as it counts them."""
-    if edges is None or not len(edges):
-        return None
-    order = np.argsort(surface.vertex_index)
-    places = np.searchsorted(surface.vertex_index, edges, sorter=order).clip(max=len(order) - 1)
-    own = order[places]
-    return own[(surface.vertex_index[own] == edges).all(axis=1)]
+def _choices(surface, maps, cut_edges):
+    """What the recipe chooses for a part, as keywords of `automatic_structure`; "natural" boundaries are none."""
+    places, is_own = on_part(surface, maps.poles)
+    corners, is_corner = on_part(surface, maps.rectangle_corners)
+    chosen = {"poles": places[is_own].tolist(), "corners": corners[is_corner].tolist()}
+    if maps.residues and is_own.any():
+        chosen["residues"] = [complex(*np.atleast_1d(maps.residues[place])) for place in np.flatnonzero(is_own)]
+    if surface.boundary_count and maps.boundary != "natural":
+        chosen["boundary"] = maps.boundary
+    if cut_edges is not None and len(cut_edges):
+        edges, is_own = on_part(surface, cut_edges)
+        chosen["cuts"] = edges[is_own.all(axis=1)]
+    return chosen
 
 
 def _map(parts, recipe):
-    """A map that was chosen, turned or scaled is no tiling unless one is asked for."""
-    maps, wanted = recipe.maps, recipe.tiling
-    is_plain = maps.density == 1 and maps.rotation == 0
-    is_kept = [maps.main == "automatic" and (part.is_chosen or not is_plain) for part in parts]
     made = automatic_maps(
         [part.surface for part in parts],
         [part.structure for part in parts],
-        main=["balanced" if kept else maps.main for kept in is_kept],
-        tiles=wanted.tiles or None,
-        density=wanted.density,
-        poles=wanted.poles,
-        lattice=wanted.lattice,
-        direction=None if wanted.direction == "none" else wanted.direction,
-        boundary=wanted.boundary,
-        turn=wanted.turn,
-        max_turn=wanted.max_turn,
-        max_added=wanted.max_added,
+        main=[_main(part, recipe.maps) for part in parts],
+        **_tiling_options(recipe.tiling),
     )
     for part, found in zip(parts, made):
-        if isinstance(found, Map):
-            part.map = found
-        else:
-            part.reason = str(found)
+        part.map, part.reason = (found, "") if isinstance(found, Map) else (None, str(found))
+
+
+def _main(part, maps):
+    """A map that was chosen, turned or scaled is no tiling unless one is asked for."""
+    is_plain = maps.density == 1 and maps.rotation == 0
+    return maps.main if is_plain and not part.is_chosen or maps.main != "automatic" else "balanced"
+
+
+def _tiling_options(wanted):
+    direction = None if wanted.direction == "none" else wanted.direction
+    return asdict(wanted) | {"tiles": wanted.tiles or None, "direction": direction}
 
 
 def _report(part):

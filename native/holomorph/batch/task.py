@@ -12,7 +12,7 @@ from .. import ProgressiveMesh, Surface, __version__, formats
 from .._native import Error
 from ..plane_maps import DiskMap
 from ..report import overall_report, repairs_report
-from . import arrangement, blend, mapping, picture
+from . import blend, mapping, picture
 from .recipe import Recipe
 from .status import DONE, REFUSED
 
@@ -68,7 +68,7 @@ def _mapped(task):
     surface, seams = _read(task.path)
     recipe = task.recipe
     parts = mapping.map_parts(surface, recipe, seams, task.threads)
-    uv = arrangement.main_uv(surface, parts, recipe.maps)
+    uv = mapping.main_uv(surface, parts, recipe.maps)
     reports = [part.report for part in parts]
     timings = [report.pop("timings", None) for report in reports]
     content = {
@@ -128,7 +128,7 @@ def _levels(wanted, surface, uv):
 
 def _arrays(maps, surface, uv, parts):
     """What a .npz file holds besides the mesh; indices lead to the elements of the source."""
-    numbered = {f"uv_{n}": form for n, form in enumerate(arrangement.form_uvs(surface, parts, maps), 1)}
+    numbered = {f"uv_{n}": form for n, form in enumerate(mapping.form_uvs(surface, parts, maps), 1)}
     index = {name: getattr(surface, name) for name in ("vertex_index", "face_index", "corner_index")}
     seams = [part.surface.vertex_index[part.map.seams] for part in parts if part.map]
     arrays = {"uv": uv, **numbered, **index, "seams": np.concatenate(seams)}  # of the main map

@@ -35,9 +35,9 @@ Zeros zeros(const mesh::Surface& surface, const Contiguous<double>& uv, const st
 
 // The facade has checked shapes and types; `rows` is empty where row c is that of corner c.
 void place(const Contiguous<double>& uv, Complex factor, Complex origin, Complex target,
-           const py::array_t<int, py::array::c_style>& rows, py::array_t<float, py::array::c_style> placed,
+           const py::array_t<int, py::array::c_style>& rows, py::array_t<double, py::array::c_style> placed,
            int threads) {
-  float* const values = placed.mutable_data();
+  double* const values = placed.mutable_data();
   const int* const at = rows.size() == 0 ? nullptr : rows.data();
   const py::gil_scoped_release unlocked;
   Workers workers(threads);

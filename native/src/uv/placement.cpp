@@ -47,14 +47,14 @@ Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, d
   return {{extent.low[0], extent.low[1]}, {extent.high[0], extent.high[1]}, extent.area};
 }
 
-void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed,
+void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, double* placed,
            Workers& workers) {
   const auto [factor, origin, target] = placement;
   for_rows(workers, static_cast<int>(uv.rows()), [&, factor = factor, origin = origin, target = target](int c) {
     const double x = uv(c, 0) - origin.real(), y = uv(c, 1) - origin.imag();
-    float* row = placed + 2 * static_cast<std::ptrdiff_t>(rows ? rows[c] : c);
-    row[0] = static_cast<float>(factor.real() * x - factor.imag() * y + target.real());
-    row[1] = static_cast<float>(factor.real() * y + factor.imag() * x + target.imag());
+    double* row = placed + 2 * static_cast<std::ptrdiff_t>(rows ? rows[c] : c);
+    row[0] = factor.real() * x - factor.imag() * y + target.real();
+    row[1] = factor.real() * y + factor.imag() * x + target.imag();
   });
 }
 

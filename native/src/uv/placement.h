@@ -1,4 +1,4 @@
-// The frame of a UV map in the plane, and similarities of the map, in the precision of applications.
+// The frame of a UV map in the plane, and similarities of the map.
 #pragma once
 
 #include <complex>
@@ -17,16 +17,15 @@ struct Frame {
 /// The area is summed in a fixed order. Cost: O(#T).
 Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation, Workers& workers);
 
-/// Maps z to factor (z - origin) + target: centred first and rounded last, so that equal u or v of
-/// corners remain equal.
+/// Maps z to factor (z - origin) + target: centred first, so that equal u or v of corners remain equal.
 struct Placement {
   std::complex<double> factor, origin, target;
 };
 
-/// Writes the placed map, rounded to single precision, into a larger array of corners.
+/// Writes the placed map into a larger array of corners.
 /// @param uv #C x 2. @param rows #C row of `placed` of each corner, all different; null: row c of corner c
 /// @param placed two numbers in each row
-void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, float* placed,
+void place(const Eigen::Ref<const UvArray>& uv, const Placement& placement, const int* rows, double* placed,
            Workers& workers);
 
 }  // namespace holomorph::uv

@@ -1,0 +1,191 @@
+"""The maps of a mesh's parts side by side in the UV plane, at one texel density.
+
+Tilings come first, from (0, 0) on. They are turned by quarters and moved by whole units alone: by anything else a
+texture would break off at their seams. Other maps fill the UV square where there is no tiling, else they lie to the
+right of the tilings.
+"""
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .array_types import Reals
+from .automatic_structure import AnyStructure
+from .layout import pack, rows
+from .map import Map
+from .placement import Frame, frame, place
+from .surface import Surface
+
+CENTRE = 0.5 + 0.5j  # the middle of the UV square
+SINGLE_BITS = 24  # of the mantissa of single precision, which applications store
+QUARTER = np.array([[0, 1], [-1, 0]])  # rows times it: a quarter turn counter-clockwise
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """How maps lie in the UV plane.
+
+    density : factor of UV lengths of other maps than tilings, about the middle of the UV square
+    rotation : radians, counter-clockwise, of other maps than tilings
+    margin : least distance of parts, in sides of the square that they are packed into
+    per_length : UV length for a length on the surface, at density 1; 0 fills the UV square
+    quarters : turns of tilings by 90 degrees, counter-clockwise
+    """
+
+    density: float = 1.0
+    rotation: float = 0.0
+    margin: float = 0.02
+    per_length: float = 0.0
+    quarters: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Square:
+    """Maps packed into a square, each scaled to the area that its part has in space: a UV unit is a unit of length.
+
+    surfaces : (n,) connected parts; uvs : their maps, (#C, 2) each
+    """
+
+    surfaces: Sequence[Surface]
+    uvs: Sequence[Reals]
+    arrangement: Arrangement
+
+    @cached_property
+    def _frames(self) -> list[Frame]:
+        return [frame(part, uv, self.arrangement.rotation) for part, uv in zip(self.surfaces, self.uvs)]
+
+    @cached_property
+    def _scales(self):
+        """0 for a map without area, such as one whose coefficients are 0: it shrinks to a point."""
+        return [math.sqrt(s.area / f.area) if f.area > 0 else 0.0 for s, f in zip(self.surfaces, self._frames)]
+
+    @cached_property
+    def _sizes(self):
+        return [[s * (f.high - f.low).real, s * (f.high - f.low).imag] for s, f in zip(self._scales, self._frames)]
+
+    @cached_property
+    def _packed(self):
+        return pack(self._sizes, self.arrangement.margin)
+
+    @property
+    def filling(self) -> float:
+        """`Arrangement.per_length` with which the maps fill the UV square; infinite where none has an area."""
+        side = self._packed[1]
+        return 1 / side if side > 0 else math.inf
+
+    def factor(self, part: int) -> complex:
+        """By which the map of a part is multiplied."""
+        return self._fit * self._scales[part] * cmath.exp(1j * self.arrangement.rotation)
+
+    @property
+    def _fit(self):
+        wanted = self.arrangement
+        return wanted.density * (wanted.per_length or self.filling) if self._packed[1] > 0 else 0.0
+
+    def write(self, placed: Reals) -> None:
+        """Writes the maps into (#C of the mesh as given, 2) UVs."""
+        corners, side = self._packed
+        middle, back = complex(side, side) / 2, cmath.exp(-1j * self.arrangement.rotation)
+        for k, (part, uv, size) in enumerate(zip(self.surfaces, self.uvs, self._sizes)):
+            origin = (self._frames[k].low + self._frames[k].high) / 2 * back
+            target = CENTRE + self._fit * (complex(*corners[k]) + complex(*size) / 2 - middle)
+            place(uv, self.factor(k), origin, target, placed, None if part.is_whole else part.corner_index)
+
+
+def square(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> Square:
+    """The `Square` of maps of parts, whatever they are."""
+    return Square([m.surface for m in maps], [m.uv for m in maps], arrangement)
+
+
+def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arrangement()) -> Reals:
+    """(#C, 2) UVs of a mesh with so many polygon corners, of the maps of its parts; zeros at corners without a map.
+
+    Beside a tiling all values are exact in single precision.
+    """
+    uv = np.zeros((corners, 2))
+    tiled, rest = [m for m in maps if m.tiling], [m for m in maps if not m.tiling]
+    if not tiled:
+        square(rest, arrangement).write(uv)
+        return uv
+    _write_tilings(tiled, uv, arrangement.quarters)
+    uv = on_grid(uv)
+    if rest:
+        _write_beside(rest, uv, _unit_of_tilings(tiled), arrangement)
+    return uv
+
+
+def arranged_form(
+    parts: Sequence[tuple[Surface, AnyStructure]], form: int, corners: int, arrangement: Arrangement = Arrangement()
+) -> Reals:
+    """(#C, 2) UVs of a mesh with so many polygon corners: the maps of one form, counted from 0, of parts with their
+    structures; zeros at corners of parts that lack it."""
+    surfaces, uvs = [], []
+    for surface, structure in parts:
+        balanced = np.asarray(structure.balanced_coefficients())
+        if form < len(balanced):  # of their type: a complex factor would bend straight boundaries
+            surfaces.append(surface)
+            uvs.append(structure.uv(np.eye(len(balanced), dtype=balanced.dtype)[form]))
+    uv = np.zeros((corners, 2))
+    Square(surfaces, uvs, arrangement).write(uv)
+    return uv
+
+
+def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> float:
+    """The length on the surface of a UV unit of `arranged` maps, where the density is the median one of the tilings, or
+    of the largest part where there is none; 0 for maps without area."""
+    tiled = [m for m in maps if m.tiling]
+    if tiled:
+        return _unit_of_tilings(tiled)
+    largest = int(np.argmax([diagonal(m.surface) for m in maps]))
+    density = abs(square(maps, arrangement).factor(largest)) * math.sqrt(maps[largest].quality.median_density)
+    return 1 / density if density > 0 else 0.0
+
+
+def diagonal(surface: Surface) -> float:
+    """That of the bounding box; of an intrinsic surface that of a square with its area."""
+    if surface.vertices is None:
+        return math.sqrt(2 * surface.area)
+    # NumPy finds ranges of single columns much faster than of all at once.
+    return math.hypot(*(float(np.ptp(column)) for column in surface.vertices.T))
+
+
+def on_grid(uv: ArrayLike) -> Reals:
+    """Rounded to a power of two that every value is a multiple of in single precision as well: differences by whole
+    numbers stay exact."""
+    step = 2.0 ** (math.frexp(max(np.abs(uv).max(), 1.0))[1] - SINGLE_BITS)
+    return np.floor(np.asarray(uv) / step + 0.5) * step
+
+
+def _unit_of_tilings(tiled):
+    density = np.median([m.quality.median_density for m in tiled])
+    return 1 / math.sqrt(density) if density > 0 else 0.0
+
+
+def _write_tilings(tiled, uv, quarters):
+    """Side by side on shelves of whole units."""
+    turn = np.linalg.matrix_power(QUARTER, quarters % 4)
+    turned = [m.uv @ turn for m in tiled]
+    lows = [np.floor(values.min(axis=0)) for values in turned]
+    sizes = np.array([np.ceil(values.max(axis=0)) - low for values, low in zip(turned, lows)])
+    width = max(math.ceil(math.sqrt(np.prod(sizes, axis=1).sum())), sizes[:, 0].max())
+    corners, _ = rows(sizes, width, 0.0)
+    for made, values, low, corner in zip(tiled, turned, lows, corners):
+        uv[made.surface.corner_index] = values + (corner - low)
+
+
+def _write_beside(rest, uv, unit, arrangement):
+    """Other maps to the right of tilings, at the texel density of these, their square standing on v = 0."""
+    plain = Arrangement(rotation=arrangement.rotation, margin=arrangement.margin)
+    side = unit_length(rest, plain) / unit if unit > 0 else 0.0  # of the square
+    scaled = Arrangement(density=side, rotation=arrangement.rotation, margin=arrangement.margin)
+    values = np.zeros_like(uv)
+    square(rest, scaled).write(values)
+    low, right = CENTRE.real - side / 2, math.ceil(uv[:, 0].max())
+    corners = np.concatenate([m.surface.corner_index for m in rest])
+    shift = np.float32([right + arrangement.margin * side - low, -low])
+    uv[corners] = values[corners].astype(np.float32) + shift
