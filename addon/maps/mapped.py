@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The maps of a solve: the main one, of tilings or of forms part by part, and those of single forms. No bpy here.
-
-All parts of the button's maps have the same texel density: that of the object's largest tiling.
-"""
+"""The maps of a solve: the main one, of tilings or of forms part by part, and those of single forms. No bpy here."""
 
 import math
 from dataclasses import dataclass, replace
@@ -11,18 +8,25 @@ import numpy as np
 
 from .. import native
 from ..scene.uv_maps import MAIN_MAP
-from . import forms, tiling
-from .options import AUTOMATIC, SEAMLESS, TILING, MapOptions
+from . import forms
+from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions
+
+MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless", TILING: "seamless"}  # as `holomorph.automatic_maps` names them
 
 
 @dataclass(frozen=True)
 class MappedPart:
-    """The main map of one part: a tiling, the balanced map of its forms, or none."""
+    """The main map of one part."""
 
     component: object  # `solve.SolvedComponent`
-    tiling: object | None = None  # the `holomorph.Tiling`, its vertices as the part counts them
+    map: object | None = None  # the `holomorph.Map`, its vertices as the part counts them
     skipped: str = ""  # why it has no map
     not_seamless: str = ""  # why it has another map than the tiling that was asked for
+
+    @property
+    def tiling(self):
+        """The `holomorph.Tiling`, None where the map is none."""
+        return self.map.tiling if self.map else None
 
     def vertices(self, own):
         """Vertices of the whole object."""
@@ -55,6 +59,11 @@ class MappedObject:
         return [part for part in self.parts if part.tiling]
 
     @property
+    def part_maps(self):
+        """The `holomorph.Map`s of the parts that have one."""
+        return [part.map for part in self.done]
+
+    @property
     def density(self):
         """Tiles for an area on the surface, where there is the median of them; 0 without a tiling."""
         area = sum(part.component.area for part in self.tiled)
@@ -64,35 +73,33 @@ class MappedObject:
     def unit_length(self):
         """The length on the surface of a UV unit of the main map, where the density is the median one; 0 for maps
         without area."""
-        if not self.tiled:
-            return forms.unit_length(self.solved, self.options)
-        density = np.median([part.tiling.quality.median_density for part in self.tiled])
-        return 1 / math.sqrt(density) if density > 0 else 0.0
+        return native.load().arrangement.unit_length(self.part_maps, self.options.arrangement)
+
+    @property
+    def filling(self):
+        """`options.MapOptions.per_length` with which maps of forms fill the UV square; infinite where none has area."""
+        return native.load().arrangement.square(self.part_maps, self.options.arrangement).filling
+
+    def of_forms(self):
+        """The same parts with maps of forms alone."""
+        return mapped(self.solved, replace(self.options, main=BALANCED)) if self.tiled else self
 
     def maps(self):
         """Yields (name, (#C, 2) float32) for every map, the main one first; parts that lack it are zero there."""
-        yield MAIN_MAP, self._main_map()
+        yield MAIN_MAP, self._main_map() if self.packed is None else self.packed
         count = 0 if self.packed is not None else min(self.solved.form_count, self.options.forms)
-        for index in range(1, 1 + count):
-            yield f"{MAIN_MAP} {index}", forms.values(self.solved, index, self.options)
+        parts, library = [(one.surface, one.structure) for one in self.solved.done], native.load().arrangement
+        for index in range(count):
+            uv = library.arranged_form(parts, index, self._corners, self.options.arrangement)
+            yield f"{MAIN_MAP} {index + 1}", uv.astype(np.float32)
 
     def _main_map(self):
-        """Tilings from (0, 0) on, and to the right of them the other parts at the same texel density."""
-        if self.packed is not None:
-            return self.packed
-        if not self.tiled:
-            return forms.values(self.solved, 0, self.options)
-        result = tiling.placed(self.solved, self.tiled, self.options.tiling.quarters)
-        rest = replace(self.solved, components=tuple(part.component for part in self.done if not part.tiling))
-        if not rest.done:
-            return result
-        plain = replace(self.options, density=1.0, per_length=0.0)
-        density = forms.unit_length(rest, plain) / self.unit_length
-        values = forms.values(rest, 0, replace(plain, density=density))
-        corners = np.concatenate([part.surface.corner_index for part in rest.done])
-        low, right = forms.CENTRE.real - density / 2, math.ceil(result[:, 0].max())
-        result[corners] = values[corners] + np.float32([right + self.options.margin * density - low, -low])
-        return result
+        arranged = native.load().arrangement.arranged(self.part_maps, self._corners, self.options.arrangement)
+        return arranged.astype(np.float32)
+
+    @property
+    def _corners(self):
+        return len(self.solved.polygons.corner_vertices)
 
 
 class Mapper:
@@ -115,7 +122,7 @@ class Mapper:
         found = [made for made in results if isinstance(made, MappedObject) and made.done]
         if not self._is_equal or len(found) < 2:
             return results
-        per_length = self._per_length or min(forms.filling(made.solved, made.options) for made in found)
+        per_length = self._per_length or min(made.filling for made in found)
         if not math.isfinite(per_length):
             return results
         return [_with_length(made, per_length) if isinstance(made, MappedObject) else made for made in results]
@@ -126,48 +133,62 @@ def _with_length(made, per_length):
 
 
 def mapped(solved, options, progress=None, density=0.0):
-    """The `MappedObject` of a solve. What was made is kept with the parts: a second call is quick.
+    """The `MappedObject` of a solve. What was made is kept with it: a second call is quick.
 
     density : tiles for an area; 0 for the number that the options ask for
     """
-    asked = [component for component in solved.done if _may_be_tiled(component, options)]
-    total, done, made = sum(component.area for component in asked), 0.0, {}
-    tiles, is_button = density * total or options.tiling.tiles, options.main != TILING
-    for component in sorted(asked, key=lambda one: -one.area) if is_button else asked:
-        share = component.area / total if total > 0 else 1.0
-        own = tiling.own_options(component, options.tiling, density * component.area if is_button else tiles * share)
-        step = native.load().progress.scaled(progress, done, done + share)
-        part = made[id(component)] = _part(component, options.main, own, step)
-        density = density or (part.tiling.tiles / component.area if is_button and part.tiling else 0.0)
-        done += share
-    parts = [made.get(id(one)) or MappedPart(one, skipped=one.reason) for one in solved.components]
+    mains = tuple(_main(component, options) for component in solved.done)
+    asked = mains, options.main == TILING, options.tiling.made, density, options.amounts, options.turns
+    if asked not in solved.maps:
+        solved.keep_maps(asked, _parts(solved.done, mains, options, density, progress))
+    made = iter(solved.maps[asked])
+    parts = [MappedPart(one, skipped=one.reason) if one.structure is None else next(made) for one in solved.components]
     return MappedObject(solved, options, tuple(parts))
 
 
-def _may_be_tiled(component, options):
-    if options.main != AUTOMATIC:
-        return options.main in (SEAMLESS, TILING)
-    return options.are_plain and not component.is_chosen and component.area > 0
+def _main(component, options):
+    """The main map that the library is asked for, "" for one of forms."""
+    is_plain = options.are_plain and not component.is_chosen and component.area > 0
+    return MAINS.get(options.main, "") if is_plain or options.main != AUTOMATIC else ""
 
 
-def _part(component, main, options, progress):
-    """The `MappedPart` by these `TileOptions`; what was made, or refused, before is kept."""
-    key = main, options
-    if key not in component.tilings:
-        component.keep_tiling(key, _new_part(component, main, options, progress))
-    return component.tilings[key]
+def _parts(components, mains, options, density, progress):
+    """The `MappedPart`s; refusals are told, and with a tiling alone they leave parts without a map."""
+    found = _tilings([pair for pair in zip(components, mains) if pair[1]], options, density, progress)
+    parts = []
+    for component, main in zip(components, mains):
+        made = next(found) if main else None
+        reason = native.sentence(made) if isinstance(made, native.load().Error) else ""
+        if reason and options.main == TILING:
+            parts.append(MappedPart(component, skipped=reason))
+            continue
+        if reason or made is None:
+            coefficients = forms.coefficients(component, options)
+            made = native.load().form_map(component.surface, component.structure, coefficients)
+        parts.append(MappedPart(component, made, not_seamless=reason))
+    return parts
 
 
-def _new_part(component, main, options, progress):
-    holomorph = native.load()
-    try:
-        if main != AUTOMATIC:
-            return MappedPart(component, tiling.tile(component, options, progress))
-        tiles = options.tiles or None
-        made = holomorph.automatic_map(component.surface, component.structure, tiles=tiles, progress=progress)
-    except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
-        reason = native.sentence(error)
-        return MappedPart(component, skipped=reason) if main == TILING else MappedPart(component, not_seamless=reason)
-    if not made.tiling:
-        forms.keep_main_map(component, MapOptions(), made.quality)
-    return MappedPart(component, made.tiling)
+def _tilings(asked, options, density, progress):
+    """An iterator over what `holomorph.automatic_maps` gives for pairs of a component and its main map."""
+    wanted, components = options.tiling, [component for component, _ in asked]
+    if options.main == TILING:
+        tiles = density * sum(component.area for component in components) or wanted.tiles
+        amount = {"tiles": tiles or None, "equal_density": False}
+    else:
+        amount = {"density": density or None}
+    made = native.load().automatic_maps(
+        [component.surface for component in components],
+        [component.structure for component in components],
+        main=[main for _, main in asked],
+        poles=wanted.poles,
+        allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
+        moves=wanted.moved,
+        lattice=wanted.lattice,
+        direction=wanted.direction,
+        boundary=wanted.boundary,
+        turn=wanted.turn or None,
+        progress=progress,
+        **amount,
+    )
+    return iter(made)

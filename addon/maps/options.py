@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is asked of the maps of one object. None of it needs a new solve."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+from .. import native
 
 # What the main map is. TILING: tilings alone, so that parts without one have no map.
 AUTOMATIC, SEAMLESS, BALANCED, ISLANDS, TILING = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS", "TILING"
@@ -21,6 +23,11 @@ class TileOptions:
     pole_group: str = ""  # the vertex group that `allowed` was read of
     allowed: bytes | None = None  # of the bools that tell where poles may be that are not chosen; None for anywhere
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
+
+    @property
+    def made(self):
+        """What of it decides how a tiling is made, before it is laid out."""
+        return replace(self, quarters=0, pole_group="")
 
 
 @dataclass(frozen=True)
@@ -42,3 +49,9 @@ class MapOptions:
         """Whether nothing is chosen of the main map but what it is."""
         dials = (*self.amounts, *(1 + turn for turn in self.turns))
         return self.density == 1 and self.rotation == 0 and all(dial == 1 for dial in dials)
+
+    @property
+    def arrangement(self):
+        """The `holomorph.arrangement.Arrangement`."""
+        lengths = self.density, self.rotation, self.margin, self.per_length
+        return native.load().arrangement.Arrangement(*lengths, self.tiling.quarters)

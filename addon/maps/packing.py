@@ -11,24 +11,24 @@ import numpy as np
 from .. import compatibility, native
 from ..scene import mesh_io, uv_maps
 from ..solving import choices
-from . import forms
+
+MIDDLE = 0.5  # of the UV square
 
 
 def packed(context, mapped):
     """The `mapped.MappedObject` with its islands as Blender packs them, all by the same factor, and the density that
     its map has. They fill the UV square, unless the options say a density."""
-    solved, options = mapped.solved, mapped.options
-    shelves = forms.values(solved, 0, replace(options, density=1.0, per_length=0.0))
-    parts = [part.surface for part in solved.done]
+    options, parts = mapped.options, [part.surface for part in mapped.solved.done]
+    _, shelves = next(replace(mapped, options=replace(options, density=1.0, per_length=0.0)).maps())
     corners, joined = np.concatenate([part.corner_index for part in parts]), _joined(parts)
     with _mesh_of(context, joined) as mesh:
         uv_maps.write_map(mesh, joined, uv_maps.MAIN_MAP, shelves[corners])
         _pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
         found = uv_maps.read_map(mesh, uv_maps.MAIN_MAP)
-    filling = forms.filling(solved, options) * _length(parts, found) / _length(parts, shelves[corners])
+    filling = mapped.filling * _length(parts, found) / _length(parts, shelves[corners])
     options = replace(options, per_length=options.per_length or filling)
     result = np.zeros_like(shelves)
-    result[corners] = forms.CENTRE.real + options.density * options.per_length / filling * (found - forms.CENTRE.real)
+    result[corners] = MIDDLE + options.density * options.per_length / filling * (found - MIDDLE)
     return replace(mapped, options=options, packed=result)
 
 

@@ -8,7 +8,6 @@ import bpy
 import numpy as np
 
 from .. import native
-from ..maps import forms
 from ..maps.options import TILING
 from ..scene import faces
 
@@ -21,7 +20,7 @@ TEXT = "Holomorphic Report"
 def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     package, solved = native.load().report, made.solved
-    parts = [part_report(part, made.options) for part in made.parts]
+    parts = [part_report(part) for part in made.parts]
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"]  # a vertex group of the object says it
@@ -43,18 +42,16 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     return entry | ({"asked": asked} if made.options.main == TILING else {})
 
 
-def part_report(part, options):
+def part_report(part):
     """The package's report of one `mapped.MappedPart`, its tiling, and the choice that was not followed on it."""
-    package, component = native.load().report, part.component
+    package, component, made = native.load().report, part.component, part.map
     if part.skipped:
         entry = package.skipped_report(component.surface, part.skipped)
-    elif part.tiling:
-        main_map = package.map_report([], part.tiling.quality, part.tiling.verdict)
-        entry = package.component_report(component.surface, component.structure, main_map)
-        entry |= {"forms": component.form_count, "tiling": _tiling_report(part)}
     else:
-        main_map = forms.main_map(component, options).report
+        main_map = package.map_report(made.coefficients, made.quality, made.verdict)
         entry = package.component_report(component.surface, component.structure, main_map)
+        entry |= {"forms": component.form_count}
+    entry |= {"tiling": _tiling_report(part)} if part.tiling else {}
     return entry | ({"not_followed": component.note} if component.note else {})
 
 

@@ -8,7 +8,8 @@ import math
 
 import numpy as np
 
-from ..maps import distortion, tiling
+from .. import native
+from ..maps import distortion
 from ..scene import uv_maps
 from . import heat, report, stored
 
@@ -35,7 +36,7 @@ def scale(target, factor):
     middle = (uv.min(axis=0) + uv.max(axis=0)) / 2
     if _is_tiling(target):
         factor = max(1, round(factor))
-        scaled = tiling.on_grid(factor * uv.astype(np.float64))
+        scaled = native.load().arrangement.on_grid(factor * uv.astype(np.float64)).astype(np.float32)
     else:
         scaled = middle + factor * (uv - middle)
     uv_maps.overwrite_map(mesh, target.polygons, mesh.uv_layers.active.name, scaled)

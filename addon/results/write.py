@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The end of a run, in Blender's main thread: maps are written to the objects and reported."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -115,5 +115,6 @@ def _look(made, options, is_tiling):
         cells = material.cells(options.texture)
         cells *= max(1, round(options.checker_scale / cells))
         return material.Look(options.texture, cells, made.unit_length, is_tiling=True)
-    cells = options.checker_scale or forms.squares_that_fit(made.solved, replace(made.options, density=1.0))
-    return material.Look(options.texture, cells, forms.unit_length(made.solved, made.options))
+    plain = made.of_forms()
+    cells = options.checker_scale or forms.squares_that_fit(plain.part_maps, made.options.arrangement)
+    return material.Look(options.texture, cells, plain.unit_length)

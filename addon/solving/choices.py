@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is chosen on a mesh (vertices, seams, method), and what it means for each connected part. No bpy here.
 
-A choice becomes keywords of `structure`. Where an explicit choice does not fit, the library refuses it; an implicit one
-(a selection under "Automatic", seams) is dropped.
+A choice becomes keywords of `holomorph.automatic_structure`. Where an explicit choice does not fit, the library refuses
+it; an implicit one (a selection under "Automatic", seams) is dropped.
 """
 
 from dataclasses import dataclass, field
@@ -83,23 +83,6 @@ def _with_fitting_method(part, keywords):
     if keywords["solver"] == "paper" and (is_open or not has_forms):
         keywords = keywords | {"solver": "auto"}
     return keywords
-
-
-def structure(holomorph, surface, keywords, progress):
-    """What the keywords ask for, by the function of the library that gives it."""
-    options = {"solver": keywords["solver"], "progress": progress}
-    poles, residues = keywords.get("poles"), keywords.get("residues")
-    if "corners" in keywords:
-        made = holomorph.rectangle_map(surface, keywords["corners"], **options)
-    elif poles is not None and len(poles) == 1 and residues is None and _is_disk(surface):
-        made = holomorph.disk_map(surface, int(poles[0]), **options)
-    elif poles is not None:
-        made = holomorph.log_map(surface, poles, residues, **options)
-    elif keywords["boundary"] == "free":
-        made = holomorph.free_boundary_map(surface, **options)
-    else:
-        made = holomorph.automatic_structure(surface, boundary=keywords["boundary"], **options)
-    return holomorph.cut_along(made, keywords["cuts"]) if "cuts" in keywords else made
 
 
 def name_vertices(keywords):

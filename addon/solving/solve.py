@@ -9,8 +9,8 @@ from .. import native
 from . import choices
 
 DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hierarchy
-DOUBLES_OF_TILING = 6  # for each corner: UVs and quality
-KEPT_TILINGS = 4  # of each part: the redo panel goes back and forth between a few
+DOUBLES_OF_MAP = 6  # for each corner: UVs and quality
+KEPT_MAPS = 4  # of each object: the redo panel goes back and forth between a few
 NO_ISLANDS = "no seams cut it open: mark some in edit mode (Edge > Mark Seam), or take another main map"
 NO_HARD_EDGES = "no edge is that hard: choose a smaller angle, mark seams in edit mode, or take another main map"
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
@@ -32,7 +32,7 @@ class Task:
 class SolvedComponent:
     """A connected part of the object; `structure` is None where the library refused it, and `reason` says why.
 
-    The structure is what `choices.structure` gives for the part's topology and the choices, with the
+    The structure is what `holomorph.automatic_structure` gives for the part's topology and the choices, with the
     vertices as the whole mesh counts them, and the corners as the part does. All kinds have `uv(coefficients)`,
     `balanced_coefficients()`, `quality`, `seams`, `description` and `invariants()`.
     """
@@ -43,33 +43,16 @@ class SolvedComponent:
     reason: str = ""
     note: str = ""  # which choice was not followed, and why
     is_chosen: bool = False  # whether a choice of the user was followed
-    frames: dict = field(default_factory=dict, compare=False)  # bounding box and area of each map
-    main_maps: dict = field(default_factory=dict, compare=False)  # `forms.MainMap` by dials
-    tilings: dict = field(default_factory=dict, compare=False)  # `mapped.MappedPart` by what was asked, newest last
-    last_rounded: dict = field(default_factory=dict, compare=False)  # (`options.TileOptions`, its tiling) by the tiler
 
     @property
     def form_count(self):
         """How many forms there are to mix."""
         return 0 if self.balanced is None else len(self.balanced)
 
-    def keep_tiling(self, asked, part):
-        """Adds one, and drops the oldest beyond `KEPT_TILINGS`."""
-        self.tilings[asked] = part
-        while len(self.tilings) > KEPT_TILINGS:
-            del self.tilings[next(iter(self.tilings))]
-
     @property
     def area(self):
         """The area of the component's surface."""
         return self.surface.area
-
-    @property
-    def size(self):
-        """About how many doubles are held: harmonic forms and potentials; of a tiler also a solver; and of tilings."""
-        forms, tiler = 4 * self.form_count + 4, 2 * self.form_count + DOUBLES_OF_TILER
-        of_edges = (forms + bool(self.tilings) * tiler) * len(self.structure.edges)
-        return of_edges + len(self.tilings) * DOUBLES_OF_TILING * len(self.surface.corner_vertices)
 
 
 @dataclass(frozen=True)
@@ -80,6 +63,7 @@ class SolvedObject:
     polygons: object
     components: tuple
     seconds: float
+    maps: dict = field(default_factory=dict, compare=False)  # `mapped.MappedPart`s by what was asked, newest last
 
     @property
     def done(self):
@@ -91,10 +75,20 @@ class SolvedObject:
         """The largest number of forms among the components."""
         return max((c.form_count for c in self.components), default=0)
 
+    def keep_maps(self, asked, parts):
+        """Adds those of the `done` components, and drops the oldest beyond `KEPT_MAPS`."""
+        self.maps[asked] = parts
+        while len(self.maps) > KEPT_MAPS:
+            del self.maps[next(iter(self.maps))]
+
     @property
     def size(self):
-        """About how many doubles the parts hold."""
-        return sum(c.size for c in self.done)
+        """About how many doubles are held: harmonic forms and potentials; of tilers also solvers; and maps."""
+        has_tilings = any(part.tiling for parts in self.maps.values() for part in parts)
+        per_form, per_edge = (6, 4 + DOUBLES_OF_TILER) if has_tilings else (4, 4)
+        of_edges = sum((per_form * c.form_count + per_edge) * len(c.structure.edges) for c in self.done)
+        corners = sum(len(c.surface.corner_vertices) for c in self.done)
+        return of_edges + len(self.maps) * DOUBLES_OF_MAP * corners
 
 
 def solve(task, progress=None):
@@ -182,7 +176,7 @@ def _make(holomorph, surface, vertices, part, keywords, note, progress):
         # The part's faces with all of the mesh's vertices: then the library names vertices by the mesh's indices.
         corners = part.vertex_index[part.corner_vertices]
         target = holomorph.Surface.from_polygons(vertices, corners, part.face_offsets)
-    structure = choices.structure(holomorph, target, keywords, scaled(progress, 0.0, UV_START))
+    structure = holomorph.automatic_structure(target, **keywords, progress=scaled(progress, 0.0, UV_START))
     structure.prepare_uv(scaled(progress, UV_START, 1.0))
     structure = replace(structure, surface=surface)  # so do its results
     balanced, is_chosen = structure.balanced_coefficients(), choices.ask_for_a_kind(keywords)

@@ -210,7 +210,7 @@ def test_the_redo_panel_makes_nothing_again(monkeypatch):
     def forbidden(*_arguments, **_options):
         raise AssertionError("made again")
 
-    monkeypatch.setattr(module("native").load(), "automatic_map", forbidden)
+    monkeypatch.setattr(module("native").load(), "automatic_maps", forbidden)
     monkeypatch.setattr(module("solving.solve"), "solve", forbidden)
     assert press(seams=True, texture="SCALES") == {"FINISHED"}
 
@@ -223,7 +223,7 @@ def test_cancelling_in_a_tiling_leaves_no_result():
     job.start()
     job.wait()
     assert isinstance(job.results[0], module("native").load().Cancelled) and job.results[1] is None
-    assert not module("solving.cache").find(tasks[0]).components[0].tilings
+    assert not module("solving.cache").find(tasks[0]).maps
 
 
 def test_progress_grows_over_solve_and_tiling():
