@@ -27,28 +27,13 @@ def coefficients(component, options):
 
 
 def shape_points(solved):
-    """(#V,3) conformal images of the parts that have one, zeros elsewhere; None if no part has one.
-
-    Spheres go to the unit sphere, disks to the unit disk in the plane z = 0.
-    """
-    points, found = np.zeros((len(solved.polygons.vertices), 3)), False
-    for part in solved.done:
-        own = _shape(part)
-        if own is not None:
-            points[part.surface.vertex_index] = own[part.surface.vertex_index]
-            found = True
-    return points if found else None
-
-
-def _shape(part):
-    """(#V,3) of all vertices of the mesh, NaN at those of other parts; None for a part that has no such image."""
-    structure, is_planar = part.structure, part.surface.genus == 0
-    if is_planar and part.surface.boundary_count == 0 and len(structure.poles) == 2:
-        return structure.sphere_map()
-    if is_planar and part.surface.boundary_count == 1 and structure.map_kind == "disk":
-        disk = structure.disk_map()
-        return np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
-    return None
+    """(#V,3) conformal images of the parts that have one, zeros elsewhere; None if no part has one."""
+    found = [(native.load().conformal_image(part.structure), part.surface.vertex_index) for part in solved.done]
+    points = np.zeros((len(solved.polygons.vertices), 3))
+    for image, own in found:
+        if image is not None:
+            points[own] = image[own]
+    return points if any(image is not None for image, _ in found) else None
 
 
 def squares_that_fit(maps, arrangement):

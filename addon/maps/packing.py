@@ -10,7 +10,6 @@ import numpy as np
 
 from .. import compatibility, native
 from ..scene import mesh_io, uv_maps
-from ..solving import choices
 
 MIDDLE = 0.5  # of the UV square
 
@@ -34,7 +33,7 @@ def packed(context, mapped):
 
 def cuts(parts):
     """(#S, 2) vertices of the mesh, of the edges along which these parts of it were cut: two boundaries have them."""
-    ends = np.concatenate([np.stack(choices.boundary_edges(part), axis=1) for part in parts])
+    ends = np.concatenate([part.vertex_index[native.load().edges.boundary_edges(part)] for part in parts])
     rows, count = np.unique(np.sort(ends, axis=1), axis=0, return_counts=True)
     return rows[count > 1]
 

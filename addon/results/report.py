@@ -5,7 +5,6 @@ import json
 from dataclasses import asdict
 
 import bpy
-import numpy as np
 
 from .. import native
 from ..maps.options import TILING
@@ -20,7 +19,7 @@ TEXT = "Holomorphic Report"
 def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     package, solved = native.load().report, made.solved
-    parts = [part_report(part) for part in made.parts]
+    parts = [_part_report(part) for part in made.parts]
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"]  # a vertex group of the object says it
@@ -42,35 +41,11 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     return entry | ({"asked": asked} if made.options.main == TILING else {})
 
 
-def part_report(part):
-    """The package's report of one `mapped.MappedPart`, its tiling, and the choice that was not followed on it."""
-    package, component, made = native.load().report, part.component, part.map
-    if part.skipped:
-        entry = package.skipped_report(component.surface, part.skipped)
-    else:
-        main_map = package.map_report(made.coefficients, made.quality, made.verdict)
-        entry = package.component_report(component.surface, component.structure, main_map)
-        entry |= {"forms": component.form_count}
-    entry |= {"tiling": _tiling_report(part)} if part.tiling else {}
+def _part_report(part):
+    """The package's report of one `mapped.MappedPart`, and the choice that was not followed on it."""
+    package, component = native.load().report, part.component
+    entry = package.skipped_report(component.surface, part.skipped) if part.skipped else package.part_report(part.map)
     return entry | ({"not_followed": component.note} if component.note else {})
-
-
-def _tiling_report(part):
-    """Vertices are those of the object."""
-    made = part.tiling
-    zeros, orders = made.zeros
-    return native.load().report.plain(
-        {
-            "added_distortion": float(made.added_distortion),
-            "density_ratio": float(made.density_ratio),
-            "beltrami_rms": float(made.beltrami_rms),
-            "poles": part.vertices(made.poles),
-            "residues": made.residues,
-            "zeros": part.vertices(zeros),
-            "orders": np.asarray(orders),
-            "periods": np.asarray(made.periods),
-        }
-    )
 
 
 def refusal_report(name, sentence):

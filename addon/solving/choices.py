@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .. import native
+
 # What the selection is.
 AUTOMATIC, FACES, POLES, RECTANGLE, NONE = "AUTOMATIC", "FACES", "POLES", "RECTANGLE", "NONE"
 EXPLICIT = (POLES, RECTANGLE)
@@ -131,7 +133,7 @@ def _selection(part, choices):
     if len(own) == 0:
         return {}
     if choices.use == RECTANGLE or (choices.use == AUTOMATIC and _are_corners_of_a_disk(part, own)):
-        return {"corners": around_boundary(part, own)}
+        return {"corners": own}
     if not choices.residues:
         return {"poles": own}
     residues = np.asarray(choices.residues, complex)
@@ -140,38 +142,7 @@ def _selection(part, choices):
 
 
 def _are_corners_of_a_disk(part, vertices):
-    return _is_disk(part) and len(vertices) == CORNERS and bool(np.isin(vertices, boundary_edges(part)[0]).all())
-
-
-def _is_disk(surface):
-    return surface.genus == 0 and surface.boundary_count == 1
-
-
-def boundary_edges(part):
-    """(starts, ends) of the boundary edges, directed as in their triangles, in vertices of the whole mesh."""
-    triangles = part.triangles.astype(np.int64)
-    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
-    count = triangles.max() + 1
-    is_boundary = ~np.isin(start * count + end, end * count + start)  # also both sides of a cut
-    return part.vertex_index[start[is_boundary]], part.vertex_index[end[is_boundary]]
-
-
-def around_boundary(part, vertices):
-    """The vertices in the order in which the boundary loop of the first passes them, surface on the left; as they are
-    where they do not lie on one loop.
-
-    Steps to the first vertex by pointer doubling, O(n log n) for n vertices of the whole mesh.
-    """
-    start, end = boundary_edges(part)
-    if not np.isin(vertices, start).all():
-        return vertices
-    following = np.arange(start.max() + 1)
-    following[start] = end
-    following[vertices[0]] = vertices[0]
-    steps = np.ones(len(following), np.int64)
-    steps[vertices[0]] = 0
-    for _ in range(len(start).bit_length()):
-        steps[start], following[start] = steps[start] + steps[following[start]], following[following[start]]
-    if (following[vertices] != vertices[0]).any():
-        return vertices
-    return vertices[np.concatenate([[0], 1 + np.argsort(-steps[vertices[1:]], kind="stable")])]
+    if (part.genus, part.boundary_count) != (0, 1) or len(vertices) != CORNERS:
+        return False
+    border = part.vertex_index[native.load().edges.boundary_edges(part)]
+    return bool(np.isin(vertices, border).all())

@@ -123,34 +123,12 @@ def _parts(holomorph, surface, chosen, progress):
     """The connected components, or the islands between the seams. Seams may be edges of no face that is mapped."""
     if not chosen.are_islands:
         return surface.components
-    between_seams = holomorph.islands(surface, chosen.seams, strict=False, hard_edges=chosen.hard_edges or None)
-    islands = [disk for part in between_seams for disk in _opened(holomorph, part, progress)]
-    if chosen.most_stretch > 1:
-        islands = [_cut_to_cones(holomorph, part, chosen.most_stretch, progress) for part in islands]
+    stretch = chosen.most_stretch if chosen.most_stretch > 1 else None
+    options = {"hard_edges": chosen.hard_edges or None, "most_stretch": stretch}
+    islands = holomorph.disk_islands(surface, chosen.seams, strict=False, progress=progress, **options)
     if any(part.genus == 0 and part.boundary_count == 1 for part in islands):
         return islands
     raise holomorph.TopologyError(NO_HARD_EDGES if chosen.hard_edges else NO_ISLANDS)
-
-
-def _opened(holomorph, part, progress):
-    """A part with several boundary loops, or with a boundary and handles, cut open to a disk; others as they are."""
-    if part.boundary_count == 0 or (part.genus, part.boundary_count) == (0, 1):
-        return (part,)
-    try:
-        structure = holomorph.conformal_structure(part, progress=holomorph.progress.scaled(progress, 0.0, 0.0))
-    except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
-        return (part,)  # what is wrong with it is said where its map is made
-    return holomorph.islands(part, part.vertex_index[structure.edges[structure.seams]])
-
-
-def _cut_to_cones(holomorph, part, most_stretch, progress):
-    """A disk cut open where its flat map would be stretched more; others as they are."""
-    if (part.genus, part.boundary_count) != (0, 1):
-        return part
-    try:
-        return holomorph.cut_to_cones(part, most_stretch, progress=holomorph.progress.scaled(progress, 0.0, 0.0))
-    except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError):
-        return part  # what is wrong with it is said where its map is made
 
 
 def _solve_component(holomorph, make, part, chosen, progress):

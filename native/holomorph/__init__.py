@@ -22,9 +22,11 @@ from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
 from .cones import cut_to_cones
+from .conformal_image import conformal_image
 from .conformal_map import ConformalMap, conformal_map
 from .cut import cut_along
 from .disk import disk_map, free_boundary_map, rectangle_map, triangle_map
+from .disk_islands import disk_islands
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
 from .igusa import IgusaInvariants, igusa_invariants
@@ -96,11 +98,13 @@ __all__ = [
     "automatic_maps",
     "automatic_structure",
     "automorphisms",
+    "conformal_image",
     "conformal_map",
     "conformal_structure",
     "conformally_equivalent",
     "cut_along",
     "cut_to_cones",
+    "disk_islands",
     "disk_map",
     "double_cover",
     "form_map",

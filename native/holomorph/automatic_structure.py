@@ -6,11 +6,13 @@ from typing import TypeAlias
 from numpy.typing import ArrayLike
 
 from .array_types import Complexes, Integers, Progress
+from .arrays import integer
 from .bounded import BoundedStructure
 from .checks import only_component
 from .closed import ConformalStructure
 from .cut import cut_along
 from .disk import default_disk_map, disk_map, free_boundary_map, rectangle_map
+from .edges import around_boundary
 from .log_map import log_map
 from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
@@ -42,7 +44,7 @@ def automatic_structure(
 
     Parameters
     ----------
-    corners : list of vertices: `rectangle_map` with these
+    corners : list of four boundary vertices in any order: `rectangle_map` with these
     poles, residues : `disk_map` of a disk with one pole and without residues; else `log_map` with these
     boundary : "natural", "double_cover" as in `conformal_structure`, or "free" for `free_boundary_map`
     cuts : (#S, 2) vertices of edges, of `cut_along`
@@ -53,7 +55,7 @@ def automatic_structure(
     """
     options = {"solver": solver, "threads": threads, "progress": progress}
     if corners is not None and len(corners):
-        made = rectangle_map(surface, corners, **options)
+        made = rectangle_map(surface, around_boundary(surface, integer(corners, "corners")), **options)
     elif poles is not None and len(poles):
         made = _with_poles(surface, poles, residues, memory_limit, options)
     elif boundary == "free":

@@ -1,4 +1,4 @@
-"""Edges found by their ends."""
+"""Edges found by their ends, and those of the boundary."""
 
 import numpy as np
 
@@ -26,3 +26,29 @@ def boundary_corners(surface):
     corners = surface.triangle_corners
     ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2)
     return ends[np.bincount(edges)[edges] == 1]
+
+
+def boundary_edges(surface):
+    """(#B, 2) vertices of the edges of the boundary, in the direction of their triangles."""
+    return surface.corner_vertices[boundary_corners(surface)]
+
+
+def around_boundary(surface, vertices):
+    """The vertices, (n,) integers, in the order in which the boundary loop of the first passes them, surface on the
+    left; as they are where they do not lie on one loop.
+
+    Steps to the first vertex by pointer doubling, O(#V log #B).
+    """
+    start, end = boundary_edges(surface).astype(np.int64).T
+    if not len(vertices) or not np.isin(vertices, start).all():
+        return vertices
+    following = np.arange(start.max() + 1)
+    following[start] = end
+    following[vertices[0]] = vertices[0]
+    steps = np.ones(len(following), np.int64)
+    steps[vertices[0]] = 0
+    for _ in range(len(start).bit_length()):
+        steps[start], following[start] = steps[start] + steps[following[start]], following[following[start]]
+    if (following[vertices] != vertices[0]).any():
+        return vertices
+    return vertices[np.concatenate([[0], 1 + np.argsort(-steps[vertices[1:]], kind="stable")])]

@@ -12,6 +12,7 @@ from .verdicts import Verdict, overall
 
 if TYPE_CHECKING:
     from .automatic_structure import AnyStructure
+    from .map import Map
     from .quality import Quality
     from .repairs import Refused, Repairs
     from .surface import Surface
@@ -44,6 +45,32 @@ def component_report(
             "intrinsic_flips": structure.flip_count,
             "seam_edges": len(structure.seams),
             "main_map": main_map,
+        }
+    )
+
+
+def part_report(made: "Map") -> dict[str, Any]:
+    """The `component_report` of the part of a `Map`, with what kind of map it is, and of a tiling its poles and
+    certificates; vertices are those of the mesh as given."""
+    main_map = map_report(made.coefficients, made.quality, made.verdict) | {"kind": made.kind, "why": made.why}
+    entry = component_report(made.surface, made.structure, main_map)
+    entry["forms"] = len(made.structure.balanced_coefficients())
+    return entry | ({"tiling": _tiling_report(made.tiling, made.surface.vertex_index)} if made.tiling else {})
+
+
+def _tiling_report(made, vertex_index):
+    zeros, orders = made.zeros
+    return plain(
+        {
+            "added_distortion": float(made.added_distortion),
+            "density_ratio": float(made.density_ratio),
+            "beltrami_rms": float(made.beltrami_rms),
+            "tiles": float(made.tiles),
+            "poles": vertex_index[made.poles],
+            "residues": made.residues,
+            "zeros": vertex_index[zeros],
+            "orders": np.asarray(orders),
+            "periods": np.asarray(made.periods),
         }
     )
 

@@ -32,7 +32,7 @@ from scenes import (
     uv,
 )
 
-arrangement, stored_text = module("native").load().arrangement, module("results.stored")
+stored_text = module("results.stored")
 
 
 @pytest.fixture
@@ -387,18 +387,6 @@ def test_the_same_bits_twice():
     module("solving.cache").clear()
     tile()
     assert np.array_equal(uv(obj), before)
-
-
-@pytest.mark.parametrize("size", [0.7, 1, 13, 5000])
-def test_whole_differences_survive_single_precision(size):
-    rng = np.random.default_rng(1)
-    base = rng.random((10000, 2))
-    whole = rng.integers(-int(size), int(size) + 1, (10000, 2))
-    both = arrangement.on_grid(np.concatenate([base, base + whole])).astype(np.float32)
-    assert both.dtype == np.float32
-    first, second = np.split(both.astype(np.float64), 2)
-    assert np.array_equal(second - first, whole)
-    assert np.abs(first - base).max() <= 2**-24 * max(2 * size + 2, 2)
 
 
 def test_discs_face_the_viewer_and_keep_their_size_on_the_screen():

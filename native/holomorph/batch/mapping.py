@@ -11,8 +11,7 @@ from ..automatic_maps import automatic_maps
 from ..automatic_structure import automatic_structure
 from ..given_vertices import on_part
 from ..map import Map
-from ..plain_data import plain
-from ..report import component_report, map_report, refused_report, skipped_report
+from ..report import part_report, refused_report, skipped_report
 
 
 @dataclass(eq=False)
@@ -42,7 +41,7 @@ def map_parts(surface, recipe, cut_edges=None, threads=None):
             part.reason = str(error)
     _map([part for part in parts if part.structure is not None], recipe)
     for part in parts:
-        part.report = _report(part)
+        part.report = part_report(part.map) if part.map else skipped_report(part.surface, part.reason)
     return parts
 
 
@@ -123,30 +122,3 @@ def _main(part, maps):
 def _tiling_options(wanted):
     direction = None if wanted.direction == "none" else wanted.direction
     return asdict(wanted) | {"tiles": wanted.tiles or None, "direction": direction}
-
-
-def _report(part):
-    if part.map is None:
-        return skipped_report(part.surface, part.reason)
-    found = part.map
-    main = map_report(found.coefficients, found.quality, found.verdict) | {"kind": found.kind, "why": found.why}
-    entry = component_report(part.surface, found.structure, main)
-    return entry | {"tiling": _tiling_report(part)} if found.tiling else entry
-
-
-def _tiling_report(part):
-    made, index = part.map.tiling, part.surface.vertex_index
-    zeros, orders = made.zeros
-    return plain(
-        {
-            "added_distortion": float(made.added_distortion),
-            "density_ratio": float(made.density_ratio),
-            "beltrami_rms": float(made.beltrami_rms),
-            "tiles": float(made.tiles),
-            "poles": index[made.poles],
-            "residues": made.residues,
-            "zeros": index[zeros],
-            "orders": np.asarray(orders),
-            "periods": np.asarray(made.periods),
-        }
-    )

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__, formats
 from .._native import Error
-from ..plane_maps import DiskMap
+from ..conformal_image import conformal_image
 from ..report import overall_report, repairs_report
 from . import blend, mapping, picture
 from .recipe import Recipe
@@ -136,14 +136,10 @@ def _arrays(maps, surface, uv, parts):
 
 
 def _shape(surface, parts):
-    """(#V, 3) conformal images: spheres on the unit sphere, disks in the unit disk with z = 0, NaN where neither is."""
+    """(#V, 3) conformal images of the parts, NaN where there is none."""
     points = np.full((len(surface.vertex_index), 3), np.nan)
     for part in parts:
-        structure, rows = part.structure, np.searchsorted(surface.vertex_index, part.surface.vertex_index)
-        is_sphere = (part.surface.genus, part.surface.boundary_count) == (0, 0)
-        if is_sphere and structure and len(structure.poles) == 2:
-            points[rows] = structure.sphere_map()
-        elif isinstance(structure, DiskMap):
-            disk = structure.disk_map()
-            points[rows] = np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
+        image = conformal_image(part.structure) if part.structure else None
+        if image is not None:
+            points[np.searchsorted(surface.vertex_index, part.surface.vertex_index)] = image
     return points

@@ -1,0 +1,21 @@
+"""The image of a surface on the unit sphere or in the unit disk."""
+
+import numpy as np
+
+from .array_types import Reals
+from .automatic_structure import AnyStructure
+from .plane_maps import DiskMap
+from .pole_structure import PoleStructure
+
+
+def conformal_image(structure: AnyStructure) -> Reals | None:
+    """(#V, 3) where the structure's map takes the vertices: of a sphere with two poles to the unit sphere, of a
+    `DiskMap` to the unit disk in the plane z = 0. NaN at isolated vertices; None for other structures."""
+    if isinstance(structure, DiskMap):
+        disk = structure.disk_map()
+        return np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)
+    component = structure._component
+    is_sphere = (component.genus, component.boundary_count) == (0, 0)
+    if is_sphere and isinstance(structure, PoleStructure) and len(structure.poles) == 2:
+        return structure.sphere_map()
+    return None
