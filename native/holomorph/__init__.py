@@ -41,8 +41,8 @@ from .pole_structure import PoleStructure
 from .progressive import ProgressiveMesh
 from .quality import Quality
 from .repairs import Refused, Repairs
-from .results import MemoryPlan, Residuals, SolverReport
 from .siegel import SiegelReduction, siegel_reduction
+from .solver_report import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure
 from .surface import Surface
 from .symmetries import Automorphisms, automorphisms

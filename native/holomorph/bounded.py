@@ -12,7 +12,7 @@ from .array_types import Bounds, Integers, Reals
 from .certificate import certain_text
 from .form_structure import CertifiedStructure
 from .plain_data import plain
-from .results import BoundedResiduals
+from .solver_report import BoundedResiduals
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from .array_types import Integers, Reals
 from .form_structure import CertifiedStructure
 from .plain_data import plain
-from .results import ClosedResiduals
+from .solver_report import ClosedResiduals
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -11,7 +11,8 @@ from ._native import TopologyError
 from .checks import own_vertices
 from .edges import edge_keys, edges_of_keys
 from .plane_maps import PlaneMap
-from .results import Solution, Structure
+from .results import Structure
+from .solution import Solution
 from .truncated import TruncatedStructure
 
 AStructure = TypeVar("AStructure", bound=Structure)

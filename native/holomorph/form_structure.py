@@ -11,7 +11,8 @@ from .array_types import Bounds, Complexes, Integers, Progress, Reals
 from .certificate import Certificate, certificate
 from .checks import checked_coefficients
 from .narrow_bounds import Refinement
-from .results import MemoryPlan, SolverReport, Structure
+from .results import Structure
+from .solver_report import MemoryPlan, SolverReport
 from .zeros import Zeros
 
 

@@ -11,7 +11,7 @@ from . import _native, arrays
 from ._native import InvalidMesh
 from .array_types import Integers, Progress, Reals
 from .checks import check_options
-from .results import SolverReport
+from .solver_report import SolverReport
 from .surface import Surface
 from .value import Value, counted
 

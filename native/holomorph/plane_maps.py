@@ -14,7 +14,8 @@ from .edges import boundary_corners
 from .overlap import overlapping_part
 from .plain_data import plain
 from .quality import Quality
-from .results import SolverReport, Structure
+from .results import Structure
+from .solver_report import SolverReport
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -111,7 +111,7 @@ def test_a_component_is_reported_as_by_the_package():
     assert run(density=2.0, amounts=(0.5,) * 8) == {"FINISHED"}
     (part,) = parts_of(obj)
     package = module("native").load()
-    expected = package.report.component_report(part, package.automatic_structure(part))
+    expected = package.report.part_report(package.form_map(part, package.automatic_structure(part)))
     entry = only_part(obj)
     assert entry.keys() == expected.keys() and entry["main_map"].keys() == expected["main_map"].keys()
     assert entry["main_map"]["coefficients"] == pytest.approx(0.5 * np.array(expected["main_map"]["coefficients"]))
