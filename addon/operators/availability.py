@@ -15,14 +15,22 @@ class Explained:
     why_not(context) : class method; why it cannot run here, one sentence, or ""
     """
 
+    bl_options = {"REGISTER", "UNDO"}
     needs_library = True
+    modes = {"OBJECT": "Object Mode"}  # in which it can run, as menus name them; none for any
 
     @classmethod
     def poll(cls, context):
-        sentence = (native.problem() if cls.needs_library else "") or cls.why_not(context)
+        sentence = native.problem() if cls.needs_library else ""
+        sentence = sentence or cls._other_mode(context) or cls.why_not(context)
         if sentence:
             cls.poll_message_set(sentence)
         return not sentence
+
+    @classmethod
+    def _other_mode(cls, context):
+        is_right = context.mode in cls.modes or not cls.modes
+        return "" if is_right else f"Go to {' or '.join(cls.modes.values())}"
 
     def refuse(self, sentence):
         """Says why nothing is done; what the operator returns."""
@@ -48,11 +56,33 @@ class Explained:
 class OnMeshes(Explained):
     """A mixin: an operator on the selected meshes, or on those in edit mode."""
 
+    modes = {"OBJECT": "Object Mode", "EDIT_MESH": "Edit Mode"}
+
     @classmethod
     def why_not(cls, context):
-        if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return "Go to Object Mode or Edit Mode"
         selected = context.view_layer.objects.selected
         if context.mode == "OBJECT" and not any(o.type == "MESH" for o in selected):
             return CONVERT if any(o.type in CONVERTIBLE for o in selected) else "Select a mesh"
         return ""
+
+
+class AtOnce(OnMeshes):
+    """A mixin: an operator whose work is so quick that it is done at once. One of them defines
+
+    act(step, objects) : changes these mesh objects in a `transaction.Step`, out of edit mode; returns whether there was
+        something to do
+    """
+
+    def read(self, context):
+        """The objects that `act` may change; what it needs of edit mode is read here."""
+        from ..scene import targets
+
+        return targets.mesh_objects(context)
+
+    def execute(self, context):
+        from ..writing import transaction
+
+        objects = self.read(context)
+        with transaction.one_step(context, objects) as step:
+            has_acted = self.act(step, objects)
+        return {"FINISHED"} if has_acted else {"CANCELLED"}

@@ -15,7 +15,6 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
 
     bl_idname = "object.holomorphic_carry"
     bl_label = "Transfer UVs Conformally"
-    bl_options = {"REGISTER", "UNDO"}
 
     tolerance: FloatProperty(
         name="Tolerance",

@@ -12,8 +12,6 @@ class TwoMeshes:
 
     @classmethod
     def why_not(cls, context):
-        if context.mode != "OBJECT":
-            return "Go to Object Mode"
         selected = context.view_layer.objects.selected
         return "" if sum(o.type == "MESH" for o in selected) == 2 else "Select two meshes"
 

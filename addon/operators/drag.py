@@ -23,7 +23,6 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
     bl_idname = "uv.holomorphic_drag_poles"
     bl_label = "Drag Poles"
-    bl_options = {"REGISTER", "UNDO"}
 
     moves: StringProperty(
         name="Moves",
@@ -37,8 +36,6 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         from ..results import report, stored
 
         obj = context.active_object
-        if context.mode != "OBJECT":
-            return "Go to Object Mode"
         text = obj.get(report.PROPERTY) if obj is not None and obj.type == "MESH" else None
         if "asked" not in stored.parsed(text) or not stored.marks(text)[1].any():
             return "Select an object with poles of Seamless Tiling"
@@ -91,16 +88,19 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
             return {"CANCELLED"}
         if event.type in KEEP and event.value == "PRESS":
             return self._keep(context)
+        if event.type in NAVIGATION and not self._dragged:
+            return {"PASS_THROUGH"}
+        self._hear(context, event)
+        is_outside = not self._view.contains(event.mouse_x, event.mouse_y)
+        return {"PASS_THROUGH"} if event.type == "MOUSEMOVE" and is_outside else {"RUNNING_MODAL"}
+
+    def _hear(self, context, event):
         if event.type == "TIMER":
             self._follow(context)
         elif event.type == "MOUSEMOVE":
             self._point(context, event)
         elif event.type == "LEFTMOUSE":
             self._dragged = event.value == "PRESS" and self._hovered is not None
-        elif event.type in NAVIGATION and not self._dragged:
-            return {"PASS_THROUGH"}
-        is_outside = not self._view.contains(event.mouse_x, event.mouse_y)
-        return {"PASS_THROUGH"} if event.type == "MOUSEMOVE" and is_outside else {"RUNNING_MODAL"}
 
     def cancel(self, context):
         """Everything as it was; also where another file is loaded, or the program ends."""

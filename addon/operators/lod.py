@@ -24,7 +24,6 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
 
     bl_idname = "object.holomorphic_levels"
     bl_label = "Holomorphic Levels of Detail"
-    bl_options = {"REGISTER", "UNDO"}
 
     levels: IntProperty(name="Levels", description=ABOUT["levels"], default=4, min=1, max=12)
     ratio: FloatProperty(name="Ratio", description=ABOUT["ratio"], default=0.25, min=0.01, max=0.95)
@@ -35,8 +34,6 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context):
-        if context.mode != "OBJECT":
-            return "Go to Object Mode"
         obj = context.view_layer.objects.active
         return "" if obj is not None and obj.type == "MESH" else "Make a mesh object active"
 

@@ -58,7 +58,6 @@ class HOLOMORPH_OT_islands(MapProperties, _MapsOperator, bpy.types.Operator):
 
     bl_idname = "uv.holomorphic_islands"
     bl_label = "Islands by Hard Edges"
-    bl_options = {"REGISTER", "UNDO"}
 
     # Of its own, so that the maps operator does not remember them.
     main: main_property("ISLANDS")

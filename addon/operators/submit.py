@@ -23,7 +23,7 @@ class HOLOMORPH_OT_submit(Explained, bpy.types.Operator):
     recipe: StringProperty(name="Recipe", description="TOML file; none for the defaults", subtype="FILE_PATH")
     shares: IntProperty(name="Tasks", description="Number of tasks that share the work", default=8, min=1, max=1000)
 
-    needs_library = False
+    needs_library, modes = False, {}
 
     @classmethod
     def why_not(cls, _context):

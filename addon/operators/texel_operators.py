@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import FloatProperty, IntProperty
 
-from .availability import OnMeshes
+from .availability import AtOnce
 
 TEXELS, IMAGE = "holomorphic_texels", "holomorphic_image"  # properties of the window manager
 TEXELS_TEXT = "Texels of the image on a metre of the surface"
@@ -12,10 +12,8 @@ IMAGE_TEXT = "Width of the image in texels"
 DEFAULT_IMAGE = 2048
 
 
-class _TexelOperator(OnMeshes):
+class _TexelOperator(AtOnce):
     """A mixin: on the active UV maps of the selected meshes, in edit mode on their selected faces."""
-
-    bl_options = {"REGISTER", "UNDO"}
 
     image: IntProperty(name="Image", description=IMAGE_TEXT, default=DEFAULT_IMAGE, min=1)
 
@@ -25,25 +23,27 @@ class _TexelOperator(OnMeshes):
                 setattr(self, name, getattr(context.window_manager, stored))
         return self.execute(context)
 
-    def execute(self, context):
-        from ..results import texels
+    def read(self, context):
         from ..scene import targets
         from ..solving.choices import SELECTED, Choices
-        from ..writing import transaction
 
-        found = targets.collect(targets.mesh_objects(context), Choices(faces=SELECTED))
-        metres = context.scene.unit_settings.scale_length
+        self._found = targets.collect(targets.mesh_objects(context), Choices(faces=SELECTED))
+        return targets.objects(self._found)
+
+    def act(self, step, _objects):
+        from ..results import texels
+
+        metres = step.context.scene.unit_settings.scale_length
         done = 0
-        with transaction.one_step(context, targets.objects(found)):
-            for target in found:
-                problem = texels.why_not(target)
-                before = 0.0 if problem else texels.measured(target, self.image, metres)
-                if before > 0:
-                    self.treat(context, target, before)
-                    done += 1
-                else:
-                    self.report({"WARNING"}, f"{target.name}: {problem or 'its UV map has no area'}")
-        return {"FINISHED"} if done else {"CANCELLED"}
+        for target in self._found:
+            problem = texels.why_not(target)
+            before = 0.0 if problem else texels.measured(target, self.image, metres)
+            if before > 0:
+                self.treat(step.context, target, before)
+                done += 1
+            else:
+                self.report({"WARNING"}, f"{target.name}: {problem or 'its UV map has no area'}")
+        return done > 0
 
 
 class HOLOMORPH_OT_texels_get(_TexelOperator, bpy.types.Operator):

@@ -4,7 +4,7 @@
 import bpy
 from bpy.props import EnumProperty
 
-from .availability import Explained, OnMeshes
+from .availability import AtOnce
 
 KINDS = (
     ("REFUSED", "Refused", "Edges with more than two faces; the faces of parts that are one-sided"),
@@ -15,97 +15,83 @@ KINDS = (
 )
 
 
-class HOLOMORPH_OT_restore_materials(bpy.types.Operator):
+class HOLOMORPH_OT_restore_materials(AtOnce, bpy.types.Operator):
     """Bring back what was shown before: the materials that the checker or a texture covers, on all objects with the
     same mesh, the UV maps that were active in the editors and for renders, and the shading of the 3D views"""
 
     bl_idname = "uv.holomorphic_restore_materials"
     bl_label = "Restore Materials"
-    bl_options = {"REGISTER", "UNDO"}
+    needs_library = False
 
     @classmethod
-    def poll(cls, context):
-        return context.mode in {"OBJECT", "EDIT_MESH"}
+    def why_not(cls, _context):
+        return ""
 
-    def execute(self, context):
+    def act(self, step, objects):
         from ..materials import viewport
         from ..results import restore
-        from ..scene import targets
-        from ..writing import transaction
 
-        own = [obj for obj in targets.mesh_objects(context) if obj.data.library is None]
-        with transaction.one_step(context, own):
-            restored = [restore.restore(obj) for obj in own]
-            viewport.restore_without_textures(context)
-        return {"FINISHED"} if any(restored) else {"CANCELLED"}
+        restored = [restore.restore(obj) for obj in objects if obj.data.library is None]
+        viewport.restore_without_textures(step.context)
+        return any(restored)
 
 
-class HOLOMORPH_OT_heat(Explained, bpy.types.Operator):
+class HOLOMORPH_OT_heat(AtOnce, bpy.types.Operator):
     """Write how the active UV map distorts, as attributes of the faces of the selected meshes: "Holomorphic Density",
     the binary logarithm of UV area per surface area over its median, and "Holomorphic Angle", s1 / s2"""
 
     bl_idname = "uv.holomorphic_heat"
     bl_label = "Holomorphic Heat Maps"
-    bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
     def why_not(cls, context):
-        if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return "Go to Object Mode or Edit Mode"
         selected = context.view_layer.objects.selected
         return "" if any(o.type == "MESH" and o.data.uv_layers for o in selected) else "Select a mesh with a UV map"
 
-    def execute(self, context):
+    def act(self, _step, objects):
         from ..results import heat
-        from ..scene import targets
-        from ..writing import transaction
 
-        objects = targets.mesh_objects(context)
-        with transaction.one_step(context, objects):
-            objects = [o for o in objects if heat.is_possible(o)]
-            for obj in objects:
-                found = heat.write(obj)
-                name = obj.data.uv_layers.active.name
-                density, angle = f"95 : 5 % of density {found.density_text}", f"mean angle {found.mean_angle:.4f}"
-                self.report({"INFO"}, f"{obj.name}, {name}: {density}, {angle}")
-        return {"FINISHED"} if objects else {"CANCELLED"}
+        objects = [o for o in objects if heat.is_possible(o)]
+        for obj in objects:
+            found = heat.write(obj)
+            name = obj.data.uv_layers.active.name
+            density, angle = f"95 : 5 % of density {found.density_text}", f"mean angle {found.mean_angle:.4f}"
+            self.report({"INFO"}, f"{obj.name}, {name}: {density}, {angle}")
+        return bool(objects)
 
 
-class HOLOMORPH_OT_remove_maps(OnMeshes, bpy.types.Operator):
+class HOLOMORPH_OT_remove_maps(AtOnce, bpy.types.Operator):
     """Remove all maps named "Holomorphic" from the selected meshes, with their report, their material and the empties
     of their poles. Your materials and the UV map that was active before come back; seams and levels of detail stay"""
 
     bl_idname = "uv.holomorphic_remove_maps"
     bl_label = "Remove Maps"
-    bl_options = {"REGISTER", "UNDO"}
-
     needs_library = False
 
     def execute(self, context):
+        result = super().execute(context)
+        context.view_layer.update()  # or it lists empties that are gone
+        return result
+
+    def act(self, step, objects):
         from ..materials import viewport
         from ..results import restore
-        from ..scene import targets
-        from ..writing import transaction
 
-        meshes = {obj.data: obj for obj in reversed(targets.mesh_objects(context))}
-        removed = False
-        with transaction.one_step(context, meshes.values()) as step:
-            for mesh, obj in meshes.items():
-                if mesh.library is not None:
-                    self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
-                else:
-                    removed |= restore.remove_maps(step, obj)
-            viewport.restore_without_textures(context)
-        context.view_layer.update()  # or it lists empties that are gone
-        return {"FINISHED"} if removed else {"CANCELLED"}
+        has_removed = False
+        for obj in {obj.data: obj for obj in reversed(objects)}.values():
+            if obj.data.library is not None:
+                self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
+            else:
+                has_removed |= restore.remove_maps(step, obj)
+        viewport.restore_without_textures(step.context)
+        return has_removed
 
 
-class HOLOMORPH_OT_select_bad(OnMeshes, bpy.types.Operator):
+class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
     """Go to edit mode and select what keeps parts of the selected meshes from being mapped, or spoils a map"""
 
     bl_idname = "mesh.holomorphic_select_bad"
     bl_label = "Select Bad Elements"
-    bl_options = {"REGISTER", "UNDO"}
 
     kinds: EnumProperty(
         name="Elements",
@@ -118,25 +104,26 @@ class HOLOMORPH_OT_select_bad(OnMeshes, bpy.types.Operator):
     def draw(self, _context):
         self.layout.column().prop(self, "kinds")
 
-    def execute(self, context):
+    def read(self, context):
+        self._mode = context.mode
+        return super().read(context)
+
+    def act(self, step, objects):
         from ..results import bad
         from ..scene import targets
-        from ..writing import transaction
 
-        objects, mode = targets.mesh_objects(context), context.mode
-        with transaction.one_step(context, objects):
-            found = {target.find(): self._elements(target) for target in targets.collect(objects)}
-            if any(found.values()):
-                for obj, elements in found.items():
-                    if elements is not None:
-                        bad.select(obj.data, elements)
-                context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
-                if mode == "OBJECT":
-                    _edit(context, [obj for obj, elements in found.items() if elements])
-        if any(found.values()):
-            return {"FINISHED"}
-        self.report({"INFO"}, "There are no bad elements")
-        return {"CANCELLED"}
+        context = step.context
+        found = {target.find(): self._elements(target) for target in targets.collect(objects)}
+        if not any(found.values()):
+            self.report({"INFO"}, "There are no bad elements")
+            return False
+        for obj, elements in found.items():
+            if elements is not None:
+                bad.select(obj.data, elements)
+        context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
+        if self._mode == "OBJECT":
+            _edit(context, [obj for obj, elements in found.items() if elements])
+        return True
 
     def _elements(self, target):
         """The `bad.Elements` of a target; None for one that is refused."""
