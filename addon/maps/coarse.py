@@ -24,7 +24,7 @@ class Place:
 
 
 def places(obj, polygons, octaves):
-    """The `Place`s of an object's polygons with this `distortion.Distortion.density`, the largest first."""
+    """The `Place`s of an object's polygons with this `holomorph.distortion.Distortion.density`, the largest first."""
     faces = np.flatnonzero(octaves < OCTAVES)
     if not len(faces):
         return []

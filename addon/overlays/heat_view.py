@@ -11,9 +11,9 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 from mathutils import Matrix
 
-from ..maps import distortion
+from .. import native
 from ..results import heat
-from . import on_screen
+from . import on_screen, scales
 
 BAR_WIDTH, BAR_HEIGHT = 280, 12  # pixels, in a user interface of normal size
 BAR_ABOVE = 52  # pixels, from the lower edge of the view
@@ -31,7 +31,7 @@ class _View:
     key: tuple  # what must be the same for the batch to be drawn again
     batch: object
     map_name: str
-    found: distortion.Distortion
+    found: object  # `holomorph.distortion.Distortion`
 
 
 def forget():
@@ -73,15 +73,15 @@ def _view(obj, depsgraph, quantity, shader):
 
 
 def places_and_scale(found, quantity):
-    """((#F,) places on the bar, the `distortion.Scale`)."""
+    """((#F,) places on the bar, the `scales.Scale`)."""
     if quantity == "DENSITY":
-        return distortion.density_places(found.density), distortion.DENSITY
-    return distortion.angle_places(found.angle), distortion.ANGLE
+        return scales.density_places(found.density), scales.DENSITY
+    return scales.angle_places(found.angle), scales.ANGLE
 
 
 def lit_triangles(polygons, places, scale):
     """((3 #T, 3) positions, (3 #T, 4) colours): flat colours, a little darker away from the light."""
-    corners, polygon = distortion.fans(polygons.face_offsets)
+    corners, polygon = native.load().distortion.fans(polygons.face_offsets)
     points = polygons.vertices[polygons.corner_vertices[corners]].astype(np.float32)
     normals = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
     lengths = np.linalg.norm(normals, axis=1)

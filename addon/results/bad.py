@@ -8,7 +8,6 @@ import numpy as np
 
 from .. import compatibility, native
 from ..compatibility import Values
-from ..maps import distortion
 from ..scene import mesh_io
 from ..scene.faces import edge_ends
 
@@ -74,7 +73,7 @@ def _refused(polygons, parts):
 
 def _flipped(face_offsets, uv):
     """Faces that the map turns over beside the others, or leaves without area."""
-    corners, polygon = distortion.fans(face_offsets)
+    corners, polygon = native.load().distortion.fans(face_offsets)
     first, second = (uv[corners[:, side]].astype(np.float64) - uv[corners[:, 0]] for side in (1, 2))
     area = np.bincount(polygon, first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0], len(face_offsets) - 1)
     return np.flatnonzero(area <= 0 if area.sum() >= 0 else area >= 0)

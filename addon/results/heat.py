@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Heat maps: the distortion of the active UV map of a mesh, measured and written as attributes of the faces."""
 
-from ..maps import distortion
+from .. import native
 from ..scene import mesh_io, uv_maps
 
 DENSITY, ANGLE = "Holomorphic Density", "Holomorphic Angle"  # attributes
@@ -12,10 +12,10 @@ def is_possible(obj):
 
 
 def measured(mesh, linear):
-    """(polygons, the `distortion.Distortion` of their active UV map) of a mesh that is not being edited, its positions
-    multiplied by the 3x3 matrix `linear`."""
+    """(polygons, the `holomorph.distortion.Distortion` of their active UV map) of a mesh that is not being edited, its
+    positions multiplied by the 3x3 matrix `linear`."""
     polygons = mesh_io.read_polygons(mesh, linear)
-    return polygons, distortion.measure(polygons, active_map(mesh, polygons))
+    return polygons, native.load().distortion.measure(polygons, active_map(mesh, polygons))
 
 
 def active_map(mesh, polygons):
@@ -24,7 +24,7 @@ def active_map(mesh, polygons):
 
 
 def write(obj):
-    """Writes the attributes; returns the `distortion.Distortion`."""
+    """Writes the attributes; returns the `holomorph.distortion.Distortion`."""
     _, found = measured(obj.data, obj.matrix_world.to_3x3())
     mesh_io.write_face_values(obj.data, DENSITY, found.density)
     mesh_io.write_face_values(obj.data, ANGLE, found.angle)

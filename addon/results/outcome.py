@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import compatibility, native
-from ..maps import coarse, distortion
+from ..maps import coarse
 from ..scene import uv_maps
 from . import report, stored
 
@@ -87,6 +87,7 @@ def with_coarse_places(obj, polygons, entry):
     ratios = [part["main_map"]["density_ratio"] for part in entry["components"] if part["done"]]
     if all(ratio is not None and ratio <= native.load().UNEVEN[0] for ratio in ratios):
         return entry | {"coarse_places": [], "faces_without_area": 0}
+    distortion = native.load().distortion
     found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
     places = [vars(place) for place in coarse.places(obj, polygons, found.density)]
     without_area = int(np.count_nonzero(found.angle >= distortion.MOST_ANGLE))

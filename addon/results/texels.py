@@ -9,7 +9,6 @@ import math
 import numpy as np
 
 from .. import native
-from ..maps import distortion
 from ..scene import uv_maps
 from . import heat, report, stored
 
@@ -27,7 +26,7 @@ def measured(target, image, metres):
 
     metres : of a unit of the scene
     """
-    return distortion.length_ratio(target.polygons, _uv(target)) * image / metres
+    return native.load().distortion.length_ratio(target.polygons, _uv(target)) * image / metres
 
 
 def scale(target, factor):

@@ -12,7 +12,7 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
-from . import arrangement, layout, report
+from . import arrangement, distortion, layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
 from .automatic_map import automatic_map
 from .automatic_maps import automatic_maps
@@ -106,6 +106,7 @@ __all__ = [
     "cut_to_cones",
     "disk_islands",
     "disk_map",
+    "distortion",
     "double_cover",
     "form_map",
     "frame",

@@ -257,7 +257,7 @@ def test_poles_are_off_the_boundary():
     fine = np.zeros((len(polygons.corner_vertices), 2))
     fine[:] = polygons.vertices[polygons.corner_vertices][:, [axis - 1, axis - 2]]
     is_far = polygons.vertices[polygons.corner_vertices, axis] > 1.5
-    octaves = module("maps.distortion").measure(polygons, np.where(is_far[:, None], 0.01 * fine, fine)).density
+    octaves = module("native").load().distortion.measure(polygons, np.where(is_far[:, None], 0.01 * fine, fine)).density
     found = coarse.places(obj, polygons, octaves)
     assert found and all(is_inner[place.vertex] for place in found)
 

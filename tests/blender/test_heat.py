@@ -4,9 +4,9 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import frame, mesh_io, mesh_object, native, run, select, torus, torus_arrays, uv
+from scenes import frame, mesh_io, mesh_object, native, run, select, torus, uv
 
-distortion, heat = module("maps.distortion"), module("results.heat")
+heat, scales = module("results.heat"), module("overlays.scales")
 
 
 def heat_maps():
@@ -33,42 +33,12 @@ def put_map(obj, at):
     mesh_io.write_values(module("compatibility").uv_values(layer), at)
 
 
-def of_arrays(vertices, faces, at):
-    offsets = np.concatenate([[0], np.cumsum([len(f) for f in faces])])
-    return distortion.measure(
-        mesh_io.Polygons(np.asarray(vertices, float), np.concatenate(faces), offsets, None), np.asarray(at, float)
-    )
-
-
-def test_it_is_what_the_library_measures_on_triangles():
-    vertices, quads = torus_arrays()
-    faces = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    surface = native.load().Surface(vertices, faces)
-    structure = native.load().conformal_structure(surface)
-    at = structure.uv(structure.balanced_coefficients()) * (1.0, 1.4)
-    expected, found = structure.quality(at), of_arrays(vertices, faces, at)
-    assert np.allclose(found.angle, expected.angle, rtol=1e-9)
-    assert np.allclose(2**found.density, expected.area / expected.median_density, rtol=1e-9)
-    assert found.mean_angle == pytest.approx(expected.mean_angle, rel=1e-9)
-    assert found.density_ratio == pytest.approx(expected.density_ratio, rel=1e-9)
-
-
 @pytest.mark.parametrize("stretch", [(1, 1), (3, 1), (1, 0.2), (-2, 5)])
 def test_a_stretched_square(stretch):
     obj = grid(stretch=stretch)
     assert heat_maps() == {"FINISHED"}
     assert np.allclose(values(obj, heat.ANGLE), max(np.abs(stretch)) / min(np.abs(stretch)), rtol=1e-5)
     assert np.allclose(values(obj, heat.DENSITY), 0, atol=1e-5)
-
-
-def test_density_is_in_octaves_of_the_median():
-    vertices, quads = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]), []
-    vertices = np.concatenate([vertices, vertices + (0, 1, 0)])
-    quads = [(i, i + 1, i + 5, i + 4) for i in range(3)]
-    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
-    found = of_arrays(vertices, quads, np.concatenate([square, 4 * square, square / 2]))
-    assert np.allclose(found.density, [0, 4, -2])
-    assert found.density_ratio == pytest.approx(64)
 
 
 def test_size_and_place_of_mesh_and_map_do_not_matter():
@@ -90,29 +60,6 @@ def test_the_objects_scale_counts():
     bpy.context.view_layer.update()
     heat_maps()
     assert np.allclose(values(obj, heat.ANGLE), 2, rtol=1e-5)
-
-
-def test_degenerate_faces_and_maps_give_finite_numbers():
-    vertices = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (2, 0, 0), (1, 1, 0)]
-    faces = [(0, 1, 2), (0, 1, 3), (1, 4, 2)]
-    at = [(0, 0), (1, 0), (0, 2), (0, 0), (1, 0), (2, 1), (1, 0), (1, 0), (1, 0)]
-    found = of_arrays(vertices, faces, at)
-    assert found.angle.tolist() == [1, 1, distortion.MOST_ANGLE]
-    assert found.density[1] == 0 and found.density[2] == -distortion.MOST_OCTAVES
-    assert found.mean_angle == 1
-    nothing = of_arrays(vertices, faces, np.zeros((9, 2)))
-    assert np.isfinite(nothing.angle).all() and np.isfinite(nothing.density).all()
-
-
-def test_fans_cover_each_polygon():
-    """Seven corners of a regular heptagon, a quad and a triangle: areas add up."""
-    turn = 2 * np.pi * np.arange(7) / 7
-    vertices = np.concatenate([np.stack([np.cos(turn), np.sin(turn)], 1), [(5, 0), (6, 0), (6, 1), (5, 1)]])
-    corner_vertices = np.array([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 7, 8, 9])
-    corners, polygon = distortion.fans(np.array([0, 7, 11, 14]))
-    a, b, c = vertices[corner_vertices[corners]].transpose(1, 0, 2)
-    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
-    assert np.allclose(np.bincount(polygon, areas), [3.5 * np.sin(2 * np.pi / 7), 1, 0.5])
 
 
 def test_where_it_cannot_be_it_says_why():
@@ -152,12 +99,12 @@ def test_an_attribute_of_that_name_is_replaced():
 
 
 def test_scales_begin_and_end_with_their_colours():
-    for scale in (distortion.DENSITY, distortion.ANGLE):
+    for scale in (scales.DENSITY, scales.ANGLE):
         places = np.array([-1, 0, 1, 2])
         assert np.allclose(scale.colours(places), [scale.stops[0]] * 2 + [scale.stops[-1]] * 2)
-    assert np.allclose(distortion.density_places(np.array([-4.0, 0, 4])), [0, 0.5, 1])
-    for place, text in distortion.ANGLE.ticks:
-        assert distortion.angle_places(float(text)) == pytest.approx(place, abs=1e-3)
+    assert np.allclose(scales.density_places(np.array([-4.0, 0, 4])), [0, 0.5, 1])
+    for place, text in scales.ANGLE.ticks:
+        assert scales.angle_places(float(text)) == pytest.approx(place, abs=1e-3)
 
 
 def test_what_is_drawn_is_lit_and_coloured_by_face():
@@ -166,7 +113,7 @@ def test_what_is_drawn_is_lit_and_coloured_by_face():
     polygons, found = heat.measured(obj.data, np.eye(3))
     view = module("overlays.heat_view")
     points, colours = view.lit_triangles(polygons, *view.places_and_scale(found, "DENSITY"))
-    assert len(points) == len(colours) == 3 * len(distortion.fans(polygons.face_offsets)[1])
+    assert len(points) == len(colours) == 3 * len(native.load().distortion.fans(polygons.face_offsets)[1])
     assert points.dtype == colours.dtype == np.float32
     assert np.isfinite(points).all() and colours.min() >= 0 and colours.max() <= 1
     assert np.array_equal(colours[::3], colours[1::3]) and np.array_equal(colours[::3], colours[2::3])

@@ -74,6 +74,6 @@ def test_the_palette_can_be_dark(page):
 
 def test_the_reference_has_every_public_name():
     text = (SITE / "reference.html").read_text(encoding="utf-8")
-    modules = {"arrangement", "choice", "layout", "report", "__version__"}
+    modules = {"arrangement", "choice", "distortion", "layout", "report", "__version__"}
     missing = {name for name in set(holomorph.__all__) - modules if f'id="holomorph.{name}"' not in text}
     assert not missing and 'id="module-holomorph.report"' in text

@@ -1,16 +1,28 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-"""How a UV map distorts a mesh, polygon by polygon, and the colours that show it. Arrays only, no bpy.
+"""How a UV map distorts a mesh, polygon by polygon.
 
-Any UV map and any mesh will do: nothing is solved, and the mesh need not be a surface that can be.
+Any UV map and any mesh will do: nothing is solved, and the mesh need not be a surface that can be. `Quality` measures
+triangles of surfaces.
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
+
+from .array_types import Integers, Reals
 
 MOST_OCTAVES = 16.0  # a density beyond is one of a collapsed polygon
 MOST_ANGLE = 1e3  # likewise
 LOW, HIGH = 0.05, 0.95  # quantiles of the density whose ratio is reported
+
+
+class Polygons(Protocol):
+    """A `Surface` with positions, or any other polygons: (#V, 3) positions, (#C,) vertex of each corner, (#F + 1,)
+    first corner of each polygon."""
+
+    vertices: Reals
+    corner_vertices: Integers
+    face_offsets: Integers
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,18 +32,18 @@ class Distortion:
     Finite everywhere: polygons without area have the density of the median and angle 1.
     """
 
-    density: np.ndarray  # (#F,) log2 of UV area per surface area (s1 s2) over its median by area
-    angle: np.ndarray  # (#F,) s1 / s2
+    density: Reals  # (#F,) log2 of UV area per surface area (s1 s2) over its median by area
+    angle: Reals  # (#F,) s1 / s2
     density_ratio: float  # 95 % over 5 % quantile of the density, by area
     mean_angle: float  # of the polygons that have not collapsed, by area
 
     @property
-    def density_text(self):
+    def density_text(self) -> str:
         """The density ratio in few characters."""
         return f"{self.density_ratio:.0f}" if self.density_ratio >= 100 else f"{self.density_ratio:.3g}"
 
 
-def fans(face_offsets):
+def fans(face_offsets: Integers) -> tuple[Integers, Integers]:
     """((#T, 3) corners, (#T,) polygon) of the triangles between the first corner of a polygon and the others."""
     counts = np.diff(face_offsets) - 2
     polygon = np.repeat(np.arange(len(counts)), counts)
@@ -41,12 +53,12 @@ def fans(face_offsets):
     return np.stack([start, start + step, start + step + 1], axis=1), polygon
 
 
-def measure(polygons, uv):
-    """The `Distortion` of a (#C, 2) map of `mesh_io.Polygons`."""
-    corners, polygon = fans(polygons.face_offsets)
-    g11, g12, g22, area = _metric(polygons.vertices[polygons.corner_vertices[corners]])
+def measure(mesh: Polygons, uv: Reals) -> Distortion:
+    """The `Distortion` of a (#C, 2) map of the mesh's polygon corners."""
+    corners, polygon = fans(mesh.face_offsets)
+    g11, g12, g22, area = _metric(mesh.vertices[mesh.corner_vertices[corners]])
     h11, h12, h22, uv_area = _metric(uv.astype(np.float64)[corners])
-    count = polygons.face_count
+    count = len(mesh.face_offsets) - 1
     face_area, face_uv = (np.bincount(polygon, values, count) for values in (area, uv_area))
     with np.errstate(divide="ignore", invalid="ignore"):
         half = (g22 * h11 - 2 * g12 * h12 + g11 * h22) / (8 * area * uv_area)  # (s1 / s2 + s2 / s1) / 2
@@ -61,11 +73,11 @@ def measure(polygons, uv):
     return Distortion(octaves, angle, float(high / low) if low > 0 else np.inf, float(mean))
 
 
-def length_ratio(polygons, uv):
+def length_ratio(mesh: Polygons, uv: Reals) -> float:
     """UV length for a length on the surface, where the density is the median one by area; 0 where there is no area."""
-    corners, polygon = fans(polygons.face_offsets)
-    count = polygons.face_count
-    points = polygons.vertices[polygons.corner_vertices[corners]], uv.astype(np.float64)[corners]
+    corners, polygon = fans(mesh.face_offsets)
+    count = len(mesh.face_offsets) - 1
+    points = mesh.vertices[mesh.corner_vertices[corners]], uv.astype(np.float64)[corners]
     area, uv_area = (np.bincount(polygon, _metric(of_kind)[-1], count) for of_kind in points)
     has_area = area > 0
     (median,) = _quantiles(uv_area[has_area] / area[has_area], area[has_area], (0.5,))
@@ -86,37 +98,3 @@ def _quantiles(values, weights, shares):
     if not len(total) or total[-1] <= 0:
         return [0.0] * len(shares)
     return [values[order[np.searchsorted(total, share * total[-1])]] for share in shares]
-
-
-@dataclass(frozen=True)
-class Scale:
-    """The colours of a quantity along a bar, and what is written beside them."""
-
-    stops: tuple  # sRGB, evenly along the bar
-    ticks: tuple  # (place, text)
-
-    def colours(self, places):
-        """(n, 3) float32 sRGB at places on the bar; places beyond its ends are moved there."""
-        at = np.linspace(0, 1, len(self.stops))
-        return np.stack([np.interp(places, at, channel) for channel in np.transpose(self.stops)], -1).astype(np.float32)
-
-
-OCTAVES_SHOWN = 4.0  # on either side of the median
-
-DENSITY = Scale(
-    ((0.13, 0.27, 0.60), (0.40, 0.62, 0.80), (0.90, 0.89, 0.86), (0.93, 0.60, 0.36), (0.66, 0.13, 0.14)),
-    ((0.0, "1/16"), (0.25, "1/4"), (0.5, "median"), (0.75, "4"), (1.0, "16")),
-)
-ANGLE = Scale(
-    ((0.90, 0.89, 0.86), (0.95, 0.80, 0.45), (0.91, 0.47, 0.28), (0.68, 0.16, 0.35), (0.28, 0.05, 0.33)),
-    ((0.0, "1"), (0.316, "1.1"), (0.548, "1.3"), (0.775, "1.6"), (1.0, "2")),
-)
-
-
-def density_places(octaves):
-    return 0.5 + octaves / (2 * OCTAVES_SHOWN)
-
-
-def angle_places(angle):
-    """The root shows small distortions well: most are small."""
-    return np.sqrt(np.clip(angle - 1, 0, 1))

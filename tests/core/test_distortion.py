@@ -1,0 +1,70 @@
+"""The distortion of any UV map of any polygons."""
+
+from types import SimpleNamespace
+
+import holomorph
+import numpy as np
+import pytest
+from families import torus
+from holomorph import distortion
+from solved import surface_of
+
+
+def of_arrays(vertices, faces, at):
+    offsets = np.concatenate([[0], np.cumsum([len(f) for f in faces])])
+    mesh = SimpleNamespace(
+        vertices=np.asarray(vertices, float), corner_vertices=np.concatenate(faces), face_offsets=offsets
+    )
+    return distortion.measure(mesh, np.asarray(at, float))
+
+
+def test_triangles_have_the_quality_of_the_structure():
+    surface = surface_of(torus(24, 12, shape="triangles"))
+    structure = holomorph.conformal_structure(surface)
+    at = structure.uv(structure.balanced_coefficients()) * (1.0, 1.4)
+    expected, found = structure.quality(at), distortion.measure(surface, at)
+    assert np.allclose(found.angle, expected.angle, rtol=1e-9)
+    assert np.allclose(2**found.density, expected.area / expected.median_density, rtol=1e-9)
+    assert found.mean_angle == pytest.approx(expected.mean_angle, rel=1e-9)
+    assert found.density_ratio == pytest.approx(expected.density_ratio, rel=1e-9)
+
+
+def test_density_is_in_octaves_of_the_median():
+    vertices, quads = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]), []
+    vertices = np.concatenate([vertices, vertices + (0, 1, 0)])
+    quads = [(i, i + 1, i + 5, i + 4) for i in range(3)]
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+    found = of_arrays(vertices, quads, np.concatenate([square, 4 * square, square / 2]))
+    assert np.allclose(found.density, [0, 4, -2])
+    assert found.density_ratio == pytest.approx(64)
+
+
+def test_degenerate_faces_and_maps_give_finite_numbers():
+    vertices = [(0, 0, 0), (1, 0, 0), (0, 2, 0), (2, 0, 0), (1, 1, 0)]
+    faces = [(0, 1, 2), (0, 1, 3), (1, 4, 2)]
+    at = [(0, 0), (1, 0), (0, 2), (0, 0), (1, 0), (2, 1), (1, 0), (1, 0), (1, 0)]
+    found = of_arrays(vertices, faces, at)
+    assert found.angle.tolist() == [1, 1, distortion.MOST_ANGLE]
+    assert found.density[1] == 0 and found.density[2] == -distortion.MOST_OCTAVES
+    assert found.mean_angle == 1
+    nothing = of_arrays(vertices, faces, np.zeros((9, 2)))
+    assert np.isfinite(nothing.angle).all() and np.isfinite(nothing.density).all()
+
+
+def test_fans_cover_each_polygon():
+    """Seven corners of a regular heptagon, a quad and a triangle: areas add up."""
+    turn = 2 * np.pi * np.arange(7) / 7
+    vertices = np.concatenate([np.stack([np.cos(turn), np.sin(turn)], 1), [(5, 0), (6, 0), (6, 1), (5, 1)]])
+    corner_vertices = np.array([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 7, 8, 9])
+    corners, polygon = distortion.fans(np.array([0, 7, 11, 14]))
+    a, b, c = vertices[corner_vertices[corners]].transpose(1, 0, 2)
+    areas = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+    assert np.allclose(np.bincount(polygon, areas), [3.5 * np.sin(2 * np.pi / 7), 1, 0.5])
+
+
+def test_lengths_are_those_of_the_map():
+    surface = surface_of(torus(24, 12))
+    at = surface.vertices[surface.corner_vertices][:, :2]
+    one = distortion.length_ratio(surface, at)
+    assert distortion.length_ratio(surface, 3 * at) == pytest.approx(3 * one, rel=1e-12)
+    assert distortion.length_ratio(surface, 0 * at) == 0
