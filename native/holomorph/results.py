@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from .array_types import Integers, Progress, Reals
-from .checks import real_number
+from .checks import checked_evenness, real_number
 from .progress import scaled
 from .quality import Quality
 from .surface import Surface
@@ -180,6 +180,7 @@ class Structure(Value):
         max_added: float | None = None,
         progress: Progress | None = None,
         *,
+        evenness: float = 0.0,
         surface: Surface | None = None,
     ) -> Tiling:
         """A `Tiling`: a map of even density without visible seams, for textures that tile.
@@ -200,6 +201,8 @@ class Structure(Value):
             beside it; max_turn : radians by which the rounding may turn it away
         boundary : "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
+        evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
+            look best at about 0.5. Fewer poles are placed for any evenness above 0
         surface : as in `tiler`
 
         Raises
@@ -210,11 +213,13 @@ class Structure(Value):
 
         Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
         """
+        evenness = checked_evenness(evenness)
         if density is not None:
             if tiles is not None:
                 raise ValueError("a density is given without tiles: either says how many there are")
             tiles = real_number(density, "density", positive=True) * self._component.area
-        tiler = self.tiler(poles, boundary=boundary, surface=surface, progress=scaled(progress, 0.0, PLACING))
+        placing = scaled(progress, 0.0, PLACING)
+        tiler = self.tiler(poles, boundary=boundary, evened=evenness > 0, surface=surface, progress=placing)
         return tiler.tile(
             tiles,
             lattice=lattice,
@@ -222,6 +227,7 @@ class Structure(Value):
             turn=turn,
             max_turn=max_turn,
             max_added=max_added,
+            evenness=evenness,
             progress=scaled(progress, PLACING, 1.0),
         )
 
@@ -231,6 +237,7 @@ class Structure(Value):
         *,
         boundary: str = "straight",
         allowed: ArrayLike | None = None,
+        evened: bool = False,
         surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiler:
@@ -242,10 +249,11 @@ class Structure(Value):
         surface = self._component if surface is None else surface
         count, chosen = asked_poles(poles)
         mask = None if allowed is None else np.asarray(allowed, bool).tobytes()
-        key = surface, count, tuple(chosen), str(boundary), mask
+        key = surface, count, tuple(chosen), str(boundary), mask, bool(evened)
         tiler = self._tilers.get(key)
         if tiler is None:
-            tiler = Tiler(surface, poles, boundary=boundary, allowed=allowed, threads=self._threads, progress=progress)
+            options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened)}
+            tiler = Tiler(surface, poles, **options, threads=self._threads, progress=progress)
             self._tilers.clear()
             self._tilers[key] = tiler
         return tiler
