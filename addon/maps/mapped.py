@@ -174,7 +174,7 @@ def _tilings(asked, options, density, progress):
     wanted, components = options.tiling, [component for component, _ in asked]
     if options.main == TILING:
         tiles = density * sum(component.area for component in components) or wanted.tiles
-        amount = {"tiles": tiles or None, "equal_density": False}
+        amount = {"tiles": tiles or None, "equal_density": False, "evenness": 0.0}
     else:
         amount = {"density": density or None}
     made = native.load().automatic_maps(

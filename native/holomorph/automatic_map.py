@@ -27,6 +27,8 @@ MOST_FLIPPED = 0.02  # part of the area: what flips lies beside branch points, a
 # as a pipe, is the balanced one, scaled until whole tiles fit around it.
 POLES = ("auto", 0)
 
+EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
+
 SOLVING = 0.5  # of the work, for the structure
 
 
@@ -44,6 +46,7 @@ def automatic_map(
     turn: float | None = None,
     max_turn: float = 0.2,
     max_added: float | None = None,
+    evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Map:
@@ -62,6 +65,7 @@ def automatic_map(
         the structure
     tiles, density, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
+    evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
     threads : as in `conformal_structure`
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
@@ -73,7 +77,7 @@ def automatic_map(
     if isinstance(found, Map):
         return found
     options = {"lattice": lattice, "direction": direction, "boundary": boundary}
-    options |= {"turn": turn, "max_turn": max_turn, "max_added": max_added}
+    options |= {"turn": turn, "max_turn": max_turn, "max_added": max_added, "evenness": evenness}
     return found.tiled(poles, {"tiles": tiles, "density": density, **options}, scaled(progress, solving, 1.0))
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ._native import InvalidMesh, SolverError, TopologyError
 from .array_types import Progress
 from .arrays import integer
-from .automatic_map import REFUSALS, SOLVING, Undecided, first_map
+from .automatic_map import EVENNESS, REFUSALS, SOLVING, Undecided, first_map
 from .automatic_structure import AnyStructure
 from .given_vertices import on_part
 from .map import Map
@@ -33,6 +33,7 @@ def automatic_maps(
     allowed: ArrayLike | None = None,
     moves: Sequence[tuple[int, int]] = (),
     direction: ArrayLike | str | None = "upright",
+    evenness: float = EVENNESS,
     threads: int | None = None,
     progress: Progress | None = None,
     **options: Any,
@@ -52,7 +53,7 @@ def automatic_maps(
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
-    direction, options, threads, progress : as in `automatic_map`
+    direction, evenness, options, threads, progress : as in `automatic_map`
     """
     if tiles is not None and density is not None:
         raise ValueError("a density is given without tiles: either says how many there are")
@@ -65,7 +66,7 @@ def automatic_maps(
         share = parts[k].area / total
         step = scaled(progress, done, done + rest * share)
         own_poles, own = _own_choices(parts[k], poles, allowed, moves)
-        own |= {"direction": direction} | options | _amount(tiles, density, share)
+        own |= {"direction": direction, "evenness": evenness} | options | _amount(tiles, density, share)
         made[k] = _attempt(undecided[k].tiled, own_poles, own, step)
         if equal_density and density is None:
             density = _tiled_density(made[k])

@@ -48,6 +48,13 @@ def real_number(value, name, positive=False):
     return float(value)
 
 
+def checked_evenness(value):
+    """An evenness as a float. @throws ValueError"""
+    if not isinstance(value, numbers.Real) or not 0 <= value <= 1:
+        raise ValueError(f"evenness is {value!r}; a number from 0, for angles, to 1, for one size, is needed")
+    return float(value)
+
+
 def only_component(surface):
     """The one component of a connected surface, without isolated vertices. @throws TopologyError"""
     surface.require_connected()

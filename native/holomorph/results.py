@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from .array_types import Integers, Progress, Reals
-from .checks import real_number
+from .checks import checked_evenness, real_number
 from .progress import scaled
 from .quality import Quality
 from .solution import Solution
@@ -100,6 +100,7 @@ class Structure(Value):
         max_added: float | None = None,
         progress: Progress | None = None,
         *,
+        evenness: float = 0.0,
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
         surface: Surface | None = None,
@@ -122,6 +123,8 @@ class Structure(Value):
             beside it; max_turn : radians by which the rounding may turn it away
         boundary : "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
+        evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
+            look best at about 0.5. Fewer poles are placed for any evenness above 0
         allowed, surface : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
@@ -134,14 +137,17 @@ class Structure(Value):
         Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick; so is the last
         rounding, for other moves.
         """
+        evenness = checked_evenness(evenness)
         if density is not None:
             if tiles is not None:
                 raise ValueError("a density is given without tiles: either says how many there are")
             tiles = real_number(density, "density", positive=True) * self._component.area
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
-        tiler = self.tiler(poles, boundary=boundary, allowed=allowed, surface=surface, progress=placing)
+        where = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
+        tiler = self.tiler(poles, **where, progress=placing)
         options = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        made = self._rounded(tiler, {"tiles": tiles, "max_added": max_added} | options, rounding)
+        options |= {"tiles": tiles, "max_added": max_added, "evenness": evenness}
+        made = self._rounded(tiler, options, rounding)
         return tiler.move_poles(made, moves, progress=rounding) if moves else made
 
     def _rounded(self, tiler, options, progress):
@@ -164,6 +170,7 @@ class Structure(Value):
         *,
         boundary: str = "straight",
         allowed: ArrayLike | None = None,
+        evened: bool = False,
         surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiler:
@@ -175,10 +182,11 @@ class Structure(Value):
         surface = self._component if surface is None else surface
         count, chosen = asked_poles(poles)
         mask = None if allowed is None else np.asarray(allowed, bool).tobytes()
-        key = surface, count, tuple(chosen), str(boundary), mask
+        key = surface, count, tuple(chosen), str(boundary), mask, bool(evened)
         tiler = self._tilers.get(key)
         if tiler is None:
-            tiler = Tiler(surface, poles, boundary=boundary, allowed=allowed, threads=self._threads, progress=progress)
+            options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened)}
+            tiler = Tiler(surface, poles, **options, threads=self._threads, progress=progress)
             self._tilers.clear()
             self._tilers[key] = tiler
         return tiler

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 from ._native import TopologyError
 from .array_types import Complexes, Integers, Progress, Reals
-from .checks import real_number
+from .checks import checked_evenness, real_number
 from .direction import along
 from .quality import Quality
 from .surface import Surface
@@ -30,6 +30,7 @@ class Tiling(Value):
     poles : (k,) vertices around which the texture closes up only by whole tiles; the density grows towards them
     residues : (k,) complex points of the lattice: by how much the UVs change around each pole, counter-clockwise
     zeros : ((k,) vertices, (k,) orders): where the texture branches, around 2 pi (order + 1)
+    evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
     added_distortion : mean s1 / s2 over the area that the rounding to integers alone would give; 1 where it costs none
     beltrami_rms : root mean square of the Beltrami coefficient of the rounding
     optimal_density_ratio : 95 % over 5 % quantile of the density that these poles allow without integers
@@ -43,6 +44,7 @@ class Tiling(Value):
     poles: Integers
     residues: Complexes
     zeros: tuple[Integers, Integers]
+    evenness: float
     added_distortion: float
     beltrami_rms: float
     optimal_density_ratio: float
@@ -88,6 +90,7 @@ class Tiler:
     boundary : "straight" for boundary loops along lines of constant v, "free" for a more even density; a surface with
         both handles and a boundary has straight ones in any case
     allowed : (#V,) bool, where poles may be that are not chosen; default anywhere
+    evened : whether tilings will be evened: fewer poles are enough then
     solver, threads, progress : as in `conformal_structure`
     """
 
@@ -98,6 +101,7 @@ class Tiler:
         *,
         boundary: str = "straight",
         allowed: ArrayLike | None = None,
+        evened: bool = False,
         solver: str = "auto",
         threads: int | None = 0,
         progress: Progress | None = None,
@@ -115,11 +119,12 @@ class Tiler:
             allowed=own_allowed(allowed, surface, self._component),
             straight=boundary == "straight",
             labels=labels,
+            evened=evened,
             solver=solver,
             threads=self._threads,
             progress=progress,
         )
-        self._forms = weakref.WeakKeyDictionary()  # of the core, by the `Tiling` that was made of them
+        self._made = weakref.WeakKeyDictionary()  # in the core, by the `Tiling` that stands for it
 
     def __repr__(self) -> str:
         return f"<Tiler: {counted(len(self.poles.vertices), 'pole')} on {self._surface!r}>"
@@ -142,6 +147,7 @@ class Tiler:
         turn: float | None = None,
         max_turn: float = 0.2,
         max_added: float | None = None,
+        evenness: float = 0.0,
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
@@ -151,6 +157,7 @@ class Tiler:
         turn = None if turn is None else real_number(turn, "turn")
         max_turn = real_number(max_turn, "max_turn")
         vector, turn = along(direction, turn, self._component)
+        evenness = checked_evenness(evenness)
         made = self._tiling(
             _native.tile(
                 self._placement,
@@ -159,15 +166,32 @@ class Tiler:
                 turn=turn,
                 direction=vector,
                 max_turn=max_turn,
+                evenness=evenness,
                 threads=self._threads,
                 progress=progress,
-            )
+            ),
+            evenness,
         )
         if max_added is not None and made.added_distortion > max_added:
             raise TopologyError(_too_sheared(made, max_added, self._surface.genus))
         return made
 
-    def move_poles(self, tiling: Tiling, moves: Mapping[int, int], *, progress: Progress | None = None) -> Tiling:
+    def even(self, tiling: Tiling, evenness: float, *, progress: Progress | None = None) -> Tiling:
+        """A tiling of this `Tiler` with another evenness. Nothing is placed or rounded again: quick."""
+        made = self._own(tiling)
+        evenness = checked_evenness(evenness)
+        return self._tiling(
+            _native.evened_tiling(made, evenness=evenness, threads=self._threads, progress=progress), evenness
+        )
+
+    def move_poles(
+        self,
+        tiling: Tiling,
+        moves: Mapping[int, int],
+        *,
+        evenness: float | None = None,
+        progress: Progress | None = None,
+    ) -> Tiling:
         """A tiling of this `Tiler` with some of its poles elsewhere.
 
         The residues stay, and so do the periods but where a pole has a shorter way to its place around a handle.
@@ -175,19 +199,29 @@ class Tiler:
         far as they can: where they were chosen they stay, and `added_distortion` grows.
 
         moves : {index in `Tiling.poles`: vertex}
+        evenness : default that of the tiling
         """
-        form = self._forms.get(tiling)
-        if form is None:
-            raise ValueError("move_poles moves the poles of a tiling that this Tiler made")
+        made = self._own(tiling)
+        evenness = tiling.evenness if evenness is None else checked_evenness(evenness)
         own, _ = own_poles(self._surface, self._component, list(moves.values()))
         moved = _native.move_poles(
-            self._placement, form, list(zip(moves, own)), threads=self._threads, progress=progress
+            self._placement,
+            made,
+            list(zip(moves, own)),
+            evenness=evenness,
+            threads=self._threads,
+            progress=progress,
         )
-        return self._tiling(moved)
+        return self._tiling(moved, evenness)
 
-    def _tiling(self, made):
-        uv, triangulation, zeros, form = made.uv(), made.surface(), made.zeros(), made.form()
-        basis, jumps = (np.array([z.real, z.imag]) for z in (form.lattice(), made.periods().ravel()))
+    def _own(self, tiling):
+        if tiling not in self._made:
+            raise ValueError("this Tiler did not make the tiling")
+        return self._made[tiling]
+
+    def _tiling(self, made, evenness):
+        uv, triangulation, zeros = made.uv(), made.surface(), made.zeros()
+        basis, jumps = (np.array([z.real, z.imag]) for z in (made.lattice(), made.periods().ravel()))
         periods = np.linalg.solve(basis, jumps)
         tiling = Tiling(
             uv=uv,
@@ -195,14 +229,15 @@ class Tiler:
             poles=self._of_surface(made.poles()),
             residues=made.residues(),
             zeros=(self._of_surface(zeros.vertices), zeros.orders),
-            added_distortion=made.distortion,
-            beltrami_rms=made.beltrami_rms,
+            evenness=evenness,
+            added_distortion=made.distortion(),
+            beltrami_rms=made.beltrami_rms(),
             optimal_density_ratio=self.poles.density_ratio,
-            tiles=form.tiles,
+            tiles=made.tiles(),
             quality=Quality.of(triangulation, uv, 0),
             seams=self._of_surface(triangulation.edges[made.seams()]),
         )
-        self._forms[tiling] = form
+        self._made[tiling] = made
         return tiling
 
     def _of_surface(self, vertices):

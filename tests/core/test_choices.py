@@ -124,7 +124,12 @@ def test_poles_that_are_moved(pair):
     moved = automatic_maps(pair, moves=[(1, count + free)], **ask)
     assert np.array_equal(moved[0].uv, before[0].uv)
     assert moved[1].poles[1] == free and np.array_equal(moved[1].tiling.residues, before[1].tiling.residues)
-    options = {"poles": 2, "tiles": before[1].tiling.tiles, "direction": "upright"}
+    options = {
+        "poles": 2,
+        "tiles": before[1].tiling.tiles,
+        "direction": "upright",
+        "evenness": before[1].tiling.evenness,
+    }
     alone = structures[1].tile(moves={1: free}, surface=pair.components[1], **options)
     assert np.array_equal(moved[1].uv, alone.uv)
     assert structures[1].tile(surface=pair.components[1], **options) is before[1].tiling

@@ -26,6 +26,12 @@ CASES = {
     "holes, straight": (HOLES, {"poles": 2, "tiles": 60}),
     "holes, free": (HOLES, {"poles": 2, "tiles": 60, "boundary": "free"}),
     "disk": (DISK, {"poles": 3, "tiles": 40}),
+    "sphere, evened": (SPHERE, {"poles": 4, "tiles": 40, "evenness": 0.5}),
+    "torus, evened": (TORUS, {"poles": 4, "tiles": 60, "evenness": 1}),
+    "genus 2, evened": (DOUBLE, {"poles": 4, "tiles": 128, "evenness": 0.5}),
+    "handle and hole, evened": (HANDLE_AND_HOLE, {"poles": 2, "tiles": 100, "evenness": 0.5}),
+    "holes, straight, evened": (HOLES, {"poles": 2, "tiles": 60, "evenness": 1}),
+    "holes, free, evened": (HOLES, {"poles": 2, "tiles": 60, "boundary": "free", "evenness": 0.5}),
 }
 everywhere = pytest.mark.parametrize("name", CASES)
 tiled = {}
@@ -325,7 +331,7 @@ def test_places_that_are_none_are_refused():
     rim = int(np.argmin(DISK.vertices[:, 2]))
     with pytest.raises(TopologyError, match=f"vertex {rim} cannot be a pole"):
         on_disk.move_poles(on_disk.tile(40), {0: rim})
-    with pytest.raises(ValueError, match="that this Tiler made"):
+    with pytest.raises(ValueError, match="this Tiler did not make"):
         on_disk.move_poles(made, {0: 1})
 
 

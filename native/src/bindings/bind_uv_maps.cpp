@@ -5,6 +5,7 @@
 #include "bindings/bindings.h"
 #include "bindings/callback.h"
 #include "bindings/records.h"
+#include "evening/evening.h"
 #include "forms/averaged_star.h"
 #include "multiresolution/harmonic_map.h"
 #include "uv/placement.h"
@@ -53,6 +54,23 @@ multiresolution::HarmonicMap harmonic_map(const mesh::Surface& surface, const Co
   return multiresolution::harmonic_map(surface, given, {solver}, execution);
 }
 
+// #V x 2. The facade has checked that the surface is connected.
+py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std::vector<int> poles,
+                 std::vector<int> keep_u, std::vector<int> keep_v, double evenness, const std::string& solver,
+                 int threads, const py::object& progress) {
+  const uv::UvArray given = corners(uv);
+  uv::UvArray result;
+  Execution execution(threads, callback(progress));
+  {
+    const py::gil_scoped_release unlocked;
+    execution.stage("evening", 0.0, 1.0);
+    result = evening::evened(surface, given, {std::move(poles), std::move(keep_u), std::move(keep_v)}, evenness,
+                             execution, solver);
+    execution.finish();
+  }
+  return give_matrix(std::move(result));
+}
+
 // The star of a form on the edges of any surface.
 py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
   if (form.size() != static_cast<py::ssize_t>(surface.edges.size()))
@@ -88,6 +106,8 @@ void bind_uv_maps(py::module_& m) {
       .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
       .def_readonly("solver", &HarmonicMap::solver);
   m.def("quality", &quality, py::arg("surface"), py::arg("uv"), py::arg("threads"));
+  m.def("evened", &evened, py::arg("surface"), py::arg("uv"), py::kw_only(), py::arg("poles"), py::arg("keep_u"),
+        py::arg("keep_v"), py::arg("evenness"), py::arg("solver"), py::arg("threads"), py::arg("progress"));
   m.def("zeros", &zeros, py::arg("surface"), py::arg("uv"), py::arg("poles"));
   m.def("frame", &frame, py::arg("surface"), py::arg("uv"), py::arg("rotation"), py::arg("threads"));
   m.def("place", &place, py::arg("uv"), py::arg("factor"), py::arg("origin"), py::arg("target"), py::arg("rows"),

@@ -43,6 +43,13 @@ class LaplaceSolver {
     return solve(B, std::vector<Condition>(B.cols(), condition), execution);
   }
 
+  /// A rough solution by an operator that is always the same, symmetric and positive (natural: semi-) definite: what
+  /// minimisers take for the inverse of a matrix that is like L. Multigrid runs one V-cycle.
+  virtual Solution precondition(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                                Execution& execution) {
+    return solve(B, conditions, execution);
+  }
+
   /// What was used, e.g. "direct: CHOLMOD supernodal, AMD".
   virtual std::string name() const = 0;
 

@@ -50,7 +50,7 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   const CoarseLevel level = options.is_chosen() ? CoarseLevel{surface, {}, {}} : coarse_level(surface, execution);
   execution.stage("forms for the poles", 0.2, 0.25);
   GreensFunctions greens(std::make_shared<const PoleBasis>(level.surface, options.solving, execution));
-  PlaceOptions place_options{kind, {}, options.vertices, level.large_polygons};
+  PlaceOptions place_options{kind, {}, options.vertices, level.large_polygons, options.evened};
   for (const int v : level.vertex) {
     if (!options.allowed.empty()) place_options.allowed.push_back(options.allowed[v]);
   }

@@ -21,6 +21,7 @@ struct PoleOptions {
                                ///< free ones would leave the map less conformal
   std::vector<int> labels;     ///< #V: what a vertex is called in messages; empty: its index
   structure::Options solving;  ///< how the linear systems are solved
+  bool evened = false;         ///< tilings will be evened, for which fewer poles do
 
   bool is_chosen() const { return !vertices.empty(); }
 };

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/errors.h"
+#include "evening/evening.h"
 #include "tiling/rounding/rounding_problem.h"
 #include "uv/vector_fields.h"
 
@@ -57,26 +58,54 @@ RoundingOptions rounding_options(const Placement& placement, const TilingOptions
   return result;
 }
 
-Tiling tiling_of(const Placement& placement, RoundedForm form, Execution& execution) {
-  Tiling result;
-  const RoundingProblem& problem = *form.problem;
+ConformalTiling conformal_tiling(const Placement& placement, RoundedForm form, Execution& execution) {
+  ConformalTiling result;
   for (const Index i : form.candidate.used()) {
     result.poles.push_back(form.candidate.poles.vertices[i]);
     result.residues.push_back(form.candidate.residues[i]);
   }
+  const RoundingProblem& problem = *form.problem;
   const Rounding& rounding = form.candidate.rounding;
   result.distortion = rounding.distortion;
   if (const Index defects = problem.defects.cols(); defects > 0)
     result.beltrami_rms = (defect_metric(problem) * rounding.y.tail(defects)).norm() / std::sqrt(problem.tiles);
   const VectorXcd residues = Eigen::Map<const VectorXcd>(result.residues.data(), std::ssize(result.residues));
   const auto maps = maps_at(placement, result.poles, execution);
-  const SeamlessForm seamless = maps->form(form.candidate.X, residues, problem.lattice);
-  uv::UvArray function = maps->function(seamless, execution);
-  execution.stage("UV map", 0.9, 1.0);
-  result.form = std::make_shared<const RoundedForm>(std::move(form));
+  result.seamless = maps->form(form.candidate.X, residues, problem.lattice);
+  result.function = maps->function(result.seamless, execution);
   result.structure = maps->structure();
-  result.periods = seamless.periods;
-  result.uv = seamless_uv(*result.structure, seamless, std::move(function), execution);
+  result.straight = placement.kind == uv::Coefficients::real;
+  result.form = std::move(form);
+  return result;
+}
+
+std::vector<int> boundary_vertices(const mesh::Surface& surface) {
+  std::vector<char> marked(surface.vertex_count, 0);
+  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    if (surface.edge_face_count[e] == 1) marked[surface.edges[e][0]] = marked[surface.edges[e][1]] = 1;
+  }
+  std::vector<int> vertices;
+  for (int v = 0; v < surface.vertex_count; ++v) {
+    if (marked[v]) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+// The rest of the current stages, from the fraction `begin` on.
+Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double evenness, double begin,
+                     Execution& execution) {
+  const mesh::Surface& surface = *conformal->structure->surface;
+  uv::UvArray function = conformal->function;
+  if (evenness > 0) {
+    execution.stage("evening", begin, 0.9);
+    evening::Kept kept{conformal->poles, {}, {}};
+    if (conformal->straight) kept.v = boundary_vertices(surface);
+    const uv::UvArray uv = seamless_uv(*conformal->structure, conformal->seamless, function, execution);
+    function += evening::evened(surface, uv, kept, evenness, execution);
+  }
+  execution.stage("UV map", 0.9, 1.0);
+  Tiling result{conformal, evenness, {}};
+  result.uv = seamless_uv(*conformal->structure, conformal->seamless, std::move(function), execution);
   execution.finish();
   return result;
 }
@@ -101,17 +130,24 @@ Tiling tile(const Placement& placement, const TilingOptions& options, Execution&
   const std::vector<Rounding> list = roundings(problem, rounding, execution);
   if (list.empty()) refuse(std::move(problem), rounding, execution);
   Candidate best = best_candidate(placement, problem, list, lifted, execution);
-  execution.stage("poles at their places", 0.4, 0.9);
-  return tiling_of(placement, {std::make_shared<const RoundingProblem>(std::move(problem)), std::move(best)},
-                   execution);
+  execution.stage("poles at their places", 0.4, 0.6);
+  RoundedForm form{std::make_shared<const RoundingProblem>(std::move(problem)), std::move(best)};
+  auto conformal = std::make_shared<const ConformalTiling>(conformal_tiling(placement, std::move(form), execution));
+  return with_evenness(std::move(conformal), options.evenness, 0.6, execution);
 }
 
-Tiling move_poles(const Placement& placement, RoundedForm form, const std::vector<PoleMove>& moves,
+Tiling move_poles(const Placement& placement, const Tiling& tiling, const std::vector<PoleMove>& moves, double evenness,
                   Execution& execution) {
-  execution.stage("poles at their places", 0.0, 0.9);
+  execution.stage("poles at their places", 0.0, 0.6);
+  RoundedForm form = tiling.conformal->form;
   if (!moves.empty())
     form.candidate = with_poles_moved(placement, *form.problem, moves, std::move(form.candidate), execution);
-  return tiling_of(placement, std::move(form), execution);
+  auto conformal = std::make_shared<const ConformalTiling>(conformal_tiling(placement, std::move(form), execution));
+  return with_evenness(std::move(conformal), evenness, 0.6, execution);
+}
+
+Tiling evened(const Tiling& tiling, double evenness, Execution& execution) {
+  return with_evenness(tiling.conformal, evenness, 0.0, execution);
 }
 
 }  // namespace holomorph::tiling

@@ -16,6 +16,7 @@ struct TilingOptions {
   std::optional<std::array<double, 3>> direction;  ///< in space, along which u runs as far as it can
   std::optional<double> turn;                      ///< by which the texture is rotated beside that, in radians
   double max_turn = 0.2;                           ///< largest change of these by the rounding, in radians
+  double evenness = 0;                             ///< from 0, conformal, to 1 (evening/evening.h)
 };
 
 /// A form whose periods and residues are points of the problem's lattice, with its poles at vertices.
@@ -24,16 +25,24 @@ struct RoundedForm {
   Candidate candidate;
 };
 
-/// A map whose jumps all are points of the lattice.
-struct Tiling {
-  std::shared_ptr<const RoundedForm> form;                ///< what the map was made of
+/// The conformal map whose jumps all are points of the lattice.
+struct ConformalTiling {
+  RoundedForm form;                                       ///< what the map was made of
   std::shared_ptr<const structure::Structure> structure;  ///< with the poles, its forms and its cut
   std::vector<int> poles;                                 ///< vertices
   std::vector<Complex> residues;                          ///< points of the lattice
-  VectorXcd periods;                                      ///< over the homology basis of the structure
-  uv::UvArray uv;                                         ///< #C x 2
-  double distortion = 1;                                  ///< by the rounding alone: mean s1 / s2
+  SeamlessForm seamless;
+  uv::UvArray function;     ///< #V x 2, of the form
+  bool straight = false;    ///< boundary loops are lines of constant v
+  double distortion = 1;    ///< by the rounding alone: mean s1 / s2
   double beltrami_rms = 0;  ///< root mean square of the Beltrami coefficient of the rounding
+};
+
+/// The same map, evened.
+struct Tiling {
+  std::shared_ptr<const ConformalTiling> conformal;
+  double evenness = 0;
+  uv::UvArray uv;  ///< #C x 2
 };
 
 /// Rounds the periods and residues of the placed form to the lattice, moves the poles until the rounded form is
@@ -42,9 +51,13 @@ struct Tiling {
 Tiling tile(const Placement& placement, const TilingOptions& options, Execution& execution);
 
 /// The tiling with some of its poles elsewhere (candidate.h). Nothing is rounded again: quick.
-/// @param form of the tiling, which was made of this placement
+/// @param tiling made of this placement
 /// @throws TopologyError for poles that do not fit; SolverError; Cancelled
-Tiling move_poles(const Placement& placement, RoundedForm form, const std::vector<PoleMove>& moves,
+Tiling move_poles(const Placement& placement, const Tiling& tiling, const std::vector<PoleMove>& moves, double evenness,
                   Execution& execution);
+
+/// The tiling with another evenness: nothing is placed or rounded again. Its jumps stay, and so do straight boundaries.
+/// @throws SolverError, Cancelled
+Tiling evened(const Tiling& tiling, double evenness, Execution& execution);
 
 }  // namespace holomorph::tiling

@@ -66,6 +66,15 @@ class DirectSolver final : public LaplaceSolver {
     return X;
   }
 
+  Solution precondition(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution&) override {
+    Solution X(B.rows(), B.cols());
+    for (Eigen::Index k = 0; k < B.cols(); ++k) {
+      condition_ = conditions[k];
+      X.col(k) = apply(B.col(k));
+    }
+    return X;
+  }
+
   std::string name() const override { return "direct: " + SparseCholesky::name(); }
 
  private:

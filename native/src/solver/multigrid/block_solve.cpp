@@ -68,8 +68,8 @@ BlockSolve<K>::BlockSolve(const Laplacian& L, const Hierarchy& hierarchy, double
 }
 
 template <int K>
-void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
-                          int width, Solution& X, const Report& report) {
+RightHandSides<K> BlockSolve<K>::right_hand_sides(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                                                  Eigen::Index first, int width) {
   RightHandSides<K> b;
   for (int d = 0; d < K; ++d) {
     const Eigen::Index column = first + (d < width ? d : 0);  // the first one again, where the block is not full
@@ -80,8 +80,24 @@ void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>
   natural_ = b.natural.template cast<float>();
   cycle_.set_conditions(natural_);
   begin(b);
-  correct_until_solved(b, report);
+  return b;
+}
+
+template <int K>
+void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
+                          int width, Solution& X, const Report& report) {
+  correct_until_solved(right_hand_sides(B, conditions, first, width), report);
   for_rows(workers_, n_, [&](int i) { X.row(i).segment(first, width) = x_[i].head(width); });
+}
+
+template <int K>
+void BlockSolve<K>::run_cycle(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
+                              int width, Solution& X) {
+  right_hand_sides(B, conditions, first, width);
+  cycle_.run([](int, Rows) {});
+  for_rows(workers_, n_, [&, z = cycle_.result()](int i) {
+    X.row(i).segment(first, width) = (scale_ * z[i].template cast<double>()).head(width);
+  });
 }
 
 template <int K>

@@ -31,11 +31,17 @@ class BlockSolve {
   void solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first, int width,
              Solution& X, const Report& report);
 
+  /// Writes M B for the same columns, M one V-cycle.
+  void run_cycle(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first, int width,
+                 Solution& X);
+
   int iterations() const { return iterations_; }
   /// Largest |B - L X| / |B| of the last solve, as computed in double precision.
   double residual() const { return reached_; }
 
  private:
+  RightHandSides<K> right_hand_sides(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                                     Eigen::Index first, int width);
   void begin(RightHandSides<K>& b);
   void correct_until_solved(const RightHandSides<K>& b, const Report& report);
   void update_residual(const RightHandSides<K>& b);

@@ -25,11 +25,19 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) override {
-    if (order_.empty()) return solve_in_order(B, conditions, execution);
-    const Solution solution = solve_in_order(B(order_, Eigen::all), conditions, execution);
-    Solution X(B.rows(), B.cols());
-    X(order_, Eigen::all) = solution;
-    return X;
+    return in_order(B, [&](const Eigen::MatrixXd& ordered) { return solve_in_order(ordered, conditions, execution); });
+  }
+
+  Solution precondition(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+                        Execution& execution) override {
+    return in_order(B, [&](const Eigen::MatrixXd& ordered) -> Solution {
+      if (direct_) return direct_->precondition(ordered, conditions, execution);
+      Solution X(B.rows(), B.cols());
+      for_blocks(B.cols(), execution.workers(), [&](auto& block, Eigen::Index first, int width) {
+        block.run_cycle(ordered, conditions, first, width, X);
+      });
+      return X;
+    });
   }
 
   std::string name() const override {
@@ -51,6 +59,27 @@ class MultigridSolver final : public LaplaceSolver {
     for (std::size_t i = 0; i < order_.size(); ++i) number[order_[i]] = static_cast<int>(i);
     for (int& v : fixed_) v = number[v];
     std::sort(fixed_.begin(), fixed_.end());
+  }
+
+  // `compute` of the right-hand sides in the solver's order, back in the given one.
+  template <class Compute>
+  Solution in_order(const Eigen::MatrixXd& B, const Compute& compute) {
+    if (order_.empty()) return compute(B);
+    const Solution solution = compute(B(order_, Eigen::all));
+    Solution X(B.rows(), B.cols());
+    X(order_, Eigen::all) = solution;
+    return X;
+  }
+
+  // body(block, first, width) for as many columns at a time as go into one block.
+  template <class Body>
+  void for_blocks(Eigen::Index columns, Workers& workers, const Body& body) {
+    for_column_blocks(columns, [&](auto width_of_block, Eigen::Index begin, Eigen::Index end) {
+      constexpr int K = width_of_block;
+      BlockSolve<K> block(L_, hierarchy_, goal_, workers);
+      for (Eigen::Index first = begin; first < end; first += K)
+        body(block, first, static_cast<int>(std::min<Eigen::Index>(K, end - first)));
+    });
   }
 
   Solution solve_in_order(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) {
@@ -79,18 +108,13 @@ class MultigridSolver final : public LaplaceSolver {
     advise_large_pages(X.data(), X.size() * sizeof(double));
     int iterations = 0;
     double residual = 0;
-    for_column_blocks(B.cols(), [&](auto width_of_block, Eigen::Index begin, Eigen::Index end) {
-      constexpr int K = width_of_block;
-      BlockSolve<K> block(L_, hierarchy_, goal_, execution.workers());
-      for (Eigen::Index first = begin; first < end; first += K) {
-        const auto width = static_cast<int>(std::min<Eigen::Index>(K, end - first));
-        block.solve(B, conditions, first, width, X, [&](double reached) {
-          const double columns = static_cast<double>(first) + part_of_digits(reached, kResidual) * width;
-          execution.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));
-        });
-        iterations = std::max(iterations, block.iterations());
-        residual = std::max(residual, block.residual());
-      }
+    for_blocks(B.cols(), execution.workers(), [&](auto& block, Eigen::Index first, int width) {
+      block.solve(B, conditions, first, width, X, [&](double reached) {
+        const double columns = static_cast<double>(first) + part_of_digits(reached, kResidual) * width;
+        execution.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));
+      });
+      iterations = std::max(iterations, block.iterations());
+      residual = std::max(residual, block.residual());
     });
     iterations_ = std::max(iterations_, iterations);
     residual_ = std::max(residual_, residual);

@@ -14,6 +14,7 @@ struct PlaceOptions {
   std::vector<char> allowed;                    ///< #V of the basis: may a pole be there; empty: anywhere
   std::vector<int> fixed;                       ///< poles that stay where they are
   std::vector<std::vector<int>> polygons = {};  ///< vertices of which one may be a pole, beside faces of the surface
+  bool evened = false;                          ///< the number of poles is to do for an evened map
 };
 
 /// Vertices are candidates where a pole is allowed, its star is apart from those of the other poles, and it is not too

@@ -1,8 +1,10 @@
 #include "tiling/poles/pole_placement.h"
 
+#include <cmath>
 #include <iterator>
 
 #include "base/errors.h"
+#include "evening/evening.h"
 #include "tiling/poles/pole_objective.h"
 #include "tiling/poles/pole_search.h"
 
@@ -14,11 +16,33 @@ constexpr int kFew = 4;                            // so many are placed by all 
 constexpr int kEvery = 3;                          // more of them by every third one
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
-constexpr double kWorth = 0.9;              // more poles are taken where the spread falls to this part of itself
+constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 16};
+constexpr double kEvened = 3, kHopefulEvened = 1.5 * kEvened;  // spread of the evened density
+constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
   form = search.settled(std::move(form));
   return static_cast<int>(form.poles.size()) > kFew ? search.pruned(std::move(form)) : form;
+}
+
+// Places are polished only where that may be enough, and so for few counts.
+MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
+  PoleSearch few(greens, options, 1, execution), more(greens, options, kEvery, execution);
+  const double power = evening::power_of_density(evening::kUsualEvenness);
+  const auto evened = [&](const MeromorphicForm& form) { return std::pow(few.spread_of(form), power); };
+  MeromorphicForm added = few.begin(), best = added;
+  double least = evened(best);
+  for (const int count : kCountsEvened) {
+    PoleSearch& search = count <= kFew ? few : more;
+    if (least <= kEvened || !search.add(added, count)) break;
+    search.sweep(added);
+    if (evened(added) < kHopefulEvened) added = search.settled(std::move(added));
+    if (const double spread = evened(added); spread < least) {
+      least = spread;
+      best = added;
+    }
+  }
+  return optimised(greens, options.kind, std::move(best), execution);
 }
 
 }  // namespace
@@ -41,6 +65,7 @@ MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& option
 }
 
 MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
+  if (options.evened) return enough_for_evening(greens, options, execution);
   PoleSearch few(greens, options, 1, execution), more(greens, options, kEvery, execution);
   MeromorphicForm added = few.begin(), best = added;
   double least = few.spread_of(best);

@@ -15,7 +15,8 @@ namespace holomorph::tiling {
 MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution);
 
 /// As many as the density asks for: none where its spread is at most 3 without; else the first of 2, 4, 8, 12, 16 with
-/// which it is at most 5, or the last with which it fell.
+/// which it is at most 5, or the last with which it fell. Where maps will be evened, the first of more numbers with
+/// which the spread of the evened map is at most 3.
 MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution);
 
 /// The same poles with the best coefficients and residues near those given.

@@ -1,0 +1,36 @@
+// Evening: a map gets squares of nearly one size, and keeps its jumps and straight boundaries.
+#pragma once
+
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/surface.h"
+#include "uv/uv_map.h"
+
+namespace holomorph::evening {
+
+/// What stays of a map while it is evened, beside its jumps.
+struct Kept {
+  std::vector<int> poles;  ///< vertices at which the map is infinite
+  std::vector<int> u, v;   ///< vertices at which u, or v, stays, as where the boundary is a line: the same, or one none
+};
+
+/// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.
+inline constexpr double kUsualEvenness = 0.5;
+
+/// The power of itself that evening makes of the density of a conformal map, as far as strain is small: so a ratio of
+/// densities can be foretold. 1 at evenness 0.
+double power_of_density(double evenness);
+
+/// #V x 2, what is to be added at the vertices: on the way from 0 to the least StrainEnergy, as far as no more area is
+/// flipped than was.
+///
+/// The method: steps of gradient descent with the Laplacian that is most like the second derivatives, made anew while
+/// the energy falls quickly, then limited-memory BFGS with the last of them.
+/// @param uv #C x 2, with translations for jumps. @param evenness from 0, which gives 0, to 1
+/// @param solver "auto", "direct" or "multigrid"
+/// @pre the surface is connected and has no isolated vertices. @throws SolverError, Cancelled
+uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
+                   Execution& execution, const std::string& solver = "auto");
+
+}  // namespace holomorph::evening
