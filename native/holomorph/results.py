@@ -135,7 +135,7 @@ class Structure(Value):
             than `max_added` (names what can be had)
 
         Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick; so is the last
-        rounding, for other moves.
+        rounding, for other moves or another evenness.
         """
         evenness = checked_evenness(evenness)
         if density is not None:
@@ -146,18 +146,20 @@ class Structure(Value):
         where = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
         tiler = self.tiler(poles, **where, progress=placing)
         options = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        options |= {"tiles": tiles, "max_added": max_added, "evenness": evenness}
-        made = self._rounded(tiler, options, rounding)
+        options |= {"tiles": tiles, "max_added": max_added}
+        made = self._rounded(tiler, options, evenness, rounding)
         return tiler.move_poles(made, moves, progress=rounding) if moves else made
 
-    def _rounded(self, tiler, options, progress):
-        """What `Tiler.tile` gives; the last tiling is kept."""
+    def _rounded(self, tiler, options, evenness, progress):
+        """What `Tiler.tile` gives; the last tiling is kept, and evened for another evenness."""
         key = tiler, *((name, _hashable(value)) for name, value in options.items())
         made = self._tilings.get(key)
         if made is None:
-            made = tiler.tile(**options, progress=progress)
-            self._tilings.clear()
-            self._tilings[key] = made
+            made = tiler.tile(**options, evenness=evenness, progress=progress)
+        elif made.evenness != evenness:
+            made = tiler.even(made, evenness, progress=progress)
+        self._tilings.clear()
+        self._tilings[key] = made
         return made
 
     @cached_property

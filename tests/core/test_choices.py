@@ -124,15 +124,22 @@ def test_poles_that_are_moved(pair):
     moved = automatic_maps(pair, moves=[(1, count + free)], **ask)
     assert np.array_equal(moved[0].uv, before[0].uv)
     assert moved[1].poles[1] == free and np.array_equal(moved[1].tiling.residues, before[1].tiling.residues)
-    options = {
-        "poles": 2,
-        "tiles": before[1].tiling.tiles,
-        "direction": "upright",
-        "evenness": before[1].tiling.evenness,
-    }
+    made = before[1].tiling
+    options = {"poles": 2, "tiles": made.tiles, "direction": "upright", "evenness": made.evenness}
     alone = structures[1].tile(moves={1: free}, surface=pair.components[1], **options)
     assert np.array_equal(moved[1].uv, alone.uv)
-    assert structures[1].tile(surface=pair.components[1], **options) is before[1].tiling
+    assert structures[1].tile(surface=pair.components[1], **options) is made
+
+
+@pytest.mark.parametrize("evenness", [0.2, 0.8])
+def test_the_last_rounding_is_evened_anew(evenness):
+    """With the bits of a tiling that is made at once."""
+    surface = surface_of(torus(16, 10))
+    kept, fresh = (automatic_structure(surface) for _ in range(2))
+    for first in (1.0, 0.5, evenness):
+        found = kept.tile(60, poles=2, evenness=first)
+    expected = fresh.tile(60, poles=2, evenness=evenness)
+    assert np.array_equal(found.uv, expected.uv) and found.evenness == evenness
 
 
 def test_islands_are_cut_open_to_disks():
