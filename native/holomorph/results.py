@@ -138,17 +138,18 @@ class Structure(Value):
         rounding, for other moves or another evenness.
         """
         evenness = checked_evenness(evenness)
-        if density is not None:
-            if tiles is not None:
-                raise ValueError("a density is given without tiles: either says how many there are")
-            tiles = real_number(density, "density", positive=True) * self._component.area
+        tiles = tiles if density is None else self._tiles_of(density, tiles)
         placing, rounding = scaled(progress, 0.0, PLACING), scaled(progress, PLACING, 1.0)
-        where = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
-        tiler = self.tiler(poles, **where, progress=placing)
-        options = {"lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        options |= {"tiles": tiles, "max_added": max_added}
-        made = self._rounded(tiler, options, evenness, rounding)
+        options = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
+        tiler = self.tiler(poles, **options, progress=placing)
+        rounded = {"tiles": tiles, "lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
+        made = self._rounded(tiler, rounded | {"max_added": max_added}, evenness, rounding)
         return tiler.move_poles(made, moves, progress=rounding) if moves else made
+
+    def _tiles_of(self, density, tiles):
+        if tiles is not None:
+            raise ValueError("a density is given without tiles: either says how many there are")
+        return real_number(density, "density", positive=True) * self._component.area
 
     def _rounded(self, tiler, options, evenness, progress):
         """What `Tiler.tile` gives; the last tiling is kept, and evened for another evenness."""
