@@ -9,7 +9,7 @@ import bpy
 
 from .. import native
 from ..levels import source
-from ..levels.level_objects import Arrangement
+from ..levels.level_objects import Presentation
 from ..levels.levels import LevelOptions
 from ..operators.run import Run
 from ..results import report, stored
@@ -82,10 +82,10 @@ def _make_maps(options):
 def _add_levels(options, outcome):
     """Levels of detail of every object that got maps; they are added to the report's entries."""
     wanted, made = LevelOptions(options.levels, options.ratio), []
-    arrangement = Arrangement(side_by_side=options.side_by_side, finest=options.lod0)
+    presentation = Presentation(side_by_side=options.side_by_side, finest=options.lod0)
     for entry in [entry for entry in outcome.entries if entry["done"]] if options.levels else ():
         obj = bpy.data.objects[entry["object"]]
-        found, told = source.make(bpy.context, obj, wanted, arrangement)
+        found, told = source.make(bpy.context, obj, wanted, presentation)
         entry["levels"] = [{"object": o.name, "triangles": len(o.data.polygons)} for o in found]
         outcome.problems += [] if found else [f"{obj.name}: no levels of detail: {told[0]}"]
         made += found

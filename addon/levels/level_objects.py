@@ -16,7 +16,7 @@ GAP = 1.2  # distance of levels side by side, in widths of the object
 
 
 @dataclass(frozen=True)
-class Arrangement:
+class Presentation:
     """How levels come into the scene."""
 
     side_by_side: bool = False  # in a row along X, not in the object's place
@@ -24,7 +24,7 @@ class Arrangement:
     finest: bool = False  # whether there is a copy of the object, too: its level 0
 
 
-def write(step, obj, data, work, arrangement=Arrangement()):
+def write(step, obj, data, work, presentation=Presentation()):
     """Replaces the levels of an earlier run; `data` is the object's `transfer.MeshData`, `work` a `LevelsWork`."""
     step.remove(o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o != obj)
     context = step.context
@@ -34,18 +34,18 @@ def write(step, obj, data, work, arrangement=Arrangement()):
         for number, level in enumerate(work.levels, 1)
     ]
     # An object that is called so is level 0 itself.
-    copies = [_copy(obj, obj.data.copy(), name + FINEST)] if arrangement.finest and name == obj.name else []
+    copies = [_copy(obj, obj.data.copy(), name + FINEST)] if presentation.finest and name == obj.name else []
     made = copies + levels
     for level_object in made:
         collection.objects.link(level_object)
     context.view_layer.update()
-    apart = GAP * _width(obj) if arrangement.side_by_side else 0.0
+    apart = GAP * _width(obj) if presentation.side_by_side else 0.0
     for index, level_object in enumerate(made, 1):
         matrix = obj.matrix_world.copy()
         matrix.translation.x += index * apart
         level_object.matrix_world = matrix
     _transfer_weights(context, obj, levels)
-    _put_away(context, made, arrangement.hidden)
+    _put_away(context, made, presentation.hidden)
     return made
 
 

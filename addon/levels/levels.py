@@ -30,22 +30,12 @@ class LevelOptions:
         return [max(1, round(triangles * ratio ** (k + 1))) for k in range(self.levels)]
 
 
-@dataclass(frozen=True)
-class Level:
-    """One level, its maps, and its vertex for each of the original's."""
-
-    surface: object  # vertex_index and face_index into the original
-    corners: np.ndarray  # (#C,) corner of the original whose data each corner has
-    uv: np.ndarray  # (#C, m, 2)
-    vertex_map: np.ndarray  # (#V of the original,) vertex of this level, -1 for one of no face
-
-
 @dataclass
 class LevelsWork(jobs.Work):
     """Makes the levels of one mesh; a map of its own first where there is none.
 
-    After `run`, `levels` has one entry for each level, finest first, each coarser than the one before; `names` are
-    those of their maps; `mapped` is the `mapped.MappedObject` that was needed.
+    After `run`, `levels` are the `holomorph.LevelOfDetail`s, finest first, each coarser than the one before; `names`
+    are those of their maps; `mapped` is the `mapped.MappedObject` that was needed.
     """
 
     task: object  # solve.Task
@@ -75,11 +65,11 @@ class LevelsWork(jobs.Work):
         counts = self.options.counts(len(surface.triangles))
         if not self.ask(collapsed, "levels of detail"):
             raise holomorph.Cancelled("cancelled before the levels of detail")
-        made = []
-        for level, count in zip(mesh.levels_of_detail(self.uv, counts), counts):
-            before = len(made[-1].surface.triangles) if made else len(surface.triangles)
+        made, before = [], len(surface.triangles)
+        for level in mesh.levels_of_detail(self.uv, counts):
             if len(level.surface.triangles) < before:
-                made.append(Level(level.surface, level.corners, level.uv, mesh.vertex_map(count)))
+                made.append(level)
+                before = len(level.surface.triangles)
         self.levels = made
 
     def _add_main_map(self):

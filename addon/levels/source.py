@@ -21,7 +21,7 @@ class Source:
         needs_map = not set(self._data.own_maps) & set(self._data.maps)
         return levels.LevelsWork(task, self._data.maps, self._data.uv, needs_map, options, progress)
 
-    def write(self, step, work, arrangement, time_has_passed=False):
+    def write(self, step, work, presentation, time_has_passed=False):
         """(objects of the levels, sentences about the map that they needed), or the one sentence why there are none.
 
         step : the `transaction.Step` of the object
@@ -33,7 +33,7 @@ class Source:
         if work.mapped is not None:
             outcome = write.write(step, [self.target], [work.mapped], write.WriteOptions(checker=False))
             told = outcome.problems + outcome.notes
-        return level_objects.write(step, self.target.find(), self._data, work, arrangement), told
+        return level_objects.write(step, self.target.find(), self._data, work, presentation), told
 
     def problem(self, work, time_has_passed):
         if work.error is not None:
@@ -46,7 +46,7 @@ class Source:
         return "" if work.levels else "it has no coarser level"
 
 
-def make(context, obj, options, arrangement):
+def make(context, obj, options, presentation):
     """What `Source.write` gives, here and now."""
     source = Source(obj)
     if source.target.refused:
@@ -54,4 +54,4 @@ def make(context, obj, options, arrangement):
     work = source.work(options)
     work.run()
     with transaction.one_step(context, [obj]) as step:
-        return source.write(step, work, arrangement)
+        return source.write(step, work, presentation)

@@ -64,10 +64,10 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         return targets.objects([self._source.target])
 
     def finish(self, step, work, time_has_passed):
-        from ..levels.level_objects import Arrangement
+        from ..levels.level_objects import Presentation
 
-        name, arrangement = self._source.target.name, Arrangement(self.side_by_side, self.hidden, self.finest)
-        made, told = self._source.write(step, work, arrangement, time_has_passed)
+        name, presentation = self._source.target.name, Presentation(self.side_by_side, self.hidden, self.finest)
+        made, told = self._source.write(step, work, presentation, time_has_passed)
         if not made:
             return self.refuse(f"{name}: {told[0]}")
         for sentence in told:

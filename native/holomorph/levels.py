@@ -29,6 +29,7 @@ class LevelOfDetail(Value):
     corners : (#C,) polygon corner of the original whose data each corner has: at the same vertex, and on the same side
         of the seams, as far as there is one
     drift : (#V,) or (#V, m) distance of the UVs of each vertex from those that it has in the original
+    vertex_map : (#V of the original,) vertex of the level that each was collapsed into; -1 for isolated ones
     solver : SolverReport of a harmonic map, else None
     """
 
@@ -36,6 +37,7 @@ class LevelOfDetail(Value):
     uv: Reals
     corners: Integers
     drift: Reals
+    vertex_map: Integers
     solver: SolverReport | None
 
     def _facts(self):
@@ -102,7 +104,8 @@ def levels_of_detail(
             values = values + moves[surface.corner_vertices]
         drift = np.linalg.norm(moves.reshape(len(moves), *uv.shape[1:]), axis=-1)
         values = arrays.frozen(values.reshape(-1, *uv.shape[1:]))
-        levels.append(LevelOfDetail(surface, values, given.corners, arrays.frozen(drift), report))
+        vertex_map = arrays.frozen(mesh._map_of_original(count))
+        levels.append(LevelOfDetail(surface, values, given.corners, arrays.frozen(drift), vertex_map, report))
     return tuple(levels)
 
 

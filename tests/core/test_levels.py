@@ -99,6 +99,7 @@ def test_every_vertex_keeps_its_uvs(name, order):
         moved = level.uv - of_vertex[vertex]
         assert np.abs(moved - np.rint(moved)).max() < EXACT
         assert not level.drift.any()
+        assert (level.vertex_map == mesh.vertex_map(len(level.surface.triangles))).all()
 
 
 @every_mesh
