@@ -89,6 +89,6 @@ def with_coarse_places(obj, polygons, entry):
         return entry | {"coarse_places": [], "faces_without_area": 0}
     distortion = native.load().distortion
     found = distortion.measure(polygons, uv_maps.read_corners(obj.data, polygons, entry["maps"][0]["name"]))
-    places = [vars(place) for place in coarse.places(obj, polygons, found.density)]
+    places = coarse.places(obj, polygons, found.density)
     without_area = int(np.count_nonzero(found.angle >= distortion.MOST_ANGLE))
     return entry | {"coarse_places": places, "faces_without_area": without_area}

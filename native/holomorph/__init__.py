@@ -21,6 +21,7 @@ from .bounded import BoundedStructure
 from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
+from .coarse_places import CoarsePlace, coarse_places
 from .cones import cut_to_cones
 from .conformal_image import conformal_image
 from .conformal_map import ConformalMap, conformal_map
@@ -57,6 +58,7 @@ __all__ = [
     "BoundedStructure",
     "Cancelled",
     "Certificate",
+    "CoarsePlace",
     "ConformalMap",
     "ConformalStructure",
     "DiskMap",
@@ -98,6 +100,7 @@ __all__ = [
     "automatic_maps",
     "automatic_structure",
     "automorphisms",
+    "coarse_places",
     "conformal_image",
     "conformal_map",
     "conformal_structure",

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ._native import TopologyError
 from .checks import own_vertices
-from .edges import edge_keys, edges_of_keys
+from .edges import edge_keys, edges_of_keys, polygon_sides
 from .plane_maps import PlaneMap
 from .results import Structure
 from .solution import Solution
@@ -49,16 +49,15 @@ def _computed_cut(compute, edges):
 
 def interior_edges(component, pairs, given):
     """Indices of the polygon edges between these (#S, 2) vertices, without those on the boundary; ascending."""
-    corners, offsets = component.corner_vertices.astype(np.int64), component.face_offsets
-    following = np.arange(1, len(corners) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
     count = len(component.vertex_index)
-    sides, uses = np.unique(edge_keys(np.stack([corners, corners[following]], axis=1), count), return_counts=True)
+    sides, uses = np.unique(edge_keys(polygon_sides(component), count), return_counts=True)
     wanted = edge_keys(pairs, count)
     place = np.minimum(np.searchsorted(sides, wanted), len(sides) - 1)
     for a, b in given[sides[place] != wanted]:
         raise TopologyError(f"the cut runs between the vertices {a} and {b}, which no edge of a face joins")
     wanted = np.unique(wanted[uses[place] == 2])
     edges = component._native.edges
-    diagonals = len(component.triangles) - (len(offsets) - 1)  # a polygon of n corners has n - 2 triangles
+    diagonals = len(component.triangles) - (
+        len(component.face_offsets) - 1
+    )  # a polygon of n corners has n - 2 triangles
     return np.sort(edges_of_keys(edges[: len(edges) - diagonals], wanted, count))

@@ -19,6 +19,14 @@ def edges_of_keys(edges, keys, vertex_count):
     return order[np.searchsorted(known, keys, sorter=order)]
 
 
+def polygon_sides(mesh):
+    """(#C, 2) int64 vertices of the side from each polygon corner to the next one of its polygon."""
+    corners, offsets = mesh.corner_vertices.astype(np.int64), mesh.face_offsets
+    following = np.arange(1, len(corners) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    return np.stack([corners, corners[following]], axis=1)
+
+
 def boundary_corners(surface):
     """(#B, 2) corners of the surface's polygons at the ends of the sides that no other polygon has, in the direction of
     its triangles."""

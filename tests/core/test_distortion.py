@@ -6,8 +6,10 @@ import holomorph
 import numpy as np
 import pytest
 from families import torus
-from holomorph import distortion
+from holomorph import coarse_places, distortion
+from holomorph.edges import boundary_edges
 from solved import surface_of
+from test_rectangle import grid
 
 
 def of_arrays(vertices, faces, at):
@@ -68,3 +70,42 @@ def test_lengths_are_those_of_the_map():
     one = distortion.length_ratio(surface, at)
     assert distortion.length_ratio(surface, 3 * at) == pytest.approx(3 * one, rel=1e-12)
     assert distortion.length_ratio(surface, 0 * at) == 0
+
+
+# ---- coarse places -----------------------------------------------------------------------------------------------
+
+SIDE = 8  # quads of a square sheet, on each side
+SHEET = surface_of(grid(SIDE, SIDE))
+
+
+def density_with(faces, octaves=-6.0):
+    """0 but on the faces at these (column, row)."""
+    density = np.zeros(SIDE * SIDE)
+    density[[SIDE * column + row for column, row in faces]] = octaves
+    return density
+
+
+def test_coarse_faces_that_hang_together_are_a_place():
+    """Also where they share a vertex alone; the largest first, and the coarsest face says where it is."""
+    density = density_with([(1, 1), (2, 2), (2, 3), (6, 6), (6, 5)])
+    density[SIDE * 2 + 3] = -8
+    large, small = coarse_places(SHEET, density)
+    assert large.times == pytest.approx(2 ** (20 / 6)) and small.times == pytest.approx(8)
+    assert large.vertex in SHEET.corner_vertices.reshape(-1, 4)[SIDE * 2 + 3]
+
+
+def test_places_have_a_vertex_off_the_boundary():
+    inner = np.setdiff1d(SHEET.corner_vertices, boundary_edges(SHEET))
+    for faces in ([(0, 0)], [(0, 3), (0, 4)], [(7, 7), (6, 7)]):
+        (place,) = coarse_places(SHEET, density_with(faces))
+        assert place.vertex in inner
+    strip = surface_of(grid(SIDE * SIDE, 1))  # all its vertices are on the boundary
+    assert coarse_places(strip, density_with([(3, 3)])) == []
+
+
+def test_few_and_hardly_coarse_faces_are_no_place():
+    assert coarse_places(SHEET, density_with([(3, 3)], octaves=-3.9)) == []
+    wide = surface_of(grid(40, 40))
+    density = np.zeros(1600)
+    density[[820, 821]] = -6  # below 0.2 % of all faces
+    assert coarse_places(wide, density) == []
