@@ -56,11 +56,12 @@ def process(options):
     levels = _add_levels(options, outcome)
     content = report.run_report(outcome.entries)
     content["seconds"] = time.perf_counter() - start
-    _write_report(options, content)
+    if outcome.done:
+        _write_files(options, [bpy.data.objects[name] for name in outcome.done] + levels)
+    _write_report(options, content)  # last: what it tells of is in the files
     if not outcome.done:
         raise UsageError("no maps were made: " + "; ".join(outcome.problems))
     print(f"Holomorph: maps written to {', '.join(outcome.done)} in {content['seconds']:.2f} s")
-    _write_files(options, [bpy.data.objects[name] for name in outcome.done] + levels)
     if options.strict:
         _check_strictly(outcome.entries)
     return outcome.problems + outcome.notes

@@ -2,6 +2,7 @@
 """The operator with which the poles of a tiling are dragged over the surface, while the texture follows."""
 
 import re
+from contextlib import contextmanager
 
 import bpy
 from bpy.props import StringProperty
@@ -68,16 +69,23 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         self._object = context.active_object
         self._view, self._surface = surface_pick.View(context.area), surface_pick.Surface(self._object)
         self._moves, self._wanted, self._job = {}, {}, None
-        self._hovered, self._dragged = None, False
-        self._timer = context.window_manager.event_timer_add(TIMER_SECONDS, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        context.workspace.status_text_set(HELP)
-        self._show_marks(context)
-        return {"RUNNING_MODAL"}
+        self._hovered, self._dragged, self._timer = None, False, None
+        with self._giving_up(context):
+            self._timer = context.window_manager.event_timer_add(TIMER_SECONDS, window=context.window)
+            context.workspace.status_text_set(HELP)
+            self._show_marks(context)
+            context.window_manager.modal_handler_add(self)
+            return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        try:
+        with self._giving_up(context):
             return self._handle(context, event)
+
+    @contextmanager
+    def _giving_up(self, context):
+        """Where an error is raised within, everything is as it was."""
+        try:
+            yield
         except BaseException:
             self.cancel(context)
             raise

@@ -39,7 +39,7 @@ class Session:
         vertices, is_pole = stored.marks(text)
         if not np.array_equal(self.poles, vertices[is_pole]):
             raise ValueError(f"{obj.name}: its mesh is not the one that was tiled; {AGAIN}")
-        self._uv = uv_maps.read_map(obj.data, self._map)
+        self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self.mapped.tiled]
         self.allowed = None if self._asked.allowed is None else np.frombuffer(self._asked.allowed, bool)
 
@@ -92,7 +92,7 @@ class Session:
 
     def taken(self, job):
         """The `mapped.MappedObject` of a job that is done. @throws ValueError where the library refused the move"""
-        result = job.results[0]
+        result = job.error or job.results[0]
         if isinstance(result, native.refusals()):
             raise ValueError(native.sentence(result))
         before = [part.component for part in self.mapped.tiled] if self.mapped else []
@@ -103,15 +103,18 @@ class Session:
 
     def show(self, made):
         """Writes the map alone."""
-        self.mapped = made
+        self.mapped, self._is_shown = made, True
         _, uv = next(made.maps())
         uv_maps.overwrite_map(self.target.find().data, self.target.polygons, self._map, uv)
 
     def restore(self):
-        """Every bit of the map as it was."""
-        uv_maps.overwrite_map(self.target.find().data, None, self._map, self._uv)
+        """Takes back what is shown: every bit of the map as it was."""
+        if self._is_shown:
+            uv_maps.overwrite_map(self.target.find().data, None, self._map, self._uv)
+            self._is_shown = False
 
     def finish(self, context):
         """Writes all that belongs to a tiling; the `outcome.Outcome`."""
+        self.restore()  # the step puts back what it finds
         with transaction.one_step(context, targets.objects([self.target])) as step:
             return write.write(step, [self.target], [self.mapped], self._write_options, time_has_passed=True)

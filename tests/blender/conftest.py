@@ -46,3 +46,12 @@ def empty_scene(addon):
 def module(name):
     """One of the add-on's modules."""
     return importlib.import_module(f"{PACKAGE}.{name}")
+
+
+@pytest.fixture
+def kept_solves():
+    """Solves are kept when the file is opened again: their times are in the reports."""
+    forget = module("operators.mapping")._forget_solves
+    bpy.app.handlers.load_pre.remove(forget)
+    yield
+    bpy.app.handlers.load_pre.append(forget)

@@ -1,28 +1,41 @@
-"""Errors raised at the lines of the add-on that run while a step is written."""
+"""Errors raised at the lines of the add-on that run while a step is written.
+
+Each check raises errors before every line that no earlier check has had, where it is run first and last, and before
+some of the others.
+"""
 
 import ast
 import functools
 import sys
 from collections import defaultdict
 
+import bpy
+import pytest
 from conftest import ROOT
+from file_state import differences, file_state
 
 ADDON = str(ROOT / "addon")
 ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)
 STEP = "one_step"  # the function in which everything is written
 INJECTED = "injected by the test"
+SAMPLE = 25  # one in so many of the lines that earlier checks have had
+PUT_BACK = "Nothing is changed"
+_had = set()
 
 
 class Lines:
-    """The lines of the add-on that run from the first call of `one_step` on, one after the other.
+    """The lines of the add-on that run from the first call of the function `begin` on, one after the other.
 
     stop : (file, line, how often it was met before) where `error` is raised, before the line is run
+    guards : names of functions whose own lines are left out: Blender calls them, and they put everything back where
+        what they call raises an error
     """
 
-    def __init__(self, stop=None, error=None):
+    def __init__(self, stop=None, error=None, begin=STEP, guards=()):
         self.met = defaultdict(int)  # (file, line): times
         self.is_raised = False
-        self._stop, self._error, self._is_writing = stop, error, False
+        self._stop, self._error, self._begin, self._guards = stop, error, begin, guards
+        self._is_writing = False
 
     def __enter__(self):
         sys.settrace(self._call)
@@ -35,9 +48,9 @@ class Lines:
         code = frame.f_code
         if self.is_raised or not code.co_filename.startswith(ADDON):
             return None
-        self._is_writing |= code.co_name == STEP
+        self._is_writing |= code.co_name == self._begin
         is_elsewhere = self._stop is not None and not code.co_filename.endswith(self._stop[0])
-        return None if is_elsewhere else self._line
+        return None if is_elsewhere or code.co_name in self._guards else self._line
 
     def _line(self, frame, event, _argument):
         if event == "line" and self._is_writing and not self.is_raised:
@@ -64,3 +77,45 @@ def stops(met):
 def _with_lines(file):
     nodes = ast.walk(ast.parse(ROOT.joinpath("addon", file).read_text(encoding="utf-8")))
     return {node.lineno for node in nodes if isinstance(node, ast.With)}
+
+
+def check(press, lines=Lines, raises=RuntimeError, then=lambda: None):
+    """Raises errors while `press` writes to the scene as it is: the file is as before, or all was done already.
+
+    press : returns {"FINISHED"}
+    lines : makes the `Lines` of a stop and an error, or of none
+    raises : what comes of an error, as `pytest.raises` takes it
+    then : called after each error, when the scene was compared
+    """
+    path = bpy.app.tempdir + "before.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    for _ in range(3):  # what is kept of a run changes the lines of the next one
+        bpy.ops.wm.open_mainfile(filepath=path)
+        with lines() as run:
+            assert press() == {"FINISHED"}
+    after = file_state()
+    bpy.ops.wm.open_mainfile(filepath=path)
+    before = file_state()
+    assert differences(before, after)
+    for index, stop in enumerate(_chosen(run.met)):
+        error = ERRORS[index % len(ERRORS)]
+        with lines(stop, error) as traced, pytest.raises(raises) as raised:
+            press()
+        assert traced.is_raised
+        found = file_state()
+        if found == after and PUT_BACK not in str(raised.value):  # what is run when all is done
+            bpy.ops.wm.open_mainfile(filepath=path)
+        else:
+            assert not differences(before, found), (stop, error)
+        then()
+
+
+def _chosen(met):
+    """The stops of this check."""
+    found = []
+    for index, (file, line, count) in enumerate(stops(met)):
+        stop = file, line, count > 0
+        if stop not in _had or index % SAMPLE == 0:
+            found.append((file, line, count))
+        _had.add(stop)
+    return found

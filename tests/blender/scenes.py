@@ -11,6 +11,7 @@ from conftest import ROOT
 
 uv_maps = importlib.import_module("holomorph_addon.scene.uv_maps")
 mesh_io = importlib.import_module("holomorph_addon.scene.mesh_io")
+stored = importlib.import_module("holomorph_addon.results.stored")
 native = importlib.import_module("holomorph_addon.native")
 
 
@@ -77,6 +78,28 @@ def torus_arrays(around=24, across=12, thickness=0.4, bulge=0.3):
 
 def torus(name="Torus", **sizes):
     return mesh_object(name, *torus_arrays(**sizes))
+
+
+def two_objects():
+    """A torus and a ball with what an artist has on them: maps, slots of each kind, seams, attributes, properties."""
+    for name, arrays in (("Torus", torus_arrays(around=8, across=5)), ("Ball", sphere_arrays(1))):
+        mesh = mesh_object(name, *arrays).data
+        for layer in ("First", "Second"):
+            mesh.uv_layers.new(name=layer)
+        mesh.uv_layers.active = mesh.uv_layers["Second"]
+        mesh.edges[3].use_seam = True
+        mesh.attributes.new("Height", "FLOAT_VECTOR", "POINT")
+        mesh["mine"] = {"size": 3.5}
+    torus, ball = bpy.data.objects["Torus"], bpy.data.objects["Ball"]
+    for name in ("Of Mesh", "Covered"):
+        torus.data.materials.append(bpy.data.materials.new(name))
+    torus.material_slots[1].link = "OBJECT"
+    torus.material_slots[1].material = bpy.data.materials.new("Of Object")
+    torus.data.polygons[5].material_index = 1
+    copy = torus.copy()  # shares the mesh
+    bpy.context.scene.collection.objects.link(copy)
+    select(torus, ball)
+    return torus, ball
 
 
 def two_parts(name, first, second):
@@ -153,6 +176,12 @@ def written(obj, **options):
 
 def uv(obj, name="Holomorphic"):
     return uv_maps.read_map(obj.data, name).astype(np.float64)
+
+
+def stored_poles(obj):
+    """Vertices."""
+    vertices, is_pole = stored.marks(obj["holomorph_report"])
+    return vertices[is_pole].tolist()
 
 
 def stored_report(obj):

@@ -1,87 +1,14 @@
-"""An operator writes all or nothing: with an error at any line that it runs meanwhile, the file is as before.
-
-Each test raises errors before every line that no earlier test has had, where it is run first and last, and before some
-of the others.
-"""
+"""An operator writes all or nothing: with an error at any line that it runs meanwhile, the file is as before."""
 
 import math
 
 import bpy
 import pytest
-from conftest import module
 from file_state import differences, file_state
-from injection import ERRORS, Lines, stops
-from scenes import mesh_object, select, sphere_arrays, torus_arrays
+from injection import PUT_BACK, Lines, check, stops
+from scenes import mesh_object, select, torus_arrays, two_objects
 
-SAMPLE = 25  # one in so many of the lines that earlier tests have had
-PUT_BACK = "Nothing is changed"
-_had = set()
-
-
-@pytest.fixture(autouse=True)
-def kept_solves():
-    """Solves are kept when the file is opened again: their times are in the reports."""
-    forget = module("operators.mapping")._forget_solves
-    bpy.app.handlers.load_pre.remove(forget)
-    yield
-    bpy.app.handlers.load_pre.append(forget)
-
-
-def two_objects():
-    """A torus and a ball with what an artist has on them: maps, slots of each kind, seams, attributes, properties."""
-    for name, arrays in (("Torus", torus_arrays(around=8, across=5)), ("Ball", sphere_arrays(1))):
-        mesh = mesh_object(name, *arrays).data
-        for layer in ("First", "Second"):
-            mesh.uv_layers.new(name=layer)
-        mesh.uv_layers.active = mesh.uv_layers["Second"]
-        mesh.edges[3].use_seam = True
-        mesh.attributes.new("Height", "FLOAT_VECTOR", "POINT")
-        mesh["mine"] = {"size": 3.5}
-    torus, ball = bpy.data.objects["Torus"], bpy.data.objects["Ball"]
-    for name in ("Of Mesh", "Covered"):
-        torus.data.materials.append(bpy.data.materials.new(name))
-    torus.material_slots[1].link = "OBJECT"
-    torus.material_slots[1].material = bpy.data.materials.new("Of Object")
-    torus.data.polygons[5].material_index = 1
-    copy = torus.copy()  # shares the mesh
-    bpy.context.scene.collection.objects.link(copy)
-    select(torus, ball)
-    return torus, ball
-
-
-def check(press):
-    """Errors while `press` writes, in the scene as it is."""
-    path = bpy.app.tempdir + "before.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    for _ in range(3):  # what is kept of a run changes the lines of the next one
-        bpy.ops.wm.open_mainfile(filepath=path)
-        with Lines() as lines:
-            assert press() == {"FINISHED"}
-    after = file_state()
-    bpy.ops.wm.open_mainfile(filepath=path)
-    before = file_state()
-    assert differences(before, after)
-    for index, stop in enumerate(_chosen(lines.met)):
-        error = ERRORS[index % len(ERRORS)]
-        with Lines(stop, error) as traced, pytest.raises(RuntimeError) as raised:
-            press()
-        assert traced.is_raised
-        found = file_state()
-        if found == after and PUT_BACK not in str(raised.value):  # what is run when all is done
-            bpy.ops.wm.open_mainfile(filepath=path)
-        else:
-            assert not differences(before, found), (stop, error)
-
-
-def _chosen(met):
-    """The stops of this test."""
-    found = []
-    for index, (file, line, count) in enumerate(stops(met)):
-        stop = file, line, count > 0
-        if stop not in _had or index % SAMPLE == 0:
-            found.append((file, line, count))
-        _had.add(stop)
-    return found
+pytestmark = pytest.mark.usefixtures("kept_solves")
 
 
 def maps(**options):

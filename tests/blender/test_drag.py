@@ -23,8 +23,11 @@ from scenes import (
     two_parts,
     uv,
 )
+from scenes import (
+    stored_poles as poles,
+)
 
-drag, stored = module("operators.drag"), module("results.stored")
+drag = module("operators.drag")
 
 
 def tile(**options):
@@ -33,11 +36,6 @@ def tile(**options):
 
 def move(moves):
     return bpy.ops.uv.holomorphic_drag_poles(moves=moves)
-
-
-def poles(obj):
-    vertices, is_pole = stored.marks(obj["holomorph_report"])
-    return vertices[is_pole].tolist()
 
 
 def neighbour(obj, vertex, steps=1):
