@@ -37,7 +37,7 @@ from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
 from .progressive import ProgressiveMesh
 from .quality import Quality
-from .repairs import Refused, Repairs
+from .repairs import Cut, Refused, Repairs
 from .results import MemoryPlan, Residuals, SolverReport
 from .siegel import SiegelReduction, siegel_reduction
 from .structure import conformal_structure
@@ -56,6 +56,7 @@ __all__ = [
     "Certificate",
     "ConformalMap",
     "ConformalStructure",
+    "Cut",
     "DiskMap",
     "Equivalence",
     "Error",

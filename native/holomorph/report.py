@@ -54,7 +54,7 @@ def skipped_report(surface: "Surface", reason: object) -> dict[str, Any]:
 
 
 def refused_report(refused: "Refused") -> dict[str, Any]:
-    """A component that was left out of a surface, a `Refused`."""
+    """Faces that were left out of a surface, a `Refused`."""
     return {"done": False, "faces": len(refused.faces), "reason": refused.reason}
 
 
@@ -84,12 +84,20 @@ def overall_report(parts: Sequence[dict[str, Any]], is_unwelded: bool = False) -
 
 def repairs_report(repairs: "Repairs") -> dict[str, Any]:
     """`Repairs`, with the number and the first of the elements of each kind."""
+    arrays = {name: value for name, value in vars(repairs).items() if isinstance(value, np.ndarray)}
     return plain(
-        {
-            name: value if np.ndim(value) == 0 else {"count": len(value), "first": value[:LISTED]}
-            for name, value in vars(repairs).items()
-        }
+        {name: _listed(value) for name, value in arrays.items()}
+        | {"cuts": [_cut_report(cut) for cut in repairs.cuts], "mollification": repairs.mollification}
     )
+
+
+def _listed(elements):
+    return {"count": len(elements), "first": elements[:LISTED]}
+
+
+def _cut_report(cut):
+    elements = next((of for of in (cut.vertices, cut.edges, cut.faces) if len(of)))
+    return {"reason": cut.reason, "text": cut.sentence, **_listed(elements)}
 
 
 def _topology(surface):

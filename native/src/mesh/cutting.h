@@ -1,0 +1,52 @@
+// Cutting any polygon mesh until it is a surface.
+#pragma once
+
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/surface.h"
+#include "mesh/usable_faces.h"
+
+namespace holomorph::mesh {
+
+/// Why a mesh was cut.
+enum class CutReason {
+  kManyFaces,  ///< edges with three or more faces
+  kTwice,      ///< faces on the vertices of an earlier one
+  kOpposite,   ///< those that run the other way round
+  kOneSided,   ///< edges at which no orientation of their faces fits
+  kRepeated,   ///< faces that meet a vertex more than once
+  kTouching,   ///< vertices at which fans of faces touch
+};
+
+/// All cuts for one reason, by elements of the mesh as given; each list ascending.
+struct Cut {
+  CutReason reason{};
+  std::vector<int> vertices;  ///< of kTouching
+  std::vector<Pair> edges;    ///< ends, lower vertex first, of kManyFaces and kOneSided
+  std::vector<int> faces;     ///< of the other reasons
+};
+
+/// A mesh cut along edges and at vertices: polygons and their corners are those given, in their order.
+struct CutSurface {
+  Surface surface;
+  /// Index of each element in the mesh as given; all empty where that is its own. Vertices ascend; those that are
+  /// several are copies of one, and of those joined to one the lowest is named.
+  std::vector<int> vertex_index, face_index, corner_index;
+  int given_vertex_count = 0;
+  std::vector<Cut> cuts;              ///< by reasons
+  std::vector<int> joined_vertices;   ///< given vertices that became one with a lower one at the same place
+  std::vector<RefusedFaces> refused;  ///< faces that are left out, by reasons
+};
+
+/// As `make_surface`; but a mesh that this refuses is cut, by giving a vertex to each fan of faces. Left out are faces
+/// of less than three vertices, faces with coordinates that are not finite, and parts without area.
+///
+/// Where most sides of faces have no other beside them, sides that run between the same places in opposite directions
+/// are joined first, if that gives most of them a partner.
+/// @throws InvalidMesh where no face is left
+/// Cost: linear for a surface; else O(#C log #C).
+CutSurface cut_surface(Polygons polygons, Execution& execution);
+CutSurface cut_surface(GivenPolygons polygons, Execution& execution);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,284 @@
+#include "mesh/side_joins.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "mesh/joined_sets.h"
+#include "mesh/polygon_edges.h"
+
+namespace holomorph::mesh {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Side {
+  int lower, higher, corner;  // its labels, and where it starts
+};
+
+std::vector<int> next_corners(const std::vector<int>& offsets) {
+  std::vector<int> next(offsets.back());
+  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
+    for (int c = offsets[f]; c < offsets[f + 1]; ++c) next[c] = c + 1 == offsets[f + 1] ? offsets[f] : c + 1;
+  }
+  return next;
+}
+
+// The sides of each edge, by their corners.
+std::vector<Side> sorted_sides(const std::vector<int>& label, const std::vector<int>& next) {
+  std::vector<Side> sides(label.size());
+  for (int c = 0; c < static_cast<int>(label.size()); ++c) {
+    sides[c] = {std::min(label[c], label[next[c]]), std::max(label[c], label[next[c]]), c};
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.lower, a.higher, a.corner) < std::tie(b.lower, b.higher, b.corner);
+  });
+  return sides;
+}
+
+// Calls each(begin, end) for the sides of each edge.
+template <class Each>
+void each_edge(const std::vector<Side>& sides, const Each& each) {
+  for (auto begin = sides.begin(), end = begin; begin != sides.end(); begin = end) {
+    while (end != sides.end() && end->lower == begin->lower && end->higher == begin->higher) ++end;
+    each(begin, end);
+  }
+}
+
+// How a face lies at one of its sides, as it runs: unit vectors, zero where it has no area.
+struct Lie {
+  Vector3d normal, inward;
+};
+
+class Joiner {
+ public:
+  Joiner(const Polygons& mesh, const std::vector<int>& label)
+      : mesh_(mesh),
+        label_(label),
+        next_(next_corners(mesh.face_offsets)),
+        face_of_(corner_faces(mesh)),
+        fans_(label.size()),
+        edge_of_(label.size(), -1) {
+    result_.partner.assign(label.size(), -1);
+  }
+
+  SideJoins joined() && {
+    take_edges();
+    SignedSets sheets = oriented_sheets();
+    for (int s = 0; s < static_cast<int>(label_.size()); ++s) {
+      if (result_.partner[s] > s) join_fans(s, result_.partner[s]);
+    }
+    continue_sheets(sheets);
+    for (const auto& sides : result_.many) join_what_closed(sides);
+    result_.fan.resize(label_.size());
+    for (int c = 0; c < static_cast<int>(label_.size()); ++c) result_.fan[c] = fans_.lowest(c);
+    return std::move(result_);
+  }
+
+ private:
+  struct Pairing {
+    long score;
+    int side, other;
+    bool operator<(const Pairing& b) const {
+      return std::tie(score, side, other) < std::tie(b.score, b.side, b.other);
+    }
+  };
+  using Ends = std::array<int, 2>;  // the fans at the lower and the higher label
+
+  void take_edges() {
+    each_edge(sorted_sides(label_, next_), [this](auto begin, auto end) {
+      if (end - begin == 2) {
+        result_.partner[begin->corner] = begin[1].corner;
+        result_.partner[begin[1].corner] = begin->corner;
+      } else if (end - begin > 2) {
+        std::vector<int>& sides = result_.many.emplace_back();
+        for (; begin != end; ++begin) {
+          edge_of_[begin->corner] = static_cast<int>(result_.many.size()) - 1;
+          sides.push_back(begin->corner);
+        }
+      }
+    });
+  }
+
+  bool run_alike(int s, int t) const { return label_[s] == label_[t]; }
+
+  // Floods the faces across joined sides, and takes apart those at which the orientations contradict. Each sheet is
+  // oriented as the majority of its faces is given.
+  SignedSets oriented_sheets() {
+    const int faces = static_cast<int>(mesh_.face_offsets.size()) - 1;
+    std::vector<int> root(faces, -1), flood;
+    reversed_.assign(faces, 0);
+    for (int start = 0; start < faces; ++start) {
+      if (root[start] >= 0) continue;
+      flood.assign(1, start);
+      root[start] = start;
+      for (std::size_t head = 0; head < flood.size(); ++head) flood_from(flood[head], root, flood);
+      const auto count = std::count_if(flood.begin(), flood.end(), [this](int f) { return reversed_[f] != 0; });
+      if (2 * static_cast<std::size_t>(count) > flood.size()) {
+        for (const int f : flood) reversed_[f] ^= 1;
+      }
+    }
+    return {std::move(root), reversed_};
+  }
+
+  void flood_from(int face, std::vector<int>& root, std::vector<int>& flood) {
+    for (int s = mesh_.face_offsets[face]; s < mesh_.face_offsets[face + 1]; ++s) {
+      const int t = result_.partner[s];
+      if (t < 0) continue;
+      const int other = face_of_[t];
+      const char wanted = reversed_[face] ^ static_cast<char>(run_alike(s, t));
+      if (root[other] < 0) {
+        root[other] = root[face];
+        reversed_[other] = wanted;
+        flood.push_back(other);
+      } else if (reversed_[other] != wanted) {
+        result_.partner[s] = result_.partner[t] = -1;
+        result_.sided.push_back({std::min(s, t), std::max(s, t)});
+      }
+    }
+  }
+
+  void join_fans(int s, int t) {
+    const bool alike = run_alike(s, t);
+    fans_.join(s, alike ? t : next_[t]);
+    fans_.join(next_[s], alike ? next_[t] : t);
+  }
+
+  void continue_sheets(SignedSets& sheets) {
+    std::vector<Pairing> pairings;
+    for (const auto& sides : result_.many) add_pairings(sides, pairings);
+    std::sort(pairings.begin(), pairings.end());
+    for (const auto& sides : result_.many) {
+      for (const int s : sides) {
+        for (const int end : ends(s)) sides_at_[end].push_back(s);
+      }
+    }
+    for (const auto& [score, s, t] : pairings) {
+      const int f = face_of_[s], g = face_of_[t];
+      if (result_.partner[s] >= 0 || result_.partner[t] >= 0 || !sheets.allows(f, g, run_alike(s, t))) continue;
+      if (!has_room(s, t)) continue;
+      sheets.join(f, g, run_alike(s, t));
+      join(s, t);
+    }
+  }
+
+  void add_pairings(const std::vector<int>& sides, std::vector<Pairing>& pairings) const {
+    std::vector<Lie> lies;
+    for (const int s : sides) lies.push_back(lie(s));
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      for (std::size_t j = i + 1; j < sides.size(); ++j) {
+        const int s = sides[i], t = sides[j];
+        const bool is_oriented = (reversed_[face_of_[s]] != reversed_[face_of_[t]]) == run_alike(s, t);
+        const double bend = (1 + lies[i].inward.dot(lies[j].inward)) / 2;  // 0 where they are flat, 1 folded
+        const bool is_concave = lies[j].inward.dot(lies[i].normal) * (reversed_[face_of_[s]] ? -1 : 1) > kConcave;
+        const double score = (is_oriented ? 0 : 1) + bend + (is_concave ? kConcave : 0);
+        pairings.push_back({std::lround(score / kSameScore), s, t});
+      }
+    }
+  }
+
+  Lie lie(int side) const {
+    const int face = face_of_[side], first = mesh_.face_offsets[face];
+    const auto point = [this](int c) {
+      const auto& p = mesh_.vertices[mesh_.corner_vertices[c]];
+      return Vector3d(p[0], p[1], p[2]);
+    };
+    const Vector3d origin = point(first), along = (point(next_[side]) - point(side)).stableNormalized();
+    Vector3d area = Vector3d::Zero();
+    for (int c = first; c < mesh_.face_offsets[face + 1]; ++c)
+      area += (point(c) - origin).cross(point(next_[c]) - origin);
+    const Vector3d normal = area.stableNormalized();
+    return {normal, normal.cross(along)};
+  }
+
+  Ends ends(int s) {
+    const Ends found{fans_.lowest(s), fans_.lowest(next_[s])};
+    return label_[s] < label_[next_[s]] ? found : Ends{found[1], found[0]};
+  }
+
+  // Whether no edge gets a second copy between two vertices when these sides are joined. Sides that are apart may meet
+  // so in pairs: a fan has two ends, at which it closes.
+  bool has_room(int s, int t) {
+    const Ends one = ends(s), other = ends(t);
+    const auto merged = [&](Ends e) {
+      for (int& fan : e) fan = fan == other[0] ? one[0] : fan == other[1] ? one[1] : fan;
+      return e;
+    };
+    const auto is_asked = [&](int x) { return x == s || x == t; };
+    const auto collides = [&](int x, int y) {
+      if (x == y || result_.partner[x] == y || (is_asked(x) && is_asked(y)) || merged(ends(x)) != merged(ends(y)))
+        return false;
+      return is_asked(x) || is_asked(y) || result_.partner[x] >= 0 || result_.partner[y] >= 0;
+    };
+    for (int k = 0; k < 2; ++k) {
+      if (one[k] == other[k]) continue;
+      const auto &a = sides_at_[one[k]], &b = sides_at_[other[k]];
+      for (const int x : a.size() < b.size() ? a : b) {
+        const auto& copies = result_.many[edge_of_[x]];
+        if (std::any_of(copies.begin(), copies.end(), [&](int y) { return collides(x, y); })) return false;
+      }
+    }
+    return true;
+  }
+
+  void join(int s, int t) {
+    const Ends one = ends(s), other = ends(t);
+    result_.partner[s] = t;
+    result_.partner[t] = s;
+    join_fans(s, t);
+    const Ends now = ends(s);
+    for (int k = 0; k < 2; ++k) {
+      if (one[k] == other[k]) continue;
+      std::vector<int> a = std::move(sides_at_[one[k]]), b = std::move(sides_at_[other[k]]);
+      if (a.size() < b.size()) std::swap(a, b);
+      a.insert(a.end(), b.begin(), b.end());
+      sides_at_[now[k]] = std::move(a);
+    }
+  }
+
+  // Sides that are left apart, but run between the same two vertices now.
+  void join_what_closed(const std::vector<int>& sides) {
+    for (const int s : sides) {
+      for (const int t : sides) {
+        if (s >= t || result_.partner[s] >= 0 || result_.partner[t] >= 0 || ends(s) != ends(t)) continue;
+        result_.partner[s] = t;
+        result_.partner[t] = s;
+      }
+    }
+  }
+
+  // Scores that differ by less are equal: the rest is rounding.
+  static constexpr double kSameScore = 1e-6;
+  // A face bends up beside another by more than this, as a sine; and what that costs beside one that bends down.
+  static constexpr double kConcave = 1e-3;
+
+  const Polygons& mesh_;
+  const std::vector<int>& label_;
+  const std::vector<int> next_, face_of_;
+  JoinedSets fans_;                                      // of corners
+  std::vector<char> reversed_;                           // #F
+  std::vector<int> edge_of_;                             // #C index into `many`, -1 elsewhere
+  std::unordered_map<int, std::vector<int>> sides_at_;  // of `many`, by the fan at one of their ends
+  SideJoins result_;
+};
+
+}  // namespace
+
+std::vector<std::vector<int>> crowded_edges(const Polygons& mesh, const std::vector<int>& label) {
+  std::vector<std::vector<int>> crowded;
+  each_edge(sorted_sides(label, next_corners(mesh.face_offsets)), [&](auto begin, auto end) {
+    if (end - begin <= kMostFacesAtEdge) return;
+    for (crowded.emplace_back(); begin != end; ++begin) crowded.back().push_back(begin->corner);
+  });
+  return crowded;
+}
+
+SideJoins join_sides(const Polygons& mesh, const std::vector<int>& label) {
+  return Joiner(mesh, label).joined();
+}
+
+}  // namespace holomorph::mesh
