@@ -75,11 +75,11 @@ def map_report(coefficients: ArrayLike, quality: "Quality", found: Verdict | Non
     )
 
 
-def overall_report(parts: Sequence[dict[str, Any]], is_unwelded: bool = False) -> dict[str, Any] | None:
+def overall_report(parts: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
     """The `overall` verdict on a mesh out of its components' reports; None where none is done."""
     done = sorted((part for part in parts if part["done"]), key=lambda part: -part["faces"])
     found = [Verdict(**part["main_map"]["verdict"]) for part in done]
-    return vars(overall(found, is_unwelded)) if found else None
+    return vars(overall(found)) if found else None
 
 
 def repairs_report(repairs: "Repairs") -> dict[str, Any]:

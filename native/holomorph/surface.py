@@ -12,7 +12,7 @@ from .array_types import FilePath, Integers, Reals
 from .repairs import Cut, Refused, Repairs
 from .value import Value, freeze
 
-UNWELDED = "every face is apart: Surface.read(path, weld=True) joins those that touch"
+UNWELDED = "every face is apart: strict=False joins those that touch along a whole side"
 
 
 def _checked(vertices, corner_vertices, face_offsets, strict):

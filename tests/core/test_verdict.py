@@ -168,11 +168,6 @@ def test_the_worst_part_decides():
     assert overall([good, poor, poor]).sentence.startswith("2 of 3 parts are poor: uneven")
 
 
-def test_faces_that_are_all_apart_are_to_be_merged():
-    found = overall([verdict(Measured(lost_part=1.0))] * 2, is_unwelded=True)
-    assert "merge its vertices by distance" in found.advice
-
-
 # ---- the command ----------------------------------------------------------------------------------------------------
 
 

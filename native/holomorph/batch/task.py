@@ -75,7 +75,7 @@ def _mapped(task):
         "holomorph": __version__,
         "name": task.name,
         "faces": len(surface.face_offsets) - 1,
-        "verdict": overall_report(reports, surface.is_unwelded),
+        "verdict": overall_report(reports),
         "repairs": repairs_report(surface.repairs),
         "components": reports + mapping.refused_reports(surface),
     }
