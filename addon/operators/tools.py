@@ -13,7 +13,11 @@ KINDS = (
         "Where maps are cut: edges with more than two faces or of one-sided parts; faces that stand twice, have two sides "
         "or meet a vertex twice",
     ),
-    ("LEFT_OUT", "Left Out", "What no map has: faces and vertices that are not finite, faces of fewer than three vertices, parts without area"),
+    (
+        "LEFT_OUT",
+        "Left Out",
+        "What no map has: faces and vertices that are not finite, faces of fewer than three vertices, parts without area",
+    ),
     ("NO_AREA", "No Area", "Faces with a triangle without area"),
     ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; maps are cut there, too"),
     ("LOOSE", "Loose", "Vertices of no face; they do not matter"),

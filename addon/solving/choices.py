@@ -124,14 +124,18 @@ def has_copies(part):
 
 def in_part(keywords, part):
     """Keywords of vertices of the whole mesh as those of the part: the first copy of each, all copies of an edge."""
-    own = {name: np.searchsorted(part.vertex_index, keywords[name]) for name in ("poles", "corners") if name in keywords}
+    own = {
+        name: np.searchsorted(part.vertex_index, keywords[name]) for name in ("poles", "corners") if name in keywords
+    }
     if "cuts" not in keywords:
         return keywords | own
     following = np.arange(1, len(part.corner_vertices) + 1)
     following[part.face_offsets[1:] - 1] = part.face_offsets[:-1]
     edges = np.stack([part.corner_vertices, part.corner_vertices[following]], axis=1)
     count = part.given_vertex_count
-    keys, wanted = (np.sort(ends.astype(np.int64)) @ [count, 1] for ends in (part.vertex_index[edges], keywords["cuts"]))
+    keys, wanted = (
+        np.sort(ends.astype(np.int64)) @ [count, 1] for ends in (part.vertex_index[edges], keywords["cuts"])
+    )
     return keywords | own | {"cuts": edges[np.isin(keys, wanted)]}
 
 

@@ -118,9 +118,7 @@ def solve(task, progress=None):
         share = len(part.face_index) / total
         make = functools.partial(_make, holomorph, surface, polygons.vertices, part)
         solved.append(
-            _solve_component(
-                holomorph, make, part, chosen, holomorph.progress.scaled(progress, done, done + share)
-            )
+            _solve_component(holomorph, make, part, chosen, holomorph.progress.scaled(progress, done, done + share))
         )
         done += share
     return SolvedObject(surface, polygons, tuple(solved), time.perf_counter() - start)

@@ -96,7 +96,7 @@ def _listed(elements):
 
 
 def _cut_report(cut):
-    elements = next((of for of in (cut.vertices, cut.edges, cut.faces) if len(of)))
+    elements = next(of for of in (cut.vertices, cut.edges, cut.faces) if len(of))
     return {"reason": cut.reason, "text": cut.sentence, **_listed(elements)}
 
 

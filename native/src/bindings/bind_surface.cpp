@@ -171,8 +171,7 @@ void bind_surface(py::module_& m) {
                   py::arg("lengths"), py::arg("face_edges"))
       .def_static("cut", &cut<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
                   py::arg("face_offsets").noconvert())
-      .def_static("cut", &cut<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"),
-                  py::arg("face_offsets"))
+      .def_static("cut", &cut<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"), py::arg("face_offsets"))
       .def_static("read", &read, py::arg("path"), py::arg("strict"), py::arg("weld"))
       .def("components", &components)
       .def("topology", &mesh::topological_type)

@@ -25,8 +25,7 @@ float rounded(double x, int exponent) { return static_cast<float>(std::ldexp(x, 
 class Labelling {
  public:
   Labelling(const std::vector<int>& vertices, const std::vector<int>& face_offsets)
-      : offsets_(face_offsets),
-        count_(vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + 1) {
+      : offsets_(face_offsets), count_(vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + 1) {
     result_.label = vertices;
   }
 

@@ -10,6 +10,7 @@
 #include "mesh/make_surface.h"
 #include "mesh/polygon_checks.h"
 #include "mesh/polygon_edges.h"
+#include "mesh/polygon_sides.h"
 #include "mesh/side_joins.h"
 #include "mesh/triangle_geometry.h"
 
@@ -43,79 +44,6 @@ Plan planned(const Polygons& mesh, const std::vector<int>& vertices) {
   return plan;
 }
 
-template <class T>
-void make_ascending(std::vector<T>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-// Names the cuts of a plan by elements of the mesh as given.
-class Recorder {
- public:
-  Recorder(const UsableFaces& usable, const Plan& plan) : part_(usable.part), plan_(plan) {}
-
-  /// @param corner_vertices #C the vertices of the surface
-  std::vector<Cut> cuts(const std::vector<int>& corner_vertices) {
-    std::vector<Cut> found(6);
-    const auto& [labels, joins] = plan_;
-    found[0] = {CutReason::kManyFaces, {}, edges(joins.many), {}};
-    found[1] = {CutReason::kTwice, {}, {}, faces(labels.twice)};
-    found[2] = {CutReason::kOpposite, {}, {}, faces(labels.opposite)};
-    found[3] = {CutReason::kOneSided, {}, edges(joins.sided), {}};
-    found[4] = {CutReason::kRepeated, {}, {}, faces(labels.repeated)};
-    found[5] = {CutReason::kTouching, touching(corner_vertices), {}, {}};
-    std::erase_if(found, [](const Cut& c) { return c.vertices.empty() && c.edges.empty() && c.faces.empty(); });
-    return found;
-  }
-
- private:
-  int vertex(int corner) const { return part_.vertex_index[part_.polygons.corner_vertices[corner]]; }
-
-  std::vector<Pair> edges(const std::vector<std::vector<int>>& by_edge) {
-    const std::vector<int>& offsets = part_.polygons.face_offsets;
-    std::vector<Pair> result;
-    for (const auto& sides : by_edge) {
-      for (const int s : sides) {
-        const int face = static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), s) - offsets.begin()) - 1;
-        const int a = vertex(s), b = vertex(s + 1 == offsets[face + 1] ? offsets[face] : s + 1);
-        result.push_back({std::min(a, b), std::max(a, b)});
-        named_.insert(named_.end(), {a, b});
-      }
-    }
-    make_ascending(result);
-    return result;
-  }
-
-  std::vector<int> faces(const std::vector<int>& own) {
-    const Polygons& mesh = part_.polygons;
-    std::vector<int> result;
-    for (const int f : own) {
-      result.push_back(part_.face_index[f]);
-      for (int c = mesh.face_offsets[f]; c < mesh.face_offsets[f + 1]; ++c) named_.push_back(vertex(c));
-    }
-    return result;
-  }
-
-  // Vertices that are several, without those of what is named already.
-  std::vector<int> touching(const std::vector<int>& corner_vertices) {
-    std::vector<Pair> places(corner_vertices.size());
-    for (int c = 0; c < static_cast<int>(places.size()); ++c) places[c] = {vertex(c), corner_vertices[c]};
-    make_ascending(places);
-    make_ascending(named_);
-    std::vector<int> result;
-    for (std::size_t i = 1; i < places.size(); ++i) {
-      const int v = places[i][0];
-      if (places[i - 1][0] == v && !std::binary_search(named_.begin(), named_.end(), v)) result.push_back(v);
-    }
-    make_ascending(result);
-    return result;
-  }
-
-  const PolygonPart& part_;
-  const Plan& plan_;
-  std::vector<int> named_;  // vertices of cuts so far
-};
-
 // A vertex for each fan, ordered by the vertices that these were.
 CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) {
   PolygonPart& part = usable.part;
@@ -142,8 +70,10 @@ CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) 
     if (mesh.corner_vertices[c] != least[fan[c]])
       result.joined_vertices.push_back(part.vertex_index[mesh.corner_vertices[c]]);
   }
-  make_ascending(result.joined_vertices);
-  result.cuts = Recorder(usable, plan).cuts(cut.corner_vertices);
+  std::sort(result.joined_vertices.begin(), result.joined_vertices.end());
+  const auto end = std::unique(result.joined_vertices.begin(), result.joined_vertices.end());
+  result.joined_vertices.erase(end, result.joined_vertices.end());
+  result.cuts = cuts(part, plan.labels, plan.joins, cut.corner_vertices);
   result.surface = make_surface(std::move(cut), execution);
   result.face_index = std::move(part.face_index);
   result.corner_index = std::move(part.corner_index);
@@ -152,9 +82,7 @@ CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) 
 }
 
 // Sides without a partner.
-std::ptrdiff_t lone_sides(const SideJoins& joins) {
-  return std::count(joins.partner.begin(), joins.partner.end(), -1);
-}
+std::ptrdiff_t lone_sides(const SideJoins& joins) { return std::count(joins.partner.begin(), joins.partner.end(), -1); }
 
 CutSurface cut(UsableFaces usable, Execution& execution) {
   const Polygons& mesh = usable.part.polygons;

@@ -4,28 +4,11 @@
 #include <vector>
 
 #include "base/execution.h"
+#include "mesh/cut_records.h"
 #include "mesh/surface.h"
 #include "mesh/usable_faces.h"
 
 namespace holomorph::mesh {
-
-/// Why a mesh was cut.
-enum class CutReason {
-  kManyFaces,  ///< edges with three or more faces
-  kTwice,      ///< faces on the vertices of an earlier one
-  kOpposite,   ///< those that run the other way round
-  kOneSided,   ///< edges at which no orientation of their faces fits
-  kRepeated,   ///< faces that meet a vertex more than once
-  kTouching,   ///< vertices at which fans of faces touch
-};
-
-/// All cuts for one reason, by elements of the mesh as given; each list ascending.
-struct Cut {
-  CutReason reason{};
-  std::vector<int> vertices;  ///< of kTouching
-  std::vector<Pair> edges;    ///< ends, lower vertex first, of kManyFaces and kOneSided
-  std::vector<int> faces;     ///< of the other reasons
-};
 
 /// A mesh cut along edges and at vertices: polygons and their corners are those given, in their order.
 struct CutSurface {

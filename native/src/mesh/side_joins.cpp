@@ -1,65 +1,24 @@
 #include "mesh/side_joins.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <tuple>
 #include <unordered_map>
 #include <utility>
 
+#include "mesh/continuations.h"
 #include "mesh/joined_sets.h"
 #include "mesh/polygon_edges.h"
+#include "mesh/polygon_sides.h"
 
 namespace holomorph::mesh {
 namespace {
-
-using Eigen::Vector3d;
-
-struct Side {
-  int lower, higher, corner;  // its labels, and where it starts
-};
-
-std::vector<int> next_corners(const std::vector<int>& offsets) {
-  std::vector<int> next(offsets.back());
-  for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
-    for (int c = offsets[f]; c < offsets[f + 1]; ++c) next[c] = c + 1 == offsets[f + 1] ? offsets[f] : c + 1;
-  }
-  return next;
-}
-
-// The sides of each edge, by their corners.
-std::vector<Side> sorted_sides(const std::vector<int>& label, const std::vector<int>& next) {
-  std::vector<Side> sides(label.size());
-  for (int c = 0; c < static_cast<int>(label.size()); ++c) {
-    sides[c] = {std::min(label[c], label[next[c]]), std::max(label[c], label[next[c]]), c};
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.lower, a.higher, a.corner) < std::tie(b.lower, b.higher, b.corner);
-  });
-  return sides;
-}
-
-// Calls each(begin, end) for the sides of each edge.
-template <class Each>
-void each_edge(const std::vector<Side>& sides, const Each& each) {
-  for (auto begin = sides.begin(), end = begin; begin != sides.end(); begin = end) {
-    while (end != sides.end() && end->lower == begin->lower && end->higher == begin->higher) ++end;
-    each(begin, end);
-  }
-}
-
-// How a face lies at one of its sides, as it runs: unit vectors, zero where it has no area.
-struct Lie {
-  Vector3d normal, inward;
-};
 
 class Joiner {
  public:
   Joiner(const Polygons& mesh, const std::vector<int>& label)
       : mesh_(mesh),
         label_(label),
-        next_(next_corners(mesh.face_offsets)),
+        next_(next_corners(mesh)),
         face_of_(corner_faces(mesh)),
         fans_(label.size()),
         edge_of_(label.size(), -1) {
@@ -80,17 +39,10 @@ class Joiner {
   }
 
  private:
-  struct Pairing {
-    long score;
-    int side, other;
-    bool operator<(const Pairing& b) const {
-      return std::tie(score, side, other) < std::tie(b.score, b.side, b.other);
-    }
-  };
   using Ends = std::array<int, 2>;  // the fans at the lower and the higher label
 
   void take_edges() {
-    each_edge(sorted_sides(label_, next_), [this](auto begin, auto end) {
+    for_edges(mesh_, label_, [this](const LabelledSide* begin, const LabelledSide* end) {
       if (end - begin == 2) {
         result_.partner[begin->corner] = begin[1].corner;
         result_.partner[begin[1].corner] = begin->corner;
@@ -149,50 +101,18 @@ class Joiner {
   }
 
   void continue_sheets(SignedSets& sheets) {
-    std::vector<Pairing> pairings;
-    for (const auto& sides : result_.many) add_pairings(sides, pairings);
-    std::sort(pairings.begin(), pairings.end());
     for (const auto& sides : result_.many) {
       for (const int s : sides) {
         for (const int end : ends(s)) sides_at_[end].push_back(s);
       }
     }
-    for (const auto& [score, s, t] : pairings) {
+    for (const auto& [s, t] : continuations(mesh_, label_, reversed_, result_.many)) {
       const int f = face_of_[s], g = face_of_[t];
       if (result_.partner[s] >= 0 || result_.partner[t] >= 0 || !sheets.allows(f, g, run_alike(s, t))) continue;
       if (!has_room(s, t)) continue;
       sheets.join(f, g, run_alike(s, t));
       join(s, t);
     }
-  }
-
-  void add_pairings(const std::vector<int>& sides, std::vector<Pairing>& pairings) const {
-    std::vector<Lie> lies;
-    for (const int s : sides) lies.push_back(lie(s));
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      for (std::size_t j = i + 1; j < sides.size(); ++j) {
-        const int s = sides[i], t = sides[j];
-        const bool is_oriented = (reversed_[face_of_[s]] != reversed_[face_of_[t]]) == run_alike(s, t);
-        const double bend = (1 + lies[i].inward.dot(lies[j].inward)) / 2;  // 0 where they are flat, 1 folded
-        const bool is_concave = lies[j].inward.dot(lies[i].normal) * (reversed_[face_of_[s]] ? -1 : 1) > kConcave;
-        const double score = (is_oriented ? 0 : 1) + bend + (is_concave ? kConcave : 0);
-        pairings.push_back({std::lround(score / kSameScore), s, t});
-      }
-    }
-  }
-
-  Lie lie(int side) const {
-    const int face = face_of_[side], first = mesh_.face_offsets[face];
-    const auto point = [this](int c) {
-      const auto& p = mesh_.vertices[mesh_.corner_vertices[c]];
-      return Vector3d(p[0], p[1], p[2]);
-    };
-    const Vector3d origin = point(first), along = (point(next_[side]) - point(side)).stableNormalized();
-    Vector3d area = Vector3d::Zero();
-    for (int c = first; c < mesh_.face_offsets[face + 1]; ++c)
-      area += (point(c) - origin).cross(point(next_[c]) - origin);
-    const Vector3d normal = area.stableNormalized();
-    return {normal, normal.cross(along)};
   }
 
   Ends ends(int s) {
@@ -251,34 +171,18 @@ class Joiner {
     }
   }
 
-  // Scores that differ by less are equal: the rest is rounding.
-  static constexpr double kSameScore = 1e-6;
-  // A face bends up beside another by more than this, as a sine; and what that costs beside one that bends down.
-  static constexpr double kConcave = 1e-3;
-
   const Polygons& mesh_;
   const std::vector<int>& label_;
   const std::vector<int> next_, face_of_;
-  JoinedSets fans_;                                      // of corners
-  std::vector<char> reversed_;                           // #F
-  std::vector<int> edge_of_;                             // #C index into `many`, -1 elsewhere
+  JoinedSets fans_;                                     // of corners
+  std::vector<char> reversed_;                          // #F
+  std::vector<int> edge_of_;                            // #C index into `many`, -1 elsewhere
   std::unordered_map<int, std::vector<int>> sides_at_;  // of `many`, by the fan at one of their ends
   SideJoins result_;
 };
 
 }  // namespace
 
-std::vector<std::vector<int>> crowded_edges(const Polygons& mesh, const std::vector<int>& label) {
-  std::vector<std::vector<int>> crowded;
-  each_edge(sorted_sides(label, next_corners(mesh.face_offsets)), [&](auto begin, auto end) {
-    if (end - begin <= kMostFacesAtEdge) return;
-    for (crowded.emplace_back(); begin != end; ++begin) crowded.back().push_back(begin->corner);
-  });
-  return crowded;
-}
-
-SideJoins join_sides(const Polygons& mesh, const std::vector<int>& label) {
-  return Joiner(mesh, label).joined();
-}
+SideJoins join_sides(const Polygons& mesh, const std::vector<int>& label) { return Joiner(mesh, label).joined(); }
 
 }  // namespace holomorph::mesh

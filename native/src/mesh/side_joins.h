@@ -8,9 +8,6 @@
 
 namespace holomorph::mesh {
 
-/// An edge with more faces than this is cut from all of them: its pairs would take the square of their number.
-inline constexpr int kMostFacesAtEdge = 64;
-
 /// Side c runs from corner c of a polygon to its next corner.
 struct SideJoins {
   std::vector<int> partner;             ///< #C the side that each one is joined with, -1 if it is left apart
@@ -18,9 +15,6 @@ struct SideJoins {
   std::vector<std::vector<int>> many;   ///< sides of edges with three faces or more
   std::vector<std::vector<int>> sided;  ///< the two sides of each edge at which no orientation fits
 };
-
-/// The sides of each edge that has more than kMostFacesAtEdge.
-std::vector<std::vector<int>> crowded_edges(const Polygons& polygons, const std::vector<int>& label);
 
 /// Joins sides so that the polygons become an oriented surface in which an edge is known by its ends.
 ///
