@@ -10,13 +10,13 @@ KINDS = (
     (
         "CUT",
         "Cut",
-        "Where maps are cut: edges with more than two faces or of one-sided parts; faces that stand twice, have two sides "
-        "or meet a vertex twice",
+        "Edges with more than two faces, or of one-sided parts; faces that stand twice, have two sides or meet a "
+        "vertex twice: maps are cut there",
     ),
     (
         "LEFT_OUT",
         "Left Out",
-        "What no map has: faces and vertices that are not finite, faces of fewer than three vertices, parts without area",
+        "Coordinates that are not finite, faces of fewer than three vertices, parts without area: no map has them",
     ),
     ("NO_AREA", "No Area", "Faces with a triangle without area"),
     ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; maps are cut there, too"),

@@ -84,7 +84,7 @@ def _cut_notes(obj, surface):
     yield from (f"{obj.name}: {cut.sentence}" for cut in surface.repairs.cuts)
     joined = len(surface.repairs.joined_vertices)
     if joined:
-        yield f"{obj.name}: most faces are apart: {joined:,} vertices were joined for the maps; {MERGE} does so in the mesh"
+        yield f"{obj.name}: most faces are apart: {joined:,} vertices were joined for the maps; {MERGE} joins them"
 
 
 def _modifier_notes(obj, solved):

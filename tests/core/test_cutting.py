@@ -276,9 +276,8 @@ def test_a_ring_of_cubes_keeps_one_copy_of_each_edge():
 def test_each_layer_is_a_surface_of_its_own(mesh, step, reason):
     surface = lenient(stacked(mesh, step))
     alone = Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)
-    assert [(part.genus, part.boundary_count) for part in surface.components] == [
-        (alone.genus, alone.boundary_count)
-    ] * 2
+    kinds = [(part.genus, part.boundary_count) for part in surface.components]
+    assert kinds == [(alone.genus, alone.boundary_count)] * 2
     (cut,) = surface.repairs.cuts
     assert cut.reason == reason and cut.faces.tolist() == list(range(mesh.face_count, 2 * mesh.face_count))
 
@@ -427,9 +426,10 @@ def test_faces_without_area_beside_others_stay():
     assert surface.is_whole and not surface.refused
 
 
-@pytest.mark.parametrize(
-    "mesh", [broken(TETRAHEDRON, slice(None), 99), replace(TORUS, vertices=TORUS.vertices * np.nan)]
-)
+HOPELESS = broken(TETRAHEDRON, slice(None), 99), replace(TORUS, vertices=TORUS.vertices * np.nan)
+
+
+@pytest.mark.parametrize("mesh", HOPELESS)
 def test_where_nothing_is_left_it_is_refused_as_ever(mesh):
     messages = []
     for strict in (True, False):

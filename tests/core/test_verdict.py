@@ -206,7 +206,8 @@ def test_strict_takes_what_is_good(tmp_path, capsys):
 
 
 def test_strict_wants_every_part(tmp_path, capsys):
-    path = file_of(families.united(families.torus(24, 12), families.klein_bottle()), tmp_path / "two.obj")
+    flat = families.moved(families.tetrahedron(), scale=0)
+    path = file_of(families.united(families.torus(24, 12), flat), tmp_path / "two.obj")
     assert run(capsys, path)[0] == 0
     status, _, told = run(capsys, path, "--strict")
     assert status == 3 and told.startswith("holomorph: 1 of 2 parts have no map: ")
