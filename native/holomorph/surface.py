@@ -32,7 +32,7 @@ def _of_part(part):
 
 class Surface(Value):
     """A surface of polygons, validated and triangulated. All arrays are read-only. `given_vertex_count` is the number
-    of vertices of the mesh as given, and `refused` a tuple of the faces (`Refused`) that were left out of it, by reasons.
+    of vertices of the mesh as given, and `refused` a tuple of the faces (`Refused`) that were left out, by reasons.
 
     Parameters
     ----------
@@ -205,8 +205,8 @@ class Surface(Value):
 
     @cached_property
     def vertex_index(self) -> Integers:
-        """(#V,) index of each vertex in the mesh as given, of which this may be a component. Where that was cut, several
-        may be copies of one; of those that were joined, the lowest is named."""
+        """(#V,) index of each vertex in the mesh as given, of which this may be a component. Where that was cut,
+        several may be copies of one; of those that were joined, the lowest is named."""
         return self._index(self._vertex_index, self._native.vertex_count)
 
     @cached_property
