@@ -201,16 +201,18 @@ def test_all_faces_selected_is_the_whole_mesh():
     assert np.array_equal(uv(obj), expected) and not stored_report(obj)["is_selection"]
 
 
-def test_selected_faces_that_are_no_surface_are_refused_and_nothing_changes():
+def test_selected_faces_that_are_no_surface_are_cut():
     vertices, faces = grid_arrays()
     obj = mesh_object("Bad", [*vertices, (0, 0, 9)], [*faces, (0, 1, 49), (0, 1, 25)])
     pick_faces(obj, [0, 36, 37])
-    before = everything(obj)
-    with pytest.raises(RuntimeError, match="faces"):
-        run()
-    assert everything(obj) == before
+    assert run() == {"FINISHED"}
+    leave()
+    (cut,) = stored_report(obj)["repairs"]["cuts"]
+    assert cut["reason"] == "many_faces" and cut["first"] == [[0, 1]]
     pick_faces(obj, [0, 1, 6, 7])  # the others do not matter
     assert run() == {"FINISHED"}
+    leave()
+    assert not stored_report(obj)["repairs"]["cuts"]
 
 
 def test_selected_faces_are_tiled_and_poles_are_not_dragged_on_them():
