@@ -228,3 +228,14 @@ def test_only_the_librarys_errors_are_caught(monkeypatch):
     with pytest.raises(RuntimeError, match="ZeroDivisionError"):
         run()
     assert everything(obj) == before
+
+
+def test_helpers_of_the_importer_are_not_mapped():
+    helper = torus("Icosphere")
+    collection = bpy.data.collections.new("glTF_not_exported")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(helper)
+    good = torus("Good")
+    select(helper, good)
+    assert run() == {"FINISHED"}
+    assert not helper.data.uv_layers and good.data.uv_layers

@@ -1,8 +1,10 @@
 """Any polygons are cut until they are a surface: every face is in it, and nothing is cut without need."""
 
 import json
+import runpy
 from collections import defaultdict
 from dataclasses import replace
+from pathlib import Path
 
 import families
 import numpy as np
@@ -495,6 +497,27 @@ def test_what_is_mostly_whole_is_not_joined():
     """Seams of a mesh whose faces mostly have neighbours are left as they are."""
     surface = lenient(families.united(DISK, DISK))
     assert surface.is_whole and len(surface.components) == 2
+
+
+# ---- meshes as people bring them -------------------------------------------------------------------------------------
+
+HARD_CASES = Path(__file__).parents[3] / "shared" / "tools" / "hard_cases.py"
+
+
+@pytest.mark.skipif(not HARD_CASES.exists(), reason="no folder ../shared")
+@pytest.mark.parametrize("seed", range(5))
+def test_hard_cases_are_surfaces_of_all_faces(seed):
+    hard_cases = runpy.run_path(str(HARD_CASES))
+    for name in hard_cases["NAMES"]:
+        mesh = families.polygons(*hard_cases["make"](name, seed))
+        surface = lenient(mesh)
+        assert not surface.refused and (surface.face_index == np.arange(mesh.face_count)).all()
+        assert (surface.corner_index == np.arange(len(mesh.corners))).all()
+        assert Surface.from_polygons(surface.vertices, surface.corner_vertices, surface.face_offsets).is_whole
+        assert bool(surface.repairs.cuts) == (name in CUT_CASES), name
+
+
+CUT_CASES = ("fin", "double_sided", "shared_wall", "bracket", "voxels", "one_sided")
 
 
 # ---- files and the command ------------------------------------------------------------------------------------------

@@ -41,6 +41,20 @@ class Joiner {
  private:
   using Ends = std::array<int, 2>;  // the fans at the lower and the higher label
 
+  struct Joining {
+    int s, t;         // sides
+    Ends one, other;  // their ends
+
+    bool holds(int side) const { return side == s || side == t; }
+    Ends merged(Ends ends) const {
+      for (int& fan : ends) {
+        if (fan == other[0]) fan = one[0];
+        if (fan == other[1]) fan = one[1];
+      }
+      return ends;
+    }
+  };
+
   void take_edges() {
     for_edges(mesh_, label_, [this](const LabelledSide* begin, const LabelledSide* end) {
       if (end - begin == 2) {
@@ -120,26 +134,23 @@ class Joiner {
     return label_[s] < label_[next_[s]] ? found : Ends{found[1], found[0]};
   }
 
-  // Whether no edge gets a second copy between two vertices when these sides are joined. Sides that are apart may meet
-  // so in pairs: a fan has two ends, at which it closes.
+  // Whether two sides of an edge that are not joined run between the same vertices once `asked` are joined. Sides that
+  // are apart may do so in pairs: a fan has two ends, at which it closes.
+  bool collide(int x, int y, const Joining& asked) {
+    if (x == y || result_.partner[x] == y || asked.merged(ends(x)) != asked.merged(ends(y))) return false;
+    if (asked.holds(x) && asked.holds(y)) return false;
+    return asked.holds(x) || asked.holds(y) || result_.partner[x] >= 0 || result_.partner[y] >= 0;
+  }
+
+  // Whether no edge gets a second copy between two vertices when these sides are joined.
   bool has_room(int s, int t) {
-    const Ends one = ends(s), other = ends(t);
-    const auto merged = [&](Ends e) {
-      for (int& fan : e) fan = fan == other[0] ? one[0] : fan == other[1] ? one[1] : fan;
-      return e;
-    };
-    const auto is_asked = [&](int x) { return x == s || x == t; };
-    const auto collides = [&](int x, int y) {
-      if (x == y || result_.partner[x] == y || (is_asked(x) && is_asked(y)) || merged(ends(x)) != merged(ends(y)))
-        return false;
-      return is_asked(x) || is_asked(y) || result_.partner[x] >= 0 || result_.partner[y] >= 0;
-    };
+    const Joining asked{s, t, ends(s), ends(t)};
     for (int k = 0; k < 2; ++k) {
-      if (one[k] == other[k]) continue;
-      const auto &a = sides_at_[one[k]], &b = sides_at_[other[k]];
+      if (asked.one[k] == asked.other[k]) continue;
+      const auto &a = sides_at_[asked.one[k]], &b = sides_at_[asked.other[k]];
       for (const int x : a.size() < b.size() ? a : b) {
         const auto& copies = result_.many[edge_of_[x]];
-        if (std::any_of(copies.begin(), copies.end(), [&](int y) { return collides(x, y); })) return false;
+        if (std::any_of(copies.begin(), copies.end(), [&](int y) { return collide(x, y, asked); })) return false;
       }
     }
     return true;
