@@ -514,7 +514,8 @@ def test_hard_cases_are_surfaces_of_all_faces(seed):
         assert not surface.refused and (surface.face_index == np.arange(mesh.face_count)).all()
         assert (surface.corner_index == np.arange(len(mesh.corners))).all()
         assert Surface.from_polygons(surface.vertices, surface.corner_vertices, surface.face_offsets).is_whole
-        assert bool(surface.repairs.cuts) == (name in CUT_CASES), name
+        reasons = cuts_by_reason(surface).keys() - {"touching"}  # flat shapes touch themselves
+        assert bool(reasons) == (name in CUT_CASES), name
 
 
 CUT_CASES = ("fin", "double_sided", "shared_wall", "bracket", "voxels", "one_sided")
