@@ -139,7 +139,9 @@ def _shape(surface, parts):
     """(#V, 3) conformal images: spheres on the unit sphere, disks in the unit disk with z = 0, NaN where neither is."""
     points = np.full((len(surface.vertex_index), 3), np.nan)
     for part in parts:
-        structure, rows = part.structure, np.searchsorted(surface.vertex_index, part.surface.vertex_index)
+        structure, rows = part.structure, np.empty(len(part.surface.vertex_index), int)
+        corners = np.searchsorted(surface.corner_index, part.surface.corner_index)
+        rows[part.surface.corner_vertices] = surface.corner_vertices[corners]
         is_sphere = (part.surface.genus, part.surface.boundary_count) == (0, 0)
         if is_sphere and structure and len(structure.poles) == 2:
             points[rows] = structure.sphere_map()
