@@ -7,9 +7,19 @@ from bpy.props import EnumProperty
 from .availability import AtOnce
 
 KINDS = (
-    ("REFUSED", "Refused", "Edges with more than two faces; the faces of parts that are one-sided"),
+    (
+        "CUT",
+        "Cut",
+        "Edges with more than two faces, or of one-sided parts; faces that stand twice, have two sides or meet a "
+        "vertex twice: maps are cut there",
+    ),
+    (
+        "LEFT_OUT",
+        "Left Out",
+        "Coordinates that are not finite, faces of fewer than three vertices, parts without area: no map has them",
+    ),
     ("NO_AREA", "No Area", "Faces with a triangle without area"),
-    ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; they are mapped as if apart"),
+    ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; maps are cut there, too"),
     ("LOOSE", "Loose", "Vertices of no face; they do not matter"),
     ("FLIPPED", "Flipped UVs", "Faces that the active UV map turns over, or leaves without area"),
 )
@@ -88,7 +98,7 @@ class HOLOMORPH_OT_remove_maps(AtOnce, bpy.types.Operator):
 
 
 class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
-    """Go to edit mode and select what keeps parts of the selected meshes from being mapped, or spoils a map"""
+    """Go to edit mode and select where maps of the selected meshes are cut, what they leave out, or what spoils them"""
 
     bl_idname = "mesh.holomorphic_select_bad"
     bl_label = "Select Bad Elements"
@@ -98,7 +108,7 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
         description="What is selected",
         items=KINDS,
         options={"ENUM_FLAG"},
-        default={"REFUSED", "NO_AREA"},
+        default={"CUT", "LEFT_OUT", "NO_AREA"},
     )
 
     def draw(self, _context):

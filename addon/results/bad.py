@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The elements of a mesh for which parts of it are refused or repaired, or for which its UV map is bad; and selecting
-them."""
+"""The elements of a mesh at which it is cut for its maps or left out of them, or for which its UV map is bad; and
+selecting them."""
 
 from dataclasses import dataclass, field
 
@@ -9,9 +9,8 @@ import numpy as np
 from .. import compatibility, native
 from ..compatibility import Values
 from ..scene import mesh_io
-from ..scene.faces import edge_ends
 
-REFUSED, NO_AREA, TOUCHING, LOOSE, FLIPPED = "REFUSED", "NO_AREA", "TOUCHING", "LOOSE", "FLIPPED"
+CUT, LEFT_OUT, NO_AREA, TOUCHING, LOOSE, FLIPPED = "CUT", "LEFT_OUT", "NO_AREA", "TOUCHING", "LOOSE", "FLIPPED"
 NONE = np.empty(0, np.int64)
 NO_EDGES = np.empty((0, 2), np.int64)
 
@@ -34,41 +33,39 @@ class Elements:
 
 def find(polygons, uv, kinds):
     """The `Elements` of these kinds; uv : (#C, 2), or None where there is no map."""
-    unusable = np.flatnonzero(~np.isfinite(polygons.vertices).all(axis=1))
-    if len(unusable):
-        return Elements(vertices=unusable)
-    if not polygons.face_count:
-        return Elements(vertices=_loose(polygons) if LOOSE in kinds else NONE)
+    vertices = [_not_finite(polygons)] * (LEFT_OUT in kinds) + [_loose(polygons)] * (LOOSE in kinds)
+    edges, faces = [NO_EDGES], [NONE]
     holomorph = native.load()
     try:
         surface = polygons.surface(strict=False)
-    except (holomorph.InvalidMesh, holomorph.TopologyError):  # there is no sound part
-        edges, faces = _refused(polygons, [np.arange(polygons.face_count)])
-        return Elements(edges=edges, faces=faces)
-    refused = [part.faces for part in surface.refused]
-    edges, faces = _refused(polygons, refused) if REFUSED in kinds else (NO_EDGES, NONE)
-    repairs = surface.repairs
-    vertices = [repairs.split_vertices] * (TOUCHING in kinds) + [_loose(polygons)] * (LOOSE in kinds)
-    faces = [faces] + [repairs.zero_area_faces] * (NO_AREA in kinds)
+    except (holomorph.InvalidMesh, holomorph.TopologyError):  # no face can be mapped
+        faces += [np.arange(polygons.face_count)] * (LEFT_OUT in kinds and not len(vertices[0]))
+    else:
+        cuts = [cut for cut in surface.repairs.cuts if (TOUCHING if len(cut.vertices) else CUT) in kinds]
+        vertices += [cut.vertices for cut in cuts]
+        edges += [cut.edges for cut in cuts]
+        faces += [cut.faces for cut in cuts] + [surface.repairs.zero_area_faces] * (NO_AREA in kinds)
+        faces += [_finite(polygons, refused.faces) for refused in surface.refused] * (LEFT_OUT in kinds)
     if FLIPPED in kinds and uv is not None:
         faces.append(_flipped(polygons.face_offsets, uv))
-    return Elements(np.concatenate([NONE, *vertices]), edges, np.unique(np.concatenate(faces)))
+    return Elements(np.concatenate([NONE, *vertices]), np.concatenate(edges), np.unique(np.concatenate(faces)))
+
+
+def _not_finite(polygons):
+    """Vertices of which a coordinate is no finite number."""
+    return np.flatnonzero(~np.isfinite(polygons.vertices).all(axis=1))
+
+
+def _finite(polygons, faces):
+    """Those of the faces that have no such vertex."""
+    at_none = np.isin(polygons.corner_vertices, _not_finite(polygons))
+    face_of_corner = np.repeat(np.arange(polygons.face_count), np.diff(polygons.face_offsets))
+    return np.setdiff1d(faces, face_of_corner[at_none])
 
 
 def _loose(polygons):
     """Vertices of no face."""
     return np.setdiff1d(np.arange(len(polygons.vertices)), polygons.corner_vertices)
-
-
-def _refused(polygons, parts):
-    """((n, 2) edges with more than two faces, faces of those of the refused `parts` that have no such edge)"""
-    ends = edge_ends(polygons)
-    pairs, index, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
-    is_bad = (count > 2)[index.ravel()]
-    face_of_corner = np.repeat(np.arange(polygons.face_count), np.diff(polygons.face_offsets))
-    with_bad_edges = face_of_corner[is_bad]
-    others = [faces for faces in parts if not np.isin(faces, with_bad_edges).any()]
-    return pairs[count > 2], np.concatenate([NONE, *others])
 
 
 def _flipped(face_offsets, uv):

@@ -10,6 +10,7 @@ from ..maps import coarse
 from ..scene import uv_maps
 from . import report, stored
 
+MERGE = "Mesh > Merge > By Distance"
 OVERLAPS = "overlaps itself: UV > Select Overlap shows where"
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
@@ -41,6 +42,7 @@ class Outcome:
         self.forms = max(self.forms, made.solved.form_count)
         self.problems += _problems(obj, made)
         self.judge(obj, entry)
+        self.notes += _cut_notes(obj, made.solved.surface)
         if target.polygons.faces is None:
             self.notes += _modifier_notes(obj, made.solved)
         extra = sum(w.kind == "attribute" for w in written)
@@ -70,9 +72,19 @@ def _problems(obj, made):
         told["not seamless"] = part.not_seamless
         yield from (f"{obj.name}: {which}{what}: {why}" for what, why in told.items() if why)
     for refused in made.solved.surface.refused:
-        yield f"{obj.name}: {len(refused.faces)} faces left out: {native.sentence(refused.reason)}"
-    if made.solved.surface.is_unwelded:
-        yield f"{obj.name}: every face is apart; Mesh > Merge > By Distance joins those that touch"
+        yield f"{obj.name}: {_faces(len(refused.faces))} left out: {native.sentence(refused.reason)}"
+
+
+def _faces(count):
+    return "1 face" if count == 1 else f"{count:,} faces"
+
+
+def _cut_notes(obj, surface):
+    """One sentence for each reason for which the mesh was cut for its maps, and one where it was joined."""
+    yield from (f"{obj.name}: {cut.sentence}" for cut in surface.repairs.cuts)
+    joined = len(surface.repairs.joined_vertices)
+    if joined:
+        yield f"{obj.name}: most faces are apart: {joined:,} vertices were joined for the maps; {MERGE} joins them"
 
 
 def _modifier_notes(obj, solved):

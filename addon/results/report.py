@@ -33,7 +33,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": dials | (asdict(write_options) if write_options else {}),
         "seams_added": new_seams,
-        "verdict": package.overall_report(parts, solved.surface.is_unwelded),
+        "verdict": package.overall_report(parts),
         "repairs": package.repairs_report(faces.repairs(solved)),
         "seconds": solved.seconds,
         "components": parts + [package.refused_report(refused) for refused in solved.surface.refused],

@@ -68,12 +68,22 @@ def summary(stored):
 def _summary(entry):
     parts, count = entry["components"], len(entry["maps"])
     yield "1 map" if count == 1 else f"{count} maps"
+    yield from cut_lines(entry)
     for index, part in enumerate(parts[:SUMMARISED], 1):
         yield f"Part {index}: {_topology(part)}" + ("" if part["done"] else ", skipped")
         if part["done"]:
             yield from (f"    {line}" for line in _result_lines(part))
     if len(parts) > SUMMARISED:
         yield f"... {len(parts) - SUMMARISED} more parts in the report"
+
+
+def cut_lines(entry):
+    """What was cut and joined for the maps, by reasons."""
+    repairs = entry["repairs"]
+    yield from (cut["text"][0].upper() + cut["text"][1:] for cut in repairs["cuts"])
+    joined = repairs["joined_vertices"]["count"]
+    if joined:
+        yield f"Most faces are apart: {joined:,} vertices were joined"
 
 
 def _topology(part):

@@ -51,4 +51,5 @@ def repairs(solved):
         return found
     none = np.empty(0, np.int64)
     of_mesh = {name: faces[getattr(found, name)] for name in ("reversed_faces", "zero_area_faces")}
-    return replace(found, isolated_vertices=none, **of_mesh)
+    cuts = tuple(replace(cut, faces=faces[cut.faces]) for cut in found.cuts)
+    return replace(found, isolated_vertices=none, cuts=cuts, **of_mesh)

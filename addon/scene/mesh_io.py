@@ -30,7 +30,7 @@ class Polygons:
         return len(self.face_offsets) - 1
 
     def surface(self, strict=True):
-        """The `holomorph.Surface` of them, or of their sound part."""
+        """The `holomorph.Surface` of them, or the one that they become when they are cut."""
         arrays = self.vertices, self.corner_vertices, self.face_offsets
         return native.load().Surface.from_polygons(*arrays, strict=strict)
 

@@ -14,6 +14,7 @@ from . import faces, mesh_io
 
 SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 EVERYTHING = Choices()
+IMPORTER_HELPERS = "glTF_not_exported"  # the collection of the glTF importer
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
 
 
@@ -51,9 +52,14 @@ def mesh_objects(context):
     if context.mode == "EDIT_MESH":
         objects = compatibility.objects_being_edited(context)
     else:
-        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH"]
+        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH" and not _is_helper(o)]
     active = context.view_layer.objects.active
     return sorted(objects, key=lambda o: o != active)
+
+
+def _is_helper(obj):
+    """Whether Blender's importer made it for its own use, such as the shapes of bones: it is no part of the scene."""
+    return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 
 def collect(objects, asked=EVERYTHING):

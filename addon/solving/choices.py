@@ -5,7 +5,7 @@ A choice becomes keywords of `holomorph.automatic_structure`. Where an explicit 
 it; an implicit one (a selection under "Automatic", seams) is dropped.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -90,6 +90,38 @@ def _with_fitting_method(part, keywords):
 def name_vertices(keywords):
     """Whether the keywords name vertices."""
     return not keywords.keys().isdisjoint({"poles", "corners", "cuts"})
+
+
+def on_surface(chosen, corner_vertices, surface):
+    """The same `Choices` where vertices of the mesh were joined: the lowest of them stands for all."""
+    if not len(surface.repairs.joined_vertices):
+        return chosen
+    lowest = np.arange(surface.given_vertex_count)
+    lowest[corner_vertices[surface.corner_index]] = surface.vertex_index[surface.corner_vertices]
+    vertices = chosen.vertices and tuple(dict.fromkeys(lowest[list(chosen.vertices)].tolist()))
+    return replace(chosen, vertices=vertices, seams=lowest[chosen.seams])
+
+
+def has_copies(part):
+    """Whether vertices of the mesh are several on the part, where it was cut."""
+    return bool((np.diff(part.vertex_index) == 0).any())
+
+
+def in_part(keywords, part):
+    """Keywords of vertices of the whole mesh as those of the part: the first copy of each, all copies of an edge."""
+    own = {
+        name: np.searchsorted(part.vertex_index, keywords[name]) for name in ("poles", "corners") if name in keywords
+    }
+    if "cuts" not in keywords:
+        return keywords | own
+    following = np.arange(1, len(part.corner_vertices) + 1)
+    following[part.face_offsets[1:] - 1] = part.face_offsets[:-1]
+    edges = np.stack([part.corner_vertices, part.corner_vertices[following]], axis=1)
+    count = part.given_vertex_count
+    keys, wanted = (
+        np.sort(ends.astype(np.int64)) @ [count, 1] for ends in (part.vertex_index[edges], keywords["cuts"])
+    )
+    return keywords | own | {"cuts": edges[np.isin(keys, wanted)]}
 
 
 def ask_for_a_kind(keywords):

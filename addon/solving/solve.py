@@ -101,7 +101,8 @@ def solve(task, progress=None):
     start = time.perf_counter()
     polygons, surface = task.polygons, task.polygons.surface(strict=False)
     polygons.share(surface)
-    parts = _parts(holomorph, surface, task.chosen, progress)
+    chosen = choices.on_surface(task.chosen, polygons.corner_vertices, surface)
+    parts = _parts(holomorph, surface, chosen, progress)
     stray = choices.stray_vertex(polygons.corner_vertices, task.chosen)
     if stray is not None:
         raise holomorph.InvalidMesh(f"vertex {stray} belongs to no face and cannot be chosen")
@@ -111,9 +112,7 @@ def solve(task, progress=None):
         share = len(part.face_index) / total
         make = functools.partial(_make, holomorph, surface, polygons.vertices, part)
         solved.append(
-            _solve_component(
-                holomorph, make, part, task.chosen, holomorph.progress.scaled(progress, done, done + share)
-            )
+            _solve_component(holomorph, make, part, chosen, holomorph.progress.scaled(progress, done, done + share))
         )
         done += share
     return SolvedObject(surface, polygons, tuple(solved), time.perf_counter() - start)
@@ -150,7 +149,9 @@ def _solve_component(holomorph, make, part, chosen, progress):
 
 def _make(holomorph, surface, vertices, part, keywords, note, progress):
     target, scaled = part, holomorph.progress.scaled
-    if choices.name_vertices(keywords):
+    if choices.name_vertices(keywords) and choices.has_copies(part):
+        keywords = choices.in_part(keywords, part)
+    elif choices.name_vertices(keywords):
         # The part's faces with all of the mesh's vertices: then the library names vertices by the mesh's indices.
         corners = part.vertex_index[part.corner_vertices]
         target = holomorph.Surface.from_polygons(vertices, corners, part.face_offsets)

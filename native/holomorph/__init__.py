@@ -41,7 +41,7 @@ from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
 from .progressive import ProgressiveMesh
 from .quality import Quality
-from .repairs import Refused, Repairs
+from .repairs import Cut, Refused, Repairs
 from .siegel import SiegelReduction, siegel_reduction
 from .solver_report import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure
@@ -61,6 +61,7 @@ __all__ = [
     "CoarsePlace",
     "ConformalMap",
     "ConformalStructure",
+    "Cut",
     "DiskMap",
     "Equivalence",
     "Error",

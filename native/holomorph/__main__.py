@@ -84,7 +84,7 @@ def mapped(options):
         "holomorph": __version__,
         "mesh": str(options.mesh),
         "faces": len(surface.face_offsets) - 1,
-        "verdict": overall_report(reports, surface.is_unwelded),
+        "verdict": overall_report(reports),
         "repairs": repairs_report(surface.repairs),
         "components": reports + mapping.refused_reports(surface),
     }

@@ -81,7 +81,7 @@ def skipped_report(surface: "Surface", reason: object) -> dict[str, Any]:
 
 
 def refused_report(refused: "Refused") -> dict[str, Any]:
-    """A component that was left out of a surface, a `Refused`."""
+    """Faces that were left out of a surface, a `Refused`."""
     return {"done": False, "faces": len(refused.faces), "reason": refused.reason}
 
 
@@ -102,21 +102,29 @@ def map_report(coefficients: ArrayLike, quality: "Quality", found: Verdict | Non
     )
 
 
-def overall_report(parts: Sequence[dict[str, Any]], is_unwelded: bool = False) -> dict[str, Any] | None:
+def overall_report(parts: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
     """The `overall` verdict on a mesh out of its components' reports; None where none is done."""
     done = sorted((part for part in parts if part["done"]), key=lambda part: -part["faces"])
     found = [Verdict(**part["main_map"]["verdict"]) for part in done]
-    return vars(overall(found, is_unwelded)) if found else None
+    return vars(overall(found)) if found else None
 
 
 def repairs_report(repairs: "Repairs") -> dict[str, Any]:
     """`Repairs`, with the number and the first of the elements of each kind."""
+    arrays = {name: value for name, value in vars(repairs).items() if isinstance(value, np.ndarray)}
     return plain(
-        {
-            name: value if np.ndim(value) == 0 else {"count": len(value), "first": value[:LISTED]}
-            for name, value in vars(repairs).items()
-        }
+        {name: _listed(value) for name, value in arrays.items()}
+        | {"cuts": [_cut_report(cut) for cut in repairs.cuts], "mollification": repairs.mollification}
     )
+
+
+def _listed(elements):
+    return {"count": len(elements), "first": elements[:LISTED]}
+
+
+def _cut_report(cut):
+    elements = next(of for of in (cut.vertices, cut.edges, cut.faces) if len(of))
+    return {"reason": cut.reason, "text": cut.sentence, **_listed(elements)}
 
 
 def _topology(surface):

@@ -9,37 +9,40 @@ from numpy.typing import ArrayLike
 from . import _native, arrays, formats, pickled_surface
 from ._native import InvalidMesh, TopologyError
 from .array_types import FilePath, Integers, Reals
-from .repairs import Refused, Repairs
+from .repairs import Cut, Refused, Repairs
 from .value import Value, freeze
 
-UNWELDED = "every face is apart: Surface.read(path, weld=True) joins those that touch"
+UNWELDED = "every face is apart: strict=False joins those that touch along a whole side"
 
 
 def _checked(vertices, corner_vertices, face_offsets, strict):
     """What `Surface._adopt` takes."""
     if strict:
         return (_native.Surface.from_polygons(vertices, corner_vertices, face_offsets),)
-    return _of_part(_native.Surface.sound_part(vertices, corner_vertices, face_offsets))
+    return _of_part(_native.Surface.cut(vertices, corner_vertices, face_offsets))
 
 
 def _of_part(part):
     """The same of a native part of a mesh."""
-    refused = [(component.faces, component.reason) for component in part.refused]
+    refused = tuple(Refused(entry.faces, entry.reason) for entry in part.refused)
+    cuts = tuple(Cut(cut.reason.name, cut.vertices, cut.edges, cut.faces) for cut in part.cuts)
     indices = part.vertex_index, part.face_index, part.corner_index
-    return part.surface, *indices, part.given_vertex_count, part.split_vertices, refused
+    return part.surface, *indices, part.given_vertex_count, cuts, part.joined_vertices, refused
 
 
 class Surface(Value):
     """A surface of polygons, validated and triangulated. All arrays are read-only. `given_vertex_count` is the number
-    of vertices of the mesh as given, and `refused` a tuple of the components (`Refused`) that were left out of it.
+    of vertices of the mesh as given, and `refused` a tuple of the faces (`Refused`) that were left out, by reasons.
 
     Parameters
     ----------
     vertices : (#V, 3) reals
     faces : (#F, 3) or (#F, 4) integers, or a list of lists of any sizes
-    strict : refuse the whole mesh for any bad element. Else what can be done is: where fans of faces touch at a vertex,
-        each gets a vertex of its own, and components that are no surface are left out and listed in `refused`; elements
-        are then numbered anew, see `vertex_index`
+    strict : refuse the whole mesh for any bad element. Else a mesh that is no surface is cut until it is one, by giving
+        a vertex to each fan of faces, and `repairs.cuts` says where and why. Polygons and corners stay what they are.
+        Left out, and listed in `refused`, are faces of less than three vertices or with coordinates that are not
+        finite, and parts without area. Where most faces are apart, those whose sides run between the same places, in
+        single precision, are joined, see `repairs.joined_vertices`. Elements are then numbered anew, see `vertex_index`
 
     Raises
     ------
@@ -104,14 +107,14 @@ class Surface(Value):
 
         Parameters
         ----------
-        strict : as in `Surface`, but by default what can be done of a file is
+        strict : as in `Surface`, but by default a mesh is cut until it is a surface
         weld : join vertices with equal coordinates, for files in which every face has vertices of its own; what that
             leaves of a face with fewer than three corners is left out. STL files always are welded
 
         Raises
         ------
         InvalidMesh
-            if the file is missing or malformed (names the line or byte), or no component of the mesh in it is valid.
+            if the file is missing or malformed (names the line or byte), or no face of the mesh in it can be mapped.
         """
         return cls._of(*_of_part(_native.Surface.read(path, strict, weld)))
 
@@ -141,12 +144,19 @@ class Surface(Value):
         self._adopt_indices(*rest)
 
     def _adopt_indices(
-        self, vertex_index=None, face_index=None, corner_index=None, given_vertex_count=None, split=(), refused=()
+        self,
+        vertex_index=None,
+        face_index=None,
+        corner_index=None,
+        given_vertex_count=None,
+        cuts=(),
+        joined=(),
+        refused=(),
     ):
         self._vertex_index, self._face_index, self._corner_index = vertex_index, face_index, corner_index
-        self._split_vertices = arrays.frozen(np.array(split, np.int32))
+        self._cuts, self._joined_vertices = cuts, arrays.frozen(np.array(joined, np.int32))
         self.given_vertex_count: int = self._native.vertex_count if given_vertex_count is None else given_vertex_count
-        self.refused: tuple[Refused, ...] = tuple(Refused(faces, reason) for faces, reason in refused)
+        self.refused: tuple[Refused, ...] = refused
 
     def _facts(self):
         native, faces = self._native, len(self.face_offsets) - 1
@@ -155,7 +165,7 @@ class Surface(Value):
 
     def __getstate__(self):
         index = self._vertex_index, self._face_index, self._corner_index
-        rest = self.given_vertex_count, self._split_vertices, tuple((part.faces, part.reason) for part in self.refused)
+        rest = self.given_vertex_count, self._cuts, self._joined_vertices, self.refused
         return {"mesh": pickled_surface.arrays_of(self._native), "rest": index + rest, "dual_vertex": self.dual_vertex}
 
     def __setstate__(self, state):
@@ -195,7 +205,8 @@ class Surface(Value):
 
     @cached_property
     def vertex_index(self) -> Integers:
-        """(#V,) index of each vertex in the mesh as given, of which this may be a component or the sound part."""
+        """(#V,) index of each vertex in the mesh as given, of which this may be a component. Where that was cut,
+        several may be copies of one; of those that were joined, the lowest is named."""
         return self._index(self._vertex_index, self._native.vertex_count)
 
     @cached_property
@@ -275,7 +286,8 @@ class Surface(Value):
             self._given(self._face_index, native.reversed_faces),
             self._given(self._face_index, native.zero_area_faces),
             self._given(self._vertex_index, native.isolated_vertices),
-            self._split_vertices,
+            self._cuts,
+            self._joined_vertices,
             native.mollification(),
         )
 

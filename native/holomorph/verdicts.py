@@ -82,18 +82,14 @@ def verdict(quality: "Quality", poles: int | None = None, added_distortion: floa
     return Verdict(LEVELS[worst], _sentence(quality, poles, ranks), "; ".join(decisive or more_exact))
 
 
-def overall(verdicts: Sequence[Verdict], is_unwelded: bool = False) -> Verdict:
-    """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level.
-
-    is_unwelded : every face is apart, as `Surface.is_unwelded` says
-    """
+def overall(verdicts: Sequence[Verdict]) -> Verdict:
+    """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level."""
     worst = max(verdicts, key=lambda each: each.rank)
     count = sum(each.rank == worst.rank for each in verdicts)
     sentence = worst.sentence
     if count < len(verdicts):
         sentence = f"{count} of {len(verdicts)} parts {'is' if count == 1 else 'are'} {worst.level}: {_lower(sentence)}"
-    advice = "merge its vertices by distance, every face is apart" if is_unwelded else worst.advice
-    return Verdict(worst.level, sentence, advice)
+    return Verdict(worst.level, sentence, worst.advice)
 
 
 def _rank(value, limits):

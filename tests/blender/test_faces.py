@@ -125,7 +125,7 @@ def test_a_selection_that_touches_itself_at_a_vertex_is_done():
     assert run() == {"FINISHED"}
     leave()
     entry = stored_report(obj)
-    assert entry["repairs"]["split_vertices"]["count"] == 1
+    assert [(cut["reason"], cut["count"]) for cut in entry["repairs"]["cuts"]] == [("touching", 1)]
     assert [part["faces"] for part in entry["components"]] == [2, 2]
     assert (np.ptp(uv(obj)[corners_of(touching)], axis=0) > 0).all()
 
@@ -201,16 +201,18 @@ def test_all_faces_selected_is_the_whole_mesh():
     assert np.array_equal(uv(obj), expected) and not stored_report(obj)["is_selection"]
 
 
-def test_selected_faces_that_are_no_surface_are_refused_and_nothing_changes():
+def test_selected_faces_that_are_no_surface_are_cut():
     vertices, faces = grid_arrays()
     obj = mesh_object("Bad", [*vertices, (0, 0, 9)], [*faces, (0, 1, 49), (0, 1, 25)])
     pick_faces(obj, [0, 36, 37])
-    before = everything(obj)
-    with pytest.raises(RuntimeError, match="faces"):
-        run()
-    assert everything(obj) == before
+    assert run() == {"FINISHED"}
+    leave()
+    (cut,) = stored_report(obj)["repairs"]["cuts"]
+    assert cut["reason"] == "many_faces" and cut["first"] == [[0, 1]]
     pick_faces(obj, [0, 1, 6, 7])  # the others do not matter
     assert run() == {"FINISHED"}
+    leave()
+    assert not stored_report(obj)["repairs"]["cuts"]
 
 
 def test_selected_faces_are_tiled_and_poles_are_not_dragged_on_them():

@@ -115,9 +115,10 @@ def test_a_stack_that_leaves_nothing_is_refused():
     assert everything(obj) == before and list(bpy.data.objects) == [obj]
 
 
-def test_a_stack_that_makes_no_surface_is_refused_and_makes_no_object():
+def three_sheets():
+    """On one edge."""
     obj = mesh_object("Strip", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
-    for index, angle in enumerate((2, 4)):  # three sheets on one edge
+    for index, angle in enumerate((2, 4)):
         array = obj.modifiers.new(f"Array {index}", "ARRAY")
         array.count, array.use_relative_offset, array.use_object_offset = 2, False, True
         turned = bpy.data.objects.new(f"Turned {index}", None)
@@ -125,8 +126,22 @@ def test_a_stack_that_makes_no_surface_is_refused_and_makes_no_object():
         bpy.context.scene.collection.objects.link(turned)
         array.offset_object, array.use_merge_vertices = turned, True
     select(obj)
+    return obj
+
+
+def test_a_stack_that_makes_no_surface_is_cut():
+    obj = three_sheets()
+    assert with_modifiers() == {"FINISHED"} and obj.hide_get()
+    (cut,) = stored_report(bpy.data.objects["Strip Mapped"])["repairs"]["cuts"]
+    assert cut["reason"] == "many_faces"
+
+
+def test_a_stack_without_area_is_refused_and_makes_no_object():
+    obj = three_sheets()
+    obj.scale = (1, 0, 0)
+    bpy.context.view_layer.update()
     count = len(bpy.data.objects)
-    with pytest.raises(RuntimeError, match="faces"):
+    with pytest.raises(RuntimeError, match="area"):
         with_modifiers()
     assert len(bpy.data.objects) == count and not obj.hide_get()
 

@@ -4,27 +4,30 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, mesh_object, run, select, stored_report, torus, torus_arrays, two_parts, uv, written
+from scenes import everything, mesh_object, pick, run, select, stored_report, torus, torus_arrays, uv, written
 
 
-def non_manifold():
+def fin():
     vertices, faces = torus_arrays()
     faces = [*map(tuple, faces), (faces[0][0], faces[0][1], len(vertices))]
-    return mesh_object("Bad", [*vertices, (0, 0, 2)], faces), "faces"
+    return mesh_object("Bad", [*vertices, (0, 0, 2)], faces)
+
+
+def with_vertex(index, value):
+    vertices, faces = torus_arrays()
+    vertices = vertices.copy()
+    vertices[index, 1] = value
+    return mesh_object("Bad", vertices, faces)
 
 
 def not_a_number():
     vertices, faces = torus_arrays()
-    vertices = vertices.copy()
-    vertices[7, 1] = np.nan
-    return mesh_object("Bad", vertices, faces), "7"
+    return mesh_object("Bad", vertices * np.nan, faces), "vertex 0 has a coordinate that is not a number"
 
 
 def infinite():
     vertices, faces = torus_arrays()
-    vertices = vertices.copy()
-    vertices[3, 0] = np.inf
-    return mesh_object("Bad", vertices, faces), "3"
+    return mesh_object("Bad", vertices + np.inf, faces), "infinite"
 
 
 def moebius():
@@ -36,7 +39,7 @@ def moebius():
     vertices = np.concatenate([around - side, around + side])
     faces = [(i, i + 1, count + i + 1, count + i) for i in range(count - 1)]
     faces.append((count - 1, count, 0, 2 * count - 1))
-    return mesh_object("Bad", vertices, faces), "orient"
+    return mesh_object("Bad", vertices, faces)
 
 
 def zero_area():
@@ -50,9 +53,9 @@ def flattened_by_its_scale():
     return obj, "area"
 
 
-def doubled_face():
+def doubled(step=1):
     vertices, faces = torus_arrays()
-    return mesh_object("Bad", vertices, [*faces, faces[5]]), "face"
+    return mesh_object("Bad", vertices, [*faces, *faces[:, ::step]])
 
 
 def empty():
@@ -66,17 +69,13 @@ def no_faces():
     return obj, "face"
 
 
-BAD = [
-    non_manifold,
-    not_a_number,
-    infinite,
-    moebius,
-    zero_area,
-    flattened_by_its_scale,
-    doubled_face,
-    empty,
-    no_faces,
-]
+BAD = [not_a_number, infinite, zero_area, flattened_by_its_scale, empty, no_faces]
+CUT = {
+    "fin": (fin, "Bad: cut along 1 edge that has three or more faces"),
+    "moebius": (moebius, "Bad: cut along 1 edge of a part that has only one side"),
+    "twice": (doubled, "Bad: 288 faces stand twice: their copies are apart"),
+    "two sides": (lambda: doubled(-1), "Bad: 288 faces have two sides: each side is apart"),
+}
 
 
 def bystanders(obj):
@@ -113,25 +112,44 @@ def test_the_other_selected_objects_are_still_done(make):
     assert [layer.name for layer in good.data.uv_layers] == ["Holomorphic", "Holomorphic 1"]
 
 
-@pytest.mark.parametrize("torus_first", [True, False])
-def test_a_part_that_is_no_surface_is_left_out(torus_first):
-    strip = moebius()[0].data
-    part = ([tuple(v.co) for v in strip.vertices], [tuple(p.vertices) for p in strip.polygons])
-    parts = (torus_arrays(), part) if torus_first else (part, torus_arrays())
-    obj = two_parts("Both", *parts)
-    assert run(seams=True) == {"FINISHED"}
-    entry = stored_report(obj)
-    assert [part["done"] for part in entry["components"]] == [True, False]
-    assert entry["components"][1]["faces"] == 12 and "orient" in entry["components"][1]["reason"]
-    corners = 4 * len(torus_arrays()[1])
-    own = np.arange(len(obj.data.loops)) < corners
-    if not torus_first:
-        own = own[::-1]
+def face_extents(obj):
+    """The larger side of the box of each face's UVs."""
     values = uv(obj)
-    assert not np.ptp(values[~own], axis=0).any() and (np.ptp(values[own], axis=0) > 0.1).all()
-    alone = torus("Alone")
-    run()
-    assert np.allclose(values[own], uv(alone), atol=1e-6)
+    rows = (values[polygon.loop_start : polygon.loop_start + polygon.loop_total] for polygon in obj.data.polygons)
+    return np.array([np.ptp(row, axis=0).max() for row in rows])
+
+
+@pytest.mark.parametrize("name", CUT)
+def test_every_face_gets_a_map_and_cuts_are_told(name):
+    make, sentence = CUT[name]
+    obj = make()
+    before = [tuple(polygon.vertices) for polygon in obj.data.polygons]
+    assert run() == {"FINISHED"}
+    assert (face_extents(obj) > 0).all()
+    assert [tuple(polygon.vertices) for polygon in obj.data.polygons] == before
+    assert all(part["done"] for part in stored_report(obj)["components"])
+    outcome = written(obj, main="BALANCED")
+    assert sentence in outcome.notes
+    lines = module("results.stored").summary(obj["holomorph_report"])
+    assert (sentence[5].upper() + sentence[6:]) in lines
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_only_the_faces_that_are_not_finite_are_left_out(value):
+    obj = with_vertex(7, value)
+    assert run() == {"FINISHED"}
+    at_vertex = [7 in polygon.vertices for polygon in obj.data.polygons]
+    assert ((face_extents(obj) > 0) != at_vertex).all()
+    (problem,) = [line for line in written(obj, main="BALANCED").problems if "left out" in line]
+    assert problem.startswith("Bad: 4 faces left out: vertex 7 has a coordinate that is")
+
+
+def test_poles_are_where_they_were_chosen_on_a_part_that_was_cut():
+    obj = doubled(-1)
+    pick(obj, [0, 40])
+    assert run(use_selection="POLES") == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert (face_extents(obj) > 0).all()
 
 
 def test_tori_that_share_a_vertex_are_done():
@@ -141,21 +159,25 @@ def test_tori_that_share_a_vertex_are_done():
     assert run(seams=True) == {"FINISHED"}
     entry = stored_report(obj)
     assert [(part["done"], part["genus"]) for part in entry["components"]] == [(True, 1), (True, 1)]
-    assert entry["repairs"]["split_vertices"] == {"count": 1, "first": [0]}
+    (cut,) = entry["repairs"]["cuts"]
+    assert (cut["reason"], cut["count"], cut["first"]) == ("touching", 1, [0])
 
 
-def test_faces_that_are_all_apart_are_told_of():
+def test_faces_that_are_all_apart_are_joined_and_told_of():
     vertices, faces = torus_arrays()
-    corners = np.asarray(faces)[:6]
+    corners = np.asarray(faces)
     obj = mesh_object("Loose", vertices[corners].reshape(-1, 3), np.arange(corners.size).reshape(corners.shape))
     assert run() == {"FINISHED"}
-    assert any("By Distance" in line for line in written(obj, main="BALANCED").problems)
+    (part,) = stored_report(obj)["components"]
+    assert (part["genus"], part["boundary_count"]) == (1, 0)
+    assert any("By Distance" in line for line in written(obj, main="BALANCED").notes)
 
 
 def test_maps_of_an_earlier_run_survive_a_refusal():
     obj = torus()
     run()
-    obj.data.vertices[0].co.x = np.nan
+    for vertex in obj.data.vertices:
+        vertex.co.x = np.nan
     before = everything(obj)
     with pytest.raises(RuntimeError):
         run()
@@ -206,3 +228,14 @@ def test_only_the_librarys_errors_are_caught(monkeypatch):
     with pytest.raises(RuntimeError, match="ZeroDivisionError"):
         run()
     assert everything(obj) == before
+
+
+def test_helpers_of_the_importer_are_not_mapped():
+    helper = torus("Icosphere")
+    collection = bpy.data.collections.new("glTF_not_exported")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(helper)
+    good = torus("Good")
+    select(helper, good)
+    assert run() == {"FINISHED"}
+    assert not helper.data.uv_layers and good.data.uv_layers

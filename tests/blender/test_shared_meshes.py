@@ -15,7 +15,7 @@ from scenes import (
     straightness,
     uv_maps,
 )
-from test_headless import headless, needs_program, our_lines
+from test_headless import headless, needs_program
 
 MESHES = ROOT.parent / "shared" / "meshes"
 SECONDS = 580
@@ -57,6 +57,9 @@ SHARED = {
     "pizza_g73_b1.obj": (73, 1, 1),
     "plane_b27.obj": (0, 27, 1),
     "plate_holes_g5.stl": (5, 0, 1),
+    "bunny_nonmanifold.ply": (0, 7, 148),  # cut, as the next two
+    "moebius_quads.obj": (0, 1, 1),
+    "triple_vierbein.obj": (0, 1, 3),
     "punctured_torus.obj": (1, 1, 1),
     "rna_3JAJ_7.off": (4, 0, 1),
     "rna_4P70_YB.off": (3, 0, 1),
@@ -64,7 +67,7 @@ SHARED = {
     "rockerArm_ngon.obj": (1, 0, 1),
     "skull_low_g2.obj": (2, 0, 1),
     "soccerball_g31.obj": (31, 0, 1),
-    "soup_unwelded_suzanne.ply": (0, 1, 6),
+    "soup_unwelded_suzanne.ply": (0, 2, 3),
     "spot_control_ngon.obj": (0, 0, 1),
     "spot_quads.obj": (0, 0, 1),
     "suzanne_blender.obj": (0, 2, 3),
@@ -73,11 +76,6 @@ SHARED = {
     "torus_ddg.obj": (1, 0, 1),
     "torus_stein.obj": (1, 0, 1),
     "tray_g23.stl": (23, 0, 1),
-}
-REFUSED = {
-    "bunny_nonmanifold.ply": "faces",
-    "moebius_quads.obj": "orient",
-    "triple_vierbein.obj": "faces",
 }
 
 
@@ -96,7 +94,7 @@ def test_every_shared_mesh_is_listed():
     if not MESHES.exists():
         pytest.skip("no folder ../shared/meshes")
     files = {path.name for path in MESHES.iterdir()}
-    assert {f for f in files if not f.endswith((".md", ".nii.gz"))} == SHARED.keys() | REFUSED.keys()
+    assert {f for f in files if not f.endswith((".md", ".nii.gz"))} == SHARED.keys()
 
 
 @needs_program
@@ -138,12 +136,3 @@ def check_maps(obj, entry):
         if all(part["boundary_count"] == 0 and part["genus"] for part in entry["components"]):
             difference, forgiven = edge_mismatch(mesh, values)
             assert difference <= forgiven, written["name"]
-
-
-@needs_program
-@pytest.mark.parametrize("name", REFUSED)
-def test_the_others_get_one_clear_sentence(name, tmp_path):
-    done = headless(unpacked(name, tmp_path))
-    assert done.returncode == 1
-    assert len(our_lines(done)) == 1 and REFUSED[name] in our_lines(done)[0]
-    assert "Traceback" not in done.stderr + done.stdout

@@ -174,7 +174,7 @@ def test_other_formats_are_not_welded(name, tmp_path):
     mesh = TRIANGLES
     soup = families.uniform(mesh.vertices[mesh.corners], np.arange(len(mesh.corners)).reshape(-1, 3))
     content = {"a.obj": obj, "a.off": off, "a.ply": ply_text}[name](soup)
-    assert len(Surface.read(written(tmp_path, name, content)).components) == mesh.face_count
+    assert len(Surface.read(written(tmp_path, name, content), strict=True).components) == mesh.face_count
 
 
 def test_triangle_strips(tmp_path):
@@ -302,12 +302,24 @@ MALFORMED = {
 }
 
 
+# What is wrong with single faces: the others are read.
+OF_FACES = ("index out of range.obj", "two corners.obj", "not a number.obj")
+
+
 @pytest.mark.parametrize("name", MALFORMED)
 def test_malformed_file_is_refused_and_named(name, tmp_path):
     content, message = MALFORMED[name]
-    with pytest.raises(InvalidMesh, match=message) as caught:
-        Surface.read(written(tmp_path, name, content))
-    assert "\n" not in str(caught.value)
+    for strict in {True, name in OF_FACES}:
+        with pytest.raises(InvalidMesh, match=message) as caught:
+            Surface.read(written(tmp_path, name, content), strict=strict)
+        assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", OF_FACES)
+def test_faces_that_cannot_be_mapped_are_named(name, tmp_path):
+    content, message = MALFORMED[name]
+    (refused,) = Surface.read(written(tmp_path, name, content)).refused
+    assert re.search(message, refused.reason)
 
 
 def test_file_name_is_in_the_message(tmp_path):

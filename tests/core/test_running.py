@@ -350,7 +350,7 @@ def test_command_prints_the_report_where_no_file_is_named(tmp_path):
     ("name", "content", "message"),
     [
         ("broken.obj", b"v 0 0 zero\n", "line 1"),
-        ("moebius.obj", obj(families.moebius()), "orient"),
+        ("flat.obj", obj(families.moved(families.torus(9, 6), scale=0)), "zero area"),
         ("absent.obj", None, "no such file"),
     ],
 )

@@ -75,7 +75,7 @@ def _mapped(task):
         "holomorph": __version__,
         "name": task.name,
         "faces": len(surface.face_offsets) - 1,
-        "verdict": overall_report(reports, surface.is_unwelded),
+        "verdict": overall_report(reports),
         "repairs": repairs_report(surface.repairs),
         "components": reports + mapping.refused_reports(surface),
     }
@@ -140,6 +140,10 @@ def _shape(surface, parts):
     points = np.full((len(surface.vertex_index), 3), np.nan)
     for part in parts:
         image = conformal_image(part.structure) if part.structure else None
-        if image is not None:
-            points[np.searchsorted(surface.vertex_index, part.surface.vertex_index)] = image
+        if image is None:
+            continue
+        rows = np.empty(len(part.surface.vertex_index), int)
+        corners = np.searchsorted(surface.corner_index, part.surface.corner_index)
+        rows[part.surface.corner_vertices] = surface.corner_vertices[corners]
+        points[rows] = image
     return points

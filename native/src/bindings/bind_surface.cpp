@@ -7,13 +7,13 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "mesh/components.h"
+#include "mesh/cutting.h"
 #include "mesh/graph_distances.h"
 #include "mesh/intrinsic_surface.h"
 #include "mesh/intrinsic_triangulation.h"
 #include "mesh/io/read.h"
 #include "mesh/io/weld.h"
 #include "mesh/make_surface.h"
-#include "mesh/sound_part.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -50,11 +50,12 @@ struct Part {
   SurfacePointer surface;
   py::object vertex_index = py::none(), face_index = py::none(), corner_index = py::none();
   int given_vertex_count = 0;
-  std::vector<int> split_vertices = {};
-  std::vector<mesh::RefusedComponent> refused = {};
+  std::vector<mesh::Cut> cuts = {};
+  std::vector<int> joined_vertices = {};
+  std::vector<mesh::RefusedFaces> refused = {};
 };
 
-Part as_part(mesh::SoundPart part) {
+Part as_part(mesh::CutSurface part) {
   Part result{std::make_shared<Surface>(std::move(part.surface))};
   if (!part.face_index.empty()) {
     result.vertex_index = copy(part.vertex_index);
@@ -62,30 +63,31 @@ Part as_part(mesh::SoundPart part) {
     result.corner_index = copy(part.corner_index);
   }
   result.given_vertex_count = part.given_vertex_count;
-  result.split_vertices = std::move(part.split_vertices);
+  result.cuts = std::move(part.cuts);
+  result.joined_vertices = std::move(part.joined_vertices);
   result.refused = std::move(part.refused);
   return result;
 }
 
 template <class Index>
-Part sound_part(const Contiguous<double>& vertices, const Contiguous<Index>& corner_vertices,
-                const Contiguous<Index>& face_offsets) {
+Part cut(const Contiguous<double>& vertices, const Contiguous<Index>& corner_vertices,
+         const Contiguous<Index>& face_offsets) {
   mesh::BasicPolygons<Index> polygons{rows<double, 3>(vertices), values(corner_vertices), values(face_offsets)};
   return as_part(without_lock([&] {
     Execution execution;
-    return mesh::sound_part(std::move(polygons), execution);
+    return mesh::cut_surface(std::move(polygons), execution);
   }));
 }
 
 Part read(const std::filesystem::path& path, bool strict, bool weld) {
-  return as_part(without_lock([&]() -> mesh::SoundPart {
+  return as_part(without_lock([&]() -> mesh::CutSurface {
     Execution execution;
     mesh::GivenPolygons polygons = mesh::read(path);
     if (weld) polygons = mesh::welded(polygons);
-    if (!strict) return mesh::sound_part(std::move(polygons), execution);
+    if (!strict) return mesh::cut_surface(std::move(polygons), execution);
     mesh::Surface surface = mesh::make_surface(std::move(polygons), execution);
     const int count = surface.vertex_count;
-    return {std::move(surface), {}, {}, {}, count, {}, {}};
+    return {std::move(surface), {}, {}, {}, count, {}, {}, {}};
   }));
 }
 
@@ -114,21 +116,36 @@ py::array edge_distances(const Surface& surface, const Contiguous<double>& lengt
 
 // What reading and splitting give.
 void bind_parts(py::module_& m) {
-  using mesh::RefusedComponent;
+  using mesh::Cut;
+  using mesh::CutReason;
+  using mesh::RefusedFaces;
   using mesh::TopologicalType;
   py::class_<TopologicalType>(m, "TopologicalType")
       .def_readonly("genus", &TopologicalType::genus)
       .def_readonly("boundary_count", &TopologicalType::boundary_count);
-  py::class_<RefusedComponent>(m, "RefusedComponent")
-      .def_property_readonly("faces", [](const RefusedComponent& c) { return copy(c.faces); })
-      .def_readonly("reason", &RefusedComponent::reason);
+  py::class_<RefusedFaces>(m, "RefusedFaces")
+      .def_property_readonly("faces", [](const RefusedFaces& refused) { return copy(refused.faces); })
+      .def_readonly("reason", &RefusedFaces::reason);
+  py::enum_<CutReason>(m, "CutReason")
+      .value("many_faces", CutReason::kManyFaces)
+      .value("twice", CutReason::kTwice)
+      .value("opposite", CutReason::kOpposite)
+      .value("one_sided", CutReason::kOneSided)
+      .value("repeated", CutReason::kRepeated)
+      .value("touching", CutReason::kTouching);
+  py::class_<Cut>(m, "Cut")
+      .def_readonly("reason", &Cut::reason)
+      .def_property_readonly("vertices", [](const Cut& cut) { return copy(cut.vertices); })
+      .def_property_readonly("edges", [](const py::object& self) { return view(self.cast<const Cut&>().edges, self); })
+      .def_property_readonly("faces", [](const Cut& cut) { return copy(cut.faces); });
   py::class_<Part>(m, "Part")
       .def_readonly("surface", &Part::surface)
       .def_readonly("vertex_index", &Part::vertex_index)
       .def_readonly("face_index", &Part::face_index)
       .def_readonly("corner_index", &Part::corner_index)
       .def_readonly("given_vertex_count", &Part::given_vertex_count)
-      .def_property_readonly("split_vertices", [](const Part& part) { return copy(part.split_vertices); })
+      .def_readonly("cuts", &Part::cuts)
+      .def_property_readonly("joined_vertices", [](const Part& part) { return copy(part.joined_vertices); })
       .def_readonly("refused", &Part::refused);
 }
 
@@ -152,10 +169,9 @@ void bind_surface(py::module_& m) {
                   py::arg("face_offsets"))
       .def_static("from_edge_lengths", &from_edge_lengths, py::arg("vertex_count"), py::arg("faces"),
                   py::arg("lengths"), py::arg("face_edges"))
-      .def_static("sound_part", &sound_part<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
+      .def_static("cut", &cut<int>, py::arg("vertices"), py::arg("corner_vertices").noconvert(),
                   py::arg("face_offsets").noconvert())
-      .def_static("sound_part", &sound_part<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"),
-                  py::arg("face_offsets"))
+      .def_static("cut", &cut<std::int64_t>, py::arg("vertices"), py::arg("corner_vertices"), py::arg("face_offsets"))
       .def_static("read", &read, py::arg("path"), py::arg("strict"), py::arg("weld"))
       .def("components", &components)
       .def("topology", &mesh::topological_type)

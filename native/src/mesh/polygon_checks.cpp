@@ -60,6 +60,28 @@ std::span<const Index> corners_of(const BasicPolygons<Index>& mesh, int face) {
           mesh.corner_vertices.data() + mesh.face_offsets[face + 1]};
 }
 
+template <class Index>
+bool are_vertices(const BasicPolygons<Index>& mesh, std::span<const Index> corners) {
+  const auto count = static_cast<Index>(mesh.vertices.size());
+  return std::all_of(corners.begin(), corners.end(), [&](Index v) { return v >= 0 && v < count; });
+}
+
+template <class Index>
+bool has_three_vertices(std::span<const Index> corners) {
+  const Index a = corners.empty() ? Index(-1) : corners[0];
+  const auto b = std::find_if(corners.begin(), corners.end(), [&](Index v) { return v != a; });
+  return std::any_of(b, corners.end(), [&](Index v) { return v != a && v != *b; });
+}
+
+template <class Index>
+FaceFault fault_kind(const BasicPolygons<Index>& mesh, int face) {
+  const auto corners = corners_of(mesh, face);
+  if (!are_vertices(mesh, corners)) return FaceFault::kNoSuchVertex;
+  const auto is_finite = [&](Index v) { return is_usable(mesh.vertices[v]); };
+  if (!std::all_of(corners.begin(), corners.end(), is_finite)) return FaceFault::kNotFinite;
+  return has_three_vertices(corners) ? FaceFault::kNone : FaceFault::kFewVertices;
+}
+
 // A vertex that occurs twice, or -1.
 template <class Index>
 Index vertex_met_twice(std::span<const Index> corners) {
@@ -71,10 +93,8 @@ Index vertex_met_twice(std::span<const Index> corners) {
 
 template <class Index>
 bool is_sound(const BasicPolygons<Index>& mesh, int face) {
-  const auto vertex_count = static_cast<Index>(mesh.vertices.size());
   const auto corners = corners_of(mesh, face);
-  const auto in_range = [&](Index v) { return v >= 0 && v < vertex_count; };
-  if (corners.size() < 3 || !std::all_of(corners.begin(), corners.end(), in_range)) return false;
+  if (corners.size() < 3 || !are_vertices(mesh, corners)) return false;
   if (corners.size() > 3) return vertex_met_twice(corners) < 0;
   const Index a = corners[0], b = corners[1], c = corners[2];
   return a != b && b != c && c != a;
@@ -91,11 +111,11 @@ std::string fault_of(const BasicPolygons<Index>& mesh, int face) {
     if (v >= vertex_count)
       return name + " names vertex " + to_string(v) + ", but there are only " + to_string(vertex_count) + " vertices";
   }
-  if (const Index v = vertex_met_twice(corners); v >= 0) return name + " has vertex " + to_string(v) + " twice";
   for (const Index v : corners) {
     if (!is_usable(mesh.vertices[v])) return fault_of_vertex(mesh.vertices[v], v);
   }
-  return {};
+  const Index v = vertex_met_twice(corners);
+  return v >= 0 ? name + " has vertex " + to_string(v) + " twice" : "";
 }
 
 template <class Index>
@@ -116,8 +136,10 @@ void check(const BasicPolygons<Index>& mesh, Workers& workers) {
 
 void check_layout(const Polygons& mesh) { check_arrays(mesh); }
 void check_layout(const GivenPolygons& mesh) { check_arrays(mesh); }
-std::string fault_of_face(const Polygons& mesh, int face) { return fault_of(mesh, face); }
-std::string fault_of_face(const GivenPolygons& mesh, int face) { return fault_of(mesh, face); }
+FaceFault fault_of_face(const Polygons& mesh, int face) { return fault_kind(mesh, face); }
+FaceFault fault_of_face(const GivenPolygons& mesh, int face) { return fault_kind(mesh, face); }
+std::string fault_text(const Polygons& mesh, int face) { return fault_of(mesh, face); }
+std::string fault_text(const GivenPolygons& mesh, int face) { return fault_of(mesh, face); }
 void check_polygons(const Polygons& mesh, Workers& workers) { check(mesh, workers); }
 void check_polygons(const GivenPolygons& mesh, Workers& workers) { check(mesh, workers); }
 

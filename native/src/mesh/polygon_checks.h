@@ -12,9 +12,16 @@ namespace holomorph::mesh {
 void check_layout(const Polygons& polygons);
 void check_layout(const GivenPolygons& polygons);
 
-/// What is wrong with a single face or the vertices that it names; empty if nothing is. @pre check_layout has passed
-std::string fault_of_face(const Polygons& polygons, int face);
-std::string fault_of_face(const GivenPolygons& polygons, int face);
+/// What keeps a face from being mapped, however the mesh is cut.
+enum class FaceFault { kNone, kNoSuchVertex, kNotFinite, kFewVertices };
+
+/// kNotFinite stands for coordinates beyond kLargest, too. @pre check_layout has passed
+FaceFault fault_of_face(const Polygons& polygons, int face);
+FaceFault fault_of_face(const GivenPolygons& polygons, int face);
+
+/// What `check_polygons` says about a face that it refuses.
+std::string fault_text(const Polygons& polygons, int face);
+std::string fault_text(const GivenPolygons& polygons, int face);
 
 /// Refuses, with the first bad element: no faces, offsets that do not fit, fewer than 3 corners, an index that is
 /// negative or too large, a vertex twice in a face, a position that is NaN, infinite or beyond

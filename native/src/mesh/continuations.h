@@ -1,0 +1,21 @@
+// Which faces at an edge with many continue each other best.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/polygons.h"
+
+namespace holomorph::mesh {
+
+/// Pairs of sides at one edge, the best of all edges first: those that are oriented alike before others, then by the
+/// angle between their faces, flat first, then convex before concave, then by index.
+/// @param label #C; the sides of an edge run between the same two
+/// @param reversed #F 1 where the polygon is to be read in reverse
+/// @param edges the sides of each edge
+/// Cost: the square of the number of sides of an edge.
+std::vector<std::array<int, 2>> continuations(const Polygons& polygons, const std::vector<int>& label,
+                                              const std::vector<char>& reversed,
+                                              const std::vector<std::vector<int>>& edges);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,191 @@
+#include "mesh/cutting.h"
+
+#include <algorithm>
+#include <exception>
+#include <numeric>
+#include <utility>
+
+#include "base/errors.h"
+#include "mesh/corner_labels.h"
+#include "mesh/make_surface.h"
+#include "mesh/polygon_checks.h"
+#include "mesh/polygon_edges.h"
+#include "mesh/polygon_sides.h"
+#include "mesh/side_joins.h"
+#include "mesh/triangle_geometry.h"
+
+namespace holomorph::mesh {
+namespace {
+
+// Which faces are apart from all others, and how the sides of the rest are joined.
+struct Plan {
+  CornerLabels labels;
+  SideJoins joins;
+};
+
+// @param vertices #C vertex of each corner
+Plan planned(const Polygons& mesh, const std::vector<int>& vertices) {
+  Plan plan{corner_labels(vertices, mesh.face_offsets), {}};
+  std::vector<int>& label = plan.labels.label;
+  const auto crowded = crowded_edges(mesh, label);
+  if (!crowded.empty()) {
+    const std::vector<int> face_of = corner_faces(mesh);
+    int count = *std::max_element(label.begin(), label.end()) + 1;
+    std::vector<char> apart(mesh.face_offsets.size() - 1, 0);
+    for (const auto& sides : crowded) {
+      for (const int s : sides) apart[face_of[s]] = 1;
+    }
+    for (std::size_t c = 0; c < label.size(); ++c) {
+      if (apart[face_of[c]]) label[c] = count++;
+    }
+  }
+  plan.joins = join_sides(mesh, label);
+  plan.joins.many.insert(plan.joins.many.end(), crowded.begin(), crowded.end());
+  return plan;
+}
+
+// A vertex for each fan, ordered by the vertices that these were.
+CutSurface numbered(UsableFaces usable, const Plan& plan, Execution& execution) {
+  PolygonPart& part = usable.part;
+  Polygons& mesh = part.polygons;
+  const std::vector<int>& fan = plan.joins.fan;
+  const int corners = static_cast<int>(fan.size());
+  std::vector<int> least(corners, static_cast<int>(mesh.vertices.size()));  // vertex of each fan
+  for (int c = 0; c < corners; ++c) least[fan[c]] = std::min(least[fan[c]], mesh.corner_vertices[c]);
+  std::vector<Pair> fans;
+  for (int c = 0; c < corners; ++c) {
+    if (fan[c] == c) fans.push_back({least[c], c});
+  }
+  std::sort(fans.begin(), fans.end());
+  CutSurface result;
+  std::vector<int> number(corners, -1);
+  Polygons cut{{}, std::vector<int>(corners), mesh.face_offsets};
+  for (const auto& [v, root] : fans) {
+    number[root] = static_cast<int>(cut.vertices.size());
+    cut.vertices.push_back(mesh.vertices[v]);
+    result.vertex_index.push_back(part.vertex_index[v]);
+  }
+  for (int c = 0; c < corners; ++c) {
+    cut.corner_vertices[c] = number[fan[c]];
+    if (mesh.corner_vertices[c] != least[fan[c]])
+      result.joined_vertices.push_back(part.vertex_index[mesh.corner_vertices[c]]);
+  }
+  std::sort(result.joined_vertices.begin(), result.joined_vertices.end());
+  const auto end = std::unique(result.joined_vertices.begin(), result.joined_vertices.end());
+  result.joined_vertices.erase(end, result.joined_vertices.end());
+  result.cuts = cuts(part, plan.labels, plan.joins, cut.corner_vertices);
+  result.surface = make_surface(std::move(cut), execution);
+  result.face_index = std::move(part.face_index);
+  result.corner_index = std::move(part.corner_index);
+  result.refused = std::move(usable.refused);
+  return result;
+}
+
+// Sides without a partner.
+std::ptrdiff_t lone_sides(const SideJoins& joins) { return std::count(joins.partner.begin(), joins.partner.end(), -1); }
+
+CutSurface cut(UsableFaces usable, Execution& execution) {
+  const Polygons& mesh = usable.part.polygons;
+  Plan plan = planned(mesh, mesh.corner_vertices);
+  const std::ptrdiff_t lone = lone_sides(plan.joins);
+  if (2 * lone > std::ssize(mesh.corner_vertices)) {
+    const std::vector<int> first = first_at_place(mesh.vertices);
+    std::vector<int> vertices;
+    for (const int v : mesh.corner_vertices) vertices.push_back(first[v]);
+    Plan joined = planned(mesh, vertices);
+    if (2 * lone_sides(joined.joins) < lone) plan = std::move(joined);
+  }
+  return numbered(std::move(usable), plan, execution);
+}
+
+bool is_mostly_apart(const Surface& surface) {
+  const auto lone = std::count(surface.edge_face_count.begin(), surface.edge_face_count.end(), 1);
+  return 2 * lone > std::ssize(surface.polygons.corner_vertices);
+}
+
+// #components whether all triangles are degenerate.
+std::vector<char> flat_components(const Surface& surface) {
+  std::vector<char> flat(surface.component_count, 1);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangle_edges[t];
+    const auto& l = surface.edge_lengths;
+    if (!is_degenerate(l[a], l[b], l[c])) flat[surface.face_component[surface.triangle_faces[t]]] = 0;
+  }
+  return flat;
+}
+
+std::vector<int> indices_in(const std::vector<int>& whole, std::vector<int> part) {
+  if (!whole.empty()) {
+    for (int& i : part) i = whole[i];
+  }
+  return part;
+}
+
+// The rest of a surface that has parts without area.
+CutSurface without_flat_parts(CutSurface given, Execution& execution) {
+  if (given.surface.repairs.zero_area_faces.empty()) return given;
+  const std::vector<char> flat = flat_components(given.surface);
+  if (std::find(flat.begin(), flat.end(), 1) == flat.end()) return given;
+  std::vector<int> faces, rest;
+  for (int f = 0; f < static_cast<int>(given.surface.face_component.size()); ++f)
+    (flat[given.surface.face_component[f]] ? faces : rest).push_back(f);
+  PolygonPart part = PolygonParts(given.surface.polygons).take(std::move(rest));
+  faces = indices_in(given.face_index, std::move(faces));
+  given.refused.push_back({faces, "face " + std::to_string(faces.front()) + " has no area, nor have faces beside it"});
+  given.surface = make_surface(std::move(part.polygons), execution);
+  given.vertex_index = indices_in(given.vertex_index, std::move(part.vertex_index));
+  given.face_index = indices_in(given.face_index, std::move(part.face_index));
+  given.corner_index = indices_in(given.corner_index, std::move(part.corner_index));
+  return given;
+}
+
+// The surface that the mesh is; without faces where it is none. @param failure why
+CutSurface as_given(Polygons polygons, std::exception_ptr& failure, Execution& execution) {
+  CutSurface result;
+  result.surface.polygons = std::move(polygons);
+  try {
+    complete(result.surface, {}, execution);
+  } catch (const InvalidMesh&) {
+    failure = std::current_exception();
+  } catch (const TopologyError&) {
+    failure = std::current_exception();
+  }
+  return result;
+}
+
+template <class Index>
+CutSurface cut_surface_of(BasicPolygons<Index> given, Execution& execution) {
+  check_layout(given);
+  const int vertex_count = static_cast<int>(given.vertices.size());
+  std::exception_ptr failure;
+  CutSurface result;
+  UsableFaces usable;
+  try {
+    check_polygons(given, execution.workers());
+  } catch (const InvalidMesh&) {
+    failure = std::current_exception();
+    usable = usable_faces(std::move(given));
+    if (usable.part.face_index.empty()) std::rethrow_exception(failure);
+    result = cut(std::move(usable), execution);
+  }
+  if (!failure) {
+    result = as_given(narrowed(std::move(given)), failure, execution);
+    if (failure || is_mostly_apart(result.surface)) {
+      CutSurface made = cut(usable_faces(result.surface.polygons), execution);
+      if (failure || !made.joined_vertices.empty()) result = std::move(made);
+    }
+  }
+  result.given_vertex_count = vertex_count;
+  return without_flat_parts(std::move(result), execution);
+}
+
+}  // namespace
+
+CutSurface cut_surface(Polygons polygons, Execution& execution) {
+  return cut_surface_of(std::move(polygons), execution);
+}
+CutSurface cut_surface(GivenPolygons polygons, Execution& execution) {
+  return cut_surface_of(std::move(polygons), execution);
+}
+
+}  // namespace holomorph::mesh

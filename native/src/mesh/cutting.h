@@ -1,0 +1,35 @@
+// Cutting any polygon mesh until it is a surface.
+#pragma once
+
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/cut_records.h"
+#include "mesh/surface.h"
+#include "mesh/usable_faces.h"
+
+namespace holomorph::mesh {
+
+/// A mesh cut along edges and at vertices: polygons and their corners are those given, in their order.
+struct CutSurface {
+  Surface surface;
+  /// Index of each element in the mesh as given; all empty where that is its own. Vertices ascend; those that are
+  /// several are copies of one, and of those joined to one the lowest is named.
+  std::vector<int> vertex_index, face_index, corner_index;
+  int given_vertex_count = 0;
+  std::vector<Cut> cuts;              ///< by reasons
+  std::vector<int> joined_vertices;   ///< given vertices that became one with a lower one at the same place
+  std::vector<RefusedFaces> refused;  ///< faces that are left out, by reasons
+};
+
+/// As `make_surface`; but a mesh that this refuses is cut, by giving a vertex to each fan of faces. Left out are faces
+/// of less than three vertices, faces with coordinates that are not finite, and parts without area.
+///
+/// Where most sides of faces have no other beside them, sides that run between the same places in opposite directions
+/// are joined first, if that gives most of them a partner.
+/// @throws InvalidMesh where no face is left
+/// Cost: linear for a surface; else O(#C log #C).
+CutSurface cut_surface(Polygons polygons, Execution& execution);
+CutSurface cut_surface(GivenPolygons polygons, Execution& execution);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,29 @@
+// Which sides of polygons are joined to the edges of a surface, and which are left apart.
+#pragma once
+
+#include <vector>
+
+#include "mesh/corner_labels.h"
+#include "mesh/polygons.h"
+
+namespace holomorph::mesh {
+
+/// Side c runs from corner c of a polygon to its next corner.
+struct SideJoins {
+  std::vector<int> partner;             ///< #C the side that each one is joined with, -1 if it is left apart
+  std::vector<int> fan;                 ///< #C the lowest corner of those that get one vertex
+  std::vector<std::vector<int>> many;   ///< sides of edges with three faces or more
+  std::vector<std::vector<int>> sided;  ///< the two sides of each edge at which no orientation fits
+};
+
+/// Joins sides so that the polygons become an oriented surface in which an edge is known by its ends.
+///
+/// Two sides that alone run between two labels are joined, but where, in the order of a flood over the faces, their
+/// orientations contradict. At edges with more faces, pairs are joined in the order of how well their faces continue
+/// each other: first those that are oriented alike as given, then by the angle, then convex before concave. A pair is
+/// left apart where the fans around the ends would become one, though another copy of an edge is there already.
+/// @pre crowded_edges is empty
+/// Cost: O(#C log #C).
+SideJoins join_sides(const Polygons& polygons, const std::vector<int>& label);
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,28 @@
+// The faces of a polygon mesh that can be mapped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/polygon_parts.h"
+#include "mesh/polygons.h"
+
+namespace holomorph::mesh {
+
+/// Faces that are left out for one reason.
+struct RefusedFaces {
+  std::vector<int> faces;  ///< ascending
+  std::string reason;      ///< names the first bad element
+};
+
+struct UsableFaces {
+  PolygonPart part;
+  std::vector<RefusedFaces> refused;  ///< the others, by reasons
+};
+
+/// Those with at least three different vertices, all of which exist and have finite coordinates.
+/// @pre check_layout has passed
+UsableFaces usable_faces(GivenPolygons polygons);
+UsableFaces usable_faces(Polygons polygons);
+
+}  // namespace holomorph::mesh
