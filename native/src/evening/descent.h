@@ -3,47 +3,53 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 
 #include "base/workers.h"
 #include "evening/strain_energy.h"
 
 namespace holomorph::evening {
 
-/// The last steps of a descent, and what they say of the inverse second derivatives.
+/// Symmetric and positive, about the inverse of the second derivatives.
+using Precondition = std::function<Function(const Function& gradient)>;
+
+/// A descent of StrainEnergy. While the energy falls quickly, each step is one of gradient descent with a
+/// preconditioner made where it begins; then the last of them serves several steps.
 class Descent {
  public:
-  /// @param precondition Function(const Function&), symmetric and positive
-  /// @return the direction to go, given the gradient
-  template <class Precondition>
-  Function direction(const Function& gradient, const Precondition& precondition, Workers& workers) const {
-    Function result = gradient;
-    std::vector<double> along(steps_.size());
-    for (std::size_t k = steps_.size(); k-- > 0;) {
-      along[k] = product(steps_[k].step, result, workers) / steps_[k].curvature;
-      add(result, -along[k], steps_[k].change, workers);
-    }
-    result = precondition(result);
-    for (std::size_t k = 0; k < steps_.size(); ++k) {
-      const double across = product(steps_[k].change, result, workers) / steps_[k].curvature;
-      add(result, along[k] - across, steps_[k].step, workers);
-    }
-    for_rows(workers, static_cast<int>(result.size()), [&](int v) { result[v] = -result[v]; });
-    return result;
-  }
+  /// @param make Precondition(delta). @param clear sets a function to 0 where it is to stay
+  /// @pre the energy outlives this
+  Descent(const StrainEnergy& energy, double lambda, std::function<Precondition(const Function& delta)> make,
+          std::function<void(Function&)> clear, Workers& workers)
+      : energy_(energy), lambda_(lambda), make_(std::move(make)), clear_(std::move(clear)), workers_(workers) {}
 
-  /// Takes a step and the change of the gradient along it. Steps along which the gradient falls say nothing.
-  void take(Function step, Function change, Workers& workers);
+  /// Begins anew, also where the energy itself has changed.
+  StrainEnergy::Value begin(Function delta);
+  /// One step. @return whether it was worth it: the end is near where it was not
+  bool step();
 
-  /// Sum of the products of u and of v.
-  static double product(const Function& a, const Function& b, Workers& workers);
-  /// a += factor b
-  static void add(Function& a, double factor, const Function& b, Workers& workers);
+  const Function& delta() const { return delta_; }
+  const StrainEnergy::Value& value() const { return value_; }
 
  private:
   struct Step {
-    Function step, change;
-    double curvature;  // their product
+    Function step, change;  // of delta, and of the gradient along it
+    double curvature;       // their product
   };
+
+  StrainEnergy::Value at(const Function& delta, Function& gradient);
+  Function direction() const;
+  void take(Function step, Function change);
+
+  const StrainEnergy& energy_;
+  const double lambda_;
+  std::function<Precondition(const Function& delta)> make_;
+  std::function<void(Function&)> clear_;
+  Workers& workers_;
+
+  Function delta_, gradient_, at_corners_;
+  StrainEnergy::Value value_;
+  Precondition precondition_;  // none: it is made before the next step
   std::deque<Step> steps_;
 };
 

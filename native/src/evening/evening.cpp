@@ -1,11 +1,11 @@
 #include "evening/evening.h"
 
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "base/chunks.h"
 #include "evening/descent.h"
-#include "evening/strain_energy.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
 #include "solver/solver_choice.h"
@@ -13,123 +13,109 @@
 namespace holomorph::evening {
 namespace {
 
-constexpr int kMostSteps = 60;
-constexpr double kProgress = 3e-3;  // it ends where a step lowers the energy by less than this part of it
-constexpr double kFar = 0.03;       // where it lowers it by more, the Laplacian is made anew
-constexpr double kDecrease = 1e-4;  // Armijo's
-constexpr double kShortest = 1e-6;  // step, of the direction
+constexpr int kMostSteps = 40;
+constexpr double kWhole = 0.9;               // of the work, before flipped triangles are turned back
+constexpr int kRings[] = {2, 4, 8, 16};      // around them, that may move
+constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
 
 // The weight of size in the energy. Where strain is small, minimising takes the power 1 - lambda of every density, and
 // s1 / s2 grows by lambda times the logarithm of the density over its mean.
 double lambda_of(double evenness) { return evenness * (0.9 - 0.2 * evenness); }
 
-class Evening {
- public:
-  Evening(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
-          const std::string& solver, Execution& execution)
-      : energy_(surface, uv, kept.poles, execution.workers()),
-        half_edges_(mesh::half_edges(surface, execution)),
-        kept_(kept),
-        lambda_(lambda_of(evenness)),
-        method_(solver::choose_method(solver, surface.vertex_count, 2).method),
-        execution_(execution),
-        workers_(execution.workers()) {}
+// About twice the Laplacian are the second derivatives.
+constexpr double kInverse = 0.5;
 
-  Function run() {
-    const auto count = static_cast<std::size_t>(half_edges_.n_vertices());
-    Function delta(count, 0.0), kept = delta, gradient;
-    StrainEnergy::Value value = at(delta, gradient);
-    const double most_flipped = value.flipped;
-    bool is_far = true;
-    for (int step = 0; step < kMostSteps; ++step) {
-      execution_.part(static_cast<double>(step) / kMostSteps, static_cast<double>(step + 1) / kMostSteps);
-      execution_.report(0);
-      if (is_far) begin_at(delta);
-      const double before = value.energy;
-      descend(delta, gradient, value);
-      if (value.flipped <= most_flipped) kept = delta;
-      const double progress = (before - value.energy) / before;
-      is_far = progress > kFar;
-      if (progress >= kProgress) continue;
-      if (value.flipped <= most_flipped) break;
-      energy_.emphasise_flipped(delta, workers_);
-      value = at(delta, gradient);
-      is_far = true;
+std::vector<solver::Condition> conditions(const Kept& kept) {
+  const auto condition = [](const std::vector<int>& vertices) {
+    return vertices.empty() ? solver::Condition::natural : solver::Condition::dirichlet;
+  };
+  return {condition(kept.u), condition(kept.v)};
+}
+
+Function solved(solver::LaplaceSolver& solver, const std::vector<solver::Condition>& conditions,
+                const Function& gradient, Execution& execution) {
+  const auto count = static_cast<int>(gradient.size());
+  Eigen::MatrixXd B(count, 2);
+  for_rows(execution.workers(), count, [&](int v) { B.row(v) << gradient[v].real(), gradient[v].imag(); });
+  const auto X = solver.precondition(B, conditions, execution);
+  Function result(count);
+  for_rows(execution.workers(), count, [&](int v) { result[v] = kInverse * Complex(X(v, 0), X(v, 1)); });
+  return result;
+}
+
+void clear(Function& function, const Kept& kept) {
+  for (const int v : kept.u) function[v].real(0);
+  for (const int v : kept.v) function[v].imag(0);
+}
+
+// Turns triangles back that delta flips, as far as they are more than before: only their surroundings move.
+// @param delta on the whole surface; changed where that flips less. @return the area that it then flips
+double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, double most_flipped, int rings,
+                 Function& delta, Execution& execution) {
+  StrainEnergy::Patch patch = energy.around_flipped(delta, rings);
+  std::vector<int> number(delta.size(), -1);
+  for (std::size_t i = 0; i < patch.vertices.size(); ++i) number[patch.vertices[i]] = static_cast<int>(i);
+  const auto kept_here = [&](const std::vector<int>& vertices) {
+    std::vector<int> here;
+    for (std::size_t i = patch.free_count; i < patch.vertices.size(); ++i) here.push_back(static_cast<int>(i));
+    for (const int v : vertices) {
+      if (number[v] >= 0) here.push_back(number[v]);
     }
-    return kept;
-  }
-
- private:
-  StrainEnergy::Value at(const Function& delta, Function& gradient) {
-    const StrainEnergy::Value value = energy_(delta, lambda_, gradient, at_corners_, workers_);
-    clear_kept(gradient);
-    return value;
-  }
-
-  void clear_kept(Function& function) const {
-    for (const int v : kept_.u) function[v].real(0);
-    for (const int v : kept_.v) function[v].imag(0);
-  }
-
-  void begin_at(const Function& delta) {
-    descent_ = Descent();
-    solver_.reset();  // its memory goes first
-    solver_ = solver::make_solver(method_, forms::laplacian(half_edges_, energy_.weights(delta, lambda_), execution_),
-                                  kept_.u.empty() ? kept_.v : kept_.u, execution_);
-  }
-
-  // One step, after which the energy is less, or the same where there is no way down.
-  void descend(Function& delta, Function& gradient, StrainEnergy::Value& value) {
-    Function direction = descent_.direction(
-        gradient, [this](const Function& g) { return preconditioned(g); }, workers_);
-    clear_kept(direction);
-    const double slope = Descent::product(gradient, direction, workers_);
-    if (!(slope < 0)) return;
-    Function next, next_gradient;
-    StrainEnergy::Value next_value;
-    double length = 1;
-    for (;; length /= 2) {
-      if (!(length > kShortest)) return;
-      next = delta;
-      Descent::add(next, length, direction, workers_);
-      next_value = at(next, next_gradient);
-      if (next_value.energy <= value.energy + kDecrease * length * slope) break;
-    }
-    for_rows(workers_, static_cast<int>(direction.size()), [&](int v) {
-      direction[v] *= length;
-      gradient[v] = next_gradient[v] - gradient[v];
-    });
-    descent_.take(std::move(direction), std::move(gradient), workers_);
-    delta = std::move(next);
-    gradient = std::move(next_gradient);
-    value = next_value;
-  }
-
-  Function preconditioned(const Function& gradient) {
-    const auto count = static_cast<int>(gradient.size());
-    Eigen::MatrixXd B(count, 2);
-    for_rows(workers_, count, [&](int v) { B.row(v) << gradient[v].real(), gradient[v].imag(); });
-    const auto condition = [](const std::vector<int>& kept) {
-      return kept.empty() ? solver::Condition::natural : solver::Condition::dirichlet;
+    return here;
+  };
+  const Kept here{{}, kept_here(kept.u), kept_here(kept.v)};
+  const auto scaled = [&](const Function& at) -> Precondition {
+    return [scale = patch.energy.diagonal(at, lambda)](const Function& gradient) {
+      Function result = gradient;
+      for (std::size_t v = 0; v < result.size(); ++v) result[v] *= kInverse / scale[v];
+      return result;
     };
-    const auto X = solver_->precondition(B, {condition(kept_.u), condition(kept_.v)}, execution_);
-    Function result(count);
-    // The second derivatives are about twice the Laplacian.
-    for_rows(workers_, count, [&](int v) { result[v] = 0.5 * Complex(X(v, 0), X(v, 1)); });
-    return result;
+  };
+  Descent descent(
+      patch.energy, lambda, scaled, [&](Function& f) { clear(f, here); }, execution.workers());
+  Function best(patch.vertices.size(), 0.0);
+  double least_flipped = descent.begin(best).flipped;
+  for (int urge = 0; urge < kUrges && descent.value().flipped > most_flipped; ++urge) {
+    for (int step = 0; step < kPatchSteps && descent.step(); ++step) {
+      execution.report(0);
+      if (descent.value().flipped >= least_flipped) continue;
+      least_flipped = descent.value().flipped;
+      best = descent.delta();
+    }
+    patch.energy.emphasise_flipped(descent.delta(), execution.workers());
+    descent.begin(Function(descent.delta()));
   }
+  for (int i = 0; i < patch.free_count; ++i) delta[patch.vertices[i]] += best[i];
+  return least_flipped;
+}
 
-  StrainEnergy energy_;
-  const mesh::HalfEdges half_edges_;
-  const Kept& kept_;
-  const double lambda_;
-  const solver::Method method_;
-  Execution& execution_;
-  Workers& workers_;
-  std::unique_ptr<solver::LaplaceSolver> solver_;
-  Descent descent_;
-  Function at_corners_;
-};
+Function least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
+               const std::string& solver_name, Execution& execution) {
+  const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
+  const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
+  std::shared_ptr<solver::LaplaceSolver> solver;
+  const auto make = [&](const Function& delta) -> Precondition {
+    solver.reset();  // the memory of the last one
+    solver = solver::make_solver(method,
+                                 forms::laplacian(half_edges, energy.edge_weights(surface, delta, lambda), execution),
+                                 kept.u.empty() ? kept.v : kept.u, execution);
+    return [&](const Function& gradient) { return solved(*solver, conditions(kept), gradient, execution); };
+  };
+  Descent descent(
+      energy, lambda, make, [&](Function& f) { clear(f, kept); }, execution.workers());
+  const double most_flipped = descent.begin(Function(surface.vertex_count, 0.0)).flipped;
+  for (int step = 0; step < kMostSteps; ++step) {
+    execution.part(kWhole * step / kMostSteps, kWhole * (step + 1) / kMostSteps);
+    execution.report(0);
+    if (!descent.step()) break;
+  }
+  execution.part(kWhole, 1);
+  Function delta = descent.delta();
+  double flipped = descent.value().flipped;
+  for (std::size_t k = 0; k < std::size(kRings) && flipped > most_flipped; ++k)
+    flipped = turn_back(energy, kept, lambda, most_flipped, kRings[k], delta, execution);
+  return delta;
+}
 
 }  // namespace
 
@@ -139,7 +125,8 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
                    Execution& execution, const std::string& solver) {
   uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
   if (evenness == 0) return result;
-  const Function delta = Evening(surface, uv, kept, evenness, solver, execution).run();
+  const StrainEnergy energy(surface, uv, kept.poles, execution.workers());
+  const Function delta = least(surface, energy, kept, lambda_of(evenness), solver, execution);
   for_rows(execution.workers(), surface.vertex_count,
            [&](int v) { result.row(v) << delta[v].real(), delta[v].imag(); });
   return result;

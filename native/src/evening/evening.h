@@ -22,8 +22,8 @@ inline constexpr double kUsualEvenness = 0.5;
 /// densities can be foretold. 1 at evenness 0.
 double power_of_density(double evenness);
 
-/// #V x 2, what is to be added at the vertices: on the way from 0 to the least StrainEnergy, as far as no more area is
-/// flipped than was.
+/// #V x 2, what is to be added at the vertices for the least StrainEnergy. Triangles that it flips are turned back
+/// until no more area is flipped than was, as far as moving what is around them does that.
 ///
 /// The method: steps of gradient descent with the Laplacian that is most like the second derivatives, made anew while
 /// the energy falls quickly, then limited-memory BFGS with the last of them.

@@ -13,13 +13,13 @@ namespace {
 // become infinite, it goes on as a parabola. So a triangle may flip on the way, and is driven back.
 constexpr double kStrained = 0.7;
 
-// Weights relative to their mean: where a map branches its size is 0, and where it does not count it is not wanted.
-constexpr double kMostWeight = 1e4, kLeastWeight = 1e-6;
+// Stiffness by area relative to where the map has its mean size: at most where it branches, and at least.
+constexpr double kMostStiff = 1e4, kLeastStiff = 1e-6;
 
 constexpr double kEmphasis = 8;
 
-// Triangles thinner than this, area by squared longest side, weigh in the Laplacian as if they were larger: theirs are
-// weights that solvers do not like, and the energy itself has them right.
+// Triangles thinner than this, area by squared longest side, weigh less in the Laplacian: solvers do not like their
+// weights, and the energy itself has them right.
 constexpr double kThinArea = 1e-2;
 
 struct LogSum {
@@ -85,69 +85,82 @@ std::array<Complex, 2> hat_gradients(Complex first, Complex second) {
   return {-i * second / twice_area, i * first / twice_area};
 }
 
-double laid_out_area(const std::array<Complex, 2>& gradients) {
-  return 0.5 / (std::conj(gradients[0]) * gradients[1]).imag();
-}
-
 // Corner 0 at 0, corner 1 on the real axis.
 std::array<Complex, 2> laid_out(double a, double b, double c, double area) {
   return {Complex(a), Complex((a * a + (c - b) * (c + b)) / (2 * a), 2 * area / a)};
 }
 
+// Below 1 where a triangle is thin. @param gradients of all three corners; the longest is one over the least height
+double thinness(const std::array<Complex, 3>& gradients) {
+  const double area = 0.5 / std::abs((std::conj(gradients[1]) * gradients[2]).imag());
+  const double steepest = std::max({std::norm(gradients[0]), std::norm(gradients[1]), std::norm(gradients[2])});
+  return std::min(1.0, 1 / (4 * kThinArea * area * steepest));
+}
+
+double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.imag(); }
+
 }  // namespace
+
+// Where it counts, its area.
+void StrainEnergy::Triangle::lay_out(const mesh::Surface& surface, int t, const uv::UvArray& uv) {
+  const auto [e0, e1, e2] = surface.triangle_edges[t];
+  const double side = surface.edge_lengths[e0], next = surface.edge_lengths[e1], last = surface.edge_lengths[e2];
+  if (mesh::is_degenerate(side, next, last)) return;
+  const auto at = [&](int k) {
+    const int corner = surface.triangle_corners[t][k];
+    return Complex(uv(corner, 0), uv(corner, 1));
+  };
+  const Complex first = at(1) - at(0), second = at(2) - at(0);
+  if (at_pole && !((std::conj(first) * second).imag() > 0)) return;
+  const double whole = mesh::triangle_area(side, next, last);
+  const auto [x, y] = at_pole ? std::array<Complex, 2>{first, second} : laid_out(side, next, last, whole);
+  gradients = hat_gradients(x, y);
+  a = 0.5 * (first * std::conj(gradients[0]) + second * std::conj(gradients[1]));
+  b = 0.5 * (first * gradients[0] + second * gradients[1]);
+  if (std::norm(a) > 0 && std::isfinite(std::norm(a) + std::norm(b))) area = whole;
+}
 
 StrainEnergy::StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<int>& poles,
                            Workers& workers)
-    : surface_(surface), triangles_(surface.triangles.size()) {
+    : triangles_(surface.triangles.size()) {
   std::vector<char> is_pole(surface.vertex_count, 0);
   for (const int v : poles) is_pole[v] = 1;
   const auto count = static_cast<int>(triangles_.size());
   const LogSum sum = sum_over_rows(workers, count, LogSum(), [&](int t, LogSum& part) {
     Triangle& triangle = triangles_[t] = Triangle();
-    const auto [e0, e1, e2] = surface.triangle_edges[t];
-    const double a = surface.edge_lengths[e0], b = surface.edge_lengths[e1], c = surface.edge_lengths[e2];
-    if (mesh::is_degenerate(a, b, c)) return;
-    const auto at = [&](int k) {
-      const int corner = surface.triangle_corners[t][k];
-      return Complex(uv(corner, 0), uv(corner, 1));
-    };
-    const Complex first = at(1) - at(0), second = at(2) - at(0);
-    const double area = mesh::triangle_area(a, b, c);
-    const auto& v = surface.triangles[t];
-    triangle.at_pole = is_pole[v[0]] || is_pole[v[1]] || is_pole[v[2]];
-    const auto [x, y] = triangle.at_pole ? std::array<Complex, 2>{first, second} : laid_out(a, b, c, area);
-    const auto [g1, g2] = triangle.gradients = hat_gradients(x, y);
-    triangle.a = 0.5 * (first * std::conj(g1) + second * std::conj(g2));
-    triangle.b = 0.5 * (first * g1 + second * g2);
-    const double size = std::norm(triangle.a);
-    const bool is_flipped = triangle.at_pole && !((std::conj(first) * second).imag() > 0);
-    if (!(size > 0) || !std::isfinite(size + std::norm(triangle.b)) || is_flipped) return;
-    triangle.area = area;
-    if (!triangle.at_pole) part += {area, area * std::log(size)};
+    triangle.vertices = surface.triangles[t];
+    triangle.at_pole = std::ranges::any_of(triangle.vertices, [&](int v) { return is_pole[v]; });
+    triangle.lay_out(surface, t, uv);
+    if (!triangle.at_pole && triangle.area > 0)
+      part += {triangle.area, triangle.area * std::log(std::norm(triangle.a))};
   });
   if (sum.area > 0) {
-    area_ = sum.area;
     log_size_ = sum.log / sum.area;
+    whole_area_ = sum.area;
   }
-  for_rows(workers, count, [&](int t) { triangles_[t].area /= area_; });
+  for_rows(workers, count, [&](int t) { triangles_[t].area /= whole_area_; });
+  find_stars(surface.vertex_count);
+}
 
-  star_starts_.assign(surface.vertex_count + 1, 0);
-  for (const auto& triangle : surface.triangles) {
-    for (const int v : triangle) ++star_starts_[v + 1];
+void StrainEnergy::find_stars(int vertex_count) {
+  star_starts_.assign(vertex_count + 1, 0);
+  for (const Triangle& triangle : triangles_) {
+    for (const int v : triangle.vertices) ++star_starts_[v + 1];
   }
-  for (int v = 0; v < surface.vertex_count; ++v) star_starts_[v + 1] += star_starts_[v];
+  for (int v = 0; v < vertex_count; ++v) star_starts_[v + 1] += star_starts_[v];
   star_corners_.resize(3 * triangles_.size());
   std::vector<int> next(star_starts_.begin(), star_starts_.end() - 1);
-  for (int t = 0; t < count; ++t) {
-    for (int k = 0; k < 3; ++k) star_corners_[next[surface.triangles[t][k]]++] = 3 * t + k;
+  for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
+    for (int k = 0; k < 3; ++k) star_corners_[next[triangles_[t].vertices[k]]++] = 3 * t + k;
   }
 }
 
-StrainEnergy::Derivatives StrainEnergy::derivatives(int triangle, const Function& function) const {
-  const auto& v = surface_.triangles[triangle];
-  const auto [g1, g2] = triangles_[triangle].gradients;
+StrainEnergy::Derivatives StrainEnergy::derivatives(const Triangle& triangle, const Function& function) {
+  const auto& v = triangle.vertices;
+  const auto [g1, g2] = triangle.gradients;
   const Complex along_1 = function[v[1]] - function[v[0]], along_2 = function[v[2]] - function[v[0]];
-  return {0.5 * (along_1 * std::conj(g1) + along_2 * std::conj(g2)), 0.5 * (along_1 * g1 + along_2 * g2)};
+  return {triangle.a + 0.5 * (along_1 * std::conj(g1) + along_2 * std::conj(g2)),
+          triangle.b + 0.5 * (along_1 * g1 + along_2 * g2)};
 }
 
 StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambda, Function& gradient,
@@ -158,21 +171,19 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
     Complex* const at = &at_corners[3 * static_cast<std::size_t>(t)];
     at[0] = at[1] = at[2] = 0;
     if (!(triangle.area > 0)) return;
-    const Derivatives change = derivatives(t, delta);
-    const Complex a = triangle.a + change.a, b = triangle.b + change.b;
-    const double square_a = std::norm(a), square_b = std::norm(b);
-    const Local local = local_energy(square_a, square_b, lambda, log_size(triangle));
+    const Derivatives map = derivatives(triangle, delta);
+    const Local local = local_energy(std::norm(map.a), std::norm(map.b), lambda, log_size(triangle));
     const double weight = triangle.area * triangle.emphasis;
-    sum += {weight * local.value, square_b > square_a ? triangle.area : 0};
-    const Complex by_a = 0.5 * weight * local.by_a * a, by_b = 0.5 * weight * local.by_b * b;
+    sum += {weight * local.value, map.flipped() ? triangle.area : 0};
+    const Complex by_a = 0.5 * weight * local.by_a * map.a, by_b = 0.5 * weight * local.by_b * map.b;
     for (const int k : {1, 2}) {
       const Complex g = triangle.gradients[k - 1];
       at[k] = by_a * g + by_b * std::conj(g);
       at[0] -= at[k];
     }
   });
-  gradient.resize(surface_.vertex_count);
-  for_rows(workers, surface_.vertex_count, [&](int v) {
+  gradient.resize(vertex_count());
+  for_rows(workers, vertex_count(), [&](int v) {
     Complex sum = 0;
     for (int i = star_starts_[v]; i < star_starts_[v + 1]; ++i) sum += at_corners[star_corners_[i]];
     gradient[v] = sum;
@@ -183,35 +194,91 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
 void StrainEnergy::emphasise_flipped(const Function& delta, Workers& workers) {
   for_rows(workers, static_cast<int>(triangles_.size()), [&](int t) {
     Triangle& triangle = triangles_[t];
-    const Derivatives change = derivatives(t, delta);
-    if (triangle.area > 0 && std::norm(triangle.b + change.b) > std::norm(triangle.a + change.a))
-      triangle.emphasis *= kEmphasis;
+    if (triangle.area > 0 && derivatives(triangle, delta).flipped()) triangle.emphasis *= kEmphasis;
   });
 }
 
-Array<double> StrainEnergy::weights(const Function& delta, double lambda) const {
-  const double mean = std::exp(-log_size_) / area_;
-  Array<double> weights(surface_.edges.size());
-  std::fill(weights.begin(), weights.end(), 0.0);
+double StrainEnergy::stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const {
+  const Derivatives map = derivatives(triangle, delta);
+  const double size = std::norm(map.a), ratio = std::sqrt(std::norm(map.b) / size);
+  const double stiff = stiffness(ratio, std::log(size) - log_size(triangle), lambda) / size;
+  return triangle.area * triangle.emphasis * stiff;
+}
+
+Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const {
+  Array<double> weights(surface.edges.size());
+  // Where no triangle counts the system is to have one solution all the same.
+  std::fill(weights.begin(), weights.end(), kLeastStiff * std::exp(-log_size_) / whole_area_);
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Triangle& triangle = triangles_[t];
-    const auto& sides = surface_.triangle_edges[t];
-    const double x = surface_.edge_lengths[sides[0]], y = surface_.edge_lengths[sides[1]],
-                 z = surface_.edge_lengths[sides[2]], longest = std::max({x, y, z});
-    const double area = std::max(mesh::triangle_area(x, y, z), kThinArea * longest * longest);
-    double weight = kLeastWeight * mean;
-    if (triangle.area > 0) {
-      const Derivatives change = derivatives(static_cast<int>(t), delta);
-      const double size = std::norm(triangle.a + change.a), ratio = std::sqrt(std::norm(triangle.b + change.b) / size);
-      const double stiff = stiffness(ratio, std::log(size) - log_size(triangle), lambda) / size;
-      weight = std::clamp(stiff * triangle.area * triangle.emphasis / laid_out_area(triangle.gradients), weight,
-                          kMostWeight * mean);
-    }
-    weights[sides[0]] += weight * mesh::cotangent(x, y, z, area) / 2;
-    weights[sides[1]] += weight * mesh::cotangent(y, z, x, area) / 2;
-    weights[sides[2]] += weight * mesh::cotangent(z, x, y, area) / 2;
+    if (!(triangle.area > 0)) continue;
+    const auto [g1, g2] = triangle.gradients;
+    const std::array<Complex, 3> g = {-(g1 + g2), g1, g2};
+    const double most = kMostStiff * std::exp(-log_size_) * triangle.area;
+    double stiff = stiffness_of(triangle, delta, lambda) * thinness(g);
+    if (!triangle.at_pole) stiff = std::min(stiff, most);
+    for (int k = 0; k < 3; ++k) weights[surface.triangle_edges[t][k]] -= stiff * dot(g[k], g[(k + 1) % 3]);
   }
   return weights;
+}
+
+std::vector<double> StrainEnergy::diagonal(const Function& delta, double lambda) const {
+  std::vector<double> result(vertex_count(), kLeastStiff * std::exp(-log_size_) / whole_area_);
+  for (const Triangle& triangle : triangles_) {
+    const auto [g1, g2] = triangle.gradients;
+    if (!(triangle.area > 0)) continue;
+    const double stiff = stiffness_of(triangle, delta, lambda);
+    const auto& v = triangle.vertices;
+    result[v[0]] += stiff * std::norm(g1 + g2);
+    result[v[1]] += stiff * std::norm(g1);
+    result[v[2]] += stiff * std::norm(g2);
+  }
+  return result;
+}
+
+StrainEnergy::Patch StrainEnergy::around_flipped(const Function& delta, int rings) const {
+  std::vector<char> inside(vertex_count(), 0);
+  for (const Triangle& triangle : triangles_) {
+    if (!(triangle.area > 0) || !derivatives(triangle, delta).flipped()) continue;
+    for (const int v : triangle.vertices) inside[v] = 1;
+  }
+  const auto touches = [&](const Triangle& triangle) {
+    const auto& v = triangle.vertices;
+    return inside[v[0]] == 1 || inside[v[1]] == 1 || inside[v[2]] == 1;
+  };
+  for (int ring = 0; ring < rings; ++ring) {
+    for (const Triangle& triangle : triangles_) {
+      if (!touches(triangle)) continue;
+      for (const int v : triangle.vertices) inside[v] = std::max<char>(inside[v], 2);
+    }
+    for (char& mark : inside) mark = std::min<char>(mark, 1);
+  }
+  Patch patch;
+  std::vector<int> number(vertex_count(), -1);
+  const auto take = [&](int v) {
+    if (number[v] >= 0) return;
+    number[v] = static_cast<int>(patch.vertices.size());
+    patch.vertices.push_back(v);
+  };
+  for (int v = 0; v < vertex_count(); ++v) {
+    if (inside[v]) take(v);
+  }
+  patch.free_count = static_cast<int>(patch.vertices.size());
+  patch.energy.log_size_ = log_size_;
+  patch.energy.whole_area_ = whole_area_;
+  for (Triangle triangle : triangles_) {
+    if (!touches(triangle)) continue;
+    const Derivatives map = derivatives(triangle, delta);
+    triangle.a = map.a;
+    triangle.b = map.b;
+    for (int& v : triangle.vertices) {
+      take(v);
+      v = number[v];
+    }
+    patch.energy.triangles_.push_back(triangle);
+  }
+  patch.energy.find_stars(static_cast<int>(patch.vertices.size()));
+  return patch;
 }
 
 }  // namespace holomorph::evening

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <complex>
-#include <span>
 #include <vector>
 
 #include "base/page_allocator.h"
@@ -28,10 +27,10 @@ using Function = Array<Complex>;
 class StrainEnergy {
  public:
   /// @param uv #C x 2; its jumps across edges are translations, so that its derivatives are one on each triangle
-  /// @param poles vertices. @pre the surface outlives this
+  /// @param poles vertices
   StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, const std::vector<int>& poles, Workers& workers);
 
-  int vertex_count() const { return surface_.vertex_count; }
+  int vertex_count() const { return static_cast<int>(star_starts_.size()) - 1; }
 
   struct Value {
     double energy = 0, flipped = 0;  ///< E, and the area that is flipped
@@ -50,29 +49,52 @@ class StrainEnergy {
   /// Makes triangles count more that are flipped by delta.
   void emphasise_flipped(const Function& delta, Workers& workers);
 
-  /// #E, the weights of a Laplacian: the cotangent weights of each triangle over the determinant of the map. The
-  /// second derivatives of E where the map is conformal lie between 2 (1 - lambda) times this Laplacian and twice it.
-  Array<double> weights(const Function& delta, double lambda) const;
+  /// A Laplacian that is like the second derivatives: where the map is conformal these lie between 2 (1 - lambda) times
+  /// it and twice it, and elsewhere it is larger by as much as they are.
+  /// @return weights of the edges, #E of the surface
+  Array<double> edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const;
+  /// #V, its diagonal.
+  std::vector<double> diagonal(const Function& delta, double lambda) const;
+
+  struct Patch;
+  /// Where delta flips triangles, and so many rings around them. @pre it flips some
+  Patch around_flipped(const Function& delta, int rings) const;
 
  private:
   struct Triangle {
+    mesh::Triple vertices;
     Complex a, b;  // the map is a z + b conj(z) + constant; z along side 0, at a pole the map itself
     std::array<Complex, 2> gradients;  // gradients of the hat functions of corners 1 and 2
     double area = 0;                   // 0: does not count
     double emphasis = 1;               // by which its part of the energy is multiplied
     bool at_pole = false;
+
+    void lay_out(const mesh::Surface& surface, int t, const uv::UvArray& uv);
   };
   struct Derivatives {
     Complex a, b;
+    bool flipped() const { return std::norm(b) > std::norm(a); }
   };
-  double log_size(const Triangle& triangle) const { return triangle.at_pole ? 0 : log_size_; }
-  Derivatives derivatives(int triangle, const Function& function) const;
 
-  const mesh::Surface& surface_;
-  double area_ = 1;      // of the triangles that count
-  double log_size_ = 0;  // 2 ln s0
+  StrainEnergy() = default;
+  void find_stars(int vertex_count);
+  double log_size(const Triangle& triangle) const { return triangle.at_pole ? 0 : log_size_; }
+  // Of the map with the function added.
+  static Derivatives derivatives(const Triangle& triangle, const Function& function);
+  // By which the squared gradient of a change is multiplied.
+  double stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const;
+
+  double log_size_ = 0;    // 2 ln s0
+  double whole_area_ = 1;  // of the triangles that the mean is over
   Array<Triangle> triangles_;
   std::vector<int> star_starts_, star_corners_;  // of each vertex: 3 t + i where it is corner i of triangle t
+};
+
+/// A part of the surface; its map is the one with delta.
+struct StrainEnergy::Patch {
+  StrainEnergy energy;
+  std::vector<int> vertices;  ///< of the surface, by its own: first those that are free to move,
+  int free_count = 0;         ///< so many, then the others
 };
 
 }  // namespace holomorph::evening
