@@ -41,6 +41,8 @@ def parse(arguments):
     text = "each object fills the UV square, instead of equal texels per metre"
     parser.add_argument("--fill-each", dest="equal", action="store_false", help=text)
     parser.add_argument("--margin", type=float, default=0.02, help="between parts, as a share of the UV square")
+    text = "of tilings: 0 keeps angles, 1 makes squares of one size"
+    parser.add_argument("--evenness", type=float, default=0.5, help=text)
     parser.add_argument("--rotation", type=_degrees, default=0.0, help="rotation of all maps in degrees")
     parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
     parser.add_argument("--shape", action="store_true", help="store maps to the sphere and the disk as an attribute")
@@ -142,6 +144,7 @@ def _check_values(options):
         "--forms, --shown and --checker-scale cannot be negative, and --density must be positive",
     )
     _refuse_if(not 0 <= options.margin < 1, "--margin must be at least 0 and less than 1")
+    _refuse_if(not 0 <= options.evenness <= 1, "--evenness must be from 0 to 1")
     is_ratio = 0 < options.ratio < 1
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
     _refuse_if(options.pole and options.rectangle, "--pole and --rectangle exclude each other")

@@ -174,7 +174,7 @@ def _tilings(asked, options, density, progress):
     wanted, components = options.tiling, [component for component, _ in asked]
     if options.main == TILING:
         tiles = density * sum(component.area for component in components) or wanted.tiles
-        amount = {"tiles": tiles or None, "equal_density": False, "evenness": 0.0}
+        amount = {"tiles": tiles or None, "equal_density": False}
     else:
         amount = {"density": density or None}
     made = native.load().automatic_maps(
@@ -188,6 +188,7 @@ def _tilings(asked, options, density, progress):
         direction=wanted.direction,
         boundary=wanted.boundary,
         turn=wanted.turn or None,
+        evenness=wanted.evenness,
         progress=progress,
         **amount,
     )

@@ -22,6 +22,7 @@ class TileOptions:
     quarters: int = 0  # turns of the map by 90 degrees after it is made
     pole_group: str = ""  # the vertex group that `allowed` was read of
     allowed: bytes | None = None  # of the bools that tell where poles may be that are not chosen; None for anywhere
+    evenness: float = 0.5  # from 0 for angles to 1 for squares of one size
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
 
     @property

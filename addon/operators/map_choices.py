@@ -3,7 +3,7 @@
 
 import math
 
-from ..maps.options import MapOptions
+from ..maps.options import MapOptions, TileOptions
 from ..results.write import WriteOptions
 from ..solving import choices
 
@@ -36,6 +36,7 @@ def options(properties, _target):
         tuple(properties.turns),
         properties.margin,
         properties.main,
+        tiling=TileOptions(evenness=properties.evenness),
     )
 
 

@@ -60,6 +60,8 @@ ABOUT = {
     "becomes an object of its own and the object is hidden",
     "checker": "Show the map by a material; the mesh's own materials stay and can be brought back",
     "texture": "What the material shows",
+    "evenness": "0: squares keep their angles, and differ in size. 1: they have one size, and are sheared. Nothing is "
+    "placed anew when it changes",
     "seams": "Mark the edges where the maps are cut as seams; existing seams are kept",
     "main": "What the main map is",
     "forms": "At most so many maps of single forms, besides the main one: one for each handle, more with holes",
@@ -125,6 +127,7 @@ class SharedProperties:
     modifiers: BoolProperty(name="With Modifiers", description=ABOUT["modifiers"], default=False, options=ONCE)
     checker: BoolProperty(name="Show Texture", description=ABOUT["checker"], default=True)
     texture: EnumProperty(name="Texture", description=ABOUT["texture"], items=TEXTURES, default="CHECKER")
+    evenness: FloatProperty(name="Evenness", description=ABOUT["evenness"], default=0.5, min=0.0, max=1.0)
     seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
@@ -142,7 +145,7 @@ class MapProperties(SharedProperties):
     """A mixin for the maps operators."""
 
     drawn = (
-        ("main", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
+        ("main", "evenness", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
         ("checker", "texture", "checker_scale", "seams", "shape"),
         ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
     )
@@ -183,6 +186,8 @@ class MapProperties(SharedProperties):
         return self.main != "BALANCED"
 
     def is_drawn(self, name):
+        if name == "evenness":
+            return self.main in ("AUTOMATIC", "SEAMLESS")
         return name not in OF_ISLANDS or self.main == "ISLANDS"
 
     def draw_options(self, layout, obj):

@@ -41,6 +41,7 @@ def options(properties, target):
         quarters,
         properties.pole_group,
         allowed(properties.pole_group, obj),
+        properties.evenness,
     )
     return MapOptions(forms=0, main=TILING, tiling=tiling)
 

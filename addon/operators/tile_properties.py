@@ -55,7 +55,7 @@ class TileProperties(SharedProperties):
     """A mixin for the tile operator."""
 
     drawn = (
-        ("tiles", "equal", "modifiers", "poles", "pole_count", "pole_group"),
+        ("tiles", "evenness", "equal", "modifiers", "poles", "pole_count", "pole_group"),
         ("lattice", "direction", "turn", "quarters", "boundary"),
         ("checker", "texture", "repeats", "seams", "empties"),
     )

@@ -21,6 +21,7 @@ MAIN_MAPS = ("automatic", "seamless", "balanced")
 EVEN = 2.0  # 95 : 5 % ratio of the density below which a map without seams stays: the squares' sizes hardly differ
 LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
 MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
+EVENING_SHEARS = 0.5  # what evenness 1 adds to the mean s1 / s2 of a tiling, for which it was asked
 MOST_FLIPPED = 0.02  # part of the area: what flips lies beside branch points, and few are seen
 
 # The poles of the tilings that are tried; the first one that is better is taken. Without any, the map of a ring, such
@@ -145,7 +146,8 @@ def _drawback(tiling, balanced):
     quality = tiling.quality
     if not quality.flipped_part < MOST_FLIPPED:
         return f"would flip {100 * quality.flipped_part:.2g} % of the area"
-    if not quality.capped_mean_angle < MORE_SHEARED * balanced.capped_mean_angle:
+    most_sheared = MORE_SHEARED * balanced.capped_mean_angle + EVENING_SHEARS * tiling.evenness
+    if not quality.capped_mean_angle < most_sheared:
         sheared = f"{quality.capped_mean_angle:.3g} instead of {balanced.capped_mean_angle:.3g}"
         return f"would be more sheared: mean s1/s2 {sheared}"
     ratio = math.inf if math.isnan(balanced.density_ratio) else balanced.density_ratio

@@ -64,7 +64,7 @@ class Tiling(Value):
     @property
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
-        return verdict(self.quality, len(self.poles), self.added_distortion)
+        return verdict(self.quality, len(self.poles), self.added_distortion, self.evenness)
 
 
 @dataclass(frozen=True, repr=False)

@@ -229,10 +229,10 @@ def test_the_button_puts_poles_where_it_is_coarse():
     obj = spikes()
     run()
     assert "Add Poles There" in drawn(obj).buttons
-    bpy.ops.uv.holomorphic_tile(poles="COUNT", pole_count=2)
+    bpy.ops.uv.holomorphic_tile(poles="COUNT", pole_count=2, evenness=0)
     before = stored_report(obj)
     places, poles = before["coarse_places"], before["components"][0]["tiling"]["poles"]
-    bpy.ops.uv.holomorphic_tile(poles="COARSE")
+    bpy.ops.uv.holomorphic_tile(poles="COARSE", evenness=0)
     after = stored_report(obj)["components"][0]
     made = set(after["tiling"]["poles"])  # a pole whose residue is rounded to 0 is none
     assert len(places) > 0 and len(made) > 2 and made <= {*poles, *(place["vertex"] for place in places)}

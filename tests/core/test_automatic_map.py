@@ -32,7 +32,7 @@ def quality(ratio, sheared, flipped=0.0):
 
 
 def tiling(ratio, *others):
-    return SimpleNamespace(density_ratio=ratio, quality=quality(ratio, *others))
+    return SimpleNamespace(density_ratio=ratio, quality=quality(ratio, *others), evenness=0.0)
 
 
 @pytest.mark.parametrize(

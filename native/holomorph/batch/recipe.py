@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, field, fields
 import tomllib
 
 from .. import formats, tiling_options
-from ..automatic_map import MAIN_MAPS
+from ..automatic_map import EVENNESS, MAIN_MAPS
 from ..checks import SOLVERS
 from .errors import UsageError
 
@@ -100,6 +100,7 @@ class Tiles:
     boundary: str = _one_of(tiling_options.BOUNDARIES, "straight")
     turn: float | None = _optional_number("an angle in radians", lambda value: True)
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
+    evenness: float = _number(EVENNESS, "a number from 0 to 1", lambda value: 0 <= value <= 1)
     max_added: float | None = _optional_number("a mean s1/s2 of at least 1", lambda value: value >= 1)
 
 
