@@ -13,7 +13,7 @@ LEAST_PART = 0.002  # of all faces, in a place that counts
 MOST_PLACES = 8
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class CoarsePlace:
     """Coarse faces that hang together.
 

@@ -30,7 +30,7 @@ addEventListener("load", () => {
   seen.sorted = document.querySelector("th[data-key=faces]").getAttribute("aria-sort");
   type("faces>150 torus");
   seen.filtered = names();
-  type("has faces");
+  type("zero area");
   seen.words = names();
   type("");
   document.querySelector("input[name=refused]").click();
@@ -59,10 +59,8 @@ def browse(page, *options):
 def page(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
     source = library(folder / "source", 4)
-    # A name that would end the script, if it were not escaped, and and a message of the library.
-    (source / "<script>&amp.obj").write_text("v 0 0 0\\nv 1 0 0\\nv 0 1 0\\nv 0 0 1\\nv 1 1 1\\n".replace("\\n", "\n"))
-    with open(source / "<script>&amp.obj", "a") as file:
-        file.write("f 1 2 3\nf 1 2 4\nf 1 2 5\n")
+    # A name that would end the script, if it were not escaped, and a message of the library.
+    (source / "<script>&amp.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
     (folder / "recipe.toml").write_text(BALANCED)
     assert run(source, "--out", folder / "out", "--recipe", folder / "recipe.toml").returncode == 1
     return folder / "out" / "index.html"

@@ -111,6 +111,7 @@ EXAMPLES = {
     )[0],
     "ProgressiveMesh": lambda: ProgressiveMesh(surface_of(CLOSED["torus of quads"]), corner_data=np.arange(432 * 4)),
     "Cut": lambda: holomorph.Cut("touching", np.arange(3), np.empty((0, 2), int), np.empty(0, int)),
+    "CoarsePlace": lambda: holomorph.CoarsePlace(times=9.0, vertex=3),
     "Refused": lambda: holomorph.Refused(np.arange(3), "edge 1 has 3 faces"),
 }
 STRUCTURES = [
