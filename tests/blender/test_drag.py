@@ -120,7 +120,7 @@ def test_a_pole_goes_where_it_is_put_and_the_map_stays_seamless(stages):
 
 def test_a_second_move_adds_to_the_first_and_tiles_can_change_with_the_poles_kept(stages):
     obj = torus()
-    tile()
+    tile(poles="COUNT", pole_count=4)
     first = neighbour(obj, poles(obj)[0])
     move(f"0:{first}")
     second = neighbour(obj, poles(obj)[2])
