@@ -6,6 +6,7 @@
 
 #include "base/chunks.h"
 #include "evening/descent.h"
+#include "evening/patch.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
 #include "solver/solver_choice.h"

@@ -236,49 +236,4 @@ std::vector<double> StrainEnergy::diagonal(const Function& delta, double lambda)
   return result;
 }
 
-StrainEnergy::Patch StrainEnergy::around_flipped(const Function& delta, int rings) const {
-  std::vector<char> inside(vertex_count(), 0);
-  for (const Triangle& triangle : triangles_) {
-    if (!(triangle.area > 0) || !derivatives(triangle, delta).flipped()) continue;
-    for (const int v : triangle.vertices) inside[v] = 1;
-  }
-  const auto touches = [&](const Triangle& triangle) {
-    const auto& v = triangle.vertices;
-    return inside[v[0]] == 1 || inside[v[1]] == 1 || inside[v[2]] == 1;
-  };
-  for (int ring = 0; ring < rings; ++ring) {
-    for (const Triangle& triangle : triangles_) {
-      if (!touches(triangle)) continue;
-      for (const int v : triangle.vertices) inside[v] = std::max<char>(inside[v], 2);
-    }
-    for (char& mark : inside) mark = std::min<char>(mark, 1);
-  }
-  Patch patch;
-  std::vector<int> number(vertex_count(), -1);
-  const auto take = [&](int v) {
-    if (number[v] >= 0) return;
-    number[v] = static_cast<int>(patch.vertices.size());
-    patch.vertices.push_back(v);
-  };
-  for (int v = 0; v < vertex_count(); ++v) {
-    if (inside[v]) take(v);
-  }
-  patch.free_count = static_cast<int>(patch.vertices.size());
-  patch.energy.log_size_ = log_size_;
-  patch.energy.whole_area_ = whole_area_;
-  for (Triangle triangle : triangles_) {
-    if (!touches(triangle)) continue;
-    const Derivatives map = derivatives(triangle, delta);
-    triangle.a = map.a;
-    triangle.b = map.b;
-    for (int& v : triangle.vertices) {
-      take(v);
-      v = number[v];
-    }
-    patch.energy.triangles_.push_back(triangle);
-  }
-  patch.energy.find_stars(static_cast<int>(patch.vertices.size()));
-  return patch;
-}
-
 }  // namespace holomorph::evening

@@ -56,7 +56,7 @@ class StrainEnergy {
   /// #V, its diagonal.
   std::vector<double> diagonal(const Function& delta, double lambda) const;
 
-  struct Patch;
+  struct Patch;  // patch.h
   /// Where delta flips triangles, and so many rings around them. @pre it flips some
   Patch around_flipped(const Function& delta, int rings) const;
 
@@ -78,6 +78,8 @@ class StrainEnergy {
 
   StrainEnergy() = default;
   void find_stars(int vertex_count);
+  // #V: the corners of triangles that delta flips, and so many rings around them.
+  std::vector<char> near_flipped(const Function& delta, int rings) const;
   double log_size(const Triangle& triangle) const { return triangle.at_pole ? 0 : log_size_; }
   // Of the map with the function added.
   static Derivatives derivatives(const Triangle& triangle, const Function& function);
@@ -88,13 +90,6 @@ class StrainEnergy {
   double whole_area_ = 1;  // of the triangles that the mean is over
   Array<Triangle> triangles_;
   std::vector<int> star_starts_, star_corners_;  // of each vertex: 3 t + i where it is corner i of triangle t
-};
-
-/// A part of the surface; its map is the one with delta.
-struct StrainEnergy::Patch {
-  StrainEnergy energy;
-  std::vector<int> vertices;  ///< of the surface, by its own: first those that are free to move,
-  int free_count = 0;         ///< so many, then the others
 };
 
 }  // namespace holomorph::evening
