@@ -134,6 +134,9 @@ def drag_by_hand(pole, place):
 
 
 def dragging():
+    with inside(area("VIEW_3D")):  # evened, a torus needs no poles
+        bpy.ops.uv.holomorphic_tile("EXEC_DEFAULT", True, poles="COUNT", pole_count=2)
+    yield 1
     pole, before, old = visible_pole(), uv(), poles()
     points = addon("scene.mesh_io").world_points(obj())
     place = int(np.argmin(np.linalg.norm(points - (0, -1.0, 0.4), axis=1)))
