@@ -33,7 +33,7 @@ class Descent {
 
  private:
   struct Step {
-    Function step, change;  // of delta, and of the gradient along it
+    Function step, change;  // what was added to delta, and by what that changed the gradient
     double curvature;       // their product
   };
 

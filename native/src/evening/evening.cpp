@@ -15,7 +15,7 @@ namespace holomorph::evening {
 namespace {
 
 constexpr int kMostSteps = 40;
-constexpr double kWhole = 0.9;               // of the work, before flipped triangles are turned back
+constexpr double kWhole = 0.9;               // part of the work that comes before flipped triangles are turned back
 constexpr int kRings[] = {2, 4, 8, 16};      // around them, that may move
 constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
 

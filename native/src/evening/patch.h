@@ -10,8 +10,8 @@ namespace holomorph::evening {
 /// A part of the surface; its map is the one with delta.
 struct StrainEnergy::Patch {
   StrainEnergy energy;
-  std::vector<int> vertices;  ///< of the surface, by its own: first those that are free to move,
-  int free_count = 0;         ///< so many, then the others
+  std::vector<int> vertices;  ///< vertices of the surface: the free ones first
+  int free_count = 0;         ///< how many of them are free to move
 };
 
 }  // namespace holomorph::evening

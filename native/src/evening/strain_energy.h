@@ -87,7 +87,7 @@ class StrainEnergy {
   double stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const;
 
   double log_size_ = 0;    // 2 ln s0
-  double whole_area_ = 1;  // of the triangles that the mean is over
+  double whole_area_ = 1;  // area of the triangles that the mean is over
   Array<Triangle> triangles_;
   std::vector<int> star_starts_, star_corners_;  // of each vertex: 3 t + i where it is corner i of triangle t
 };
