@@ -15,13 +15,17 @@ def evened_uv(structure, coefficients, uv, evenness, progress):
 
 
 def _kept(structure, coefficients):
-    """The vertices that `evened` keeps, under its names: those of straight and round boundaries, and poles."""
+    """The vertices that `evened` keeps, under its names: those of straight and round boundaries, the centre of a round
+    one, and poles."""
     surface = structure._triangulation
     rim = np.unique(surface.edges[np.bincount(surface.triangle_edges.ravel(), minlength=len(surface.edges)) == 1])
     if isinstance(structure, RectangleMap):
         points = structure._plane[rim]
         return {"u": rim[_is_extreme(points.real)], "v": rim[_is_extreme(points.imag)]}
-    if isinstance(structure, (DiskMap, TriangleMap)):
+    if isinstance(structure, DiskMap):
+        still = [*rim, *structure._native.poles()]
+        return {"u": still, "v": still}
+    if isinstance(structure, TriangleMap):
         return {"u": rim, "v": rim}
     if isinstance(structure, PoleStructure):
         is_straight = np.isreal(coefficients).all() and np.isreal(structure.residues).all()

@@ -95,6 +95,12 @@ def test_boundaries_keep_their_shape(name):
         assert moves.min() > 1e-3
 
 
+def test_the_centre_of_a_disk_stays():
+    own = structure("disk")
+    at = own._triangulation.corner_vertices == own.centre
+    assert np.array_equal(mapped("disk", 0.8).uv[at], mapped("disk", 0).uv[at])
+
+
 def test_a_rectangle_stays_one():
     own = structure("rectangle")
     points = np.full((own._triangulation.vertex_count, 2), np.nan)

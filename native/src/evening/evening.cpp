@@ -9,6 +9,7 @@
 #include "evening/patch.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
+#include "solver/direct/sparse_cholesky.h"
 #include "solver/solver_choice.h"
 
 namespace holomorph::evening {
@@ -91,15 +92,20 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
     return here;
   };
   const Kept here{{}, kept_here(kept.u), kept_here(kept.v)};
-  const auto scaled = [&](const Function& at) -> Precondition {
-    return [scale = patch.energy.diagonal(at, lambda)](const Function& gradient) {
-      Function result = gradient;
-      for (std::size_t v = 0; v < result.size(); ++v) result[v] *= kInverse / scale[v];
+  solver::SparseCholesky factor;
+  const auto make = [&](const Function& at) -> Precondition {
+    factor.compute(patch.energy.laplacian(at, lambda, patch.free_count), {});
+    return [&](const Function& gradient) {
+      Eigen::MatrixXd B(patch.free_count, 2);
+      for (int v = 0; v < patch.free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
+      const Eigen::MatrixXd X = factor.solve(B);
+      Function result(gradient.size(), 0.0);
+      for (int v = 0; v < patch.free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
       return result;
     };
   };
   Descent descent(
-      patch.energy, lambda, scaled, [&](Function& f) { clear(f, here); }, execution.workers());
+      patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());
   Function best(patch.vertices.size(), 0.0);
   double least_flipped = descent.begin(best).flipped;
   for (int urge = 0; urge < kUrges && descent.value().flipped > most_flipped; ++urge) {
