@@ -87,6 +87,23 @@ def test_no_more_area_is_flipped(name):
     assert max(parts) <= parts[0]
 
 
+@pytest.mark.parametrize(
+    ("power", "jitter", "seed", "evenness"),
+    [(2, jitter, seed, evenness) for jitter in (0.2, 0.4) for seed in range(3) for evenness in (0.25, 0.5, 1)]
+    + [(3, 0.2, 2, 1), (4, 0.4, 1, 0.5)],  # these need triangles that keep their shape
+)
+def test_no_more_area_is_flipped_where_a_map_branches(power, jitter, seed, evenness):
+    """Powers of z from a point that is no vertex: where it is 0, they flip triangles."""
+    points, faces = families.hexagonal_disk(30, jitter=jitter, seed=seed)
+    native = Surface(np.pad(points, ((0, 0), (0, 1))), faces)._native
+    middle = np.random.default_rng(seed).normal(size=2) * 0.2
+    w = ((points - middle) @ [1, 1j]) ** power
+    uv = np.stack([w.real, w.imag], axis=1)[native.corner_vertices]
+    even = evened(native, uv, evenness)
+    assert Quality.of(native, even, 1).flipped_part <= Quality.of(native, uv, 1).flipped_part
+    assert ratio(native, even) < ratio(native, uv)
+
+
 @pytest.mark.parametrize("evenness", [0.1, 0.5, 1])
 def test_an_even_map_stays(evenness):
     native = flat_disk()._native

@@ -16,8 +16,9 @@ namespace holomorph::evening {
 namespace {
 
 constexpr int kMostSteps = 40;
-constexpr double kWhole = 0.9;               // part of the work that comes before flipped triangles are turned back
-constexpr int kRings[] = {2, 4, 8, 16};      // around them, that may move
+constexpr double kWhole = 0.9;  // part of the work that comes before flipped triangles are turned back
+// Around them: those that may move, and the inner ones that keep the shape of the map before, where else they flip.
+constexpr StrainEnergy::Rings kRings[] = {{2, 0}, {4, 0}, {8, 0}, {16, 0}, {4, 2}, {8, 4}, {16, 8}, {32, 16}};
 constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
 
 // The weight of size in the energy. Where strain is small, minimising takes the power 1 - lambda of every density, and
@@ -76,10 +77,24 @@ void clear(Function& function, const Kept& kept) {
   for (const int v : kept.v) function[v].imag(0);
 }
 
+// The preconditioner of a patch.
+Precondition factorised(const StrainEnergy::Patch& patch, const Function& delta, double lambda) {
+  const auto factor = std::make_shared<solver::SparseCholesky>();
+  factor->compute(patch.energy.laplacian(delta, lambda, patch.free_count), {});
+  return [factor, count = patch.free_count](const Function& gradient) {
+    Eigen::MatrixXd B(count, 2);
+    for (int v = 0; v < count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
+    const Eigen::MatrixXd X = factor->solve(B);
+    Function result(gradient.size(), 0.0);
+    for (int v = 0; v < count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
+    return result;
+  };
+}
+
 // Turns triangles back that delta flips, as far as they are more than before: only their surroundings move.
 // @param delta on the whole surface; changed where that flips less. @return the area that it then flips
-double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, double most_flipped, int rings,
-                 Function& delta, Execution& execution) {
+double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, double most_flipped,
+                 StrainEnergy::Rings rings, Function& delta, Execution& execution) {
   StrainEnergy::Patch patch = energy.around_flipped(delta, rings);
   std::vector<int> number(delta.size(), -1);
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) number[patch.vertices[i]] = static_cast<int>(i);
@@ -92,18 +107,7 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
     return here;
   };
   const Kept here{{}, kept_here(kept.u), kept_here(kept.v)};
-  solver::SparseCholesky factor;
-  const auto make = [&](const Function& at) -> Precondition {
-    factor.compute(patch.energy.laplacian(at, lambda, patch.free_count), {});
-    return [&](const Function& gradient) {
-      Eigen::MatrixXd B(patch.free_count, 2);
-      for (int v = 0; v < patch.free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
-      const Eigen::MatrixXd X = factor.solve(B);
-      Function result(gradient.size(), 0.0);
-      for (int v = 0; v < patch.free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
-      return result;
-    };
-  };
+  const auto make = [&](const Function& at) { return factorised(patch, at, lambda); };
   Descent descent(
       patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());
   Function best(patch.vertices.size(), 0.0);

@@ -1,9 +1,12 @@
 #include "evening/patch.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace holomorph::evening {
 namespace {
+
+constexpr double kCollapsed = 1e-6;  // determinant of a map relative to its square: s1 / s2 is a million or more
 
 bool any(const std::vector<char>& marked, const mesh::Triple& vertices) {
   return std::ranges::any_of(vertices, [&](int v) { return marked[v]; });
@@ -32,7 +35,7 @@ class Numbering {
 std::vector<char> StrainEnergy::near_flipped(const Function& delta, int rings) const {
   std::vector<char> inside(vertex_count(), 0);
   for (const Triangle& triangle : triangles_) {
-    if (!(triangle.area > 0) || !derivatives(triangle, delta).flipped()) continue;
+    if (!(triangle.area > 0) || !flipped(triangle, derivatives(triangle, delta))) continue;
     for (const int v : triangle.vertices) inside[v] = 1;
   }
   for (int ring = 0; ring < rings; ++ring) {
@@ -45,8 +48,23 @@ std::vector<char> StrainEnergy::near_flipped(const Function& delta, int rings) c
   return inside;
 }
 
-StrainEnergy::Patch StrainEnergy::around_flipped(const Function& delta, int rings) const {
-  const std::vector<char> inside = near_flipped(delta, rings);
+// The shape that the map with these derivatives gives it: from now on z is in the plane that it maps to. A triangle
+// that it collapses has none.
+void StrainEnergy::Triangle::keep_shape(const Derivatives& map) {
+  const double determinant = std::norm(map.a) - std::norm(map.b);
+  if (!(std::abs(determinant) > kCollapsed * std::norm(map.a))) return;
+  for (Complex& g : gradients) g = (g * map.a - std::conj(g) * map.b) / determinant;
+  const Complex a_before = a, b_before = b;
+  a = (a_before * std::conj(map.a) - b_before * std::conj(map.b)) / determinant;
+  b = (b_before * map.a - a_before * map.b) / determinant;
+  keeps_shape = true;
+  reversed = determinant < 0;
+}
+
+StrainEnergy::Patch StrainEnergy::around_flipped(const Function& delta, Rings rings) const {
+  const std::vector<char> inside = near_flipped(delta, rings.all);
+  const std::vector<char> inner =
+      rings.inner > 0 ? near_flipped(delta, rings.inner) : std::vector<char>(vertex_count(), 0);
   Patch patch;
   Numbering number(vertex_count(), patch.vertices);
   for (int v = 0; v < vertex_count(); ++v) {
@@ -57,9 +75,11 @@ StrainEnergy::Patch StrainEnergy::around_flipped(const Function& delta, int ring
   patch.energy.whole_area_ = whole_area_;
   for (Triangle triangle : triangles_) {
     if (!any(inside, triangle.vertices)) continue;
-    const Derivatives map = derivatives(triangle, delta);
+    const Derivatives before{triangle.a, triangle.b}, map = derivatives(triangle, delta);
     triangle.a = map.a;
     triangle.b = map.b;
+    const bool is_inner = std::ranges::all_of(triangle.vertices, [&](int v) { return inner[v]; });
+    if (is_inner && !triangle.at_pole) triangle.keep_shape(before);
     for (int& v : triangle.vertices) v = number(v);
     patch.energy.triangles_.push_back(triangle);
   }

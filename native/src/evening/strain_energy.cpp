@@ -138,7 +138,10 @@ StrainEnergy::StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, 
     log_size_ = sum.log / sum.area;
     whole_area_ = sum.area;
   }
-  for_rows(workers, count, [&](int t) { triangles_[t].area /= whole_area_; });
+  for_rows(workers, count, [&](int t) {
+    triangles_[t].area /= whole_area_;
+    if (!triangles_[t].at_pole) triangles_[t].log_size = log_size_;
+  });
   find_stars(surface.vertex_count);
 }
 
@@ -172,9 +175,9 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
     at[0] = at[1] = at[2] = 0;
     if (!(triangle.area > 0)) return;
     const Derivatives map = derivatives(triangle, delta);
-    const Local local = local_energy(std::norm(map.a), std::norm(map.b), lambda, log_size(triangle));
+    const Local local = local_energy(std::norm(map.a), std::norm(map.b), triangle.lambda(lambda), triangle.log_size);
     const double weight = triangle.area * triangle.emphasis;
-    sum += {weight * local.value, map.flipped() ? triangle.area : 0};
+    sum += {weight * local.value, flipped(triangle, map) ? triangle.area : 0};
     const Complex by_a = 0.5 * weight * local.by_a * map.a, by_b = 0.5 * weight * local.by_b * map.b;
     for (const int k : {1, 2}) {
       const Complex g = triangle.gradients[k - 1];
@@ -194,14 +197,14 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
 void StrainEnergy::emphasise_flipped(const Function& delta, Workers& workers) {
   for_rows(workers, static_cast<int>(triangles_.size()), [&](int t) {
     Triangle& triangle = triangles_[t];
-    if (triangle.area > 0 && derivatives(triangle, delta).flipped()) triangle.emphasis *= kEmphasis;
+    if (triangle.area > 0 && flipped(triangle, derivatives(triangle, delta))) triangle.emphasis *= kEmphasis;
   });
 }
 
 double StrainEnergy::stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const {
   const Derivatives map = derivatives(triangle, delta);
   const double size = std::norm(map.a), ratio = std::sqrt(std::norm(map.b) / size);
-  const double stiff = stiffness(ratio, std::log(size) - log_size(triangle), lambda) / size;
+  const double stiff = stiffness(ratio, std::log(size) - triangle.log_size, triangle.lambda(lambda)) / size;
   return triangle.area * triangle.emphasis * stiff;
 }
 

@@ -58,30 +58,39 @@ class StrainEnergy {
   Eigen::SparseMatrix<double> laplacian(const Function& delta, double lambda, int count) const;
 
   struct Patch;  // patch.h
-  /// Where delta flips triangles, and so many rings around them. @pre it flips some
-  Patch around_flipped(const Function& delta, int rings) const;
+  struct Rings {
+    int all, inner;
+  };
+  /// Where delta flips triangles, and so many rings around them. The inner rings are to keep the shape that the map
+  /// without delta gives them, and flip no more than it does; 0 for none. @pre delta flips some
+  Patch around_flipped(const Function& delta, Rings rings) const;
 
  private:
+  struct Derivatives {
+    Complex a, b;
+  };
   struct Triangle {
     mesh::Triple vertices;
     Complex a, b;  // the map is a z + b conj(z) + constant; z along side 0, at a pole the map itself
     std::array<Complex, 2> gradients;  // gradients of the hat functions of corners 1 and 2
     double area = 0;                   // 0: does not count
     double emphasis = 1;               // by which its part of the energy is multiplied
+    double log_size = 0;               // 2 ln of the size that it is to have
     bool at_pole = false;
+    bool keeps_shape = false, reversed = false;  // of any size; reversed: in the plane that z is in
 
     void lay_out(const mesh::Surface& surface, int t, const uv::UvArray& uv);
+    void keep_shape(const Derivatives& map);
+    double lambda(double given) const { return keeps_shape ? 0 : given; }
   };
-  struct Derivatives {
-    Complex a, b;
-    bool flipped() const { return std::norm(b) > std::norm(a); }
-  };
+  static bool flipped(const Triangle& triangle, const Derivatives& map) {
+    return (std::norm(map.b) > std::norm(map.a)) != triangle.reversed;
+  }
 
   StrainEnergy() = default;
   void find_stars(int vertex_count);
   // #V: the corners of triangles that delta flips, and so many rings around them.
   std::vector<char> near_flipped(const Function& delta, int rings) const;
-  double log_size(const Triangle& triangle) const { return triangle.at_pole ? 0 : log_size_; }
   // Of the map with the function added.
   static Derivatives derivatives(const Triangle& triangle, const Function& function);
   // By which the squared gradient of a change is multiplied.
