@@ -35,8 +35,8 @@ class MappedPart:
     @property
     def seams(self):
         """(#S, 2) vertices of the whole object: where the main map is cut."""
-        structure = self.component.structure
-        return self.vertices(self.tiling.seams) if self.tiling else structure.edges[structure.seams]
+        made, structure = self.map.tiling or self.map.islands, self.component.structure
+        return self.vertices(made.seams) if made else structure.edges[structure.seams]
 
 
 @dataclass(frozen=True)

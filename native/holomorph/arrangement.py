@@ -126,10 +126,9 @@ def arranged_form(
     structures; zeros at corners of parts that lack it."""
     surfaces, uvs = [], []
     for surface, structure in parts:
-        balanced = np.asarray(structure.balanced_coefficients())
-        if form < len(balanced):  # of their type: a complex factor would bend straight boundaries
+        if form < structure.form_count:  # of their type: a complex factor would bend straight boundaries
             surfaces.append(surface)
-            uvs.append(structure.uv(np.eye(len(balanced), dtype=balanced.dtype)[form]))
+            uvs.append(structure.uv(np.eye(structure.form_count, dtype=structure.coefficient_type)[form]))
     uv = np.zeros((corners, 2))
     Square(surfaces, uvs, arrangement).write(uv)
     return uv

@@ -1,4 +1,4 @@
-"""Which map a part gets: the balanced one of its structure, or a seamless tiling where that is no less even."""
+"""Which map a part gets: flat islands, the balanced one of its structure, or a seamless tiling."""
 
 import math
 from dataclasses import dataclass, replace
@@ -7,12 +7,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._native import InvalidMesh, SolverError, TopologyError
+from .appearance import cost
 from .array_types import Progress
 from .automatic_structure import AnyStructure, automatic_structure
+from .island_map import Islands, island_map
 from .map import Map, form_map
 from .progress import scaled
 from .surface import Surface
 from .tiling import Poles
+from .value import counted
 
 REFUSALS = (InvalidMesh, TopologyError, SolverError)  # what is said about one part, others go on
 
@@ -27,6 +30,11 @@ MOST_FLIPPED = 0.02  # part of the area: what flips lies beside branch points, a
 # The poles of the tilings that are tried; the first one that is better is taken. Without any, the map of a ring, such
 # as a pipe, is the balanced one, scaled until whole tiles fit around it.
 POLES = ("auto", 0)
+
+# What islands may cost (see `appearance`) to be taken at once: less than a tiling does with poles, or where none may be
+# needed, as around a ring, so little that squares hardly differ.
+GOOD, FLAT = 0.8, 0.3
+MOST_SOFT = 0.02  # length of a seam across the smooth over the square root of the area, that is not minded
 
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
 
@@ -53,9 +61,11 @@ def automatic_map(
 ) -> Map:
     """The `Map` of one connected part of any kind.
 
-    A texture breaks off at the seams of the balanced map, and its size follows the density. Where there is a seam, or
-    the density ratio is above 2, tilings are tried. One takes the place of the balanced map where its density is about
-    as even, its mean s1 / s2 at most a tenth larger, and hardly any area is flipped.
+    A part that is flat, or falls into flat pieces at its hard edges, gets these (`island_map`). On another one a
+    texture breaks off at the seams of the balanced map, and its size follows the density. Where there is a seam, or the
+    density ratio is above 2, tilings are tried. One takes the place of the balanced map where its density is about as
+    even, its mean s1 / s2 at most a tenth larger, and hardly any area is flipped. Where there are islands too, the map
+    is taken that an eye minds least (`appearance`).
 
     Parameters
     ----------
@@ -74,7 +84,7 @@ def automatic_map(
     made.
     """
     solving = SOLVING if structure is None else 0.0
-    found = first_map(surface, structure, main, threads, scaled(progress, 0.0, solving))
+    found = first_map(surface, structure, main, evenness, threads, scaled(progress, 0.0, solving))
     if isinstance(found, Map):
         return found
     options = {"lattice": lattice, "direction": direction, "boundary": boundary}
@@ -82,19 +92,43 @@ def automatic_map(
     return found.tiled(poles, {"tiles": tiles, "density": density, **options}, scaled(progress, solving, 1.0))
 
 
-def first_map(surface, structure, main, threads, progress):
-    """The balanced `Map` where it stays; `Undecided` where a tiling may take its place."""
+def first_map(surface, structure, main, evenness, threads, progress):
+    """The `Map` of flat islands, or the balanced one, where it stays; `Undecided` where a tiling may take its place."""
     if main not in MAIN_MAPS:
         raise ValueError(f"main is {main!r}; one of {', '.join(MAIN_MAPS)} is needed")
     if structure is None:
         structure = automatic_structure(surface, threads=threads, progress=progress)
     if main == "seamless":
         return Undecided(surface, structure, None)
-    balanced = form_map(surface, structure)
     if main == "balanced":
-        return balanced
+        return form_map(surface, structure)
+    flat = _flat_islands(surface, evenness, threads, progress)
+    if flat and _is_taken_at_once(flat, surface):
+        return _map_of(flat, surface, structure)
+    balanced = form_map(surface, structure)
     why = _why_it_stays(balanced)
-    return replace(balanced, why=why) if why else Undecided(surface, structure, balanced)
+    return replace(balanced, why=why) if why else Undecided(surface, structure, balanced, flat)
+
+
+def _flat_islands(surface, evenness, threads, progress):
+    """None where there are none, or they collapse."""
+    if surface.vertices is None or surface.area == 0:
+        return None
+    found = island_map(surface, evenness=evenness, threads=threads or 0, progress=progress)
+    return found if found and math.isfinite(found.cost) else None
+
+
+def _is_taken_at_once(flat, surface):
+    is_ring = (surface.genus, surface.boundary_count) in ((0, 2), (1, 0))
+    squares_are_even = cost(flat.quality) <= FLAT and flat.soft_length <= MOST_SOFT
+    return squares_are_even or (flat.cost <= GOOD and not is_ring)
+
+
+def _map_of(flat, surface, structure):
+    where = "hard edges" if flat.soft_length <= MOST_SOFT else "seams"
+    what = "in one piece" if not len(flat.seams) else f"along its {where} into {counted(flat.count, 'piece')}"
+    why = f"it flattens {what}: {_ratio(flat.quality.density_ratio)}"
+    return Map(surface, structure, flat.uv, flat.quality, np.empty(0), why, islands=flat)
 
 
 def _why_it_stays(balanced):
@@ -109,14 +143,21 @@ def _why_it_stays(balanced):
 
 @dataclass(frozen=True)
 class Undecided:
-    """A part that may get a tiling; `balanced` is its other map, None where a tiling was asked for."""
+    """A part that may get a tiling; `balanced` and `flat` are its other maps, None where a tiling was asked for."""
 
     surface: Surface
     structure: AnyStructure
     balanced: Map | None
+    flat: Islands | None = None
 
     def tiled(self, poles, options, progress):
         """The `Map`, by `options` of `Structure.tile`."""
+        found = self._tiled_or_balanced(poles, options, progress)
+        if self.flat and self.flat.cost < _cost(found):
+            return _map_of(self.flat, self.surface, self.structure)
+        return found
+
+    def _tiled_or_balanced(self, poles, options, progress):
         if self.balanced is None:
             return self._map(self._tiling(poles, options, progress), "it was asked for")
         tried = POLES if isinstance(poles, str) and poles == "auto" else (poles,)
@@ -138,6 +179,12 @@ class Undecided:
 
     def _map(self, made, why):
         return Map(self.surface, self.structure, made.uv, made.quality, np.empty(0), why, made)
+
+
+def _cost(found):
+    lengths = found.structure._triangulation.edge_lengths
+    seams = 0.0 if found.tiling else lengths[found.structure.seams].sum() / math.sqrt(found.surface.area)
+    return cost(found.quality, len(found.poles), soft_seams=float(seams))
 
 
 def _drawback(tiling, balanced):

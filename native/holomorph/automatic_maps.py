@@ -59,7 +59,7 @@ def automatic_maps(
         raise ValueError("a density is given without tiles: either says how many there are")
     parts = surfaces.components if isinstance(surfaces, Surface) else tuple(surfaces)
     done = SOLVING if structures is None else 0.0
-    made = _first_maps(parts, structures, main, threads, scaled(progress, 0.0, done))
+    made = _first_maps(parts, structures, main, evenness, threads, scaled(progress, 0.0, done))
     undecided = {k: found for k, found in enumerate(made) if isinstance(found, Undecided)}
     total, rest = sum(parts[k].area for k in undecided) or 1.0, 1 - done
     for k in sorted(undecided, key=lambda k: -parts[k].area):
@@ -84,13 +84,13 @@ def _tiled_density(found):
     return found.density if isinstance(found, Map) and found.tiling else None
 
 
-def _first_maps(parts, structures, main, threads, progress):
+def _first_maps(parts, structures, main, evenness, threads, progress):
     """What `first_map` gives for each part, or how that refuses."""
     count = len(parts)
     mains = [main] * count if isinstance(main, str) else main
     steps = [scaled(progress, k / count, (k + 1) / count) for k in range(count)]
     return [
-        _attempt(first_map, part, structure, own, threads, step)
+        _attempt(first_map, part, structure, own, evenness, threads, step)
         for part, structure, own, step in zip(parts, structures or [None] * count, mains, steps)
     ]
 

@@ -28,6 +28,12 @@ def cuts_to_tips(surface, is_seam):
     return paths_to_border(surface, is_on_border, tips)
 
 
+def curvature(surface):
+    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians."""
+    no_seam = np.zeros(len(surface._native.edges), bool)
+    return float(np.abs(_defects(surface)[~on_border(surface, no_seam)]).sum())
+
+
 def _face_normals(surface):
     """(#F, 3) unit vectors, by the mean of the triangles; zero for faces without area."""
     a, b, c = np.moveaxis(surface.vertices[surface.triangles], 1, 0)

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from . import arrays
 from .array_types import Complexes, Integers, Reals
 from .automatic_structure import AnyStructure
+from .island_map import Islands
 from .pole_structure import PoleStructure
 from .quality import Quality
 from .surface import Surface
@@ -26,9 +27,10 @@ class Map(Value):
     structure : the conformal structure that the map is made of, or beside
     uv : (#C, 2) UVs. Those of a tiling may be multiplied and moved by integers only
     quality : `Quality`
-    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a tiling
+    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a tiling and for islands
     why : why it is this map, in one sentence
     tiling : `Tiling`, None for other kinds
+    islands : `Islands`, None for other kinds
     """
 
     surface: Surface
@@ -38,6 +40,7 @@ class Map(Value):
     coefficients: Complexes | Reals
     why: str
     tiling: Tiling | None = None
+    islands: Islands | None = None
 
     @property
     def kind(self) -> str:
@@ -48,8 +51,11 @@ class Map(Value):
         "strip" : an annulus as a rectangle whose two other sides are a seam
         "log" : around poles, which lie at infinity, also a sphere as a strip
         "disk", "rectangle", "triangle" : a disk with a straight or round boundary
-        "flat" : a disk with a free boundary
+        "flat" : in one piece, with a free boundary
+        "islands" : in flat pieces
         """
+        if self.islands:
+            return "islands" if self.islands.count > 1 or len(self.islands.seams) else "flat"
         return "tiling" if self.tiling else self.structure.map_kind
 
     @property
@@ -62,6 +68,8 @@ class Map(Value):
         """(#S, 2) vertices of the edges where the UVs jump."""
         if self.tiling:
             return self.tiling.seams
+        if self.islands:
+            return self.islands.seams
         return self._of_surface(self.structure._triangulation.edges[self.structure.seams])
 
     @cached_property
@@ -69,7 +77,7 @@ class Map(Value):
         """(k,) vertices around which the UVs change by a residue."""
         if self.tiling:
             return self.tiling.poles
-        is_log = isinstance(self.structure, PoleStructure)
+        is_log = not self.islands and isinstance(self.structure, PoleStructure)
         return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
 
     @property

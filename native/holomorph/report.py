@@ -54,7 +54,7 @@ def part_report(made: "Map") -> dict[str, Any]:
     certificates; vertices are those of the mesh as given."""
     main_map = map_report(made.coefficients, made.quality, made.verdict) | {"kind": made.kind, "why": made.why}
     entry = component_report(made.surface, made.structure, main_map)
-    entry["forms"] = len(made.structure.balanced_coefficients())
+    entry["forms"] = made.structure.form_count
     return entry | ({"tiling": _tiling_report(made.tiling, made.surface.vertex_index)} if made.tiling else {})
 
 

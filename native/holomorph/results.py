@@ -31,6 +31,7 @@ class Structure(Value):
 
     uv(coefficients) : (#C, 2) UVs of a combination of `holomorphic_forms`, without a solve
     balanced_coefficients() : those of the map that is shown first
+    form_count, coefficient_type : number and type of coefficients
     description : one phrase that says what was made
     map_kind : the `Map.kind` of their UVs
     invariants() : the conformal invariants as plain data, for reports
