@@ -9,7 +9,7 @@ import numpy as np
 from .. import native
 from ..scene.uv_maps import MAIN_MAP
 from . import forms
-from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions
+from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions, dials
 
 MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless", TILING: "seamless"}  # as `holomorph.automatic_maps` names them
 
@@ -188,8 +188,8 @@ def _tilings(asked, options, density, progress):
         direction=wanted.direction,
         boundary=wanted.boundary,
         turn=wanted.turn or None,
-        evenness=wanted.evenness,
         progress=progress,
+        **dials(wanted),
         **amount,
     )
     return iter(made)

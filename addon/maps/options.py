@@ -7,6 +7,14 @@ from .. import native
 
 # What the main map is. TILING: tilings alone, so that parts without one have no map.
 AUTOMATIC, SEAMLESS, BALANCED, ISLANDS, TILING = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS", "TILING"
+# The fields of `TileOptions` that every operator and the headless command have under the same name, and that
+# `holomorph.automatic_maps` takes as they are.
+DIALS = ("evenness",)
+
+
+def dials(source):
+    """The values of `DIALS`, by name."""
+    return {name: getattr(source, name) for name in DIALS}
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,8 @@ from .structure import conformal_structure
 from .surface import Surface
 from .symmetries import Automorphisms, automorphisms
 from .theta_constants import Hyperelliptic, hyperelliptic
-from .tiling import PlacedPoles, Tiler, Tiling, place_poles
+from .tiling import Tiler, place_poles
+from .tilings import PlacedPoles, Tiling
 from .verdicts import UNEVEN, Verdict, overall, verdict
 from .zeros import Zeros
 

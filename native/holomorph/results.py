@@ -17,8 +17,9 @@ from .quality import Quality
 from .solution import Solution
 from .solver_report import Residuals, SolverReport
 from .surface import Surface
-from .tiling import Tiler, Tiling
+from .tiling import Tiler
 from .tiling_options import Poles, asked_poles
+from .tilings import Tiling
 from .value import Value, counted
 
 PLACING = 0.6  # of the work on a tiling, for finding the poles
