@@ -11,6 +11,8 @@ from ..scene.uv_maps import MAIN_MAP
 from . import forms
 from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions, dials
 
+MIXED_EVENED = 20_000  # triangles up to which maps are evened while forms are mixed: it takes 0.2 s
+
 MAINS = {AUTOMATIC: "automatic", SEAMLESS: "seamless", TILING: "seamless"}  # as `holomorph.automatic_maps` names them
 
 
@@ -82,7 +84,10 @@ class MappedObject:
 
     def of_forms(self):
         """The same parts with maps of forms alone."""
-        return mapped(self.solved, replace(self.options, main=BALANCED)) if self.tiled else self
+        if not self.tiled:
+            return self
+        conformal = replace(self.options.tiling, evenness=0.0)
+        return mapped(self.solved, replace(self.options, main=BALANCED, tiling=conformal))
 
     def maps(self):
         """Yields (name, (#C, 2) float32) for every map, the main one first; parts that lack it are zero there."""
@@ -163,10 +168,21 @@ def _parts(components, mains, options, density, progress):
             parts.append(MappedPart(component, skipped=reason))
             continue
         if reason or made is None:
-            coefficients = forms.coefficients(component, options)
-            made = native.load().form_map(component.surface, component.structure, coefficients)
+            made = _form_map(component, options, progress)
         parts.append(MappedPart(component, made, not_seamless=reason))
     return parts
+
+
+def _form_map(component, options, progress):
+    """The `holomorph.Map` of forms; evening is the last part of the work."""
+    is_slow = options.are_mixed and len(component.surface.triangles) > MIXED_EVENED
+    return native.load().form_map(
+        component.surface,
+        component.structure,
+        forms.coefficients(component, options),
+        evenness=0.0 if is_slow else options.tiling.evenness,
+        progress=native.load().progress.scaled(progress, 1.0, 1.0),
+    )
 
 
 def _tilings(asked, options, density, progress):

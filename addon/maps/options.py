@@ -56,8 +56,12 @@ class MapOptions:
     @property
     def are_plain(self):
         """Whether nothing is chosen of the main map but what it is."""
-        dials = (*self.amounts, *(1 + turn for turn in self.turns))
-        return self.density == 1 and self.rotation == 0 and all(dial == 1 for dial in dials)
+        return self.density == 1 and self.rotation == 0 and not self.are_mixed
+
+    @property
+    def are_mixed(self):
+        """Whether a dial of a form's share in the main map is turned."""
+        return any(amount != 1 for amount in self.amounts) or any(turn != 0 for turn in self.turns)
 
     @property
     def arrangement(self):

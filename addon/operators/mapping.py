@@ -53,8 +53,8 @@ class HOLOMORPH_OT_maps(MapProperties, _MapsOperator, bpy.types.Operator):
 
 
 class HOLOMORPH_OT_islands(MapProperties, _MapsOperator, bpy.types.Operator):
-    """Cut the selected meshes along their hard edges and seams, and flatten each island without shearing: for meshes of
-    few or long thin faces, which no seamless map can fit"""
+    """Cut the selected meshes along their hard edges and seams, and flatten each island: for meshes of few or long thin
+    faces, which no seamless map can fit"""
 
     bl_idname = "uv.holomorphic_islands"
     bl_label = "Islands by Hard Edges"

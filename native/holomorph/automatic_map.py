@@ -1,7 +1,7 @@
 """Which map a part gets: flat islands, the balanced one of its structure, or a seamless tiling."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -101,13 +101,15 @@ def first_map(surface, structure, main, evenness, threads, progress):
     if main == "seamless":
         return Undecided(surface, structure, None)
     if main == "balanced":
-        return form_map(surface, structure)
+        return form_map(surface, structure, evenness=evenness)
     flat = _flat_islands(surface, evenness, threads, progress)
     if flat and _is_taken_at_once(flat, surface):
         return _map_of(flat, surface, structure)
     balanced = form_map(surface, structure)
     why = _why_it_stays(balanced)
-    return replace(balanced, why=why) if why else Undecided(surface, structure, balanced, flat)
+    if why:
+        return form_map(surface, structure, why=why, evenness=evenness)
+    return Undecided(surface, structure, balanced, flat, evenness)
 
 
 def _flat_islands(surface, evenness, threads, progress):
@@ -143,12 +145,14 @@ def _why_it_stays(balanced):
 
 @dataclass(frozen=True)
 class Undecided:
-    """A part that may get a tiling; `balanced` and `flat` are its other maps, None where a tiling was asked for."""
+    """A part that may get a tiling; `balanced`, not evened, and `flat` are its other maps, None where a tiling was asked
+    for."""
 
     surface: Surface
     structure: AnyStructure
     balanced: Map | None
     flat: Islands | None = None
+    evenness: float = 0.0
 
     def tiled(self, poles, options, progress):
         """The `Map`, by `options` of `Structure.tile`."""
@@ -172,7 +176,7 @@ class Undecided:
             if not drawback:
                 return self._map(made, f"it has no visible seams and is no less even: {_ratio(made.density_ratio)}")
             reasons.append(f"a tiling {drawback}")
-        return replace(self.balanced, why=reasons[0])
+        return form_map(self.surface, self.structure, why=reasons[0], evenness=self.evenness)
 
     def _tiling(self, poles, options, progress):
         return self.structure.tile(poles=poles, surface=self.surface, progress=progress, **options)

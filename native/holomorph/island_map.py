@@ -38,6 +38,7 @@ class Islands(Value):
     soft_length, hard_length : of the seams across the smooth, and along hard edges, over the square root of the
         surface's area
     quality : `Quality`, also of how far islands lie over themselves
+    evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
     """
 
     uv: Reals
@@ -46,6 +47,7 @@ class Islands(Value):
     soft_length: float
     hard_length: float
     quality: Quality
+    evenness: float
 
     @property
     def cost(self) -> float:
@@ -181,7 +183,7 @@ def _laid_out(cuts, pieces, flat, evenness):
     lengths = np.asarray(surface._native.edge_lengths) / math.sqrt(surface.area)
     visible = (float(lengths[seams & kind].sum()) for kind in (~cuts.is_hard, cuts.is_hard))
     ends = arrays.frozen(np.asarray(surface._native.edges)[seams])
-    return Islands(arrays.frozen(uv), ends, count, *visible, _quality(cuts, uv))
+    return Islands(arrays.frozen(uv), ends, count, *visible, _quality(cuts, pieces, flat, uv, evenness), evenness)
 
 
 def _corner_pieces(pieces):
@@ -241,9 +243,12 @@ def _is_continuous(cuts, uv, joints):
     return result
 
 
-def _quality(cuts, uv):
+def _quality(cuts, pieces, flat, uv, evenness):
     """That on the triangles of the surface; what lies over itself is bounded by the seams and the boundary."""
     quality = Quality.of(cuts.surface._native, uv, cuts.threads)
+    if evenness > 0:
+        conformal = _native.evened_islands(pieces._native, flat, 0.0, cuts.threads, None)[: len(uv)]
+        quality = quality.evened_from(Quality.of(cuts.surface._native, conformal, cuts.threads), evenness)
     is_border = cuts.mask | (np.bincount(cuts.edges, minlength=len(cuts.mask)) == 1)
     starts = np.flatnonzero(is_border[cuts.edges])
     border = (uv @ [1, 1j])[np.stack([starts, cuts.following[starts]], axis=1)]

@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import arrays
-from .array_types import Complexes, Integers, Reals
+from .array_types import Complexes, Integers, Progress, Reals
 from .automatic_structure import AnyStructure
+from .checks import checked_evenness
+from .evened_forms import evened_uv
 from .island_map import Islands
 from .pole_structure import PoleStructure
 from .quality import Quality
@@ -41,6 +43,7 @@ class Map(Value):
     why: str
     tiling: Tiling | None = None
     islands: Islands | None = None
+    _evenness: float = 0.0
 
     @property
     def kind(self) -> str:
@@ -62,6 +65,11 @@ class Map(Value):
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
         return self.tiling.verdict if self.tiling else self.quality.verdict
+
+    @property
+    def evenness(self) -> float:
+        """From 0, conformal, to 1: how far squares of one size were preferred to angles."""
+        return (self.tiling or self.islands).evenness if self.tiling or self.islands else self._evenness
 
     @cached_property
     def seams(self) -> Integers:
@@ -100,14 +108,30 @@ class Map(Value):
 
 
 def form_map(
-    surface: Surface, structure: AnyStructure, coefficients: ArrayLike | None = None, why: str = "it was asked for"
+    surface: Surface,
+    structure: AnyStructure,
+    coefficients: ArrayLike | None = None,
+    why: str = "it was asked for",
+    *,
+    evenness: float = 0.0,
+    progress: Progress | None = None,
 ) -> Map:
     """The `Map` of a combination of a structure's forms, by default the balanced one.
 
     surface : the connected part, whose polygon corners are those that were solved on
     coefficients : (n,) as `structure.uv` takes them
+    evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Jumps stay,
+        and so do straight and round boundaries
+    progress : of evening, as in `conformal_structure`
+
+    Raises ValueError for an evenness outside 0 to 1; SolverError; Cancelled.
     """
+    evenness = checked_evenness(evenness)
     if coefficients is None:
         coefficients = structure.balanced_coefficients()
     uv = structure.uv(coefficients)
-    return Map(surface, structure, uv, structure.quality(uv), coefficients, why)
+    quality = structure.quality(uv)
+    if evenness > 0:
+        uv = evened_uv(structure, coefficients, uv, evenness, progress)
+        quality = structure.quality(uv).evened_from(quality, evenness)
+    return Map(surface, structure, uv, quality, coefficients, why, _evenness=evenness)

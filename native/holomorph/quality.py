@@ -1,6 +1,6 @@
 """The distortion of UV maps."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from . import _native
 from .array_types import Flags, Reals
 from .value import Value
-from .verdicts import LONG, Verdict, verdict
+from .verdicts import LONG, UNSEEN, Verdict, verdict
 
 MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
 
@@ -23,7 +23,8 @@ class Quality(Value):
     quantile; capped_mean_angle: mean of s1 / s2 over the area, 10 at most, so that no single triangle decides it;
     flipped_part, lost_part, long_part: parts of the area that are flipped, that are flipped or have collapsed, and that
     lie in long thin triangles; overlapping_part: of a map with a free boundary, the part of its region in the plane
-    that it covers more than once; None for others.
+    that it covers more than once; None for others; unseen_angle: of an evened map, what evening added to
+    `capped_mean_angle`, as far as that is not seen.
     """
 
     _unpickled = ("_triangulation",)
@@ -36,6 +37,7 @@ class Quality(Value):
     median_density: float
     _triangulation: object
     overlapping_part: float | None = None
+    unseen_angle: float = 0.0
 
     @classmethod
     def of(cls, triangulation: object, uv: Reals, threads: int) -> "Quality":
@@ -43,6 +45,11 @@ class Quality(Value):
         found = _native.quality(triangulation, uv, threads)
         parts = found.angle, found.area, found.flipped
         return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
+
+    def evened_from(self, before: "Quality", evenness: float) -> "Quality":
+        """The same, of a map that evening made of one with the quality `before`."""
+        added = self.capped_mean_angle - before.capped_mean_angle
+        return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
 
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]

@@ -173,11 +173,18 @@ class Tiler:
             beltrami_rms=made.beltrami_rms(),
             optimal_density_ratio=self.poles.density_ratio,
             tiles=made.tiles(),
-            quality=Quality.of(triangulation, uv, 0),
+            quality=self._quality(made, evenness),
             seams=self._of_surface(triangulation.edges[made.seams()]),
         )
         self._made[tiling] = made
         return tiling
+
+    def _quality(self, made, evenness):
+        after = Quality.of(made.surface(), made.uv(), 0)
+        if evenness == 0:
+            return after
+        conformal = _native.evened_tiling(made, evenness=0.0, threads=self._threads, progress=None)
+        return after.evened_from(Quality.of(made.surface(), conformal.uv(), 0), evenness)
 
     def _of_surface(self, vertices):
         same = self._component is self._surface

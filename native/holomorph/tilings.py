@@ -53,7 +53,7 @@ class Tiling(Value):
     @property
     def verdict(self) -> Verdict:
         """The `Verdict` on the map."""
-        return verdict(self.quality, len(self.poles), self.added_distortion, self.evenness)
+        return verdict(self.quality, len(self.poles), self.added_distortion)
 
 
 @dataclass(frozen=True, repr=False)

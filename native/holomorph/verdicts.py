@@ -15,7 +15,7 @@ LEVELS = ("good", "fair", "poor", "unusable")
 # The largest values of all levels but the last. They were chosen on pictures of 63 meshes, see docs/python.md.
 UNEVEN = (10.0, 40.0, 1000.0)  # 95 : 5 % ratio of the density, in area
 SHEARED = (1.15, 1.4, 2.5)  # mean s1 / s2, each at most `quality.MOST_SHEARED`
-UNSEEN = 0.3  # mean s1 / s2 that evenness 1 adds: it is spread over the surface, and squares of one size hide it
+UNSEEN = 0.3  # mean s1 / s2 that evening may add unseen at evenness 1: it is spread out, and squares have one size
 LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
 OVERLAPPING = (1e-6, 1e-6, 0.2)  # part of an island that covers itself; less is rounding, none is fair
 
@@ -57,22 +57,20 @@ class Verdict:
         return self.sentence + (f": {self.advice}" if self.advice else "")
 
 
-def verdict(
-    quality: "Quality", poles: int | None = None, added_distortion: float = 1.0, evenness: float = 0.0
-) -> Verdict:
+def verdict(quality: "Quality", poles: int | None = None, added_distortion: float = 1.0) -> Verdict:
     """The `Verdict` on a map with this `Quality`.
 
     The worst counts: how uneven the density is, how far squares are sheared, which part of the surface is flipped or
     has collapsed, and which part of an island covers itself. `UNEVEN`, `SHEARED`, `LOST`, `OVERLAPPING` are the limits.
+    Of the shear that evening added, what is not seen does not count.
 
-    poles, added_distortion, evenness : of a seamless tiling, how many it has, `Tiling.added_distortion` and
-        `Tiling.evenness`; None for other maps
+    poles, added_distortion : of a seamless tiling, how many it has, and `Tiling.added_distortion`; None for other maps
     """
     if math.isinf(quality.mean_angle):
         return Verdict("unusable", "No texture is seen: the map has no area", "unwrap it again")
     ranks = [
         _rank(quality.density_ratio, UNEVEN),
-        _rank(quality.capped_mean_angle - UNSEEN * evenness, SHEARED),
+        _rank(quality.capped_mean_angle - quality.unseen_angle, SHEARED),
         _rank(quality.lost_part, LOST),
         _rank(quality.overlapping_part or 0.0, OVERLAPPING),
     ]

@@ -42,7 +42,7 @@ def tilings(obj):
 
 def test_an_uneven_part_becomes_seamless():
     obj = limb()
-    assert press(main="BALANCED") == {"FINISHED"}
+    assert press(main="BALANCED", evenness=0) == {"FINISHED"}
     before = stored_report(obj)["components"][0]["main_map"]["density_ratio"]
     assert press() == {"FINISHED"}
     (found,) = tilings(obj)
@@ -70,7 +70,7 @@ def is_seamless(obj):
 
 def test_an_even_torus_becomes_seamless_without_poles():
     obj = torus(thickness=0.1, bulge=0)
-    press(main="BALANCED")
+    press(main="BALANCED", evenness=0)
     before = stored_report(obj)["components"][0]["main_map"]
     assert before["density_ratio"] < 2 and not is_seamless(obj)
     press(texture="BRICKS")
@@ -105,9 +105,9 @@ def test_a_pipe_that_poles_make_no_more_even_has_none():
 
 def test_an_even_map_without_seams_stays_what_it_is():
     obj = mesh_object("Grid", *grid_arrays())
-    press(main="BALANCED")
+    press(main="BALANCED", evenness=0)
     expected = uv(obj)
-    press()
+    press(evenness=0)
     assert np.array_equal(uv(obj), expected) and tilings(obj) == [None]
 
 
@@ -266,3 +266,26 @@ def test_seams_are_where_the_tiling_jumps():
     vertices, jumps = edge_jumps(obj)
     is_torn = np.abs(jumps).max(axis=(1, 2)) > 1e-4
     assert is_torn.any() and {frozenset(edge) for edge in vertices[is_torn].tolist()} <= ends
+
+
+def test_the_balanced_map_is_evened_and_those_of_the_forms_are_not():
+    obj = limb()
+    ratios, forms = [], []
+    for evenness in (0, 0.5, 1):
+        press(main="BALANCED", evenness=evenness)
+        (part,) = stored_report(obj)["components"]
+        assert part["main_map"]["evenness"] == evenness
+        ratios.append(part["main_map"]["density_ratio"])
+        forms.append(uv(obj, "Holomorphic 1"))
+    assert ratios[1] < 0.9 * ratios[0] and ratios[2] < 0.9 * ratios[1]
+    assert all(np.array_equal(forms[0], other) for other in forms[1:])
+
+
+def test_large_maps_of_mixed_forms_are_not_evened(monkeypatch):
+    obj = limb()
+    monkeypatch.setattr(module("maps.mapped"), "MIXED_EVENED", 10)
+    amounts = (0.5,) + (1,) * 7
+    for dials, evenness in (({"amounts": amounts}, 0), ({"turns": (0.1,) + (0,) * 7}, 0), ({"rotation": 0.5}, 0.5)):
+        press(main="BALANCED", **dials)
+        (part,) = stored_report(obj)["components"]
+        assert part["main_map"]["evenness"] == evenness

@@ -26,6 +26,7 @@ class Measured:
     long_part: float = 0.0
     mean_angle: float = 1.0
     overlapping_part: float | None = None
+    unseen_angle: float = 0.0
     flipped: tuple = (False,)
     collapsed: tuple = (False,)
 

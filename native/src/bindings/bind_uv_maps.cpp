@@ -54,18 +54,18 @@ multiresolution::HarmonicMap harmonic_map(const mesh::Surface& surface, const Co
   return multiresolution::harmonic_map(surface, given, {solver}, execution);
 }
 
-// #V x 2. The facade has checked that the surface is connected.
-py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std::vector<int> poles,
-                 std::vector<int> keep_u, std::vector<int> keep_v, double evenness, const std::string& solver,
-                 int threads, const py::object& progress) {
+// #V x 2. The facade has checked shapes and vertices, and that the surface is connected.
+py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std::vector<int> poles, std::vector<int> u,
+                 std::vector<int> v, double evenness, const std::string& solver, int threads,
+                 const py::object& progress) {
   const uv::UvArray given = corners(uv);
   uv::UvArray result;
   Execution execution(threads, callback(progress));
   {
     const py::gil_scoped_release unlocked;
     execution.stage("evening", 0.0, 1.0);
-    result = evening::evened(surface, given, {std::move(poles), std::move(keep_u), std::move(keep_v)}, evenness,
-                             execution, solver);
+    result =
+        evening::evened(surface, given, {std::move(poles), std::move(u), std::move(v)}, evenness, execution, solver);
     execution.finish();
   }
   return give_matrix(std::move(result));
@@ -106,8 +106,8 @@ void bind_uv_maps(py::module_& m) {
       .def_property_readonly("moves", [](const HarmonicMap& map) { return copy(map.moves); })
       .def_readonly("solver", &HarmonicMap::solver);
   m.def("quality", &quality, py::arg("surface"), py::arg("uv"), py::arg("threads"));
-  m.def("evened", &evened, py::arg("surface"), py::arg("uv"), py::kw_only(), py::arg("poles"), py::arg("keep_u"),
-        py::arg("keep_v"), py::arg("evenness"), py::arg("solver"), py::arg("threads"), py::arg("progress"));
+  m.def("evened", &evened, py::arg("surface"), py::arg("uv"), py::kw_only(), py::arg("poles"), py::arg("u"),
+        py::arg("v"), py::arg("evenness"), py::arg("solver"), py::arg("threads"), py::arg("progress"));
   m.def("zeros", &zeros, py::arg("surface"), py::arg("uv"), py::arg("poles"));
   m.def("frame", &frame, py::arg("surface"), py::arg("uv"), py::arg("rotation"), py::arg("threads"));
   m.def("place", &place, py::arg("uv"), py::arg("factor"), py::arg("origin"), py::arg("target"), py::arg("rows"),

@@ -9,6 +9,7 @@
 #include "evening/patch.h"
 #include "forms/laplacian.h"
 #include "mesh/half_edges.h"
+#include "solver/direct/sparse_cholesky.h"
 #include "solver/solver_choice.h"
 
 namespace holomorph::evening {
@@ -26,23 +27,49 @@ double lambda_of(double evenness) { return evenness * (0.9 - 0.2 * evenness); }
 // About twice the Laplacian are the second derivatives.
 constexpr double kInverse = 0.5;
 
-std::vector<solver::Condition> conditions(const Kept& kept) {
-  const auto condition = [](const std::vector<int>& vertices) {
-    return vertices.empty() ? solver::Condition::natural : solver::Condition::dirichlet;
-  };
-  return {condition(kept.u), condition(kept.v)};
+solver::Condition condition(const std::vector<int>& kept) {
+  return kept.empty() ? solver::Condition::natural : solver::Condition::dirichlet;
 }
 
-Function solved(solver::LaplaceSolver& solver, const std::vector<solver::Condition>& conditions,
-                const Function& gradient, Execution& execution) {
-  const auto count = static_cast<int>(gradient.size());
-  Eigen::MatrixXd B(count, 2);
-  for_rows(execution.workers(), count, [&](int v) { B.row(v) << gradient[v].real(), gradient[v].imag(); });
-  const auto X = solver.precondition(B, conditions, execution);
-  Function result(count);
-  for_rows(execution.workers(), count, [&](int v) { result[v] = kInverse * Complex(X(v, 0), X(v, 1)); });
-  return result;
-}
+// One for u and for v, which are the same where one set of fixed vertices is enough.
+class Solvers {
+ public:
+  Solvers(const mesh::HalfEdges& half_edges, solver::Method method, const Kept& kept)
+      : half_edges_(half_edges), method_(method), kept_(kept) {}
+
+  void make(const Array<double>& edge_weights, Execution& execution) {
+    u_.reset(), v_.reset();  // the memory of the last ones
+    const bool same = kept_.u.empty() || kept_.v.empty() || kept_.u == kept_.v;
+    u_ = made(edge_weights, kept_.u.empty() ? kept_.v : kept_.u, execution);
+    v_ = same ? u_ : made(edge_weights, kept_.v, execution);
+  }
+
+  Function precondition(const Function& gradient, Execution& execution) const {
+    const auto count = static_cast<int>(gradient.size());
+    Eigen::MatrixXd B(count, 2);
+    for_rows(execution.workers(), count, [&](int v) { B.row(v) << gradient[v].real(), gradient[v].imag(); });
+    const solver::Condition on_u = condition(kept_.u), on_v = condition(kept_.v);
+    solver::Solution X(count, 2);
+    if (u_ == v_)
+      X = u_->precondition(B, {on_u, on_v}, execution);
+    else
+      X << u_->precondition(B.col(0), {on_u}, execution), v_->precondition(B.col(1), {on_v}, execution);
+    Function result(count);
+    for_rows(execution.workers(), count, [&](int v) { result[v] = kInverse * Complex(X(v, 0), X(v, 1)); });
+    return result;
+  }
+
+ private:
+  std::shared_ptr<solver::LaplaceSolver> made(const Array<double>& edge_weights, const std::vector<int>& fixed,
+                                              Execution& execution) const {
+    return solver::make_solver(method_, forms::laplacian(half_edges_, edge_weights, execution), fixed, execution);
+  }
+
+  const mesh::HalfEdges& half_edges_;
+  const solver::Method method_;
+  const Kept& kept_;
+  std::shared_ptr<solver::LaplaceSolver> u_, v_;
+};
 
 void clear(Function& function, const Kept& kept) {
   for (const int v : kept.u) function[v].real(0);
@@ -65,15 +92,20 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
     return here;
   };
   const Kept here{{}, kept_here(kept.u), kept_here(kept.v)};
-  const auto scaled = [&](const Function& at) -> Precondition {
-    return [scale = patch.energy.diagonal(at, lambda)](const Function& gradient) {
-      Function result = gradient;
-      for (std::size_t v = 0; v < result.size(); ++v) result[v] *= kInverse / scale[v];
+  solver::SparseCholesky factor;
+  const auto make = [&](const Function& at) -> Precondition {
+    factor.compute(patch.energy.laplacian(at, lambda, patch.free_count), {});
+    return [&](const Function& gradient) {
+      Eigen::MatrixXd B(patch.free_count, 2);
+      for (int v = 0; v < patch.free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
+      const Eigen::MatrixXd X = factor.solve(B);
+      Function result(gradient.size(), 0.0);
+      for (int v = 0; v < patch.free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
       return result;
     };
   };
   Descent descent(
-      patch.energy, lambda, scaled, [&](Function& f) { clear(f, here); }, execution.workers());
+      patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());
   Function best(patch.vertices.size(), 0.0);
   double least_flipped = descent.begin(best).flipped;
   for (int urge = 0; urge < kUrges && descent.value().flipped > most_flipped; ++urge) {
@@ -94,13 +126,10 @@ Function least(const mesh::Surface& surface, const StrainEnergy& energy, const K
                const std::string& solver_name, Execution& execution) {
   const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
   const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
-  std::shared_ptr<solver::LaplaceSolver> solver;
+  Solvers solvers(half_edges, method, kept);
   const auto make = [&](const Function& delta) -> Precondition {
-    solver.reset();  // the memory of the last one
-    solver = solver::make_solver(method,
-                                 forms::laplacian(half_edges, energy.edge_weights(surface, delta, lambda), execution),
-                                 kept.u.empty() ? kept.v : kept.u, execution);
-    return [&](const Function& gradient) { return solved(*solver, conditions(kept), gradient, execution); };
+    solvers.make(energy.edge_weights(surface, delta, lambda), execution);
+    return [&](const Function& gradient) { return solvers.precondition(gradient, execution); };
   };
   Descent descent(
       energy, lambda, make, [&](Function& f) { clear(f, kept); }, execution.workers());

@@ -12,7 +12,7 @@ namespace holomorph::evening {
 /// What stays of a map while it is evened, beside its jumps.
 struct Kept {
   std::vector<int> poles;  ///< vertices at which the map is infinite
-  std::vector<int> u, v;   ///< vertices at which u, or v, stays, as where the boundary is a line: the same, or one none
+  std::vector<int> u, v;   ///< ascending vertices at which u, or v, stays, as where the boundary is a line
 };
 
 /// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.

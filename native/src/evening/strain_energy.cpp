@@ -222,17 +222,23 @@ Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Fun
   return weights;
 }
 
-std::vector<double> StrainEnergy::diagonal(const Function& delta, double lambda) const {
-  std::vector<double> result(vertex_count(), kLeastStiff * std::exp(-log_size_) / whole_area_);
+Eigen::SparseMatrix<double> StrainEnergy::laplacian(const Function& delta, double lambda, int count) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int v = 0; v < count; ++v) entries.emplace_back(v, v, kLeastStiff * std::exp(-log_size_) / whole_area_);
   for (const Triangle& triangle : triangles_) {
-    const auto [g1, g2] = triangle.gradients;
     if (!(triangle.area > 0)) continue;
+    const auto [g1, g2] = triangle.gradients;
+    const std::array<Complex, 3> g = {-(g1 + g2), g1, g2};
     const double stiff = stiffness_of(triangle, delta, lambda);
-    const auto& v = triangle.vertices;
-    result[v[0]] += stiff * std::norm(g1 + g2);
-    result[v[1]] += stiff * std::norm(g1);
-    result[v[2]] += stiff * std::norm(g2);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const int row = triangle.vertices[i], column = triangle.vertices[j];
+        if (row >= column && row < count) entries.emplace_back(row, column, stiff * dot(g[i], g[j]));
+      }
+    }
   }
+  Eigen::SparseMatrix<double> result(count, count);
+  result.setFromTriplets(entries.begin(), entries.end());
   return result;
 }
 

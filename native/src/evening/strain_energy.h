@@ -1,6 +1,7 @@
 // The strain of a map on the triangles of a surface, and the energy that weighs shear against size.
 #pragma once
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <complex>
 #include <vector>
@@ -53,8 +54,8 @@ class StrainEnergy {
   /// it and twice it, and elsewhere it is larger by as much as they are.
   /// @return weights of the edges, #E of the surface
   Array<double> edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const;
-  /// #V, its diagonal.
-  std::vector<double> diagonal(const Function& delta, double lambda) const;
+  /// The lower triangle of its matrix on the first so many vertices.
+  Eigen::SparseMatrix<double> laplacian(const Function& delta, double lambda, int count) const;
 
   struct Patch;  // patch.h
   /// Where delta flips triangles, and so many rings around them. @pre it flips some

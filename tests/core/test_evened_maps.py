@@ -1,0 +1,213 @@
+"""Evening of any map: jumps and kept rows stay (exact), squares become more equal."""
+
+import families
+import numpy as np
+import pytest
+from holomorph import Cancelled, Surface, TopologyError, _native, conformal_structure, free_boundary_map, rectangle_map
+from holomorph.evening import evened
+from holomorph.quality import Quality
+from solved import CLOSED, surface_of
+
+EXACT = 1e-12
+
+
+def flat_disk():
+    points, faces = families.hexagonal_disk(9, jitter=0.25)
+    return Surface(np.column_stack([points, 0 * points[:, 0]]), faces)
+
+
+def bumpy_disk(height=0.6):
+    points, faces = families.hexagonal_disk(12, jitter=0.15)
+    x, y = points.T
+    return Surface(np.column_stack([points, height * np.sin(4 * x) * np.cos(3 * y)]), faces)
+
+
+def of_disk(surface):
+    return surface._native, free_boundary_map(surface).uv()
+
+
+def of_structure(mesh):
+    structure = conformal_structure(surface_of(mesh))
+    return structure._triangulation, structure.uv(structure.balanced_coefficients())
+
+
+MAPS = {
+    "bumpy disk": lambda: of_disk(bumpy_disk()),
+    "hemisphere": lambda: of_disk(surface_of(families.hemisphere(10, jitter=0.2))),
+    "cut torus": lambda: of_structure(CLOSED["torus of triangles"]),
+    "cut torus of quads": lambda: of_structure(CLOSED["torus of quads"]),
+    "cut genus 2": lambda: of_structure(families.block_with_holes(2, refine=3, jitter=0.2)),
+    "cut punctured torus": lambda: of_structure(families.punctured_torus(24, 18)),
+}
+made = {}
+everywhere = pytest.mark.parametrize("name", MAPS)
+
+
+def case(name):
+    if name not in made:
+        made[name] = MAPS[name]()
+    return made[name]
+
+
+def ratio(native, uv):
+    return Quality.of(native, uv, 1).density_ratio
+
+
+def jumps(native, uv):
+    """(#, 2) of all corners: what uv has more than at the first corner of its vertex."""
+    vertices, first = np.unique(native.corner_vertices, return_index=True)
+    return uv - uv[first[np.searchsorted(vertices, native.corner_vertices)]]
+
+
+def rim(native):
+    edges = native.edges[np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 1]
+    return np.unique(edges)
+
+
+@everywhere
+def test_squares_become_more_equal(name):
+    native, uv = case(name)
+    ratios = [ratio(native, evened(native, uv, evenness)) for evenness in (0, 0.5, 1)]
+    assert ratios[1] < 0.9 * ratios[0]
+    assert ratios[2] < 0.95 * ratios[1]
+
+
+@everywhere
+def test_jumps_stay(name):
+    native, uv = case(name)
+    even = evened(native, uv, 0.8)
+    assert np.abs(jumps(native, even) - jumps(native, uv)).max() < EXACT * np.abs(uv).max()
+    assert np.array_equal(evened(native, uv, 0), uv)
+
+
+@everywhere
+def test_no_more_area_is_flipped(name):
+    native, uv = case(name)
+    parts = [Quality.of(native, evened(native, uv, evenness), 1).flipped_part for evenness in (0, 0.5, 1)]
+    assert max(parts) <= parts[0]
+
+
+@pytest.mark.parametrize("evenness", [0.1, 0.5, 1])
+def test_an_even_map_stays(evenness):
+    native = flat_disk()._native
+    uv = native.vertices[native.corner_vertices][:, :2] @ [[0.6, 0.8], [-0.8, 0.6]] * 3
+    assert np.abs(evened(native, uv, evenness) - uv).max() < EXACT
+
+
+@pytest.mark.parametrize("solver", ["direct", "multigrid"])
+@pytest.mark.parametrize("kept", [("u",), ("v",), ("u", "v")])
+def test_what_is_kept_stays_bit_for_bit(kept, solver):
+    """Also where the two sets differ, as on a rectangle."""
+    native, uv = of_disk(bumpy_disk())
+    at = {name: rim(native)[i::3] for i, name in enumerate(kept)}
+    even = evened(native, uv, 0.5, **at, solver=solver)
+    for column, name in enumerate("uv"):
+        same = np.isin(native.corner_vertices, at.get(name, []))
+        assert np.array_equal(even[same, column], uv[same, column])
+        assert np.abs(even - uv)[~same, column].max() > 1e-3
+    assert ratio(native, even) < ratio(native, uv)
+
+
+def test_the_sides_of_a_rectangle_stay():
+    made = rectangle_map(bumpy_disk())
+    native, uv = made._triangulation, made.uv()
+    points = np.full((native.vertex_count, 2), np.nan)
+    points[native.corner_vertices] = uv
+    low, high = points.min(axis=0), points.max(axis=0)
+    u, v = (np.flatnonzero((points[:, k] == low[k]) | (points[:, k] == high[k])) for k in range(2))
+    even = evened(native, uv, 0.6, u=u, v=v)
+    assert even[np.isin(native.corner_vertices, u), 0].tolist() == uv[np.isin(native.corner_vertices, u), 0].tolist()
+    assert even[np.isin(native.corner_vertices, v), 1].tolist() == uv[np.isin(native.corner_vertices, v), 1].tolist()
+    assert ratio(native, even) < ratio(native, uv)
+
+
+def test_all_vertices_kept():
+    native, uv = case("bumpy disk")
+    everything = np.arange(native.vertex_count)
+    assert np.array_equal(evened(native, uv, 1, u=everything, v=everything), uv)
+    even = evened(native, uv, 1, u=everything)
+    assert np.array_equal(even[:, 0], uv[:, 0])
+
+
+@everywhere
+def test_same_bits_at_any_number_of_threads(name):
+    native, uv = case(name)
+    first, *others = (evened(native, uv, 0.7, threads=threads) for threads in (1, 2, 3))
+    assert all(np.array_equal(first, other) for other in others)
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1e-150, 1e-30, 1e30, 1e150, 1e200])
+def test_any_scale_is_taken(scale):
+    """Where squares of lengths leave the range of numbers the map may stay what it is."""
+    native, uv = case("hemisphere")
+    even = evened(native, uv * scale, 0.5)
+    assert np.isfinite(even).all()
+    if 1e-100 < scale < 1e100:
+        assert np.allclose(even, evened(native, uv, 0.5) * scale, rtol=1e-6, atol=1e-6 * scale)
+
+
+@pytest.mark.parametrize("uv", ["zero", "line", "noise"])
+def test_a_map_that_is_none_is_finite(uv):
+    native, given = case("bumpy disk")
+    noise = np.random.default_rng(1).normal(size=given.shape)
+    values = {"zero": 0 * given, "line": given[:, :1] * [1.0, 0.0], "noise": noise}[uv]
+    even = evened(native, values, 0.5)
+    assert np.isfinite(even).all()
+    assert np.array_equal(even, values) or uv != "zero"
+
+
+def test_cancelled():
+    native, uv = case("cut torus")
+    stages = []
+
+    def stop(fraction, stage):
+        stages.append((fraction, stage))
+        return False
+
+    with pytest.raises(Cancelled):
+        evened(native, uv, 0.5, progress=stop)
+    assert stages[0][1] == "evening"
+
+
+@pytest.mark.parametrize("evenness", [-0.1, 1.001, np.nan, np.inf, "much", None, 0.5j])
+def test_bad_evenness_is_refused(evenness):
+    with pytest.raises(ValueError, match="a number from 0, for angles, to 1"):
+        evened(*case("hemisphere"), evenness)
+
+
+@pytest.mark.parametrize("change", [lambda uv: uv[1:], lambda uv: uv[:, :1], lambda uv: uv.ravel(), lambda uv: None])
+def test_wrong_shapes_are_refused(change):
+    native, uv = case("hemisphere")
+    with pytest.raises(ValueError, match="uv"):
+        evened(native, change(uv), 0.5)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_values_that_are_not_finite_are_refused(value):
+    native, uv = case("hemisphere")
+    bad = uv.copy()
+    bad[7, 1] = value
+    with pytest.raises(ValueError, match="corner 7"):
+        evened(native, bad, 0.5)
+
+
+@pytest.mark.parametrize("name", ["poles", "u", "v"])
+@pytest.mark.parametrize("vertices", [[-1], [10**6], [2**40], [0.5], [[0]], 3])
+def test_wrong_vertices_are_refused(name, vertices):
+    with pytest.raises(ValueError, match=name):
+        evened(*case("hemisphere"), 0.5, **{name: vertices})
+
+
+def test_two_parts_are_refused():
+    two = surface_of(families.united(families.tetrahedron(), families.cube()))
+    with pytest.raises(TopologyError, match="connected"):
+        evened(two._native, np.zeros((len(two.corner_vertices), 2)), 0.5)
+    lonely = Surface(np.eye(4)[:, :3], [[0, 1, 2]])
+    with pytest.raises(TopologyError, match="isolated"):
+        evened(lonely._native, np.zeros((3, 2)), 0.5)
+
+
+def test_the_core_counts_evenness_from_zero():
+    native, uv = case("hemisphere")
+    options = {"poles": [], "u": [], "v": [], "solver": "auto", "threads": 1, "progress": None}
+    assert not _native.evened(native, uv, evenness=0.0, **options).any()
