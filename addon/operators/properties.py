@@ -7,7 +7,7 @@ import math
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from .. import native
-from ..maps.options import AUTOMATIC, DIALS, SEAMLESS, TileOptions
+from ..maps.options import DIALS, TileOptions
 
 FORMS = 8  # whose share in the main map can be changed
 HARD_EDGE = math.radians(40)

@@ -145,7 +145,7 @@ def _why_it_stays(balanced):
 
 @dataclass(frozen=True)
 class Undecided:
-    """A part that may get a tiling; `balanced`, not evened, and `flat` are its other maps, None where a tiling was asked
+    """A part that may get a tiling. Its other maps are `balanced`, not evened, and `flat`, None where a tiling is asked
     for."""
 
     surface: Surface

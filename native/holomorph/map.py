@@ -132,6 +132,6 @@ def form_map(
     uv = structure.uv(coefficients)
     quality = structure.quality(uv)
     if evenness > 0:
-        uv = evened_uv(structure, coefficients, uv, evenness, progress)
+        uv = evened_uv(structure, coefficients, uv, quality, evenness, progress)
         quality = structure.quality(uv).evened_from(quality, evenness)
     return Map(surface, structure, uv, quality, coefficients, why, _evenness=evenness)

@@ -70,6 +70,16 @@ class Quality(Value):
         return float(np.average(np.minimum(self.angle, MOST_SHEARED), weights=self._weights))
 
     @cached_property
+    def density_spread(self) -> float:
+        """Mean distance of the logarithm of `area` from that of the median, by area; collapsed triangles do not
+        count."""
+        has_size = self.area > 0
+        if not has_size.any() or not self.median_density > 0:
+            return 0.0
+        octaves = np.abs(np.log(self.area[has_size] / self.median_density))
+        return float(np.average(octaves, weights=self._weights[has_size]))
+
+    @cached_property
     def flipped_part(self) -> float:
         return float(np.average(self.flipped, weights=self._weights))
 
