@@ -158,19 +158,20 @@ def _main(component, options):
 
 
 def _parts(components, mains, options, density, progress):
-    """The `MappedPart`s; refusals are told, and with a tiling alone they leave parts without a map."""
+    """The `MappedPart`s; refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
+    library = native.load()
     found = _tilings([pair for pair in zip(components, mains) if pair[1]], options, density, progress)
-    parts = []
-    for component, main in zip(components, mains):
-        made = next(found) if main else None
-        reason = native.sentence(made) if isinstance(made, native.load().Error) else ""
-        if reason and options.main == TILING:
-            parts.append(MappedPart(component, skipped=reason))
-            continue
-        if reason or made is None:
-            made = _form_map(component, options, progress)
-        parts.append(MappedPart(component, made, not_seamless=reason))
-    return parts
+    made = [next(found) if main else None for main in mains]
+    reasons = [native.sentence(one) if isinstance(one, library.Error) else "" for one in made]
+    if options.main == TILING and options.tiling.is_chosen and all(reasons):
+        return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
+    for index, (component, reason) in enumerate(zip(components, reasons)):
+        if reason:
+            dial = dials(options.tiling)
+            made[index] = library.automatic_map(component.surface, component.structure, main="untiled", **dial)
+        elif made[index] is None:
+            made[index] = _form_map(component, options, progress)
+    return [MappedPart(*each) for each in zip(components, made, [""] * len(made), reasons)]
 
 
 def _form_map(component, options, progress):

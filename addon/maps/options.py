@@ -34,6 +34,11 @@ class TileOptions:
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
 
     @property
+    def is_chosen(self):
+        """Whether poles, places for them, or a number of tiles are chosen."""
+        return self.tiles > 0 or self.allowed is not None or self.poles not in ("auto", 0)
+
+    @property
     def made(self):
         """What of it decides how a tiling is made, before it is laid out."""
         return replace(self, quarters=0, pole_group="")

@@ -19,13 +19,14 @@ from .value import counted
 
 REFUSALS = (InvalidMesh, TopologyError, SolverError)  # what is said about one part, others go on
 
-MAIN_MAPS = ("automatic", "seamless", "balanced")
+MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 
 EVEN = 2.0  # 95 : 5 % ratio of the density below which a map without seams stays: the squares' sizes hardly differ
 LESS_EVEN = 1.01  # the ratio of a tiling over that of the balanced map, with which it still takes its place
 MORE_SHEARED = 1.1  # the capped mean s1 / s2 of a tiling over that of the balanced map: a few triangles do not decide
 EVENING_SHEARS = 0.5  # what evenness 1 adds to the mean s1 / s2 of a tiling, for which it was asked
 MOST_FLIPPED = 0.02  # part of the area: what flips lies beside branch points, and few are seen
+MOST_LOST = 0.02  # and with what collapses, of a tiling that was asked for
 
 # The poles of the tilings that are tried; the first one that is better is taken. Without any, the map of a ring, such
 # as a pipe, is the balanced one, scaled until whole tiles fit around it.
@@ -72,8 +73,8 @@ def automatic_map(
     surface : Surface, connected; isolated vertices are ignored
     structure : what was solved of it, default `automatic_structure`. It keeps the poles that were placed: another call
         with other tiles, lattice or direction is quick
-    main : "automatic"; "seamless" for a tiling in any case; "balanced" for none, as where something was chosen about
-        the structure
+    main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for
+        one of forms, as where something was chosen about the structure
     tiles, density, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
@@ -81,7 +82,7 @@ def automatic_map(
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
     Raises what `automatic_structure` does; TopologyError or SolverError where a tiling was asked for and cannot be
-    made.
+    made, or would lose more than 2 % of the area, as on a mesh of few faces.
     """
     solving = SOLVING if structure is None else 0.0
     found = first_map(surface, structure, main, evenness, threads, scaled(progress, 0.0, solving))
@@ -105,6 +106,8 @@ def first_map(surface, structure, main, evenness, threads, progress):
     flat = _flat_islands(surface, evenness, threads, progress)
     if flat and _is_taken_at_once(flat, surface):
         return _map_of(flat, surface, structure)
+    if main == "untiled":
+        return _least_minded(flat, form_map(surface, structure, why="it has no tiling", evenness=evenness))
     balanced = form_map(surface, structure)
     why = _why_it_stays(balanced)
     if why:
@@ -156,14 +159,11 @@ class Undecided:
 
     def tiled(self, poles, options, progress):
         """The `Map`, by `options` of `Structure.tile`."""
-        found = self._tiled_or_balanced(poles, options, progress)
-        if self.flat and self.flat.cost < _cost(found):
-            return _map_of(self.flat, self.surface, self.structure)
-        return found
+        return _least_minded(self.flat, self._tiled_or_balanced(poles, options, progress))
 
     def _tiled_or_balanced(self, poles, options, progress):
         if self.balanced is None:
-            return self._map(self._tiling(poles, options, progress), "it was asked for")
+            return self._map(_whole(self._tiling(poles, options, progress)), "it was asked for")
         tried = POLES if isinstance(poles, str) and poles == "auto" else (poles,)
         reasons = []
         for k, own in enumerate(tried):
@@ -183,6 +183,18 @@ class Undecided:
 
     def _map(self, made, why):
         return Map(self.surface, self.structure, made.uv, made.quality, np.empty(0), why, made)
+
+
+def _least_minded(flat, found):
+    """The `Map` of flat islands, if there are any that look better than another `Map`; else that one."""
+    return _map_of(flat, found.surface, found.structure) if flat and flat.cost < _cost(found) else found
+
+
+def _whole(tiling):
+    lost = tiling.quality.lost_part
+    if lost < MOST_LOST:
+        return tiling
+    raise TopologyError(f"a tiling would lose {100 * lost:.2g} % of its area, the mesh is too coarse: subdivide it")
 
 
 def _cost(found):

@@ -274,8 +274,18 @@ def test_a_part_that_the_library_refuses_is_told(calls):
     obj = two_parts("Mixed", torus_arrays(), sphere_arrays())
     assert tile(poles="COUNT", pole_count=6) == {"FINISHED"}
     first, second = stored_report(obj)["components"]
-    assert first["done"] and not second["done"] and second["reason"].startswith("there is room for ")
+    assert first["done"] and first["tiling"] and second["done"] and "tiling" not in second
+    assert "has no tiling" in second["main_map"]["why"] or second["main_map"]["kind"] in ("flat", "islands")
     assert max(marks(obj)[0]) < len(torus_arrays()[0])
+
+
+def test_what_no_tiling_fits_gets_another_map():
+    """A cube has no room for poles: it gets the six squares of its net, and no face is left without a map."""
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    assert tile() == {"FINISHED"}
+    (part,) = stored_report(obj)["components"]
+    assert part["main_map"]["kind"] == "islands" and part["main_map"]["density_ratio"] == pytest.approx(1)
 
 
 def test_an_object_that_is_refused_stays_as_it_was(calls):

@@ -5,6 +5,7 @@ import json
 import math
 from types import SimpleNamespace
 
+import families
 import holomorph
 import numpy as np
 import pytest
@@ -117,6 +118,35 @@ def test_the_balanced_map_is_that_of_the_structure(name):
         assert np.array_equal(found.seams, found.structure.edges[found.structure.seams])
 
 
+def saw_blade(n=24):
+    """A disk of two rings with a tooth at each edge of its boundary: a straight boundary collapses the teeth."""
+    turn = 2 * np.pi * np.arange(n) / n
+    ring = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+    teeth = 1.5 * (ring + np.roll(ring, -1, axis=0)) / 2
+    points = np.concatenate([[[0, 0, 0]], 0.5 * ring, ring, teeth])
+    following = (np.arange(n) + 1) % n
+    faces = [[0, 1 + i, 1 + j] for i, j in enumerate(following)]
+    faces += [[1 + i, 1 + n + i, 1 + n + j, 1 + j] for i, j in enumerate(following)]
+    return holomorph.Surface(points, faces + [[1 + n + i, 1 + 2 * n + i, 1 + n + j] for i, j in enumerate(following)])
+
+
+def test_a_tiling_that_loses_much_is_refused_and_the_best_other_map_is_not():
+    tilings = [SimpleNamespace(quality=SimpleNamespace(lost_part=part)) for part in (0.01, 0.03)]
+    assert automatic._whole(tilings[0]) is tilings[0]
+    with pytest.raises(holomorph.TopologyError, match="would lose 3 % of its area"):
+        automatic._whole(tilings[1])
+    made = holomorph.automatic_map(saw_blade(), main="untiled")
+    assert made.kind == "flat" and made.quality.density_ratio == pytest.approx(1) and made.quality.lost_part == 0
+    assert holomorph.automatic_map(surface_of(families.cube()), main="untiled").kind == "islands"
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_best_other_map_is_no_tiling(name):
+    for part in surface_of(FAMILIES[name]()).components:
+        found = holomorph.automatic_map(part, main="untiled")
+        assert found.tiling is None and found.evenness == automatic.EVENNESS and math.isfinite(found.quality.mean_angle)
+
+
 def test_kinds():
     kinds = [holomorph.automatic_map(surface_of(FAMILIES[name]()), main="balanced").kind for name in list(FAMILIES)[:4]]
     assert kinds == ["forms", "strip", "log", "disk"]
@@ -181,5 +211,5 @@ def test_vertices_are_those_of_the_surface_with_isolated_ones():
 
 
 def test_unknown_main_map():
-    with pytest.raises(ValueError, match="main is 'best'; one of automatic, seamless, balanced"):
+    with pytest.raises(ValueError, match="main is 'best'; one of automatic, seamless, untiled, balanced"):
         holomorph.automatic_map(surface_of(torus(24, 12)), main="best")
