@@ -8,7 +8,8 @@ A FILE is a mesh file that Blender reads or a .blend. For each object, of the bu
 Unwrap by each method that this Blender has: the part of the area without a map; the 95 : 5 % ratio of the texture's
 density by area; mean s1/s2 by area (each triangle 10 at most; whichever way it faces, for in a one-sided mesh half of
 them face the other); and the length, over that of the object's diagonal, of the edges across which a tiling texture
-breaks off, because the two sides do not differ by integers. The last column says whether the button is no worse than the best of the others: see `is_no_worse`.
+breaks off, because the two sides do not differ by integers. The last column says whether the button is no worse than
+the best of the others: see `is_no_worse`.
 """
 
 import argparse

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
 
 SHEAR = 2.0  # for 1 more of the capped mean s1 / s2, where an e-fold density ratio costs 1
 FLIPPED = 20.0  # for the whole area
-OVERLAPPING = 20.0  # for the whole map
+OVERLAPPING, OVERLAPS = 20.0, 0.2  # for the whole map, and for that it does, since it cannot be painted or baked
+ROUNDING = 1e-6  # of the map: less of an overlap is none
 SEAM = 0.5  # for a seam as long as the square root of the area, where it is smooth
 HARD_SEAM = 0.03  # and along hard edges
 POLE = 0.03
@@ -29,5 +30,6 @@ def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams
     if not ratio >= 1 or math.isinf(ratio):
         return math.inf
     squares = math.log(ratio) + SHEAR * (quality.capped_mean_angle - 1)
-    lost = FLIPPED * quality.flipped_part + OVERLAPPING * (quality.overlapping_part or 0.0)
+    overlapping = quality.overlapping_part or 0.0
+    lost = FLIPPED * quality.flipped_part + OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)
     return squares + lost + SEAM * soft_seams + HARD_SEAM * hard_seams + POLE * poles

@@ -8,23 +8,25 @@ import numpy as np
 from . import _native, arrays
 from .appearance import cost
 from .array_types import Integers, Progress, Reals
-from .cut_open import cut_open, on_border, paths_to_border
-from .hard_edges import curvature, cuts_to_tips, is_hard
+from .hard_edges import bends, curvature
+from .island_cuts import Cuts, corner_pieces, in_one_orientation
 from .layout import pack
 from .overlap import overlapping_part
 from .quality import Quality
 from .surface import Surface
 from .value import Value, counted
 
-HARD = 60.0  # degrees between two faces, from which on an artist expects a seam
+HARD = 60.0, 40.0, 30.0  # degrees between two faces, from which on a seam is expected, if need be
+SMOOTH = 35.0  # degrees: a part without sharper edges is a coarse mesh of something smooth
+HIDING = math.pi / 3  # radians, from which on the bend hides a seam; where it is less, in proportion
+FINE = 0.3  # cost of the squares, from which on no other angle is tried
 MARGIN = 0.02  # between islands, in sides of the square that they are packed into
 AXES = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))  # what is up on an island: the first that it shows
 MANY = 1.0  # length of hard edges over the square root of the area, from which on these shape the part
 FLAT = 2 * math.pi  # radians of curvature, all of it counted positive, up to which a part with several loops is tried
 SHOWN = 0.2  # part of the area over which the axis is seen, from which on it counts
 TURNED = 1e-3  # 1 less the cosine of an angle that is a turn
-STRETCHED = 3.0  # factor of lengths, from which on a piece is also tried with cuts to its cone points
-ROUNDS = 8  # of such cuts, at most
+CONES, ROUNDS = 8, 4  # at most: cuts of each piece to cone points in a round, and rounds
 SAME = 1e-6  # UV distance over the size of the map, below which the two sides of an edge are at one place
 
 
@@ -35,8 +37,8 @@ class Islands(Value):
     uv : (#C, 2)
     seams : (#S, 2) vertices of the edges where the UVs jump
     count : of the islands
-    soft_length, hard_length : of the seams across the smooth, and along hard edges, over the square root of the
-        surface's area
+    soft_length, hard_length : of the seams across the smooth, and along hard edges that hide them, over the square root
+        of the surface's area
     quality : `Quality`, also of how far islands lie over themselves
     evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
     """
@@ -60,7 +62,7 @@ class Islands(Value):
 
 def island_map(
     surface: Surface,
-    hard_edges: float = HARD,
+    hard_edges: float | None = None,
     *,
     evenness: float = 0.0,
     threads: int = 0,
@@ -70,125 +72,118 @@ def island_map(
 
     The surface is cut along edges between faces that meet at more than an angle, from tips to these, and until all
     pieces are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
-    than a factor of 3, it is cut open to its cone points too if that looks better. Pieces are turned upright, and those
+    than a factor of 3, it is cut open to its cone points too if that looks better, and parted where it lies over itself. Pieces are turned upright, and those
     that fit edge to edge are joined: first those that stay upright, longer edges first.
 
     Parameters
     ----------
     surface : Surface with positions
-    hard_edges : degrees between the normals of two faces
+    hard_edges : degrees between the normals of two faces; None for 60, and for 40 and 30 where pieces stretch or lie
+        over themselves, whichever looks best
     evenness : as in `Structure.tile`
     threads, progress : as in `conformal_structure`
 
     Raises Cancelled.
     """
-    is_hard_edge = is_hard(surface, hard_edges)
-    if not _may_be_flat(surface, is_hard_edge):
-        return None
-    cuts = _Cuts(surface, is_hard_edge, threads, progress)
-    pieces = cuts.pieces()
-    flat = _native.flattened(pieces._native, threads, progress)
-    if not flat.is_flat.all():
-        return None
-    found = _laid_out(cuts, pieces, flat, evenness)
-    for _ in range(ROUNDS if _stretch(flat).max() > math.log(STRETCHED) else 0):
-        if not cuts.add_to_cones(pieces, _stretch(flat)):
+    given, (surface, order) = surface, in_one_orientation(surface)
+    bent, found = bends(surface), None
+    first, *_ = angles = HARD if hard_edges is None else (hard_edges,)
+    for degrees in angles:
+        is_hard_edge = bent > np.radians(degrees)
+        may_be_flat = degrees == first and _may_be_flat(surface)
+        is_shaped = (found or degrees > SMOOTH) and _is_shaped_by(surface, is_hard_edge)
+        if not may_be_flat and not is_shaped:
+            continue
+        found = _better(found, _Layout(surface, bent, evenness, threads, progress).along(is_hard_edge))
+        if found and cost(found.quality) <= FINE:
             break
+    if found is None or surface is given:
+        return found
+    uv = np.empty_like(found.uv)
+    uv[order] = found.uv
+    of_corners = {"overlapping_part": found.quality.overlapping_part, "unseen_angle": found.quality.unseen_angle}
+    return replace(found, uv=arrays.frozen(uv), quality=replace(Quality.of(given._native, uv, threads), **of_corners))
+
+
+def _better(found, made):
+    return made if found is None or made is not None and made.cost < found.cost else found
+
+
+def _may_be_flat(surface):
+    """Whether to try where no edge is hard: it is a disk, or has little curvature. Else a cut would be one through the
+    smooth."""
+    is_disk = (surface.genus, surface.boundary_count) == (0, 1)
+    return is_disk or surface.boundary_count > 0 and curvature(surface) < FLAT
+
+
+def _is_shaped_by(surface, is_hard_edge):
+    """Whether there are many hard edges."""
+    return surface._native.edge_lengths[is_hard_edge].sum() > MANY * math.sqrt(surface.area)
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """How islands are made of a surface, whose edges are bent by angles, (#E,)."""
+
+    surface: Surface
+    bends: Reals
+    evenness: float
+    threads: int
+    progress: Progress | None
+
+    def along(self, is_hard_edge):
+        """The `Islands`, cut along these edges, (#E,) bool; to cone points and across overlaps if that looks better."""
+        cuts, found = Cuts(self.surface, is_hard_edge, self.progress), None
+        for _ in range(ROUNDS):
+            pieces, flat = self._flattened(cuts)
+            if flat is None:
+                break
+            made, uv = self._laid_out(cuts, pieces, flat)
+            found = _better(found, made)
+            if not self._cut_to_cones(cuts, pieces, flat) and not cuts.add(cuts.across_overlaps(pieces, uv)):
+                break
+        return found
+
+    def _flattened(self, cuts):
+        """The pieces, and their flat maps, None where one has none."""
         pieces = cuts.pieces()
-        flat = _native.flattened(pieces._native, threads, progress)
-        if not flat.is_flat.all():
-            return found
-        found = min(found, _laid_out(cuts, pieces, flat, evenness), key=lambda made: made.cost)
-    return found
+        flat = _native.flattened(pieces._native, self.threads, self.progress)
+        return pieces, flat if flat.is_flat.all() else None
 
+    def _cut_to_cones(self, cuts, pieces, flat):
+        """Whether there was a piece to cut; of each one after the other, until none stretches."""
+        count = 0
+        while flat is not None and count < CONES and cuts.add(cuts.to_cones(pieces, flat)):
+            pieces, flat = self._flattened(cuts)
+            count += 1
+        return count > 0
 
-def _may_be_flat(surface, is_hard_edge):
-    """Whether to try: it is a disk, there are many hard edges, or little curvature. Else a cut would be one through
-    the smooth."""
-    if surface.boundary_count == 1 and surface.genus == 0:
-        return True
-    hard_length = surface._native.edge_lengths[is_hard_edge].sum()
-    return hard_length > MANY * math.sqrt(surface.area) or surface.boundary_count and curvature(surface) < FLAT
+    def _laid_out(self, cuts, pieces, flat):
+        """The `Islands`, and UVs of the pieces before they are laid edge to edge."""
+        flat_uv = _native.evened_islands(pieces._native, flat, self.evenness, self.threads, self.progress)
+        uv, joints = _upright(pieces, flat_uv), cuts.joints()
+        uv, nets = _native.joined(pieces._native, uv, _preferred(uv, joints), flat.is_flat)
+        corners = len(self.surface.corner_vertices)
+        uv, count = _packed(uv[:corners], nets[corner_pieces(pieces)][:corners])
+        seams = cuts.mask & ~_is_continuous(cuts, uv, joints)
+        native = self.surface._native
+        ends, lengths = np.asarray(native.edges)[seams], np.asarray(native.edge_lengths)[seams]
+        soft = np.maximum(1 - self.bends[seams] / HIDING, 0)
+        visible = (float((lengths * part).sum()) / math.sqrt(self.surface.area) for part in (soft, 1 - soft))
+        quality = self._quality(cuts, pieces, flat, uv)
+        return Islands(arrays.frozen(uv), arrays.frozen(ends), count, *visible, quality, self.evenness), flat_uv
 
-
-def _stretch(flat):
-    """(#V,) how far lengths change, as a logarithm."""
-    with np.errstate(divide="ignore"):
-        return np.nan_to_num(np.abs(np.log(flat.scale_factors)), nan=0.0)
-
-
-class _Cuts:
-    """Where a surface is cut. Pieces have its polygons and corners; triangles at cuts may be others."""
-
-    def __init__(self, surface, is_hard_edge, threads, progress):
-        self.surface, self.threads, self.progress = surface, threads, progress
-        self.is_hard = is_hard_edge
-        self.edges, self.following = _sides(surface)
-        self.mask = is_hard_edge | cuts_to_tips(surface, is_hard_edge)
-        self._add(_native.cuts_to_disks(self.pieces()._native, progress).astype(bool), self.pieces())
-
-    def pieces(self):
-        """A `Surface` of several components, more polygons at its end in small holes."""
-        opened = cut_open(self.surface, self.mask)
-        return Surface._of(_native.filled(opened._native))
-
-    def add_to_cones(self, pieces, stretch):
-        """Cuts each piece from where it stretches most to its border; False where none stretches by `STRETCHED`."""
-        at = pieces._native.face_component[pieces.triangle_faces]
-        worst = np.zeros(pieces._native.component_count)
-        np.maximum.at(worst, at, stretch[pieces.triangles].max(axis=1))
-        of_vertex = np.zeros(len(stretch), np.int64)
-        of_vertex[pieces.triangles] = at[:, None]
-        highest = np.flatnonzero((stretch == worst[of_vertex]) & (stretch > math.log(STRETCHED)))
-        starts = np.zeros(len(stretch), bool)
-        starts[highest[np.unique(of_vertex[highest], return_index=True)[1]]] = True
-        no_seam = np.zeros(len(pieces._native.edges), bool)
-        self._add(paths_to_border(pieces, on_border(pieces, no_seam), starts), pieces)
-        return starts.any()
-
-    def _add(self, cuts, pieces):
-        """Edges of pieces, a mask."""
-        edges, _ = _sides(pieces)
-        self.mask[self.edges[cuts[edges[: len(self.edges)]]]] = True
-
-    def joints(self):
-        """(n, 4) corners at the two sides of each edge that is cut: start and end of the one, then of the other."""
-        order = np.argsort(self.edges, kind="stable")
-        edges = self.edges[order]
-        first = np.flatnonzero((edges[1:] == edges[:-1]) & self.mask[edges[1:]])
-        one, other = order[first], order[first + 1]
-        return np.stack([one, self.following[one], other, self.following[other]], axis=1).astype(np.int32)
-
-
-def _sides(surface):
-    """(#C,) the edge of the side that starts at each polygon corner, its polygon on the left, and the corner at its
-    end."""
-    native, corners = surface._native, surface.triangle_corners
-    is_side = native.triangle_edges < native.polygon_edge_count
-    edges, following = np.zeros((2, len(surface.corner_vertices)), np.int64)
-    edges[corners[is_side]] = native.triangle_edges[is_side]
-    following[corners[is_side]] = np.roll(corners, -1, axis=1)[is_side]
-    return edges, following
-
-
-def _laid_out(cuts, pieces, flat, evenness):
-    surface = cuts.surface
-    uv = _native.evened_islands(pieces._native, flat, evenness, cuts.threads, cuts.progress)
-    uv = _upright(pieces, uv)
-    joints = cuts.joints()
-    uv, nets = _native.joined(pieces._native, uv, _preferred(uv, joints), flat.is_flat)
-    corners = len(surface.corner_vertices)
-    uv, count = _packed(uv[:corners], nets[_corner_pieces(pieces)][:corners])
-    seams = cuts.mask & ~_is_continuous(cuts, uv, joints)
-    lengths = np.asarray(surface._native.edge_lengths) / math.sqrt(surface.area)
-    visible = (float(lengths[seams & kind].sum()) for kind in (~cuts.is_hard, cuts.is_hard))
-    ends = arrays.frozen(np.asarray(surface._native.edges)[seams])
-    return Islands(arrays.frozen(uv), ends, count, *visible, _quality(cuts, pieces, flat, uv, evenness), evenness)
-
-
-def _corner_pieces(pieces):
-    """(#C,)"""
-    return np.repeat(pieces._native.face_component, np.diff(pieces.face_offsets))
+    def _quality(self, cuts, pieces, flat, uv):
+        """That on the triangles of the surface; what lies over itself is bounded by the seams and the boundary."""
+        native = self.surface._native
+        quality = Quality.of(native, uv, self.threads)
+        if self.evenness > 0:
+            conformal = _native.evened_islands(pieces._native, flat, 0.0, self.threads, None)[: len(uv)]
+            quality = quality.evened_from(Quality.of(native, conformal, self.threads), self.evenness)
+        is_border = cuts.mask | (np.bincount(cuts.edges, minlength=len(cuts.mask)) == 1)
+        starts = np.flatnonzero(is_border[cuts.edges])
+        border = (uv @ [1, 1j])[np.stack([starts, cuts.following[starts]], axis=1)]
+        return replace(quality, overlapping_part=overlapping_part(border))
 
 
 def _upright(pieces, uv):
@@ -210,7 +205,7 @@ def _upright(pieces, uv):
         is_shown = is_open & (np.abs(slope) > SHOWN * areas)
         turn[is_shown] = 1j * np.abs(slope[is_shown]) / slope[is_shown]
         is_open &= ~is_shown
-    z *= turn[_corner_pieces(pieces)]
+    z *= turn[corner_pieces(pieces)]
     return np.stack([z.real, z.imag], axis=1)
 
 
@@ -241,15 +236,3 @@ def _is_continuous(cuts, uv, joints):
     result = np.zeros(len(cuts.mask), bool)
     result[cuts.edges[joints[:, 0]]] = np.maximum(np.abs(a - d), np.abs(b - c)) <= SAME * np.ptp(uv, axis=0).max()
     return result
-
-
-def _quality(cuts, pieces, flat, uv, evenness):
-    """That on the triangles of the surface; what lies over itself is bounded by the seams and the boundary."""
-    quality = Quality.of(cuts.surface._native, uv, cuts.threads)
-    if evenness > 0:
-        conformal = _native.evened_islands(pieces._native, flat, 0.0, cuts.threads, None)[: len(uv)]
-        quality = quality.evened_from(Quality.of(cuts.surface._native, conformal, cuts.threads), evenness)
-    is_border = cuts.mask | (np.bincount(cuts.edges, minlength=len(cuts.mask)) == 1)
-    starts = np.flatnonzero(is_border[cuts.edges])
-    border = (uv @ [1, 1j])[np.stack([starts, cuts.following[starts]], axis=1)]
-    return replace(quality, overlapping_part=overlapping_part(border))

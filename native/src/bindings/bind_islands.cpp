@@ -9,6 +9,7 @@
 #include "islands/filling.h"
 #include "islands/flattening.h"
 #include "islands/joining.h"
+#include "islands/parting.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -65,6 +66,17 @@ py::tuple joined(const mesh::Surface& surface, const Contiguous<double>& uv, con
   return py::make_tuple(give_matrix(std::move(moved)), give(std::move(nets)));
 }
 
+// (#F,) the part of each polygon
+py::array parted(const mesh::Surface& surface, const Contiguous<double>& uv) {
+  const uv::UvArray flat = Eigen::Map<const uv::UvArray>(uv.data(), uv.shape(0), 2);
+  std::vector<int> parts;
+  {
+    const py::gil_scoped_release unlocked;
+    parts = islands::parted(surface, flat);
+  }
+  return give(std::move(parts));
+}
+
 }  // namespace
 
 void bind_islands(py::module_& m) {
@@ -76,6 +88,7 @@ void bind_islands(py::module_& m) {
   m.def("flattened", &flattened, py::arg("surface"), py::arg("threads"), py::arg("progress"));
   m.def("evened_islands", &evened, py::arg("surface"), py::arg("flattening"), py::arg("evenness"), py::arg("threads"),
         py::arg("progress"));
+  m.def("parted", &parted, py::arg("surface"), py::arg("uv"));
   m.def("joined", &joined, py::arg("surface"), py::arg("uv"), py::arg("joints"), py::arg("is_joinable"));
 }
 

@@ -3,70 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <complex>
-#include <limits>
 #include <numeric>
+
+#include "islands/flat_triangles.h"
 
 namespace holomorph::islands {
 namespace {
 
-using Complex = std::complex<double>;
-using Points = std::array<Complex, 3>;
-
-constexpr int kMostTriangles = 4096;   // of a net: larger islands are pictures of their own
-constexpr double kSameLength = 1e-3;   // of the longer side
-constexpr double kTouching = 1e-6;     // of a triangle's size: so deep do triangles lie in each other that only touch
-constexpr double kLeastWidth = 1e-12;  // of the squared length
-
-double cross(Complex a, Complex b) { return (std::conj(a) * b).imag(); }
+constexpr int kMostTriangles = 4096;  // of a net: larger islands are pictures of their own
+constexpr double kSameLength = 1e-3;  // of the longer side
 
 // z -> turn z + shift
 struct Motion {
   Complex turn = 1, shift = 0;
   Complex operator()(Complex z) const { return turn * z + shift; }
 };
-
-struct Box {
-  double left = std::numeric_limits<double>::infinity(), low = left, right = -left, high = -left;
-
-  void add(Complex z) {
-    left = std::min(left, z.real()), right = std::max(right, z.real());
-    low = std::min(low, z.imag()), high = std::max(high, z.imag());
-  }
-  bool meets(const Box& other) const {
-    return left < other.right && other.left < right && low < other.high && other.low < high;
-  }
-};
-
-Box box_of(const Points& triangle) {
-  Box box;
-  for (const Complex z : triangle) box.add(z);
-  return box;
-}
-
-// Whether a side of `a` parts the two, up to a little.
-bool side_parts(const Points& a, const Points& b) {
-  for (int i = 0; i < 3; ++i) {
-    const Complex side = a[(i + 1) % 3] - a[i];
-    const double length = std::abs(side);
-    if (!(length > 0)) continue;
-    double deepest = 0, inner = 0;
-    for (int j = 0; j < 3; ++j) {
-      deepest = std::max(deepest, cross(side, b[j] - a[i]) / length);
-      inner = std::max(inner, cross(side, a[j] - a[i]) / length);
-    }
-    if (deepest <= kTouching * std::max(length, inner)) return true;
-  }
-  return false;
-}
-
-// Counter-clockwise; a triangle without area overlaps nothing.
-bool overlap(const Points& a, const Points& b) {
-  for (const Points* t : {&a, &b}) {
-    const Complex one = (*t)[1] - (*t)[0], other = (*t)[2] - (*t)[0];
-    if (!(cross(one, other) > kLeastWidth * (std::norm(one) + std::norm(other)))) return false;
-  }
-  return !side_parts(a, b) && !side_parts(b, a);
-}
 
 class Nets {
  public:
