@@ -31,6 +31,7 @@ from .disk_islands import disk_islands
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
 from .igusa import IgusaInvariants, igusa_invariants
+from .island_map import Islands, island_map
 from .islands import islands
 from .levels import LevelOfDetail
 from .log_map import log_map
@@ -70,6 +71,7 @@ __all__ = [
     "FreeBoundaryMap",
     "Hyperelliptic",
     "IgusaInvariants",
+    "Islands",
     "InvalidMesh",
     "LevelOfDetail",
     "Map",
@@ -118,6 +120,7 @@ __all__ = [
     "free_boundary_map",
     "hyperelliptic",
     "igusa_invariants",
+    "island_map",
     "islands",
     "layout",
     "log_map",
