@@ -1,4 +1,4 @@
-"""Objects of scenes, .blend files and those of other programs: Blender reads them into arrays, and writes maps back, in a process of its own."""
+"""Objects of scenes: Blender reads them into arrays, and writes maps back, in a process of its own."""
 
 import json
 import shutil
