@@ -159,19 +159,26 @@ def _main(component, options):
 
 def _parts(components, mains, options, density, progress):
     """The `MappedPart`s; refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
-    library = native.load()
     found = _tilings([pair for pair in zip(components, mains) if pair[1]], options, density, progress)
     made = [next(found) if main else None for main in mains]
-    reasons = [native.sentence(one) if isinstance(one, library.Error) else "" for one in made]
+    reasons = [_refusal(one) for one in made]
     if options.main == TILING and options.tiling.is_chosen and all(reasons):
         return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
-    for index, (component, reason) in enumerate(zip(components, reasons)):
-        if reason:
-            dial = dials(options.tiling)
-            made[index] = library.automatic_map(component.surface, component.structure, main="untiled", **dial)
-        elif made[index] is None:
-            made[index] = _form_map(component, options, progress)
-    return [MappedPart(*each) for each in zip(components, made, [""] * len(made), reasons)]
+    return [_part(*each, options, progress) for each in zip(components, made, reasons)]
+
+
+def _refusal(made):
+    return native.sentence(made) if isinstance(made, native.load().Error) else ""
+
+
+def _part(component, made, refusal, options, progress):
+    """With another map than a tiling that is refused; of forms where none is asked for."""
+    if refusal:
+        of_part, dial = (component.surface, component.structure), dials(options.tiling)
+        made = native.load().automatic_map(*of_part, main="untiled", **dial)
+    elif made is None:
+        made = _form_map(component, options, progress)
+    return MappedPart(component, made, not_seamless=refusal)
 
 
 def _form_map(component, options, progress):

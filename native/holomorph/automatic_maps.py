@@ -86,16 +86,18 @@ def sized_maps(
     done = SOLVING if structures is None else 0.0
     made = _first_maps(parts, structures, mains, alike, choices, threads, scaled(progress, 0.0, done))
     sizings = {k: Sizing(found, *choices[k]) for k, found in made.items() if isinstance(found, Undecided)}
-    area = sum(part.area for part in parts)
-    wanted = (tiles / area if tiles and area > 0 else usual_density(parts)) if density is None else density
-    sized = {}
-    if sizings:
-        sized = _sized(parts, alike, sizings, wanted, _tries(tiles, density), threads, scaled(progress, done, 1.0))
+    wanted = _density(parts, tiles) if density is None else density
+    sized = _sized(parts, alike, sizings, wanted, _tries(tiles, density), threads, scaled(progress, done, 1.0))
     found = [sized[k] if k in sized else made[copy.first] for k, copy in enumerate(alike)]
     return [
         one if alike[k].first == k else _of_copy(one, parts[k], structures and structures[k], alike[k].scale)
         for k, one in enumerate(found)
     ]
+
+
+def _density(parts, tiles):
+    area = sum(part.area for part in parts)
+    return tiles / area if tiles and area > 0 else usual_density(parts)
 
 
 def usual_density(parts: Sequence[Surface]) -> float:
@@ -135,10 +137,9 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
 
     tries : numbers of tiles that are tried on the largest part, whose density is then that of the others; 0 where the
         density is given"""
-    groups = {first: [] for first in sizings}
-    for k, copy in enumerate(alike):
-        if copy.first in groups:
-            groups[copy.first].append(k)
+    if not sizings:
+        return {}
+    groups = _groups(alike, sizings)
     members = [k for group in groups.values() for k in group]
     largest, total = max(members, key=lambda k: parts[k].area), sum(parts[k].area for k in members) or 1.0
     share, first = parts[largest].area / total, alike[largest].first
@@ -148,16 +149,29 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
     firsts = list(groups)
 
     def work(i, _threads, step):
-        group, known = groups[firsts[i]], {_scale_key(alike[largest]): leader} if firsts[i] == first else {}
-        for n, k in enumerate(group):
-            if (own := _scale_key(alike[k])) not in known:
-                part_of_step = scaled(step, n / len(group), (n + 1) / len(group))
-                known[own] = sizings[firsts[i]].at(_on_first(density, alike[k]), part_of_step)
-        return {k: known[_scale_key(alike[k])] for k in group}
+        known = {_scale_key(alike[largest]): leader} if firsts[i] == first else {}
+        return _of_group(sizings[firsts[i]], groups[firsts[i]], alike, density, known, step)
 
     sizes = [len(parts[k].triangles) * len(groups[k]) for k in firsts]
     found = side_by_side(work, sizes, threads, scaled(progress, share, 1.0))
     return {k: one for group in found for k, one in group.items()}
+
+
+def _groups(alike, firsts):
+    """{first part: it and its copies}."""
+    groups = {first: [] for first in firsts}
+    for k, copy in enumerate(alike):
+        groups.get(copy.first, []).append(k)
+    return groups
+
+
+def _of_group(sizing, group, alike, density, known, progress):
+    """{part: its map or how it is refused} of copies. known : {key of its scale: map} of some of them"""
+    for n, k in enumerate(group):
+        if (own := _scale_key(alike[k])) not in known:
+            step = scaled(progress, n / len(group), (n + 1) / len(group))
+            known[own] = sizing.at(_on_first(density, alike[k]), step)
+    return {k: known[_scale_key(alike[k])] for k in group}
 
 
 def _tries(tiles, density):

@@ -76,6 +76,18 @@ void clear(Function& function, const Kept& kept) {
   for (const int v : kept.v) function[v].imag(0);
 }
 
+// The inverse of a Laplacian on the free vertices of a patch.
+Precondition inverse(solver::SparseCholesky& factor, int free_count) {
+  return [&factor, free_count](const Function& gradient) {
+    Eigen::MatrixXd B(free_count, 2);
+    for (int v = 0; v < free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
+    const Eigen::MatrixXd X = factor.solve(B);
+    Function result(gradient.size(), 0.0);
+    for (int v = 0; v < free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
+    return result;
+  };
+}
+
 // Turns triangles back that delta flips, as far as they are more than before: only their surroundings move.
 // @param delta on the whole surface; changed where that flips less. @return the area that it then flips
 double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, double most_flipped, int rings,
@@ -95,14 +107,7 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
   solver::SparseCholesky factor;
   const auto make = [&](const Function& at) -> Precondition {
     factor.compute(patch.energy.laplacian(at, lambda, patch.free_count), {});
-    return [&](const Function& gradient) {
-      Eigen::MatrixXd B(patch.free_count, 2);
-      for (int v = 0; v < patch.free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
-      const Eigen::MatrixXd X = factor.solve(B);
-      Function result(gradient.size(), 0.0);
-      for (int v = 0; v < patch.free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
-      return result;
-    };
+    return inverse(factor, patch.free_count);
   };
   Descent descent(
       patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());

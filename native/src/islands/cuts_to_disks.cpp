@@ -53,6 +53,17 @@ std::vector<mesh::Pair> faces_of_edges(const mesh::Surface& surface) {
   return faces;
 }
 
+// Marks the edge and the paths from its ends.
+void mark(const mesh::Surface& surface, const Forest& forest, int edge, std::vector<char>& is_cut) {
+  is_cut[edge] = 1;
+  for (int v : surface.edges[edge]) {
+    for (int step = forest.edge_to_border[v]; step >= 0 && !is_cut[step]; step = forest.edge_to_border[v]) {
+      is_cut[step] = 1;
+      v = surface.edges[step][0] == v ? surface.edges[step][1] : surface.edges[step][0];
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& execution) {
@@ -77,14 +88,8 @@ std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& executi
   for (const int e : crossed) {
     if (tree.lowest(faces[e][0]) != tree.lowest(faces[e][1])) {
       tree.join(faces[e][0], faces[e][1]);
-      continue;
-    }
-    result[e] = 1;
-    for (int v : surface.edges[e]) {
-      for (int step = forest.edge_to_border[v]; step >= 0 && !result[step]; step = forest.edge_to_border[v]) {
-        result[step] = 1;
-        v = surface.edges[step][0] == v ? surface.edges[step][1] : surface.edges[step][0];
-      }
+    } else {
+      mark(surface, forest, e, result);
     }
   }
   return result;
