@@ -107,6 +107,7 @@ class Structure(Value):
         progress: Progress | None = None,
         *,
         evenness: float = 0.0,
+        size_counts: bool = False,
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
         surface: Surface | None = None,
@@ -131,6 +132,7 @@ class Structure(Value):
         max_added : the largest `added_distortion` that is wanted; default any
         evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
             look best at about 0.5. Fewer poles are placed for any evenness above 0
+        size_counts : whether the number of tiles counts more than a little shear, as where parts are to have one size
         allowed, surface : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
@@ -140,8 +142,7 @@ class Structure(Value):
             poles that do not fit; fewer tiles than the surface needs (names how many are enough); more added distortion
             than `max_added` (names what can be had)
 
-        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick; so is the last
-        rounding, for other moves or another evenness.
+        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
         """
         evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)
@@ -149,7 +150,8 @@ class Structure(Value):
         options = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
         tiler = self.tiler(poles, **options, progress=placing)
         rounded = {"tiles": tiles, "lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        made = self._rounded(tiler, rounded | {"max_added": max_added}, evenness, rounding)
+        rounded |= {"max_added": max_added, "size_counts": size_counts}
+        made = self._rounded(tiler, rounded, evenness, rounding)
         return tiler.move_poles(made, moves, progress=rounding) if moves else made
 
     def _tiles_of(self, density, tiles):

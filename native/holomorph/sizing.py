@@ -33,7 +33,7 @@ class Sizing:
         if tries == 0:
             return self.at(density, progress)
         tilings, other = self._tried(density, tries, progress)
-        return self._moved(_nearest(tilings, density), progress) if tilings else other
+        return self._moved(_nearest(tilings, density), tries, progress) if tilings else other
 
     def at(self, density: float, progress: Progress | None) -> Map | Refusal:
         """The map whose median density is within `SAME_SIZE` of this one where it is a tiling. What is asked for in so
@@ -42,14 +42,14 @@ class Sizing:
         if tilings:
             made = _nearest(tilings, density)
             fits = abs(_excess(made, density)) <= SAME_SIZE or self._is_strict
-            return self._moved(made, progress) if fits else self.undecided.untiled(TOO_FEW, made.tiling)
+            return self._moved(made, TRIES, progress) if fits else self.undecided.untiled(TOO_FEW, made.tiling)
         return other if isinstance(other, Map) or self._is_strict else self.undecided.untiled(str(other))
 
     def _tried(self, density, tries, progress):
         """(tilings, the first that is none or how it is refused): with one number of tiles after the other, until the
         density is the wanted one."""
         tilings, tiles = [], density * self.undecided.surface.area
-        options = {**self.options, "moves": {}}
+        options = {**self.options, "moves": {}, "size_counts": tries > 1}
         for attempt in range(tries):
             step = scaled(progress, attempt / tries, (attempt + 1) / tries)
             try:
@@ -64,14 +64,13 @@ class Sizing:
             tiles /= 1 + _excess(made, density)
         return tilings, None
 
-    def _moved(self, made, progress):
+    def _moved(self, made, tries, progress):
         """The map with poles moved after its rounding, or how that is refused."""
         if not self.options.get("moves"):
             return made
+        options = {**self.options, "tiles": made.tiling.tiles, "size_counts": tries > 1}
         try:
-            return self.undecided.tiled(
-                self.poles, {**self.options, "tiles": made.tiling.tiles}, scaled(progress, 1.0, 1.0)
-            )
+            return self.undecided.tiled(self.poles, options, scaled(progress, 1.0, 1.0))
         except REFUSALS as error:
             return error
 

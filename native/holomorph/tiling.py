@@ -87,6 +87,7 @@ class Tiler:
         max_turn: float = 0.2,
         max_added: float | None = None,
         evenness: float = 0.0,
+        size_counts: bool = False,
         progress: Progress | None = None,
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
@@ -106,6 +107,7 @@ class Tiler:
                 direction=vector,
                 max_turn=max_turn,
                 evenness=evenness,
+                size_counts=size_counts,
                 threads=self._threads,
                 progress=progress,
             ),
