@@ -9,8 +9,6 @@
 //   cg, jacobi-cg              conjugate gradients, all right-hand sides at once, on all cores
 //   matrix=FILE                writes the matrix and the right-hand sides for solvers written in Python
 // One method per process, so that the peak memory is its own.
-#include <malloc.h>
-
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
 #include <cstdio>
@@ -21,6 +19,7 @@
 #include "linear_system.h"
 #include "mesh/io/read.h"
 #include "mesh/make_surface.h"
+#include "process_memory.h"
 #include "solver/solver_choice.h"
 
 extern "C" void openblas_set_num_threads(int);
@@ -29,7 +28,9 @@ namespace {
 
 using namespace holomorph;
 using benchmarks::assembled;
+using benchmarks::keep_memory;
 using benchmarks::now;
+using benchmarks::peak_bytes;
 using benchmarks::right_hand_sides;
 using Matrix = Eigen::SparseMatrix<double>;
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -44,23 +45,6 @@ struct Result {
 };
 
 constexpr int kMostIterations = 100'000;
-
-// Of this program alone: getrusage counts what its parent had before it as well.
-double peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  double kilobytes = 0;
-  while (word != "VmHWM:" && status >> word) {
-  }
-  status >> kilobytes;
-  return 1024 * kilobytes;
-}
-
-// What is freed from now on stays with the program, for its next run.
-void keep_memory() {
-  mallopt(M_MMAP_MAX, 0);
-  mallopt(M_TRIM_THRESHOLD, -1);
-}
 
 double largest_residual(const Matrix& L, const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) {
   return ((L * X - B).colwise().norm().array() / B.colwise().norm().array()).maxCoeff();

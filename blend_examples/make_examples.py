@@ -15,8 +15,9 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from creatures import armadillo, critter, hand, lizard
+from masks import mask
 from modeling import select_only
-from objects import chain, clay, gear, knot, lantern, mask, mixed, mug, pipe, pretzel, text, torus
+from objects import chain, clay, gear, knot, lantern, mixed, mug, pipe, pretzel, text, torus
 from part_topologies import part_topologies
 
 # name of the file and maker: for each object (genus, boundary loops) of its parts, sorted

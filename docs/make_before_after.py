@@ -13,6 +13,7 @@ import json
 import math
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import bpy
 import numpy as np
@@ -51,7 +52,7 @@ def unwrapped(obj, name, operator, **options):
 
 def median_density(points, polygons, uv):
     """Of UV area per surface area, by surface area."""
-    corners, _ = module("maps.distortion").fans(polygons.face_offsets)
+    corners, _ = module("native").load().distortion.fans(polygons.face_offsets)
     area, uv_area = areas(points[polygons.corner_vertices[corners]]), areas(uv[corners])
     order = np.argsort(uv_area / area)
     total = np.cumsum(area[order])
@@ -99,7 +100,9 @@ def part_count(count, first, second):
 
 def figures(points, polygons, uv):
     """(density ratio, islands, length of visible seams)"""
-    found = module("maps.distortion").measure(points, polygons.corner_vertices, polygons.face_offsets, uv)
+    corners, offsets = polygons.corner_vertices, polygons.face_offsets
+    mesh = SimpleNamespace(vertices=points, corner_vertices=corners, face_offsets=offsets)
+    found = module("native").load().distortion.measure(mesh, uv)
     return found.density_ratio, *breaks(points, polygons, uv)
 
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from .. import compatibility
 from ..materials import material
-from ..scene import mesh_io
+from ..scene import mesh_io, uv_maps
+from ..writing import states
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
 GLTF = (".glb", ".gltf")
@@ -19,6 +20,10 @@ SUFFIXES = (*GLTF, ".fbx", *USD, ".obj")
 SAME_PLACE = 1e-6  # of a mesh's largest extent: equal positions, for Blender joins nothing at a distance of 0
 KEPT_OF_OBJ = (b"vt ", b"usemtl ")  # lines of OBJ files for which Blender's importer is taken
 KINDS = {".obj": "OBJ", ".fbx": "FBX", **dict.fromkeys(GLTF, "glTF"), **dict.fromkeys(USD, "USD")}
+
+# What exporters leave out or rename by default.
+WITH_GLTF = {"export_cameras": True, "export_lights": True, "export_extras": True}
+WITH_USD = {"export_uvmaps": True, "rename_uvmaps": False, "export_animation": True}
 
 
 class ExchangeError(Exception):
@@ -67,23 +72,49 @@ def read(path, up):
     return meshes
 
 
-def write(path):
-    """Writes the scene with the objects' own materials. @throws ExchangeError"""
-    for obj in bpy.context.view_layer.objects:
-        if obj.type == "MESH":
-            material.uncover(obj)
+def write(path, forms=False):
+    """Writes the scene with the objects' own materials; it is left as it is in the file. @throws ExchangeError
+
+    forms : whether the maps of single forms are written, too
+    """
+    _prepare([obj for obj in bpy.context.view_layer.objects if obj.type == "MESH"], forms)
     kind = path.suffix.lower()
     if kind in GLTF:
         form = "GLB" if kind == ".glb" else "GLTF_SEPARATE"
-        _call(path, "write", bpy.ops.export_scene.gltf, export_format=form)
+        _call(path, "write", bpy.ops.export_scene.gltf, export_format=form, **WITH_GLTF)
     elif kind in USD:
-        _call(path, "write", bpy.ops.wm.usd_export, export_uvmaps=True, rename_uvmaps=False)
+        _call(path, "write", bpy.ops.wm.usd_export, **WITH_USD)
     elif kind == ".obj":
         _call(path, "write", bpy.ops.wm.obj_export)
     else:
-        _call(path, "write", bpy.ops.export_scene.fbx)
+        _call(path, "write", bpy.ops.export_scene.fbx, **_with_fbx())
     if not path.is_file():
         raise ExchangeError(f"{path}: Blender has not written it")
+
+
+def _with_fbx():
+    """Every action is a clip, where no shape key is animated: those are written only with the scene as one clip."""
+    has_clips = not any(key.animation_data for key in bpy.data.shape_keys)
+    return {
+        "use_custom_props": True,
+        "bake_anim_use_all_actions": has_clips,
+        "bake_anim_use_nla_strips": has_clips,
+    }
+
+
+def _prepare(objects, forms):
+    """Takes from these mesh objects our materials and custom properties and, unless wanted, the maps of forms."""
+    for obj in objects:
+        material.uncover(obj)
+    for mesh in {obj.data for obj in objects if obj.data.library is None}:
+        main = uv_maps.main_map(mesh)
+        for name in uv_maps.own_maps(mesh):
+            if not forms and name != main and name in mesh.uv_layers:
+                mesh.uv_layers.remove(mesh.uv_layers[name])
+        states.restore_properties(mesh, {})
+    for obj in objects:
+        if obj.library is None:
+            states.restore_properties(obj, {})
 
 
 def _call(path, verb, operator, **options):

@@ -8,11 +8,17 @@ import argparse
 import math
 from pathlib import Path
 
-from ..operators import map_choices, properties, tile_choices, tile_properties
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+
+from ..maps.options import DIALS
+from ..operators import map_choices, tile_choices
+from ..operators.properties import MapProperties, SharedProperties
+from ..operators.tile_properties import MOST_POLES, TileProperties
 from . import exchange
 
 # Of the files that are written.
 SUFFIXES = {"output": (".blend", *exchange.SUFFIXES), "render": (".png",), "report": (".json",)}
+KINDS = {FloatProperty: float, IntProperty: int, StringProperty: str}
 
 
 class UsageError(Exception):
@@ -32,25 +38,18 @@ def parse(arguments):
     )
     parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY, STL, glTF, FBX or USD; else the .blend")
     parser.add_argument("--output", type=Path, help="where to save the result: .blend, .glb, .gltf, .fbx, .usd, .obj")
+    parser.add_argument(
+        "--export-forms", action="store_true", help="keep maps of single forms in what is no .blend file"
+    )
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
-    parser.add_argument("--forms", type=int, default=8, help="at most so many maps of single forms")
-    parser.add_argument("--shown", type=int, default=0, help="the active map: 0 is the main one")
-    parser.add_argument("--density", type=float, default=1.0, help="factor of all UV lengths")
+    _add_properties(parser, SharedProperties, *DIALS, "texture", "seams")
+    _add_properties(parser, MapProperties, "main", "forms", "shown", "density", "margin", "rotation")
+    _add_properties(parser, MapProperties, "checker_scale", "shape")
     text = "each object fills the UV square, instead of equal texels per metre"
     parser.add_argument("--fill-each", dest="equal", action="store_false", help=text)
-    parser.add_argument("--margin", type=float, default=0.02, help="between parts, as a share of the UV square")
-    text = "of tilings: 0 keeps angles, 1 makes squares of one size"
-    parser.add_argument("--evenness", type=float, default=0.5, help=text)
-    parser.add_argument("--rotation", type=_degrees, default=0.0, help="rotation of all maps in degrees")
-    parser.add_argument("--seams", action="store_true", help="mark the cuts as seams")
-    parser.add_argument("--shape", action="store_true", help="store maps to the sphere and the disk as an attribute")
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
-    parser.add_argument("--checker-scale", type=float, default=0.0, help="squares per UV unit; 0 chooses")
-    parser.add_argument(
-        "--texture", choices=_names(properties.TEXTURES), default="checker", help="what the material shows"
-    )
     parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
     parser.add_argument("--resolution", type=int, default=800, help="pixels of the picture's sides")
     parser.add_argument("--samples", type=int, default=24, help="samples per pixel")
@@ -59,7 +58,6 @@ def parse(arguments):
     parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
     parser.add_argument("--strict", action="store_true", help="end with 3 unless every part has a map that is fit")
     parser.add_argument("--lod0", action="store_true", help="a copy of the object as the finest level")
-    parser.add_argument("--main", choices=_names(properties.MAIN_MAPS), default="automatic", help="main map")
     _add_choices(parser)
     _add_tilings(parser)
     options = parser.parse_args(arguments)
@@ -70,12 +68,34 @@ def parse(arguments):
     return options
 
 
-def _names(items):
-    return [name.lower() for name, *_ in items]
+def _add_properties(group, owner, *names):
+    """Options for properties of operators: under their names, with their defaults, ranges, values and texts."""
+    for name in names:
+        kind, about = owner.__annotations__[name].function, owner.__annotations__[name].keywords
+        if kind is BoolProperty:
+            settings = {"action": "store_true"}
+        elif kind is EnumProperty:
+            settings = {"choices": [item.lower() for item, *_ in about["items"]], "default": about["default"].lower()}
+        else:
+            settings = {"type": _parsed(KINDS[kind], about), "default": about.get("default", KINDS[kind]())}
+        group.add_argument(f"--{name.replace('_', '-')}", help=about["description"], **settings)
 
 
-def _degrees(text):
-    return math.radians(float(text))
+def _parsed(kind, about):
+    """A function that reads a property's value, angles in degrees."""
+    if kind is str:
+        return kind
+    least, most = about.get("min", -math.inf), about.get("max", math.inf)
+    unit = math.pi / 180 if about.get("subtype") == "ANGLE" else 1
+
+    def parsed(text):
+        value = unit * kind(text)
+        if not least <= value <= most:
+            raise argparse.ArgumentTypeError(f"{text} is not from {least / unit:g} to {most / unit:g}")
+        return value
+
+    parsed.__name__ = kind.__name__  # in the sentence about what is no number
+    return parsed
 
 
 def _take_over(options):
@@ -96,15 +116,10 @@ def _take_over(options):
 def _add_choices(parser):
     group = parser.add_argument_group("choices on one object (vertices counted from 0)")
     group.add_argument("--pole", type=int, action="append", default=[], metavar="V", help="may be repeated")
-    group.add_argument("--residues", default="", metavar='"R R ..."', help="one for each pole, may be complex")
     group.add_argument("--rectangle", type=int, nargs=4, metavar="V", help="corners on the boundary of a disk")
     group.add_argument("--selection", choices=("automatic", "faces", "poles", "rectangle", "none"), default="none")
-    group.add_argument("--modifiers", action="store_true", help="map what the modifiers make")
-    group.add_argument("--cut-at-seams", action="store_true", help="cut along the seams of the .blend")
-    text = "with --main islands: cut along edges sharper than so many degrees, too, and those marked sharp"
-    group.add_argument("--hard-edges", type=_degrees, default=0.0, metavar="DEGREES", help=text)
-    text = "with --main islands: cut them open where lengths change by more than this factor"
-    group.add_argument("--most-stretch", type=float, default=0.0, metavar="FACTOR", help=text)
+    _add_properties(group, SharedProperties, "modifiers")
+    _add_properties(group, MapProperties, "residues", "cut_at_seams", "hard_edges", "most_stretch")
     group.add_argument(
         "--boundary",
         choices=("natural", "double_cover", "straight", "free"),
@@ -117,12 +132,8 @@ def _add_choices(parser):
 def _add_tilings(parser):
     group = parser.add_argument_group("seamless tilings, with --seamless alone")
     group.add_argument("--seamless", action="store_true", help="one map, cut by whole tiles of a texture")
-    group.add_argument("--tiles", type=int, default=0, help="over each object, about; 0 chooses")
     group.add_argument("--poles", default="automatic", help="automatic, selected (in the .blend), or a number per part")
-    group.add_argument("--pole-group", default="", help="the vertex group in which poles may be")
-    lattices, directions = _names(tile_properties.LATTICES), _names(tile_properties.DIRECTIONS)
-    group.add_argument("--lattice", choices=lattices, default="square")
-    group.add_argument("--direction", choices=directions, default="upright", help="of the rows")
+    _add_properties(group, TileProperties, "tiles", "pole_group", "lattice", "direction")
 
 
 def _check_suffixes(options):
@@ -139,16 +150,9 @@ def _check_folders(*files):
 
 
 def _check_values(options):
-    _refuse_if(
-        min(options.forms, options.checker_scale, options.shown) < 0 or options.density <= 0,
-        "--forms, --shown and --checker-scale cannot be negative, and --density must be positive",
-    )
-    _refuse_if(not 0 <= options.margin < 1, "--margin must be at least 0 and less than 1")
-    _refuse_if(not 0 <= options.evenness <= 1, "--evenness must be from 0 to 1")
     is_ratio = 0 < options.ratio < 1
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
     _refuse_if(options.pole and options.rectangle, "--pole and --rectangle exclude each other")
-    _refuse_if(not 0 <= options.hard_edges < math.pi, "--hard-edges must be at least 0 and less than 180")
     is_factor = options.most_stretch == 0 or 1 < options.most_stretch < math.inf
     _refuse_if(not is_factor, "--most-stretch must be above 1, or 0 for no cuts")
     is_used = options.main == "islands"
@@ -157,10 +161,9 @@ def _check_values(options):
     boundaries = ("natural", "straight", "free") if options.seamless else ("natural", "double_cover")
     sentence = "--boundary is straight or free with --seamless, natural or double_cover without"
     _refuse_if(options.boundary not in boundaries, sentence)
-    _refuse_if(options.tiles < 0, "--tiles cannot be negative")
-    most, poles = tile_properties.MOST_POLES, options.poles
-    is_number = poles.isdecimal() and int(poles) <= most
-    sentence = f"--poles: {poles!r} is none of automatic, selected, and 0 to {most}"
+    poles = options.poles
+    is_number = poles.isdecimal() and int(poles) <= MOST_POLES
+    sentence = f"--poles: {poles!r} is none of automatic, selected, and 0 to {MOST_POLES}"
     _refuse_if(poles not in ("automatic", "selected") and not is_number, sentence)
     chosen = options.pole or options.rectangle
     _refuse_if(options.seamless and chosen, "--pole and --rectangle go without --seamless: it has --poles")

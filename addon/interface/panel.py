@@ -78,6 +78,7 @@ class _ToolsPanel(_Panel):
         row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
         column = self.layout.column(align=True)
         column.operator(tools.HOLOMORPH_OT_select_bad.bl_idname)
+        column.operator(tools.HOLOMORPH_OT_repair.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
         submit.draw(column)
         if self.bl_space_type == "VIEW_3D":
@@ -131,6 +132,7 @@ def _draw_menu_entry(self, _context):
     self.layout.operator_context = "INVOKE_DEFAULT"
     self.layout.operator(HOLOMORPH_OT_maps.bl_idname)
     self.layout.operator(HOLOMORPH_OT_tile.bl_idname)
+    self.layout.operator(tools.HOLOMORPH_OT_repair.bl_idname)
 
 
 def _panels(name, space):

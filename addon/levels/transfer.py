@@ -46,7 +46,7 @@ def read(mesh, polygons):
     maps = layers + others
     uv = np.empty((len(polygons.corner_vertices), len(maps), 2))
     for index, name in enumerate(maps):
-        uv[:, index] = _of_corners(uv_maps.read_map(mesh, name), polygons)
+        uv[:, index] = uv_maps.read_corners(mesh, polygons, name)
     return MeshData(
         positions=mesh_io.read_values(compatibility.position_values(mesh)),
         maps=maps,
@@ -106,14 +106,9 @@ def _is_transferred(attribute, maps):
 def _read_attribute(attribute, polygons):
     values = mesh_io.read_values(_attribute_values(attribute))
     if attribute.domain == "CORNER":
-        values = _of_corners(values, polygons)
+        values = polygons.of_corners(values)
     return Attribute(attribute.name, attribute.domain, attribute.data_type, values)
 
 
 def _attribute_values(attribute):
     return Values(attribute.data, *attributes.VALUES[attribute.data_type])
-
-
-def _of_corners(values, polygons):
-    """Values of the mesh's loops in the order of the polygons' corners."""
-    return values if polygons.loops is None else values[polygons.loops]

@@ -16,7 +16,7 @@ def coefficients(component, options):
 
     Real where the balanced one is: a complex factor would bend the straight boundaries.
     """
-    balanced = np.asarray(component.balanced)
+    balanced = np.asarray(component.structure.balanced_coefficients())
     dials = np.array(options.amounts, float)
     if np.iscomplexobj(balanced):
         dials = dials * np.exp(1j * np.array(options.turns))

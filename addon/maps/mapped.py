@@ -9,7 +9,7 @@ import numpy as np
 from .. import native
 from ..scene.uv_maps import MAIN_MAP
 from . import forms
-from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions
+from .options import AUTOMATIC, BALANCED, SEAMLESS, TILING, MapOptions, dials
 
 MIXED_EVENED = 20_000  # triangles up to which maps are evened while forms are mixed: it takes 0.2 s
 
@@ -37,8 +37,8 @@ class MappedPart:
     @property
     def seams(self):
         """(#S, 2) vertices of the whole object: where the main map is cut."""
-        structure = self.component.structure
-        return self.vertices(self.tiling.seams) if self.tiling else structure.edges[structure.seams]
+        made, structure = self.map.tiling or self.map.islands, self.component.structure
+        return self.vertices(made.seams) if made else structure.edges[structure.seams]
 
 
 @dataclass(frozen=True)
@@ -67,9 +67,9 @@ class MappedObject:
 
     @property
     def density(self):
-        """Tiles for an area on the surface, where there is the median of them; 0 without a tiling."""
-        area = sum(part.component.area for part in self.tiled)
-        return sum(part.tiling.tiles for part in self.tiled) / area if area > 0 else 0.0
+        """Tiles for an area on the surface, the median on the largest part that has a tiling; 0 without one."""
+        largest = max(self.tiled, key=lambda part: part.component.area, default=None)
+        return largest.map.density if largest else 0.0
 
     @property
     def unit_length(self):
@@ -158,19 +158,27 @@ def _main(component, options):
 
 
 def _parts(components, mains, options, density, progress):
-    """The `MappedPart`s; refusals are told, and with a tiling alone they leave parts without a map."""
+    """The `MappedPart`s; refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
     found = _tilings([pair for pair in zip(components, mains) if pair[1]], options, density, progress)
-    parts = []
-    for component, main in zip(components, mains):
-        made = next(found) if main else None
-        reason = native.sentence(made) if isinstance(made, native.load().Error) else ""
-        if reason and options.main == TILING:
-            parts.append(MappedPart(component, skipped=reason))
-            continue
-        if reason or made is None:
-            made = _form_map(component, options, progress)
-        parts.append(MappedPart(component, made, not_seamless=reason))
-    return parts
+    made = [next(found) if main else None for main in mains]
+    reasons = [_refusal(one) for one in made]
+    if options.main == TILING and options.tiling.is_chosen and all(reasons):
+        return [MappedPart(component, skipped=reason) for component, reason in zip(components, reasons)]
+    return [_part(*each, options, progress) for each in zip(components, made, reasons)]
+
+
+def _refusal(made):
+    return native.sentence(made) if isinstance(made, native.load().Error) else ""
+
+
+def _part(component, made, refusal, options, progress):
+    """With another map than a tiling that is refused; of forms where none is asked for."""
+    if refusal:
+        of_part, dial = (component.surface, component.structure), dials(options.tiling)
+        made = native.load().automatic_map(*of_part, main="untiled", **dial)
+    elif made is None:
+        made = _form_map(component, options, progress)
+    return MappedPart(component, made, not_seamless=refusal)
 
 
 def _form_map(component, options, progress):
@@ -190,7 +198,7 @@ def _tilings(asked, options, density, progress):
     wanted, components = options.tiling, [component for component, _ in asked]
     if options.main == TILING:
         tiles = density * sum(component.area for component in components) or wanted.tiles
-        amount = {"tiles": tiles or None, "equal_density": False}
+        amount = {"tiles": tiles or None}
     else:
         amount = {"density": density or None}
     made = native.load().automatic_maps(
@@ -204,8 +212,8 @@ def _tilings(asked, options, density, progress):
         direction=wanted.direction,
         boundary=wanted.boundary,
         turn=wanted.turn or None,
-        evenness=wanted.evenness,
         progress=progress,
+        **dials(wanted),
         **amount,
     )
     return iter(made)

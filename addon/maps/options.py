@@ -7,6 +7,14 @@ from .. import native
 
 # What the main map is. TILING: tilings alone, so that parts without one have no map.
 AUTOMATIC, SEAMLESS, BALANCED, ISLANDS, TILING = "AUTOMATIC", "SEAMLESS", "BALANCED", "ISLANDS", "TILING"
+# The fields of `TileOptions` that every operator and the headless command have under the same name, and that
+# `holomorph.automatic_maps` takes as they are.
+DIALS = ("evenness",)
+
+
+def dials(source):
+    """The values of `DIALS`, by name."""
+    return {name: getattr(source, name) for name in DIALS}
 
 
 @dataclass(frozen=True)
@@ -24,6 +32,11 @@ class TileOptions:
     allowed: bytes | None = None  # of the bools that tell where poles may be that are not chosen; None for anywhere
     evenness: float = 0.5  # from 0 for angles to 1 for squares of one size
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
+
+    @property
+    def is_chosen(self):
+        """Whether poles, places for them, or a number of tiles are chosen."""
+        return bool(self.tiles or self.moved) or self.allowed is not None or self.poles not in ("auto", 0)
 
     @property
     def made(self):

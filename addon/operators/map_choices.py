@@ -3,7 +3,7 @@
 
 import math
 
-from ..maps.options import MapOptions, TileOptions
+from ..maps.options import MapOptions, TileOptions, dials
 from ..results.write import WriteOptions
 from ..solving import choices
 
@@ -36,7 +36,7 @@ def options(properties, _target):
         tuple(properties.turns),
         properties.margin,
         properties.main,
-        tiling=TileOptions(evenness=properties.evenness),
+        tiling=TileOptions(**dials(properties)),
     )
 
 

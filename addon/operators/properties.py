@@ -7,8 +7,9 @@ import math
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from .. import native
+from ..maps.options import DIALS, TileOptions
 
-DIALS = 8
+FORMS = 8  # whose share in the main map can be changed
 HARD_EDGE = math.radians(40)
 
 
@@ -127,7 +128,9 @@ class SharedProperties:
     modifiers: BoolProperty(name="With Modifiers", description=ABOUT["modifiers"], default=False, options=ONCE)
     checker: BoolProperty(name="Show Texture", description=ABOUT["checker"], default=True)
     texture: EnumProperty(name="Texture", description=ABOUT["texture"], items=TEXTURES, default="CHECKER")
-    evenness: FloatProperty(name="Evenness", description=ABOUT["evenness"], default=0.5, min=0.0, max=1.0)
+    evenness: FloatProperty(
+        name="Evenness", description=ABOUT["evenness"], default=TileOptions.evenness, min=0.0, max=1.0
+    )
     seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
@@ -145,7 +148,7 @@ class MapProperties(SharedProperties):
     """A mixin for the maps operators."""
 
     drawn = (
-        ("main", "evenness", "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
+        ("main", *DIALS, "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
         ("checker", "texture", "checker_scale", "seams", "shape"),
         ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
     )
@@ -156,7 +159,7 @@ class MapProperties(SharedProperties):
         name="Density", description=ABOUT["density"], default=1.0, min=1e-4, soft_min=0.1, soft_max=10.0
     )
     equal: BoolProperty(name="Equal Density", description=ABOUT["equal"], default=True)
-    margin: FloatProperty(name="Margin", description=ABOUT["margin"], default=0.02, min=0.0, max=0.2)
+    margin: FloatProperty(name="Margin", description=ABOUT["margin"], default=0.02, min=0.0, soft_max=0.2, max=0.99)
     rotation: FloatProperty(name="Rotation", description=ABOUT["rotation"], subtype="ANGLE", unit="ROTATION")
     hard_edges: hard_edges_property(0.0)
     most_stretch: FloatProperty(name="Most Stretch", description=ABOUT["most_stretch"], min=0.0, soft_max=10.0)
@@ -168,10 +171,10 @@ class MapProperties(SharedProperties):
     boundary: EnumProperty(name="Boundary", description=ABOUT["boundary"], items=BOUNDARIES, default="natural")
     solver: EnumProperty(name="Solver", description=ABOUT["solver"], items=solver_items, default=0)
     amounts: FloatVectorProperty(
-        name="Amount", description=ABOUT["amounts"], size=DIALS, default=(1.0,) * DIALS, soft_min=0.0, soft_max=4.0
+        name="Amount", description=ABOUT["amounts"], size=FORMS, default=(1.0,) * FORMS, soft_min=0.0, soft_max=4.0
     )
     turns: FloatVectorProperty(
-        name="Phase", description=ABOUT["turns"], size=DIALS, default=(0.0,) * DIALS, subtype="EULER", unit="ROTATION"
+        name="Phase", description=ABOUT["turns"], size=FORMS, default=(0.0,) * FORMS, subtype="EULER", unit="ROTATION"
     )
     checker_scale: FloatProperty(name="Squares", description=ABOUT["squares"], default=0.0, min=0.0, soft_max=200.0)
     shape: BoolProperty(name="Store Shape", description=ABOUT["shape"], default=False)
@@ -190,7 +193,7 @@ class MapProperties(SharedProperties):
 
     def draw_options(self, layout, obj):
         super().draw_options(layout, obj)
-        for index in range(min(self.form_count, DIALS) if self.form_count > 1 else 0):  # a single form has no share
+        for index in range(min(self.form_count, FORMS) if self.form_count > 1 else 0):  # a single form has no share
             row = layout.row(align=True)
             row.prop(self, "amounts", index=index, text=f"Form {index + 1}")
             row.prop(self, "turns", index=index, text="")

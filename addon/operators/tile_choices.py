@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ..maps.options import TILING, MapOptions, TileOptions
+from ..maps.options import TILING, MapOptions, TileOptions, dials
 from ..materials import material
 from ..results import report, stored
 from ..results.write import WriteOptions
@@ -32,16 +32,16 @@ def options(properties, target):
         raise ValueError(f"{obj.name}: poles and edges are chosen on the mesh itself, not on what its modifiers make")
     quarters = written_quarters(properties)
     tiling = TileOptions(
-        float(properties.tiles),
-        _poles(properties, obj),
-        properties.lattice,
-        _direction(properties, obj),
-        properties.boundary,
-        (properties.quarters - quarters) * math.pi / 2 + properties.turn,
-        quarters,
-        properties.pole_group,
-        allowed(properties.pole_group, obj),
-        properties.evenness,
+        tiles=float(properties.tiles),
+        poles=_poles(properties, obj),
+        lattice=properties.lattice,
+        direction=_direction(properties, obj),
+        boundary=properties.boundary,
+        turn=(properties.quarters - quarters) * math.pi / 2 + properties.turn,
+        quarters=quarters,
+        pole_group=properties.pole_group,
+        allowed=allowed(properties.pole_group, obj),
+        **dials(properties),
     )
     return MapOptions(forms=0, main=TILING, tiling=tiling)
 

@@ -5,6 +5,7 @@ import math
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from ..maps.options import DIALS
 from .properties import ONCE, SharedProperties, items
 
 MOST_POLES = 16
@@ -55,7 +56,7 @@ class TileProperties(SharedProperties):
     """A mixin for the tile operator."""
 
     drawn = (
-        ("tiles", "evenness", "equal", "modifiers", "poles", "pole_count", "pole_group"),
+        ("tiles", *DIALS, "equal", "modifiers", "poles", "pole_count", "pole_group"),
         ("lattice", "direction", "turn", "quarters", "boundary"),
         ("checker", "texture", "repeats", "seams", "empties"),
     )

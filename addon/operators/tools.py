@@ -2,7 +2,7 @@
 """Operators for what is there already: materials brought back, heat maps, maps removed, bad elements selected."""
 
 import bpy
-from bpy.props import EnumProperty
+from bpy.props import EnumProperty, FloatProperty
 
 from .availability import AtOnce
 
@@ -22,6 +22,13 @@ KINDS = (
     ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; maps are cut there, too"),
     ("LOOSE", "Loose", "Vertices of no face; they do not matter"),
     ("FLIPPED", "Flipped UVs", "Faces that the active UV map turns over, or leaves without area"),
+)
+
+REPAIRS = (
+    ("WELD", "Weld", "Vertices that are nearer to each other than the distance"),
+    ("DOUBLES", "Doubles", "Faces with the vertices of another one"),
+    ("INSIDE", "Inside Faces", "Faces all of whose edges have more than two faces"),
+    ("LOOSE", "Loose", "Vertices and edges of no face"),
 )
 
 
@@ -159,6 +166,55 @@ def _edit(context, objects):
     bpy.ops.object.mode_set(mode="EDIT")
 
 
+class HOLOMORPH_OT_repair(AtOnce, bpy.types.Operator):
+    """Weld vertices of the selected meshes and remove faces that stand twice or inside, and what is loose, so that
+    maps need no cuts there. What stays keeps its UV maps, attributes, shape keys and materials"""
+
+    bl_idname = "mesh.holomorphic_repair"
+    bl_label = "Repair Mesh for Maps"
+    needs_library = False
+
+    kinds: EnumProperty(
+        name="Repairs",
+        description="What is done",
+        items=REPAIRS,
+        options={"ENUM_FLAG"},
+        default={"WELD", "DOUBLES", "INSIDE", "LOOSE"},
+    )
+    distance: FloatProperty(
+        name="Distance",
+        description="Vertices that are nearer to each other are welded",
+        default=1e-4,
+        min=0,
+        soft_max=0.1,
+        precision=5,
+        subtype="DISTANCE",
+    )
+
+    def draw(self, _context):
+        self.layout.column().prop(self, "kinds")
+        self.layout.prop(self, "distance")
+
+    def act(self, _step, objects):
+        from ..results import repair
+
+        done = []
+        for obj in {obj.data: obj for obj in reversed(objects)}.values():
+            if obj.data.library is not None:
+                self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
+            elif len(obj.data.polygons):
+                repaired = repair.repair(obj.data, self.kinds, self.distance)
+                done += [f"{obj.name}: {repaired}"] * bool(repaired)
+        self.report({"INFO"}, "; ".join(done) or "There is nothing to repair")
+        return bool(done)
+
+
 register, unregister = bpy.utils.register_classes_factory(
-    [HOLOMORPH_OT_restore_materials, HOLOMORPH_OT_heat, HOLOMORPH_OT_remove_maps, HOLOMORPH_OT_select_bad]
+    [
+        HOLOMORPH_OT_restore_materials,
+        HOLOMORPH_OT_heat,
+        HOLOMORPH_OT_remove_maps,
+        HOLOMORPH_OT_select_bad,
+        HOLOMORPH_OT_repair,
+    ]
 )

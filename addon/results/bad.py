@@ -78,7 +78,8 @@ def _flipped(face_offsets, uv):
 
 def select(mesh, elements):
     """Selects these elements of a mesh that is not being edited, and no others; hidden ones appear."""
-    corners = polygon_corners(mesh, elements.faces)
+    polygons = mesh_io.read_polygons(mesh, np.eye(3))
+    corners = polygons.corner_vertices[polygons.has_corner_in(elements.faces)]
     vertices = np.concatenate([elements.vertices, elements.edges.ravel(), corners])
     compatibility.make_edges_selectable(mesh)
     mesh_io.mark_edges(mesh, "select", elements.edges)
@@ -88,14 +89,6 @@ def select(mesh, elements):
         mesh_io.write_values(Values(owner, "select", bool), flags)
         hidden = Values(owner, "hide", bool)
         mesh_io.write_values(hidden, mesh_io.read_values(hidden) & ~flags)
-
-
-def polygon_corners(mesh, faces):
-    """The vertices of these faces."""
-    polygons = mesh_io.read_polygons(mesh, np.eye(3))
-    is_own = np.zeros(polygons.face_count, bool)
-    is_own[faces] = True
-    return polygons.corner_vertices[np.repeat(is_own, np.diff(polygons.face_offsets))]
 
 
 def select_mode(found):

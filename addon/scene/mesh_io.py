@@ -46,6 +46,16 @@ class Polygons:
         same = np.array_equal(self.face_offsets, other.face_offsets)
         return same and np.array_equal(self.corner_vertices, other.corner_vertices)
 
+    def has_corner_in(self, faces):
+        """(#C,) bool: whether each corner is one of these faces, indices or a mask."""
+        is_one = np.zeros(self.face_count, bool)
+        is_one[faces] = True
+        return np.repeat(is_one, np.diff(self.face_offsets))
+
+    def of_corners(self, values):
+        """Values of the mesh's loops in the order of the corners."""
+        return values if self.loops is None else values[self.loops]
+
     def equals(self, other):
         """Whether geometry and topology are the same, whatever the order of the loops; never with a NaN."""
         return self.has_faces_of(other) and np.array_equal(self.vertices, other.vertices)
@@ -163,10 +173,8 @@ def _marks(mesh, mark):
 
 def _edges_between(mesh, vertex_pairs):
     """(#mesh edges,) bool: the edges whose vertices are one of the pairs."""
-    ends = np.sort(_edge_vertices(mesh), axis=1)
-    pairs = np.sort(np.asarray(vertex_pairs, np.int64).reshape(-1, 2), axis=1)
-    count = len(mesh.vertices)
-    return np.isin(ends[:, 0].astype(np.int64) * count + ends[:, 1], pairs[:, 0] * count + pairs[:, 1])
+    keys, wanted = (native.load().edges.edge_keys(e, len(mesh.vertices)) for e in (_edge_vertices(mesh), vertex_pairs))
+    return np.isin(keys, wanted)
 
 
 def selected_vertices(mesh):

@@ -65,37 +65,51 @@ def _is_helper(obj):
 def collect(objects, asked=EVERYTHING):
     """Reads the polygons and the choices of every object; of those that share a mesh, the first one counts.
     @throws ValueError there are none of the faces that are asked for"""
-    targets, first = [], {}
+    _write_pending_edits(objects)
+    masks = _masks(objects, asked.faces)
+    targets, first = {}, {}  # by object; the object that counts by mesh
+    for obj in (o for o in objects if o.data in masks):
+        other = first.get(obj.data)
+        target = _target(obj, masks[obj.data], asked) if other is None or asked.modifiers else None
+        if target is None or (other is not None and not target.makes_object):
+            targets[other] = _with_scale_note(targets[other], obj, other)
+            continue
+        targets[obj] = target
+        if not target.makes_object:
+            first[obj.data] = obj
+    return list(targets.values())
+
+
+def _write_pending_edits(objects):
     for obj in objects:
         if obj.mode == "EDIT":
             obj.update_from_editmode()
-    masks = _masks(objects, asked.faces)
-    for obj in (o for o in objects if o.data in masks):
-        mesh = obj.data
-        target = _target(obj, masks[mesh], asked) if mesh not in first or asked.modifiers else None
-        if target is None or (mesh in first and not target.makes_object):
-            index, other = first[mesh]
-            if not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
-                note = f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts"
-                targets[index] = replace(targets[index], note=note)
-            continue
-        if not target.makes_object:
-            first[mesh] = len(targets), obj
-        targets.append(target)
-    return targets
+
+
+def _with_scale_note(target, obj, other):
+    """The target of the object `other` with a note where `obj`, of the same mesh, has another scale."""
+    if np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
+        return target
+    return replace(target, note=f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts")
 
 
 def _masks(objects, wanted):
     """{mesh: (#F,) bool, or None for all faces}; meshes of which nothing is selected are left out where something is
     selected on others. @pre pending edits are written to the meshes. @throws ValueError as `collect`"""
     meshes = list(dict.fromkeys(obj.data for obj in objects))
-    own = [mesh for mesh in meshes if mesh.library is None and (mesh.is_editmode or wanted == choices.ASKED)]
-    selected = {mesh: _flags(mesh, "select") & ~_flags(mesh, "hide") for mesh in own if wanted != choices.WHOLE}
-    if any(flags.any() for flags in selected.values()):
-        return {mesh: _or_all(flags) for mesh, flags in selected.items() if flags.any()}
+    selected = {} if wanted == choices.WHOLE else _selected_faces(meshes, wanted == choices.ASKED)
+    if selected:
+        return {mesh: _or_all(flags) for mesh, flags in selected.items()}
     if wanted == choices.ASKED:
         raise ValueError("select the faces that are to be mapped")
     return {mesh: _or_all(~_flags(mesh, "hide")) if mesh.is_editmode else None for mesh in meshes}
+
+
+def _selected_faces(meshes, in_any_mode):
+    """{mesh: (#F,) bool} of those meshes of this file that have some, by default in edit mode alone."""
+    own = [mesh for mesh in meshes if mesh.library is None and (mesh.is_editmode or in_any_mode)]
+    found = {mesh: _flags(mesh, "select") & ~_flags(mesh, "hide") for mesh in own}
+    return {mesh: flags for mesh, flags in found.items() if flags.any()}
 
 
 def _or_all(mask):
@@ -113,20 +127,25 @@ def _target(obj, mask, asked):
         return replace(target, refused="its mesh is linked from another file; make it local first")
     if asked.are_islands and asked.is_explicit:
         return replace(target, refused="islands have no poles or corners: choose those or another main map")
-    takes_modifiers, modifier, own = asked.modifiers and obj.mode != "EDIT", first_modifier(obj), read(obj, mask)
-    if takes_modifiers or (modifier and not own.face_count):
-        shown, seams, are_own = mesh_io.read_shown(obj, _linear(obj), own)
-        if takes_modifiers and not (mask is None and are_own):
-            return _with_modifiers(replace(target, modifiers=True), asked, shown, seams, modifier)
-        if takes_modifiers:
-            target, own = replace(target, modifiers=True), replace(own, vertices=shown.vertices)
-        elif shown.face_count:
-            sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
-            return replace(target, refused=sentence)
+    own = read(obj, mask)
+    if asked.modifiers and obj.mode != "EDIT":
+        return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
+    modifier = "" if own.face_count else first_modifier(obj)
+    if modifier and mesh_io.read_shown(obj, _linear(obj), own)[0].face_count:
+        sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
+        return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_chosen(obj, asked))
 
 
-def _with_modifiers(target, asked, shown, seams, modifier):
+def _with_modifiers(target, obj, own, asked):
+    """The target as its modifiers make it: its own polygons in other places, or other ones."""
+    shown, seams, are_own = mesh_io.read_shown(obj, _linear(obj), own)
+    if target.mask is None and are_own:
+        return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=_chosen(obj, asked))
+    return _of_modifiers(target, asked, shown, seams, first_modifier(obj))
+
+
+def _of_modifiers(target, asked, shown, seams, modifier):
     """The target where the modifiers make other faces, and so an object of their own."""
     if not shown.face_count:
         return replace(target, refused=f"its modifiers leave no faces; the first is {modifier}")

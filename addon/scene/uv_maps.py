@@ -117,8 +117,7 @@ def read_map(mesh, name):
 
 def read_corners(mesh, polygons, name):
     """(#C,2) float32 of a map, corners in the order of `polygons`."""
-    values = read_map(mesh, name)
-    return values if polygons.loops is None else values[polygons.loops]
+    return polygons.of_corners(read_map(mesh, name))
 
 
 def overwrite_map(mesh, polygons, name, uv):

@@ -114,14 +114,10 @@ def in_part(keywords, part):
     }
     if "cuts" not in keywords:
         return keywords | own
-    following = np.arange(1, len(part.corner_vertices) + 1)
-    following[part.face_offsets[1:] - 1] = part.face_offsets[:-1]
-    edges = np.stack([part.corner_vertices, part.corner_vertices[following]], axis=1)
-    count = part.given_vertex_count
-    keys, wanted = (
-        np.sort(ends.astype(np.int64)) @ [count, 1] for ends in (part.vertex_index[edges], keywords["cuts"])
-    )
-    return keywords | own | {"cuts": edges[np.isin(keys, wanted)]}
+    edges, count = native.load().edges, part.given_vertex_count
+    sides = edges.polygon_sides(part)
+    keys, wanted = (edges.edge_keys(ends, count) for ends in (part.vertex_index[sides], keywords["cuts"]))
+    return keywords | own | {"cuts": sides[np.isin(keys, wanted)]}
 
 
 def ask_for_a_kind(keywords):

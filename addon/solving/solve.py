@@ -5,6 +5,8 @@ import functools
 import time
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from .. import native
 from . import choices
 
@@ -39,7 +41,6 @@ class SolvedComponent:
 
     surface: object
     structure: object | None
-    balanced: object | None  # coefficients of the main map: complex, real on bounded surfaces, none for a fixed map
     reason: str = ""
     note: str = ""  # which choice was not followed, and why
     is_chosen: bool = False  # whether a choice of the user was followed
@@ -47,7 +48,7 @@ class SolvedComponent:
     @property
     def form_count(self):
         """How many forms there are to mix."""
-        return 0 if self.balanced is None else len(self.balanced)
+        return 0 if self.structure is None else self.structure.form_count
 
     @property
     def area(self):
@@ -144,7 +145,7 @@ def _solve_component(holomorph, make, part, chosen, progress):
     except (holomorph.InvalidMesh, holomorph.TopologyError, holomorph.SolverError) as error:
         if choices.are_explicit(last, chosen):
             raise
-        return SolvedComponent(part, None, None, reason=native.sentence(error), note=note)
+        return SolvedComponent(part, None, reason=native.sentence(error), note=note)
 
 
 def _make(holomorph, surface, vertices, part, keywords, note, progress):
@@ -158,6 +159,6 @@ def _make(holomorph, surface, vertices, part, keywords, note, progress):
     structure = holomorph.automatic_structure(target, **keywords, progress=scaled(progress, 0.0, UV_START))
     structure.prepare_uv(scaled(progress, UV_START, 1.0))
     structure = replace(structure, surface=surface)  # so do its results
-    balanced, is_chosen = structure.balanced_coefficients(), choices.ask_for_a_kind(keywords)
-    structure.uv(balanced)  # refused here, where it is not finite, before anything is written
-    return SolvedComponent(part, structure, balanced, note=note, is_chosen=is_chosen)
+    units = np.eye(structure.form_count, dtype=structure.coefficient_type)
+    structure.uv(units[0] if len(units) else ())  # refused here, where it is not finite, before anything is written
+    return SolvedComponent(part, structure, note=note, is_chosen=choices.ask_for_a_kind(keywords))

@@ -6,6 +6,7 @@ It is kept as a copy, which from Blender 4.0 on shares with the mesh whatever is
 
 from typing import NamedTuple
 
+import bmesh
 import bpy
 import numpy as np
 
@@ -60,7 +61,7 @@ class Layer(NamedTuple):
 
 
 class MeshState:
-    """@pre no vertices, edges or faces are added to the mesh or removed; it is in no edit mode now or when restored"""
+    """@pre it is in no edit mode now or when restored"""
 
     def __init__(self, mesh):
         self._mesh, self.copy = mesh, mesh.copy()
@@ -68,6 +69,8 @@ class MeshState:
     def restore(self):
         """Bit for bit."""
         mesh, copy = self._mesh, self.copy
+        if _sizes(mesh) != _sizes(copy):
+            _restore_elements(mesh, copy)
         if list(mesh.materials) != list(copy.materials):
             mesh.materials.clear()  # `pop` would leave the objects a last slot
             for material in copy.materials:
@@ -79,6 +82,19 @@ class MeshState:
         _restore_active(mesh, copy)
         states.restore_properties(mesh, states.own_properties(copy))
         mesh.update()
+
+
+def _sizes(mesh):
+    return [len(elements) for elements in (mesh.vertices, mesh.edges, mesh.polygons, mesh.loops)]
+
+
+def _restore_elements(mesh, copy):
+    edited = bmesh.new()
+    try:
+        edited.from_mesh(copy)
+        edited.to_mesh(mesh)
+    finally:
+        edited.free()
 
 
 def _restore_layers(mesh, copy):

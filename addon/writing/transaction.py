@@ -67,7 +67,7 @@ class Step:
 
     def finish(self):
         if self._names or self._copies:
-            bpy.data.batch_remove([*self._names, *self._copies])
+            _remove([*self._names, *self._copies])
 
     def is_finished(self):
         try:
@@ -137,7 +137,13 @@ class _Before:
     def _remove_new(self):
         new = [block for block in _blocks() if block.as_pointer() not in self._blocks]
         if new:
-            bpy.data.batch_remove(new)
+            _remove(new)
+
+
+def _remove(blocks):
+    """Removes data-blocks in one call, with their shape keys: Blender 3.4 would keep these, with a dangling pointer."""
+    keys = [block.shape_keys for block in blocks if getattr(block, "shape_keys", None) is not None]
+    bpy.data.batch_remove([*blocks, *keys])
 
 
 def _blocks():

@@ -31,6 +31,7 @@ from .disk_islands import disk_islands
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
 from .igusa import IgusaInvariants, igusa_invariants
+from .island_map import Islands, island_map
 from .islands import islands
 from .levels import LevelOfDetail
 from .log_map import log_map
@@ -48,7 +49,8 @@ from .structure import conformal_structure
 from .surface import Surface
 from .symmetries import Automorphisms, automorphisms
 from .theta_constants import Hyperelliptic, hyperelliptic
-from .tiling import PlacedPoles, Tiler, Tiling, place_poles
+from .tiling import Tiler, place_poles
+from .tilings import PlacedPoles, Tiling
 from .verdicts import UNEVEN, Verdict, overall, verdict
 from .zeros import Zeros
 
@@ -69,6 +71,7 @@ __all__ = [
     "FreeBoundaryMap",
     "Hyperelliptic",
     "IgusaInvariants",
+    "Islands",
     "InvalidMesh",
     "LevelOfDetail",
     "Map",
@@ -117,6 +120,7 @@ __all__ = [
     "free_boundary_map",
     "hyperelliptic",
     "igusa_invariants",
+    "island_map",
     "islands",
     "layout",
     "log_map",

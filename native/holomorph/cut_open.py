@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import _native, arrays
+from .origin import Origin
 from .surface import Surface
 
 
@@ -15,8 +16,9 @@ def cut_open(surface, is_seam):
     corner_vertices = np.empty(len(surface.corner_vertices), np.int32)
     corner_vertices[surface.triangle_corners.ravel()] = new.ravel()
     native = _native.Surface.from_polygons(surface.vertices[index], corner_vertices, surface.face_offsets)
-    indices = arrays.frozen(surface.vertex_index[index]), surface.face_index, surface.corner_index
-    return Surface._of(native, *indices, surface.given_vertex_count)
+    vertex_index = arrays.frozen(surface.vertex_index[index])
+    origin = Origin(vertex_index, surface.face_index, surface.corner_index, surface.given_vertex_count)
+    return Surface._of(native, origin)
 
 
 def _fans(triangle_edges, is_seam, most):

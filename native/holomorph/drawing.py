@@ -51,7 +51,7 @@ def density_decades(surface: Surface, uv: Reals) -> Reals:
 
 def form_maps(structure: FormStructure) -> list[Reals]:
     """(#C, 2) of each form alone, of `MOST_FORMS` at most, scaled to the UV area 1."""
-    units = np.eye(len(structure.balanced_coefficients()))[:MOST_FORMS]
+    units = np.eye(structure.form_count)[:MOST_FORMS]
     maps = [structure.uv(unit) for unit in units]
     corners = structure.surface.triangle_corners
     return [uv / np.sqrt(_doubled_areas(uv[corners]).sum() / 2) for uv in maps]

@@ -6,7 +6,7 @@ import numpy as np
 def edge_keys(ends, vertex_count):
     """One int64 for each pair of vertices, (#, 2) in either order: equal for equal pairs, ascending lexicographically
     with the lower vertex first."""
-    ends = ends.astype(np.int64)
+    ends = np.asarray(ends, np.int64)
     return ends.min(axis=1) * vertex_count + ends.max(axis=1)
 
 

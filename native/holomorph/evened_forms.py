@@ -7,9 +7,15 @@ from .evening import evened
 from .plane_maps import DiskMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
 
+MOST_SPREAD = 0.6  # mean distance of the density's logarithm from its median, from which on evening is lessened
 
-def evened_uv(structure, coefficients, uv, evenness, progress):
-    """(#C, 2) UVs of a structure's map, evened; see `evened`."""
+
+def evened_uv(structure, coefficients, uv, quality, evenness, progress):
+    """(#C, 2) UVs of a structure's map, evened; see `evened`. Shear grows with evenness and with how far densities
+    differ: where squares of most sizes occur, evenness is lessened until no more shear than elsewhere comes of it.
+
+    quality : `Quality` of the UVs"""
+    evenness *= min(1.0, MOST_SPREAD / max(quality.density_spread, MOST_SPREAD))
     options = {"threads": structure._threads or None, "progress": progress}
     return evened(structure._triangulation, uv, evenness, **_kept(structure, coefficients), **options)
 

@@ -113,6 +113,11 @@ class FormStructure(Structure):
         at = None if positions is None else positions[found.vertices]
         return Zeros(self._of_surface(found.vertices), found.orders, at)
 
+    @property
+    def form_count(self) -> int:
+        """How many `holomorphic_forms` there are."""
+        return self._differentials.shape[1]
+
     def balanced_coefficients(self) -> Complexes:
         """(n,) coefficients of the combination whose texture density is most even (least variance of its logarithm over
         the surface's area), scaled so that the UV area of the surface is 1."""

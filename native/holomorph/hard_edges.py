@@ -8,15 +8,20 @@ TIP = np.pi / 3  # radians that are missing around a vertex, or too many
 
 
 def is_hard(surface, degrees):
-    """(#E,) whether the normals of the two faces of an edge differ by more than an angle; never for diagonals."""
+    """(#E,) whether an edge bends by more than an angle."""
+    return bends(surface) > np.radians(degrees)
+
+
+def bends(surface):
+    """(#E,) radians by which the normals of the two faces of an edge differ; 0 for diagonals and on the boundary."""
     normals = _face_normals(surface)
     edges, faces = surface._native.triangle_edges.ravel(), np.repeat(surface.triangle_faces, 3)
     order = np.argsort(edges, kind="stable")
     both = np.flatnonzero(edges[order[1:]] == edges[order[:-1]])
     one, other = normals[faces[order[both]]], normals[faces[order[both + 1]]]
     bend = np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other))
-    result = np.zeros(len(surface._native.edges), bool)
-    result[edges[order[both]]] = bend > np.radians(degrees)
+    result = np.zeros(len(surface._native.edges))
+    result[edges[order[both]]] = bend
     return result
 
 
@@ -26,6 +31,12 @@ def cuts_to_tips(surface, is_seam):
     is_on_border = on_border(surface, is_seam)
     tips = (np.abs(_defects(surface)) > TIP) & ~is_on_border
     return paths_to_border(surface, is_on_border, tips)
+
+
+def curvature(surface):
+    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians."""
+    no_seam = np.zeros(len(surface._native.edges), bool)
+    return float(np.abs(_defects(surface)[~on_border(surface, no_seam)]).sum())
 
 
 def _face_normals(surface):

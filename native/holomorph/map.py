@@ -1,7 +1,7 @@
 """The UV map of one connected part, of whichever kind."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,6 +12,7 @@ from .array_types import Complexes, Integers, Progress, Reals
 from .automatic_structure import AnyStructure
 from .checks import checked_evenness
 from .evened_forms import evened_uv
+from .island_map import Islands
 from .pole_structure import PoleStructure
 from .quality import Quality
 from .surface import Surface
@@ -28,9 +29,10 @@ class Map(Value):
     structure : the conformal structure that the map is made of, or beside
     uv : (#C, 2) UVs. Those of a tiling may be multiplied and moved by integers only
     quality : `Quality`
-    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a tiling
+    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a tiling and for islands
     why : why it is this map, in one sentence
     tiling : `Tiling`, None for other kinds
+    islands : `Islands`, None for other kinds
     """
 
     surface: Surface
@@ -40,6 +42,7 @@ class Map(Value):
     coefficients: Complexes | Reals
     why: str
     tiling: Tiling | None = None
+    islands: Islands | None = None
     _evenness: float = 0.0
 
     @property
@@ -51,8 +54,11 @@ class Map(Value):
         "strip" : an annulus as a rectangle whose two other sides are a seam
         "log" : around poles, which lie at infinity, also a sphere as a strip
         "disk", "rectangle", "triangle" : a disk with a straight or round boundary
-        "flat" : a disk with a free boundary
+        "flat" : in one piece, with a free boundary
+        "islands" : in flat pieces
         """
+        if self.islands:
+            return "islands" if self.islands.count > 1 or len(self.islands.seams) else "flat"
         return "tiling" if self.tiling else self.structure.map_kind
 
     @property
@@ -63,13 +69,15 @@ class Map(Value):
     @property
     def evenness(self) -> float:
         """From 0, conformal, to 1: how far squares of one size were preferred to angles."""
-        return self.tiling.evenness if self.tiling else self._evenness
+        return (self.tiling or self.islands).evenness if self.tiling or self.islands else self._evenness
 
     @cached_property
     def seams(self) -> Integers:
         """(#S, 2) vertices of the edges where the UVs jump."""
         if self.tiling:
             return self.tiling.seams
+        if self.islands:
+            return self.islands.seams
         return self._of_surface(self.structure._triangulation.edges[self.structure.seams])
 
     @cached_property
@@ -77,19 +85,31 @@ class Map(Value):
         """(k,) vertices around which the UVs change by a residue."""
         if self.tiling:
             return self.tiling.poles
-        is_log = isinstance(self.structure, PoleStructure)
+        is_log = not self.islands and isinstance(self.structure, PoleStructure)
         return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
 
     @property
     def density(self) -> float:
-        """UV area per area of the surface: tiles of a tiling, else the median."""
-        return self.tiling.tiles / self.surface.area if self.tiling else self.quality.median_density
+        """UV area per area of the surface, the median by that: tiles of a tiling."""
+        return self.quality.median_density
 
     @property
     def unit_length(self) -> float:
         """Length on the surface of a UV unit where the density is the median one; 0 for a map without area."""
         density = self.quality.median_density
         return 1 / math.sqrt(density) if density > 0 else 0.0
+
+    def of_copy(self, surface: Surface, structure: AnyStructure | None, scale: float) -> "Map":
+        """The same map of a copy of the part, whose lengths are multiplied by `scale`."""
+        quality = self.quality.of_copy(scale)
+        return replace(
+            self,
+            surface=surface,
+            structure=structure or self.structure.of_copy(surface),
+            quality=quality,
+            tiling=self.tiling and replace(self.tiling, quality=quality),
+            islands=self.islands and replace(self.islands, quality=quality),
+        )
 
     def _facts(self):
         return [self.kind, self.why, self.verdict.level]
@@ -124,6 +144,6 @@ def form_map(
     uv = structure.uv(coefficients)
     quality = structure.quality(uv)
     if evenness > 0:
-        uv = evened_uv(structure, coefficients, uv, evenness, progress)
+        uv = evened_uv(structure, coefficients, uv, quality, evenness, progress)
         quality = structure.quality(uv).evened_from(quality, evenness)
     return Map(surface, structure, uv, quality, coefficients, why, _evenness=evenness)

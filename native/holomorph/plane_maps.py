@@ -22,6 +22,9 @@ from .solver_report import SolverReport
 class PlaneMap(Structure):
     """Base of the results for disks: one fixed map to the plane without a seam, with no forms to mix."""
 
+    coefficient_type = np.complex128
+    form_count = 0
+
     @cached_property
     def seams(self) -> Integers:
         """(0,): the map is continuous."""

@@ -12,6 +12,7 @@ from ._native import InvalidMesh, TopologyError
 from .array_types import FilePath, Integers, Progress
 from .checks import check_memory_limit, check_options
 from .closed import ConformalStructure
+from .origin import Origin
 from .results import result
 from .splits import structured_splits
 from .surface import Surface
@@ -146,12 +147,14 @@ class ProgressiveMesh(Value):
         return self._native.split_count(max(0, min(int(n_faces), 2**62)))
 
     def _level(self, splits):
-        surface = Surface._of(self._native.level(splits))
-        vertices, faces = self._native.base_vertex_count + splits, len(surface.triangles)
-        surface._vertex_index = self._native.vertex_index[:vertices]
-        surface._face_index = arrays.frozen(self._faces[:faces])
-        surface._corner_index = arrays.frozen(self._corners[:faces].ravel())
-        return surface
+        level = self._native.level(splits)
+        vertices, faces = self._native.base_vertex_count + splits, len(level.triangles)
+        origin = Origin(
+            self._native.vertex_index[:vertices],
+            arrays.frozen(self._faces[:faces]),
+            arrays.frozen(self._corners[:faces].ravel()),
+        )
+        return Surface._of(level, origin)
 
     def level(self, n_faces: int) -> Surface:
         """The finest level with at most `n_faces` triangles, or the base if that has more.

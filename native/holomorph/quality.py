@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from . import _native
+from . import _native, arrays
 from .array_types import Flags, Reals
 from .value import Value
 from .verdicts import LONG, UNSEEN, Verdict, verdict
@@ -51,6 +51,11 @@ class Quality(Value):
         added = self.capped_mean_angle - before.capped_mean_angle
         return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
 
+    def of_copy(self, scale: float) -> "Quality":
+        """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
+        area = arrays.frozen(self.area / scale**2)
+        return replace(self, area=area, median_density=self.median_density / scale**2)
+
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]
         counts = [f"{count} {name}" for flags, name in lost if (count := np.count_nonzero(flags))]
@@ -68,6 +73,16 @@ class Quality(Value):
     @cached_property
     def capped_mean_angle(self) -> float:
         return float(np.average(np.minimum(self.angle, MOST_SHEARED), weights=self._weights))
+
+    @cached_property
+    def density_spread(self) -> float:
+        """Mean distance of the logarithm of `area` from that of the median, by area; collapsed triangles do not
+        count."""
+        has_size = self.area > 0
+        if not has_size.any() or not self.median_density > 0:
+            return 0.0
+        octaves = np.abs(np.log(self.area[has_size] / self.median_density))
+        return float(np.average(octaves, weights=self._weights[has_size]))
 
     @cached_property
     def flipped_part(self) -> float:

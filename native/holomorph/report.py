@@ -55,7 +55,7 @@ def part_report(made: "Map") -> dict[str, Any]:
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
     main_map = map_report(made.coefficients, made.quality, made.verdict) | about
     entry = component_report(made.surface, made.structure, main_map)
-    entry["forms"] = len(made.structure.balanced_coefficients())
+    entry["forms"] = made.structure.form_count
     return entry | ({"tiling": _tiling_report(made.tiling, made.surface.vertex_index)} if made.tiling else {})
 
 

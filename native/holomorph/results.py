@@ -2,7 +2,7 @@
 
 import numbers
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Self
 
@@ -17,8 +17,9 @@ from .quality import Quality
 from .solution import Solution
 from .solver_report import Residuals, SolverReport
 from .surface import Surface
-from .tiling import Tiler, Tiling
+from .tiling import Tiler
 from .tiling_options import Poles, asked_poles
+from .tilings import Tiling
 from .value import Value, counted
 
 PLACING = 0.6  # of the work on a tiling, for finding the poles
@@ -31,6 +32,7 @@ class Structure(Value):
 
     uv(coefficients) : (#C, 2) UVs of a combination of `holomorphic_forms`, without a solve
     balanced_coefficients() : those of the map that is shown first
+    form_count, coefficient_type : number and type of coefficients
     description : one phrase that says what was made
     map_kind : the `Map.kind` of their UVs
     invariants() : the conformal invariants as plain data, for reports
@@ -62,6 +64,10 @@ class Structure(Value):
         """Itself, after noting the call that computes it, for pickles."""
         self._solution.compute = compute
         return self
+
+    def of_copy(self, component: Surface) -> Self:
+        """That of a copy, with the same triangles and, but for one factor, lengths."""
+        return replace(self, surface=component, _component=component)
 
     @cached_property
     def edges(self) -> Integers:
@@ -101,6 +107,7 @@ class Structure(Value):
         progress: Progress | None = None,
         *,
         evenness: float = 0.0,
+        size_counts: bool = False,
         allowed: ArrayLike | None = None,
         moves: Mapping[int, int] | None = None,
         surface: Surface | None = None,
@@ -125,6 +132,7 @@ class Structure(Value):
         max_added : the largest `added_distortion` that is wanted; default any
         evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
             look best at about 0.5. Fewer poles are placed for any evenness above 0
+        size_counts : whether the number of tiles counts more than a little shear, as where parts are to have one size
         allowed, surface : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
@@ -134,8 +142,7 @@ class Structure(Value):
             poles that do not fit; fewer tiles than the surface needs (names how many are enough); more added distortion
             than `max_added` (names what can be had)
 
-        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick; so is the last
-        rounding, for other moves or another evenness.
+        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
         """
         evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)
@@ -143,7 +150,8 @@ class Structure(Value):
         options = {"boundary": boundary, "allowed": allowed, "evened": evenness > 0, "surface": surface}
         tiler = self.tiler(poles, **options, progress=placing)
         rounded = {"tiles": tiles, "lattice": lattice, "direction": direction, "turn": turn, "max_turn": max_turn}
-        made = self._rounded(tiler, rounded | {"max_added": max_added}, evenness, rounding)
+        rounded |= {"max_added": max_added, "size_counts": size_counts}
+        made = self._rounded(tiler, rounded, evenness, rounding)
         return tiler.move_poles(made, moves, progress=rounding) if moves else made
 
     def _tiles_of(self, density, tiles):

@@ -6,28 +6,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native, arrays, formats, pickled_surface
-from ._native import InvalidMesh, TopologyError
+from . import _native, arrays, checked_mesh, formats, pickled_surface
+from ._native import TopologyError
 from .array_types import FilePath, Integers, Reals
-from .repairs import Cut, Refused, Repairs
+from .origin import AS_GIVEN, Origin
+from .repairs import Refused, Repairs
 from .value import Value, freeze
 
 UNWELDED = "every face is apart: strict=False joins those that touch along a whole side"
-
-
-def _checked(vertices, corner_vertices, face_offsets, strict):
-    """What `Surface._adopt` takes."""
-    if strict:
-        return (_native.Surface.from_polygons(vertices, corner_vertices, face_offsets),)
-    return _of_part(_native.Surface.cut(vertices, corner_vertices, face_offsets))
-
-
-def _of_part(part):
-    """The same of a native part of a mesh."""
-    refused = tuple(Refused(entry.faces, entry.reason) for entry in part.refused)
-    cuts = tuple(Cut(cut.reason.name, cut.vertices, cut.edges, cut.faces) for cut in part.cuts)
-    indices = part.vertex_index, part.face_index, part.corner_index
-    return part.surface, *indices, part.given_vertex_count, cuts, part.joined_vertices, refused
 
 
 class Surface(Value):
@@ -55,7 +41,7 @@ class Surface(Value):
     """
 
     def __init__(self, vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], strict: bool = True) -> None:
-        self._adopt(*_checked(arrays.real(vertices, 3, "vertices"), *arrays.polygons(faces), strict))
+        self._adopt(*checked_mesh.of_faces(vertices, faces, strict))
 
     @classmethod
     def from_polygons(
@@ -69,14 +55,7 @@ class Surface(Value):
         corner_vertices : (#C,) integers
         face_offsets : (#F + 1,) integers from 0 to #C
         """
-        return cls._of(
-            *_checked(
-                arrays.real(vertices, 3, "vertices"),
-                arrays.integer(corner_vertices, "corner_vertices"),
-                arrays.integer(face_offsets, "face_offsets"),
-                strict,
-            )
-        )
+        return cls._of(*checked_mesh.of_polygons(vertices, corner_vertices, face_offsets, strict))
 
     @classmethod
     def from_edge_lengths(
@@ -91,15 +70,7 @@ class Surface(Value):
         face_edges : (#F, 3) integers, entry i the name of the edge opposite corner i; needed where two edges share
             their ends, or an edge is a loop. Without it edges are told apart by their ends.
         """
-        faces = arrays.integer(faces, "faces", dimensions=2, columns=(3,))
-        names = np.empty((0, 3), np.int64) if face_edges is None else arrays.integer(face_edges, "face_edges", 2, (3,))
-        if face_edges is not None and len(names) != len(faces):
-            raise InvalidMesh(f"face_edges has {len(names)} rows for {len(faces)} faces")
-        vertex_count = int(faces.max()) + 1 if faces.size else 0
-        if vertex_count > 2 * faces.size + 2**20:
-            raise InvalidMesh(f"faces name vertex {vertex_count - 1}, far beyond what {len(faces)} triangles can use")
-        lengths = arrays.real(edge_lengths, 3, "edge_lengths")
-        return cls._of(_native.Surface.from_edge_lengths(vertex_count, faces, lengths, names))
+        return cls._of(checked_mesh.of_edge_lengths(faces, edge_lengths, face_edges))
 
     @classmethod
     def read(cls, path: FilePath, strict: bool = False, weld: bool = False) -> "Surface":
@@ -116,7 +87,8 @@ class Surface(Value):
         InvalidMesh
             if the file is missing or malformed (names the line or byte), or no face of the mesh in it can be mapped.
         """
-        return cls._of(*_of_part(_native.Surface.read(path, strict, weld)))
+        part = _native.Surface.read(path, strict, weld)
+        return cls._of(part.surface, Origin.of_part(part))
 
     def write(self, path: FilePath, uv: ArrayLike | None = None) -> None:
         """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles, which takes the library
@@ -134,29 +106,15 @@ class Surface(Value):
         formats.write(self, path, uv)
 
     @classmethod
-    def _of(cls, *adopted):
+    def _of(cls, native, origin=AS_GIVEN):
         surface = cls.__new__(cls)
-        surface._adopt(*adopted)
+        surface._adopt(native, origin)
         return surface
 
-    def _adopt(self, native, *rest):
-        self._native = native
-        self._adopt_indices(*rest)
-
-    def _adopt_indices(
-        self,
-        vertex_index=None,
-        face_index=None,
-        corner_index=None,
-        given_vertex_count=None,
-        cuts=(),
-        joined=(),
-        refused=(),
-    ):
-        self._vertex_index, self._face_index, self._corner_index = vertex_index, face_index, corner_index
-        self._cuts, self._joined_vertices = cuts, arrays.frozen(np.array(joined, np.int32))
-        self.given_vertex_count: int = self._native.vertex_count if given_vertex_count is None else given_vertex_count
-        self.refused: tuple[Refused, ...] = refused
+    def _adopt(self, native, origin):
+        self._native, self._origin = native, origin
+        self.given_vertex_count: int = native.vertex_count if origin.vertex_count is None else origin.vertex_count
+        self.refused: tuple[Refused, ...] = origin.refused
 
     def _facts(self):
         native, faces = self._native, len(self.face_offsets) - 1
@@ -164,13 +122,12 @@ class Surface(Value):
         return [f"{count} {noun}" for count, noun in counts]
 
     def __getstate__(self):
-        index = self._vertex_index, self._face_index, self._corner_index
-        rest = self.given_vertex_count, self._cuts, self._joined_vertices, self.refused
-        return {"mesh": pickled_surface.arrays_of(self._native), "rest": index + rest, "dual_vertex": self.dual_vertex}
+        mesh = pickled_surface.arrays_of(self._native)
+        return {"mesh": mesh, "origin": self._origin, "dual_vertex": self.dual_vertex}
 
     def __setstate__(self, state):
         freeze(state)
-        self._adopt(pickled_surface.native_of(state["mesh"]), *state["rest"])
+        self._adopt(pickled_surface.native_of(state["mesh"]), state["origin"])
         self.dual_vertex = state["dual_vertex"]
 
     @cached_property
@@ -207,17 +164,17 @@ class Surface(Value):
     def vertex_index(self) -> Integers:
         """(#V,) index of each vertex in the mesh as given, of which this may be a component. Where that was cut,
         several may be copies of one; of those that were joined, the lowest is named."""
-        return self._index(self._vertex_index, self._native.vertex_count)
+        return self._index(self._origin.vertex_index, self._native.vertex_count)
 
     @cached_property
     def face_index(self) -> Integers:
         """(#F,) index of each face in the mesh as given."""
-        return self._index(self._face_index, len(self.face_offsets) - 1)
+        return self._index(self._origin.face_index, len(self.face_offsets) - 1)
 
     @cached_property
     def corner_index(self) -> Integers:
         """(#C,) index of each corner in the mesh as given."""
-        return self._index(self._corner_index, len(self.corner_vertices))
+        return self._index(self._origin.corner_index, len(self.corner_vertices))
 
     @staticmethod
     def _index(given, count):
@@ -236,12 +193,9 @@ class Surface(Value):
 
     @cached_property
     def _parts(self):
-        parts = []
-        given = self._vertex_index, self._face_index, self._corner_index
-        for part in self._native.components():
-            own = part.vertex_index, part.face_index, part.corner_index
-            parts.append(Surface._of(part.surface, *map(self._given, given, own), self.given_vertex_count))
-        return tuple(parts)
+        origin, count = self._origin, self.given_vertex_count
+        parts = self._native.components()
+        return tuple(Surface._of(part.surface, origin.of_component(part, count)) for part in parts)
 
     @cached_property
     def _topology(self):
@@ -281,24 +235,12 @@ class Surface(Value):
     @cached_property
     def repairs(self) -> Repairs:
         """What was handled inside."""
-        native = self._native
-        return Repairs(
-            self._given(self._face_index, native.reversed_faces),
-            self._given(self._face_index, native.zero_area_faces),
-            self._given(self._vertex_index, native.isolated_vertices),
-            self._cuts,
-            self._joined_vertices,
-            native.mollification(),
-        )
-
-    @staticmethod
-    def _given(index, elements):
-        return elements if index is None else arrays.frozen(index[elements])
+        return self._origin.repairs(self._native)
 
     @property
     def is_whole(self) -> bool:
         """Whether elements are numbered as in the mesh as given."""
-        return self._face_index is None
+        return self._origin.face_index is None
 
     @property
     def is_unwelded(self) -> bool:

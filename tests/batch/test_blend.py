@@ -1,5 +1,6 @@
 """Objects of .blend files: read by Blender, mapped without it, written back by it."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -83,3 +84,43 @@ def test_a_second_run_needs_no_blender_process(done):
     before = {path: path.stat().st_mtime_ns for path in (folder / "out/.blend").rglob("*.npz")}
     assert run(*arguments).returncode == 1
     assert {path: path.stat().st_mtime_ns for path in (folder / "out/.blend").rglob("*.npz")} == before
+
+
+EXPORT = """
+import bpy, sys
+import numpy as np
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.mesh.primitive_torus_add(major_segments=24, minor_segments=12)
+bpy.context.object.name = "Ring"
+bpy.ops.object.camera_add()
+bpy.ops.export_scene.gltf(filepath=sys.argv[-2], export_format="GLB")
+bpy.ops.export_scene.fbx(filepath=sys.argv[-1])
+"""
+
+
+@pytest.fixture(scope="module")
+def imported(tmp_path_factory):
+    """A folder with files of other programs alone, one of them broken, and the result of its batch."""
+    folder = tmp_path_factory.mktemp("imported")
+    (folder / "in").mkdir()
+    in_blender(EXPORT, folder / "in/ring.glb", folder / "in/ring.fbx")
+    (folder / "in/broken.glb").write_bytes(b"glTF and nothing more")
+    (folder / "recipe.toml").write_text("[maps]\nmain = 'balanced'\n[output]\nformats = ['npz', 'blend']\n")
+    recipe = "--recipe", folder / "recipe.toml"
+    return folder, run(folder / "in", "--out", folder / "out", *recipe, "--blender", BLENDER)
+
+
+def test_files_of_other_programs_are_scenes(imported):
+    folder, result = imported
+    assert result.returncode == 1 and "3 assets: 2 done, 1 refused" in result.stdout, result.stderr
+    assert "broken.glb: refused: " in result.stderr
+    assert statuses(folder / "out") == {"ring.glb/Ring": "done", "ring.fbx/Ring": "done"}
+
+
+@pytest.mark.parametrize("scene", ["ring.glb", "ring.fbx"])
+def test_maps_go_to_a_blend_file_of_what_was_imported(imported, scene):
+    folder, _ = imported
+    asset = folder / "out/assets" / scene / "Ring"
+    in_blender(LOOK, folder / "found.json", file=[asset / "mesh.blend"])
+    faces, is_active, values = json.loads((folder / "found.json").read_text())["Ring"]
+    assert faces and is_active and any(values)

@@ -12,7 +12,7 @@ from holomorph.batch.errors import UsageError
 RECIPES = {
     "[maps]\nmian = 'balanced'": "mian is no key of [maps]; did you mean main?",
     "[map]\nmain = 'balanced'": "map is no table; did you mean maps?",
-    "[maps]\nmain = 'best'": "maps.main is 'best'; one of automatic, seamless, balanced is needed",
+    "[maps]\nmain = 'best'": "maps.main is 'best'; one of automatic, seamless, untiled, balanced is needed",
     "[maps]\nforms = -1": "maps.forms is -1; a whole number from 0 on is needed",
     "[maps]\nforms = true": "maps.forms is True; a whole number from 0 on is needed",
     "[maps]\nrectangle_corners = [1, 2, 3]": "a list of four vertices is needed",

@@ -128,6 +128,18 @@ def test_select_bad(mode):
     check(lambda: bpy.ops.mesh.holomorphic_select_bad(kinds={"LOOSE"}))
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_repair(mode):
+    for obj in two_objects():
+        obj.data.vertices.add(1)
+        obj.data.update()
+        obj.shape_key_add(name="Basis")
+        obj.shape_key_add(name="Key").data[3].co.z += 1
+        obj.data.uv_layers.new(name="Own")
+    bpy.ops.object.mode_set(mode=mode)
+    check(bpy.ops.mesh.holomorphic_repair)
+
+
 def test_undo_after_an_error():
     """A run that failed leaves no undo step in which something is half done."""
     two_objects()

@@ -169,3 +169,38 @@ def test_usd_where_there_is_none(tmp_path, monkeypatch):
     monkeypatch.setattr(module("compatibility"), "is_there", lambda _operator: False)
     with pytest.raises(exchange.ExchangeError, match="this Blender cannot write USD"):
         exchange.write(tmp_path / "scene.usdc")
+
+
+def rich_scene():
+    """A torus with the map of its form, an animated shape key and a custom property, a camera and a light."""
+    ring = torus("Ring")
+    bpy.ops.uv.holomorphic_maps(main="BALANCED", forms=1)
+    ring["wheel"] = 7
+    ring.shape_key_add(name="Basis")
+    key = ring.shape_key_add(name="Bent")
+    key.data[3].co.z += 1
+    for frame, value in ((1, 0.0), (20, 1.0)):
+        key.value = value
+        key.keyframe_insert("value", frame=frame)
+    for data in (bpy.data.cameras.new("Camera"), bpy.data.lights.new("Lamp", "POINT")):
+        bpy.context.scene.collection.objects.link(bpy.data.objects.new(data.name, data))
+    return ring
+
+
+@pytest.mark.parametrize("suffix", [f for f in FORMATS if f != ".obj"])
+@pytest.mark.parametrize("forms", [False, True])
+def test_what_exporters_leave_out_by_default_is_kept_and_forms_on_demand(suffix, forms, tmp_path):
+    rich_scene()
+    exchange.write(tmp_path / f"rich{suffix}", forms)
+    found = read_back(tmp_path / f"rich{suffix}")
+    assert {"MESH", "CAMERA", "LIGHT"} <= {obj.type for obj in bpy.data.objects}
+    ring = found["Ring"]
+    assert len(ring.data.uv_layers) == (2 if forms else 1)
+    owners = [*bpy.data.objects, ring.data]  # USD has objects with shape keys below an empty, which has the properties
+    own = [name for owner in owners for name in owner.keys()]  # noqa: SIM118  no dictionary
+    assert any(name.endswith("wheel") for name in own) and not any("holomorph" in name for name in own)
+    bent = ring.data.shape_keys.key_blocks["Bent"]
+    bpy.context.scene.frame_set(1)
+    first = bent.value
+    bpy.context.scene.frame_set(20)
+    assert abs(bent.value - first) > 0.5

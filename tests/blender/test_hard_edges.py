@@ -175,7 +175,7 @@ def test_the_command_cuts_along_hard_edges(tmp_path):
 
 @pytest.mark.parametrize(
     ("options", "word"),
-    [(("--hard-edges", 40), "--main islands"), (("--main", "islands", "--hard-edges", 200), "less than 180")],
+    [(("--hard-edges", 40), "--main islands"), (("--main", "islands", "--hard-edges", 200), "not from 0 to 180")],
 )
 def test_hard_edges_that_cannot_be_are_refused_by_the_command(tmp_path, options, word):
     done = headless(can_file(tmp_path), *options)

@@ -150,6 +150,8 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
         (["ring.obj", "--solver", "guess"], "'guess' is none of auto"),
         (["ring.obj", "--density", "-1"], "density"),
         (["ring.obj", "--forms", "many"], "forms"),
+        (["ring.obj", "--evenness", "1.5"], "1.5 is not from 0 to 1"),
+        (["ring.obj", "--margin", "-1"], "-1 is not from 0"),
         (["ring.obj", "--levels", "2", "--ratio", "1.5"], "ratio"),
         (["ring.obj", "--output", "nowhere/out.blend"], "folder"),
         (["ring.obj", "--output", "foo.txt"], "must end with .blend"),
@@ -300,7 +302,7 @@ def test_the_main_map_and_the_tiling_of_the_command_line(tmp_path):
     ("options", "word"),
     [
         (("--seamless", "--poles", "many"), "'many' is none of automatic"),
-        (("--seamless", "--tiles", -3), "negative"),
+        (("--seamless", "--tiles", -3), "-3 is not from 0"),
         (("--seamless", "--pole-group", "Hidden"), "no vertex group 'Hidden'"),
         (("--seamless", "--boundary", "double_cover"), "--boundary"),
         (("--boundary", "free"), "--boundary"),
@@ -317,7 +319,7 @@ def test_strict_ends_with_the_verdict_and_everything_written(tmp_path, strict, s
     path, report = sphere_with_spikes(tmp_path / "spikes.obj"), tmp_path / "report.json"
     done = headless(path, "--main", "balanced", "--report", report, *strict)
     (entry,) = json.loads(report.read_text())["objects"]
-    assert (done.returncode, entry["verdict"]["level"]) == (status, "unusable")
+    assert (done.returncode, entry["verdict"]["level"]) == (status, "poor")
     assert any(entry["verdict"]["sentence"] in line for line in our_lines(done))
     assert not strict or len(our_lines(done)) == 1
 

@@ -300,7 +300,7 @@ def test_without_any_map_nothing_is_made(monkeypatch):
     solve = module("solving.solve")
 
     def skipped(_library, _make, part, *_):
-        return solve.SolvedComponent(part, None, None, "the surface is strange")
+        return solve.SolvedComponent(part, None, "the surface is strange")
 
     monkeypatch.setattr(solve, "_solve_component", skipped)
     obj = torus(**FINE)

@@ -128,7 +128,7 @@ def test_a_skipped_component_has_its_reason(monkeypatch):
 
     def without_spheres(library, surface, part, *rest):
         if part.genus == 0:
-            return solve.SolvedComponent(part, None, None, reason="too round")
+            return solve.SolvedComponent(part, None, reason="too round")
         return solve_component(library, surface, part, *rest)
 
     monkeypatch.setattr(solve, "_solve_component", without_spheres)

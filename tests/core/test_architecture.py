@@ -29,8 +29,9 @@ ROOM_BELOW = {
     "tiling": ["structure", "evening", "lattice"],
     "moduli": ["conformal", "lattice"],
     "plane": ["structure"],
+    "islands": ["plane", "evening"],
     "multiresolution": ["structure"],
-    "bindings": ["tiling", "moduli", "plane", "multiresolution"],
+    "bindings": ["tiling", "moduli", "islands", "multiresolution"],
 }
 # Each room of the add-on, and the rooms that it may import directly or through them. "" is what lies in addon itself.
 ADDON_BELOW = {

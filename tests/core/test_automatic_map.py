@@ -1,17 +1,17 @@
 """Which map a part gets: by itself, in the command, and beside other parts."""
 
-import importlib
 import json
 import math
 from types import SimpleNamespace
 
+import families
 import holomorph
 import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, hemisphere, torus, united
+from holomorph import map_choice as automatic
 from holomorph.__main__ import main
-
-automatic = importlib.import_module("holomorph.automatic_map")  # the package has the function under this name
+from holomorph.quality import Quality
 
 SHARED = {"hand": "hand_lowres_b1.obj", "pretzel": "double-torus.obj"}
 FAMILIES = {
@@ -111,10 +111,39 @@ def test_what_was_solved_is_taken():
 @pytest.mark.parametrize("name", FAMILIES)
 def test_the_balanced_map_is_that_of_the_structure(name):
     for part in surface_of(FAMILIES[name]()).components:
-        found = holomorph.automatic_map(part, main="balanced")
+        found = holomorph.automatic_map(part, main="balanced", evenness=0)
         assert found.tiling is None and found.kind == found.structure.map_kind
         assert np.array_equal(found.uv, found.structure.uv(found.coefficients))
         assert np.array_equal(found.seams, found.structure.edges[found.structure.seams])
+
+
+def saw_blade(n=24):
+    """A disk of two rings with a tooth at each edge of its boundary: a straight boundary collapses the teeth."""
+    turn = 2 * np.pi * np.arange(n) / n
+    ring = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+    teeth = 1.5 * (ring + np.roll(ring, -1, axis=0)) / 2
+    points = np.concatenate([[[0, 0, 0]], 0.5 * ring, ring, teeth])
+    following = (np.arange(n) + 1) % n
+    faces = [[0, 1 + i, 1 + j] for i, j in enumerate(following)]
+    faces += [[1 + i, 1 + n + i, 1 + n + j, 1 + j] for i, j in enumerate(following)]
+    return holomorph.Surface(points, faces + [[1 + n + i, 1 + 2 * n + i, 1 + n + j] for i, j in enumerate(following)])
+
+
+def test_a_tiling_that_loses_much_is_refused_and_the_best_other_map_is_not():
+    tilings = [SimpleNamespace(quality=SimpleNamespace(lost_part=part)) for part in (0.01, 0.03)]
+    assert automatic._whole(tilings[0]) is tilings[0]
+    with pytest.raises(holomorph.TopologyError, match="would lose 3 % of its area"):
+        automatic._whole(tilings[1])
+    made = holomorph.automatic_map(saw_blade(), main="untiled")
+    assert made.kind == "flat" and made.quality.density_ratio == pytest.approx(1) and made.quality.lost_part == 0
+    assert holomorph.automatic_map(surface_of(families.cube()), main="untiled").kind == "islands"
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_best_other_map_is_no_tiling(name):
+    for part in surface_of(FAMILIES[name]()).components:
+        found = holomorph.automatic_map(part, main="untiled")
+        assert found.tiling is None and found.evenness == automatic.EVENNESS and math.isfinite(found.quality.mean_angle)
 
 
 def test_kinds():
@@ -134,11 +163,26 @@ def test_a_tiling_that_is_asked_for_and_cannot_be_made_is_an_error_of_its_part()
 
 def test_tilings_have_one_density():
     parts = surface_of(FAMILIES["two parts"]()).components
-    for options in ({"tiles": 100.0}, {"density": 2.0}, {}):
+    for options in ({"tiles": 400.0}, {"density": 4.0}):
         made = holomorph.automatic_maps(parts, main="seamless", **options)
-        assert made[0].density == pytest.approx(made[1].density, rel=1e-9)
+        assert all(m.tiling for m in made)
+        assert made[0].density == pytest.approx(made[1].density, rel=0.1)
         if "tiles" in options:
-            assert sum(m.tiling.tiles for m in made) == pytest.approx(100.0, rel=1e-9)
+            assert sum(m.density * part.area for m, part in zip(made, parts)) == pytest.approx(400.0, rel=0.1)
+
+
+def test_a_part_on_which_whole_tiles_are_too_few_has_the_same_density_without():
+    parts = surface_of(united(torus(24, 12, R=3.0), torus(24, 12, R=0.3, r=0.1))).components
+    made = holomorph.automatic_maps(parts, main="seamless", tiles=40)
+    assert made[0].tiling and not made[1].tiling and "tiles" in made[1].why
+    corners = sum(len(part.corner_vertices) for part in parts)
+    uv = holomorph.arrangement.arranged(made, corners)
+    found = [Quality.of(part._native, np.ascontiguousarray(uv[part.corner_index]), 0) for part in parts]
+    assert found[0].median_density == pytest.approx(found[1].median_density, rel=1e-5)
+
+
+def test_the_density_of_tiles_is_one_or_the_other():
+    parts = surface_of(FAMILIES["two parts"]()).components
     with pytest.raises(ValueError, match="without tiles"):
         holomorph.automatic_maps(parts, tiles=3, density=2.0)
 
@@ -181,5 +225,5 @@ def test_vertices_are_those_of_the_surface_with_isolated_ones():
 
 
 def test_unknown_main_map():
-    with pytest.raises(ValueError, match="main is 'best'; one of automatic, seamless, balanced"):
+    with pytest.raises(ValueError, match="main is 'best'; one of automatic, seamless, untiled, balanced"):
         holomorph.automatic_map(surface_of(torus(24, 12)), main="best")

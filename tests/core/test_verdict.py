@@ -196,7 +196,7 @@ def test_strict_ends_with_the_verdict(tmp_path, capsys, strict, status):
     path = file_of(ball_with_spikes(), tmp_path / "spikes.obj")
     ended, report, told = run(capsys, path, *strict)
     found = report["verdict"]
-    assert (ended, found["level"]) == (status, "unusable") and found == report["components"][0]["main_map"]["verdict"]
+    assert (ended, found["level"]) == (status, "poor") and found == report["components"][0]["main_map"]["verdict"]
     assert told == (f"holomorph: {found['sentence']}: {found['advice']}\n" if strict else "")
 
 

@@ -1,4 +1,4 @@
-"""Objects of .blend files: Blender reads them into arrays, and writes maps back, in a process of its own."""
+"""Objects of scenes: Blender reads them into arrays, and writes maps back, in a process of its own."""
 
 import json
 import shutil
@@ -13,13 +13,14 @@ from .errors import UsageError
 from .status import DONE, REFUSED
 
 ARRAYS = ".npz"  # vertices, corner_vertices, face_offsets, and seams, the (#S, 2) vertices of the marked edges
+BLEND = ".blend"
 OBJECTS = "objects.json"  # [[name, file, number of corners], ...]
 SCRIPT = Path(__file__).with_name("in_blender.py")
 
 
 @dataclass(frozen=True)
 class Opening:
-    """A .blend file whose mesh objects are to be read; a task as those of assets are."""
+    """A scene whose mesh objects are to be read; a task as those of assets are."""
 
     name: str
     key: str
@@ -51,7 +52,7 @@ def program(wanted):
     found = shutil.which(wanted or "blender")
     if found is None:
         where = f"there is no program {wanted}" if wanted else "there is no Blender on the PATH; name one by --blender"
-        raise UsageError(f".blend files are read, and written, by Blender: {where}")
+        raise UsageError(f"Scenes are read, and .blend files written, by Blender: {where}")
     return found
 
 
@@ -69,7 +70,8 @@ def _run(blender, scene, *arguments):
     """Runs the script in Blender. @throws InvalidMesh where it ends with an error"""
     options = ["--background", "--factory-startup", "--disable-autoexec", "--python-exit-code", "3"]
     file = [] if scene is None else [str(Path(scene).resolve())]
-    command = [blender, *options, *file, "--python", str(SCRIPT), "--", *map(str, [*file, *arguments])]
+    opened = [path for path in file if path.lower().endswith(BLEND)]  # the script imports others
+    command = [blender, *options, *opened, "--python", str(SCRIPT), "--", *map(str, [*file, *arguments])]
     run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
     if run.returncode != 0:
         said = [line for line in run.stderr.splitlines() if line.strip()] or ["nothing"]

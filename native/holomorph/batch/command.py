@@ -92,7 +92,7 @@ def _run(options):
     found = sources.find(options.source, options.out)
     wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
     _check_formats(wanted.output.formats)
-    needs_blender = "blend" in wanted.output.formats or any(s.path.suffix.lower() == sources.BLEND for s in found)
+    needs_blender = "blend" in wanted.output.formats or any(sources.is_scene(s.path) for s in found)
     program = blend.program(options.blender) if needs_blender else ""
     if options.share:
         number, count = options.share

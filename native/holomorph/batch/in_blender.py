@@ -1,7 +1,9 @@
-"""Run by Blender, imported by nothing: reads the mesh objects of a .blend file into arrays, and writes maps to them.
+"""Run by Blender, imported by nothing: reads the mesh objects of a scene into arrays, and writes maps to them.
 
-blender -b FILE --python in_blender.py -- FILE read FOLDER
-blender -b [FILE] --python in_blender.py -- [FILE] write MESH.npz TARGET.blend OBJECT
+blender -b FILE.blend --python in_blender.py -- FILE.blend read FOLDER
+blender -b [FILE.blend] --python in_blender.py -- [FILE.blend] write MESH.npz TARGET.blend OBJECT
+
+A file of another program (glTF, FBX, USD) is named after -- alone, and imported.
 """
 
 import json
@@ -12,19 +14,42 @@ import bpy
 import numpy as np
 
 MAP = "Holomorphic"
+IMPORTER_HELPERS = "glTF_not_exported"  # the collection of shapes of bones, which the glTF importer makes
 
 
-def check_opened(path):
-    """Blender goes on with an empty scene where it cannot read a file."""
-    if Path(bpy.data.filepath) != Path(path):
+def open_scene(path):
+    """Imports what is no .blend file. Blender goes on with an empty scene where it cannot read one."""
+    kind = Path(path).suffix.lower()
+    if kind != ".blend":
+        bpy.data.batch_remove(list(bpy.data.objects))
+        try:
+            importer(kind)(filepath=str(path))
+        except (RuntimeError, AttributeError) as error:  # the latter where Blender was built without it
+            sys.exit(f"this Blender cannot import it: {str(error).strip().splitlines()[-1]}")
+    elif Path(bpy.data.filepath) != Path(path):
         sys.exit("this is not a .blend file that this Blender reads")
+
+
+def importer(kind):
+    if kind in (".glb", ".gltf"):
+        if "bool" not in vars(np):  # the importer of Blender 3.4 uses it, NumPy 1.24 beside it in Debian has it not
+            np.bool = bool
+        return bpy.ops.import_scene.gltf
+    if kind == ".fbx":
+        return bpy.ops.wm.fbx_import if bpy.app.version >= (5, 0, 0) else bpy.ops.import_scene.fbx
+    return bpy.ops.wm.usd_import
+
+
+def is_helper(obj):
+    """Whether the importer made it for its own use: it is no part of the scene."""
+    return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 
 def read(path, folder):
     """One .npz file for each mesh object with faces, as it is seen: scaled, without modifiers."""
-    check_opened(path)
+    open_scene(path)
     bpy.context.view_layer.update()  # the objects' matrices
-    meshes = [obj for obj in bpy.data.objects if obj.type == "MESH" and len(obj.data.polygons)]
+    meshes = [obj for obj in bpy.data.objects if obj.type == "MESH" and len(obj.data.polygons) and not is_helper(obj)]
     listed = []
     for number, obj in enumerate(sorted(meshes, key=lambda obj: obj.name)):
         arrays = mesh_arrays(obj)
@@ -59,7 +84,7 @@ def write(path, arrays, target, name):
     if path is None:
         bpy.data.batch_remove(list(bpy.data.objects))
     else:
-        check_opened(path)
+        open_scene(path)
     with np.load(arrays) as found:
         mesh = new_mesh(name, found) if path is None else bpy.data.objects[name].data
         maps = [name for name in found.files if name == "uv" or name.startswith("uv_")]

@@ -54,7 +54,7 @@ def main_uv(surface, parts, maps):
 def form_uvs(surface, parts, maps):
     """(#C, 2) for each form that gets a map of its own; parts that lack the form are 0 there."""
     done = [(part.surface, part.structure) for part in parts if part.map is not None]
-    count = max((len(structure.balanced_coefficients()) for _, structure in done), default=0)
+    count = max((structure.form_count for _, structure in done), default=0)
     for form in range(min(maps.forms, count)):
         uv = arrangement.arranged_form(done, form, _corner_count(surface), _arrangement(maps))
         yield uv[surface.corner_index]

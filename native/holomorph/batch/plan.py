@@ -8,23 +8,23 @@ from .task import Task, key
 
 
 class Plan:
-    """The tasks of a batch. `openings` come first: they read .blend files, whose objects are then assets, too."""
+    """The tasks of a batch. `openings` come first: they read scenes, whose objects are then assets, too."""
 
     def __init__(self, found, journal, recipe, threads, blender):
         self._journal, self._recipe, self._threads, self._blender = journal, recipe, threads, blender
         digests = {source: _digest(source.path) for source in found}
-        scenes = [source for source in found if source.path.suffix.lower() == sources.BLEND]
+        scenes = [source for source in found if sources.is_scene(source.path)]
         meshes = [source for source in found if source not in scenes]
         self.openings = [self._opening(source, digests[source]) for source in scenes]
         self._meshes = [self._task(source.name, source.path, source.size, digests[source]) for source in meshes]
 
     def tasks(self):
-        """Those of the mesh files, and of the objects of the .blend files that were read."""
+        """Those of the mesh files, and of the objects of the scenes that were read."""
         opened = [opening for opening in self.openings if (opening.folder / blend.OBJECTS).exists()]
         return self._meshes + [task for opening in opened for task in self._objects(opening)]
 
     def unopened(self):
-        """The .blend files that were not read: each is an asset in itself, which is not done."""
+        """The scenes that were not read: each is an asset in itself, which is not done."""
         return [opening for opening in self.openings if not (opening.folder / blend.OBJECTS).exists()]
 
     def _opening(self, source, digest):

@@ -7,9 +7,9 @@ from pathlib import Path
 from .errors import UsageError
 
 MESHES = (".obj", ".off", ".ply", ".stl")
-BLEND = ".blend"
+SCENES = (".blend", ".glb", ".gltf", ".fbx", ".usd", ".usda", ".usdc", ".usdz")  # which Blender reads
 LIST = ".txt"  # one path or pattern per line, from the list's own folder on; lines with # are comments
-KINDS = f"a folder, a pattern, a list ({LIST}), a {BLEND} file or a mesh file ({', '.join(MESHES)})"
+KINDS = f"a folder, a pattern, a list ({LIST}), a scene ({', '.join(SCENES)}) or a mesh file ({', '.join(MESHES)})"
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def _in_folder(folder, out):
         raise UsageError(f"{out}: the output folder lies in the source {folder}; choose another place")
     files = [file for file in folder.rglob("*") if _is_wanted(file)]
     if not files:
-        raise UsageError(f"{folder}: there is no mesh file and no {BLEND} file in this folder")
+        raise UsageError(f"{folder}: there is no mesh file and no scene ({', '.join(SCENES)}) in this folder")
     return [_file(file, file.relative_to(folder).as_posix()) for file in files]
 
 
@@ -87,7 +87,11 @@ def _in_list(path, out):
 
 
 def _is_wanted(path):
-    return path.suffix.lower() in (*MESHES, BLEND) and not path.is_dir()
+    return path.suffix.lower() in (*MESHES, *SCENES) and not path.is_dir()
+
+
+def is_scene(path):
+    return path.suffix.lower() in SCENES
 
 
 def _file(path, name):

@@ -21,7 +21,7 @@ from .status import DONE, REFUSED
 class Task:
     """An asset to be mapped.
 
-    path : a mesh file, or the arrays of an object (.npz, see `blend`); scene : the .blend file and the object's name
+    path : a mesh file, or the arrays of an object (.npz, see `blend`); scene : the scene's file and the object's name
     key : of the results, see `key`; folder : where they will be; work : where they are written first
     """
 

@@ -198,6 +198,7 @@ void bind_surface(py::module_& m) {
       .def_property_readonly("triangle_corners", viewed(&Surface::triangle_corners))
       .def_property_readonly("triangle_edges", viewed(&Surface::triangle_edges))
       .def_property_readonly("triangle_faces", viewed(&Surface::triangle_faces))
+      .def_property_readonly("face_component", viewed(&Surface::face_component))
       .def_property_readonly("edges", viewed(&Surface::edges))
       .def_property_readonly("edge_lengths", viewed(&Surface::edge_lengths))
       .def_property_readonly("reversed_faces", repairs(&mesh::Repairs::reversed_faces))

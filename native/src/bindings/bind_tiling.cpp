@@ -33,8 +33,9 @@ Placement place(const std::shared_ptr<mesh::Surface>& surface, std::optional<int
 
 Tiling tile(const Placement& placement, double tiles, const std::array<std::complex<double>, 2>& lattice,
             std::optional<double> turn, std::optional<std::array<double, 3>> direction, double max_turn,
-            double evenness, int threads, const py::object& progress) {
-  const tiling::TilingOptions options{tiles, {lattice[0], lattice[1]}, direction, turn, max_turn, evenness};
+            double evenness, bool size_counts, int threads, const py::object& progress) {
+  const tiling::TilingOptions options{tiles,      {lattice[0], lattice[1]}, direction, turn, max_turn, evenness,
+                                      size_counts};
   return unlocked(threads, progress, [&](Execution& execution) { return tiling::tile(placement, options, execution); });
 }
 
@@ -79,7 +80,7 @@ void bind_tiling(py::module_& m) {
   m.def("place_poles", &place, "surface"_a, py::kw_only(), "count"_a, "vertices"_a, "allowed"_a, "straight"_a,
         "labels"_a, "evened"_a, "solver"_a, "threads"_a, "progress"_a);
   m.def("tile", &tile, "placement"_a, py::kw_only(), "tiles"_a, "lattice"_a, "turn"_a, "direction"_a, "max_turn"_a,
-        "evenness"_a, "threads"_a, "progress"_a);
+        "evenness"_a, "size_counts"_a, "threads"_a, "progress"_a);
   m.def("move_poles", &move_poles, "placement"_a, "tiling"_a, "moves"_a, py::kw_only(), "evenness"_a, "threads"_a,
         "progress"_a);
   m.def("evened_tiling", &evened, "tiling"_a, py::kw_only(), "evenness"_a, "threads"_a, "progress"_a);

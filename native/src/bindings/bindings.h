@@ -7,6 +7,7 @@ namespace holomorph::bindings {
 
 void bind_records(pybind11::module_& m);
 void bind_surface(pybind11::module_& m);
+void bind_islands(pybind11::module_& m);
 void bind_structure(pybind11::module_& m);
 void bind_progressive_mesh(pybind11::module_& m);
 void bind_laplace_problem(pybind11::module_& m);

@@ -54,6 +54,7 @@ PYBIND11_MODULE(_native, m) {
   bindings::bind_records(m);
   bindings::bind_surface(m);
   bindings::bind_progressive_mesh(m);
+  bindings::bind_islands(m);
   bindings::bind_structure(m);
   bindings::bind_laplace_problem(m);
   bindings::bind_moduli(m);

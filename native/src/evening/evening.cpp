@@ -77,16 +77,14 @@ void clear(Function& function, const Kept& kept) {
   for (const int v : kept.v) function[v].imag(0);
 }
 
-// The preconditioner of a patch.
-Precondition factorised(const StrainEnergy::Patch& patch, const Function& delta, double lambda) {
-  const auto factor = std::make_shared<solver::SparseCholesky>();
-  factor->compute(patch.energy.laplacian(delta, lambda, patch.free_count), {});
-  return [factor, count = patch.free_count](const Function& gradient) {
-    Eigen::MatrixXd B(count, 2);
-    for (int v = 0; v < count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
-    const Eigen::MatrixXd X = factor->solve(B);
+// The inverse of a Laplacian on the free vertices of a patch.
+Precondition inverse(solver::SparseCholesky& factor, int free_count) {
+  return [&factor, free_count](const Function& gradient) {
+    Eigen::MatrixXd B(free_count, 2);
+    for (int v = 0; v < free_count; ++v) B.row(v) << gradient[v].real(), gradient[v].imag();
+    const Eigen::MatrixXd X = factor.solve(B);
     Function result(gradient.size(), 0.0);
-    for (int v = 0; v < count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
+    for (int v = 0; v < free_count; ++v) result[v] = kInverse * Complex(X(v, 0), X(v, 1));
     return result;
   };
 }
@@ -107,7 +105,11 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
     return here;
   };
   const Kept here{{}, kept_here(kept.u), kept_here(kept.v)};
-  const auto make = [&](const Function& at) { return factorised(patch, at, lambda); };
+  solver::SparseCholesky factor;
+  const auto make = [&](const Function& at) -> Precondition {
+    factor.compute(patch.energy.laplacian(at, lambda, patch.free_count), {});
+    return inverse(factor, patch.free_count);
+  };
   Descent descent(
       patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());
   Function best(patch.vertices.size(), 0.0);

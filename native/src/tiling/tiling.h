@@ -17,6 +17,7 @@ struct TilingOptions {
   std::optional<double> turn;                      ///< by which the texture is rotated beside that, in radians
   double max_turn = 0.2;                           ///< largest change of these by the rounding, in radians
   double evenness = 0;                             ///< from 0, conformal, to 1 (evening/evening.h)
+  bool size_counts = false;                        ///< the wanted size, more than a little shear
 };
 
 /// A form whose periods and residues are points of the problem's lattice, with its poles at vertices.

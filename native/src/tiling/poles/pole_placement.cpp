@@ -17,7 +17,7 @@ constexpr int kEvery = 3;                          // more of them by every thir
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 16};
-constexpr double kEvened = 3, kHopefulEvened = 1.5 * kEvened;  // spread of the evened density
+constexpr double kEvened = 2.85, kHopefulEvened = 1.5 * kEvened;  // spread of the evened density
 constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {

@@ -1,0 +1,35 @@
+"""How far a map is from one on which a texture looks as on flat paper, as one number: 0 is perfect.
+
+The weights are what an eye minds, found on pictures of 60 meshes: squares of 1 to 2 side by side (a density ratio of 4)
+are as bad as a mean shear of 1.7, as a seam nearly three times the size of the surface where it is smooth, or as poles
+by the dozen. A seam along a hard edge, where the light breaks too, is hardly seen.
+"""
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .quality import Quality
+
+SHEAR = 2.0  # for 1 more of the capped mean s1 / s2, where an e-fold density ratio costs 1
+FLIPPED = 20.0  # for the whole area
+OVERLAPPING, OVERLAPS = 20.0, 0.2  # for the whole map, and for that it does, since it cannot be painted or baked
+ROUNDING = 1e-6  # of the map: less of an overlap is none
+SEAM = 0.5  # for a seam as long as the square root of the area, where it is smooth
+HARD_SEAM = 0.03  # and along hard edges
+POLE = 0.03
+
+
+def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams: float = 0.0) -> float:
+    """What is minded of a map: infinite for one with collapsed parts.
+
+    poles : how many
+    soft_seams, hard_seams : lengths over the square root of the area
+    """
+    ratio = quality.density_ratio
+    if not ratio >= 1 or math.isinf(ratio):
+        return math.inf
+    squares = math.log(ratio) + SHEAR * (quality.capped_mean_angle - 1)
+    overlapping = quality.overlapping_part or 0.0
+    lost = FLIPPED * quality.flipped_part + OVERLAPPING * overlapping + OVERLAPS * (overlapping > ROUNDING)
+    return squares + lost + SEAM * soft_seams + HARD_SEAM * hard_seams + POLE * poles

@@ -1,0 +1,20 @@
+// Where to cut islands with several boundary loops, or with handles, until they are disks.
+#pragma once
+
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/surface.h"
+
+namespace holomorph::islands {
+
+/// #E, whether a cut runs along an edge of a polygon: components with a boundary become disks, along short paths from
+/// boundary to boundary. Disks and closed components are not cut.
+///
+/// A forest of shortest paths to the boundary and a spanning tree of the faces that crosses none of it, and prefers
+/// edges far from the boundary, leave 1 - chi edges of each component: these and the paths from their ends are the cut
+/// (Erickson and Har-Peled 2004, doi:10.1007/s00454-003-2948-z).
+/// Cost: O(n log n).
+std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& execution);
+
+}  // namespace holomorph::islands

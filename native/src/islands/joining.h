@@ -1,0 +1,25 @@
+// Flat islands laid edge to edge, as a paper net is, as far as they do not overlap.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesh/surface.h"
+#include "uv/uv_map.h"
+
+namespace holomorph::islands {
+
+/// The two sides of polygons at one edge of the surface before it was cut open: corners at the start and end of the
+/// one, then of the other, each with its polygon on the left.
+using Joint = std::array<int, 4>;
+
+/// Moves islands rigidly so that the sides of a joint coincide, one joint after the other: where the sides are of one
+/// length, they belong to different nets, and the nets then do not overlap. A joint within a net needs nothing.
+/// @param surface cut open along its seams. @param uv #C x 2, changed. @param joints the most wanted first
+/// @param is_joinable each component: whether it may be moved
+/// @return each component: the lowest one of its net
+/// Cost: at most kMostTriangles tests of two triangles for each triangle of the surface.
+std::vector<int> joined(const mesh::Surface& surface, uv::UvArray& uv, const std::vector<Joint>& joints,
+                        const std::vector<char>& is_joinable);
+
+}  // namespace holomorph::islands
