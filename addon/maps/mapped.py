@@ -67,9 +67,9 @@ class MappedObject:
 
     @property
     def density(self):
-        """Tiles for an area on the surface, where there is the median of them; 0 without a tiling."""
-        area = sum(part.component.area for part in self.tiled)
-        return sum(part.tiling.tiles for part in self.tiled) / area if area > 0 else 0.0
+        """Tiles for an area on the surface, the median on the largest part that has a tiling; 0 without one."""
+        largest = max(self.tiled, key=lambda part: part.component.area, default=None)
+        return largest.map.density if largest else 0.0
 
     @property
     def unit_length(self):
@@ -191,7 +191,7 @@ def _tilings(asked, options, density, progress):
     wanted, components = options.tiling, [component for component, _ in asked]
     if options.main == TILING:
         tiles = density * sum(component.area for component in components) or wanted.tiles
-        amount = {"tiles": tiles or None, "equal_density": False}
+        amount = {"tiles": tiles or None}
     else:
         amount = {"density": density or None}
     made = native.load().automatic_maps(

@@ -36,7 +36,7 @@ class TileOptions:
     @property
     def is_chosen(self):
         """Whether poles, places for them, or a number of tiles are chosen."""
-        return self.tiles > 0 or self.allowed is not None or self.poles not in ("auto", 0)
+        return bool(self.tiles or self.moved) or self.allowed is not None or self.poles not in ("auto", 0)
 
     @property
     def made(self):

@@ -6,11 +6,11 @@ import sys
 from pathlib import Path
 
 from . import Error, Surface, Verdict, __version__, formats
-from .automatic_map import MAIN_MAPS
 from .batch import mapping
 from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
 from .compare_command import compare
+from .map_choice import MAIN_MAPS
 from .report import overall_report, repairs_report
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3

@@ -1,4 +1,4 @@
-"""The maps of a mesh's parts side by side in the UV plane, at one texel density.
+"""The maps of a mesh's parts side by side in the UV plane, at one median density.
 
 Tilings come first, from (0, 0) on. They are turned by quarters and moved by whole units alone: by anything else a
 texture would break off at their seams. Other maps fill the UV square where there is no tiling, else they lie to the
@@ -8,7 +8,7 @@ right of the tilings.
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -19,6 +19,7 @@ from .automatic_structure import AnyStructure
 from .layout import pack, rows
 from .map import Map
 from .placement import Frame, frame, place
+from .quality import Quality
 from .surface import Surface
 
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
@@ -46,13 +47,14 @@ class Arrangement:
 
 @dataclass(frozen=True, eq=False)
 class Square:
-    """Maps packed into a square, each scaled to the area that its part has in space: a UV unit is a unit of length.
+    """Maps packed into a square, each scaled until a UV unit is a unit of length where its density is the median one.
 
-    surfaces : (n,) connected parts; uvs : their maps, (#C, 2) each
+    surfaces : (n,) connected parts; uvs : their maps, (#C, 2) each; qualities : of these
     """
 
     surfaces: Sequence[Surface]
     uvs: Sequence[Reals]
+    qualities: Sequence[Quality]
     arrangement: Arrangement
 
     @cached_property
@@ -62,7 +64,7 @@ class Square:
     @cached_property
     def _scales(self):
         """0 for a map without area, such as one whose coefficients are 0: it shrinks to a point."""
-        return [math.sqrt(s.area / f.area) if f.area > 0 else 0.0 for s, f in zip(self.surfaces, self._frames)]
+        return [_scale(*each) for each in zip(self.surfaces, self._frames, self.qualities)]
 
     @cached_property
     def _sizes(self):
@@ -80,10 +82,11 @@ class Square:
 
     def factor(self, part: int) -> complex:
         """By which the map of a part is multiplied."""
-        return self._fit * self._scales[part] * cmath.exp(1j * self.arrangement.rotation)
+        return self.per_length * self._scales[part] * cmath.exp(1j * self.arrangement.rotation)
 
     @property
-    def _fit(self):
+    def per_length(self) -> float:
+        """UV length for a length on the surface, where the density is the median one; 0 for maps without area."""
         wanted = self.arrangement
         return wanted.density * (wanted.per_length or self.filling) if self._packed[1] > 0 else 0.0
 
@@ -93,13 +96,13 @@ class Square:
         middle, back = complex(side, side) / 2, cmath.exp(-1j * self.arrangement.rotation)
         for k, (part, uv, size) in enumerate(zip(self.surfaces, self.uvs, self._sizes)):
             origin = (self._frames[k].low + self._frames[k].high) / 2 * back
-            target = CENTRE + self._fit * (complex(*corners[k]) + complex(*size) / 2 - middle)
+            target = CENTRE + self.per_length * (complex(*corners[k]) + complex(*size) / 2 - middle)
             place(uv, self.factor(k), origin, target, placed, None if part.is_whole else part.corner_index)
 
 
 def square(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> Square:
     """The `Square` of maps of parts, whatever they are."""
-    return Square([m.surface for m in maps], [m.uv for m in maps], arrangement)
+    return Square([m.surface for m in maps], [m.uv for m in maps], [m.quality for m in maps], arrangement)
 
 
 def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arrangement()) -> Reals:
@@ -124,25 +127,25 @@ def arranged_form(
 ) -> Reals:
     """(#C, 2) UVs of a mesh with so many polygon corners: the maps of one form, counted from 0, of parts with their
     structures; zeros at corners of parts that lack it."""
-    surfaces, uvs = [], []
+    surfaces, uvs, qualities = [], [], []
     for surface, structure in parts:
         if form < structure.form_count:  # of their type: a complex factor would bend straight boundaries
             surfaces.append(surface)
             uvs.append(structure.uv(np.eye(structure.form_count, dtype=structure.coefficient_type)[form]))
+            qualities.append(structure.quality(uvs[-1]))
     uv = np.zeros((corners, 2))
-    Square(surfaces, uvs, arrangement).write(uv)
+    Square(surfaces, uvs, qualities, arrangement).write(uv)
     return uv
 
 
 def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> float:
-    """The length on the surface of a UV unit of `arranged` maps, where the density is the median one of the tilings, or
-    of the largest part where there is none; 0 for maps without area."""
+    """The length on the surface of a UV unit of `arranged` maps, where the density is the median one; 0 for maps
+    without area."""
     tiled = [m for m in maps if m.tiling]
     if tiled:
         return _unit_of_tilings(tiled)
-    largest = int(np.argmax([diagonal(m.surface) for m in maps]))
-    density = abs(square(maps, arrangement).factor(largest)) * math.sqrt(maps[largest].quality.median_density)
-    return 1 / density if density > 0 else 0.0
+    wanted = square(maps, arrangement).per_length
+    return 1 / wanted if wanted > 0 else 0.0
 
 
 def diagonal(surface: Surface) -> float:
@@ -158,6 +161,12 @@ def on_grid(uv: ArrayLike) -> Reals:
     numbers stay exact."""
     step = 2.0 ** (math.frexp(max(np.abs(uv).max(), 1.0))[1] - SINGLE_BITS)
     return np.floor(np.asarray(uv) / step + 0.5) * step
+
+
+def _scale(surface, found, quality):
+    if quality.median_density > 0:
+        return quality.median_density**-0.5
+    return math.sqrt(surface.area / found.area) if found.area > 0 else 0.0
 
 
 def _unit_of_tilings(tiled):
@@ -179,11 +188,10 @@ def _write_tilings(tiled, uv, quarters):
 
 def _write_beside(rest, uv, unit, arrangement):
     """Other maps to the right of tilings, at the texel density of these, their square standing on v = 0."""
-    plain = Arrangement(rotation=arrangement.rotation, margin=arrangement.margin)
-    side = unit_length(rest, plain) / unit if unit > 0 else 0.0  # of the square
-    scaled = Arrangement(density=side, rotation=arrangement.rotation, margin=arrangement.margin)
-    values = np.zeros_like(uv)
-    square(rest, scaled).write(values)
+    scaled = replace(arrangement, density=1.0, per_length=1 / unit if unit > 0 else 0.0)
+    values, laid = np.zeros_like(uv), square(rest, scaled)
+    laid.write(values)
+    side = laid.per_length / laid.filling
     low, right = CENTRE.real - side / 2, math.ceil(uv[:, 0].max())
     corners = np.concatenate([m.surface.corner_index for m in rest])
     shift = np.float32([right + arrangement.margin * side - low, -low])

@@ -72,8 +72,9 @@ def island_map(
 
     The surface is cut along edges between faces that meet at more than an angle, from tips to these, and until all
     pieces are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
-    than a factor of 3, it is cut open to its cone points too if that looks better, and parted where it lies over itself. Pieces are turned upright, and those
-    that fit edge to edge are joined: first those that stay upright, longer edges first.
+    than a factor of 3, it is cut open to its cone points too if that looks better, and parted where it lies over
+    itself. Pieces are turned upright, and those that fit edge to edge are joined: first those that stay upright, longer
+    edges first.
 
     Parameters
     ----------
@@ -103,6 +104,15 @@ def island_map(
     uv[order] = found.uv
     of_corners = {"overlapping_part": found.quality.overlapping_part, "unseen_angle": found.quality.unseen_angle}
     return replace(found, uv=arrays.frozen(uv), quality=replace(Quality.of(given._native, uv, threads), **of_corners))
+
+
+def one_island(surface, tiling):
+    """The `Islands` of a map whose jumps are no whole tiles any more, since a UV unit is to be one of length."""
+    size = math.sqrt(tiling.quality.median_density)
+    ends = surface.vertices[tiling.seams]
+    soft = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() / math.sqrt(surface.area)
+    quality = replace(tiling.quality.of_copy(size), overlapping_part=0.0)
+    return Islands(arrays.frozen(tiling.uv / size), tiling.seams, 1, float(soft), 0.0, quality, tiling.evenness)
 
 
 def _better(found, made):

@@ -1,7 +1,7 @@
 """The UV map of one connected part, of whichever kind."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -90,14 +90,26 @@ class Map(Value):
 
     @property
     def density(self) -> float:
-        """UV area per area of the surface: tiles of a tiling, else the median."""
-        return self.tiling.tiles / self.surface.area if self.tiling else self.quality.median_density
+        """UV area per area of the surface, the median by that: tiles of a tiling."""
+        return self.quality.median_density
 
     @property
     def unit_length(self) -> float:
         """Length on the surface of a UV unit where the density is the median one; 0 for a map without area."""
         density = self.quality.median_density
         return 1 / math.sqrt(density) if density > 0 else 0.0
+
+    def of_copy(self, surface: Surface, structure: AnyStructure | None, scale: float) -> "Map":
+        """The same map of a copy of the part, whose lengths are multiplied by `scale`."""
+        quality = self.quality.of_copy(scale)
+        return replace(
+            self,
+            surface=surface,
+            structure=structure or self.structure.of_copy(surface),
+            quality=quality,
+            tiling=self.tiling and replace(self.tiling, quality=quality),
+            islands=self.islands and replace(self.islands, quality=quality),
+        )
 
     def _facts(self):
         return [self.kind, self.why, self.verdict.level]

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from . import _native
+from . import _native, arrays
 from .array_types import Flags, Reals
 from .value import Value
 from .verdicts import LONG, UNSEEN, Verdict, verdict
@@ -50,6 +50,11 @@ class Quality(Value):
         """The same, of a map that evening made of one with the quality `before`."""
         added = self.capped_mean_angle - before.capped_mean_angle
         return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
+
+    def of_copy(self, scale: float) -> "Quality":
+        """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
+        area = arrays.frozen(self.area / scale**2)
+        return replace(self, area=area, median_density=self.median_density / scale**2)
 
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]

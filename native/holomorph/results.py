@@ -2,7 +2,7 @@
 
 import numbers
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Self
 
@@ -64,6 +64,10 @@ class Structure(Value):
         """Itself, after noting the call that computes it, for pickles."""
         self._solution.compute = compute
         return self
+
+    def of_copy(self, component: Surface) -> Self:
+        """That of a copy, with the same triangles and, but for one factor, lengths."""
+        return replace(self, surface=component, _component=component)
 
     @cached_property
     def edges(self) -> Integers:

@@ -4,7 +4,7 @@ import holomorph
 import numpy as np
 import pytest
 from families import cylinder, geodesic_sphere, hemisphere, punctured_torus, torus, united
-from holomorph import InvalidMesh, TopologyError, automatic_map, automatic_maps, automatic_structure, conformal_image
+from holomorph import InvalidMesh, TopologyError, automatic_maps, automatic_structure, conformal_image
 from holomorph.edges import around_boundary, boundary_edges
 from solved import surface_of
 from test_rectangle import corners_of, grid, wavy
@@ -107,13 +107,6 @@ def test_poles_and_places_are_named_by_the_mesh(pair):
         automatic_maps(pair, main="seamless", allowed=allowed[:-1])
 
 
-def test_each_part_has_the_number_that_suits_it(pair):
-    made = automatic_maps(pair, main="seamless", equal_density=False)
-    for part, found in zip(pair.components, made):
-        assert np.array_equal(found.uv, automatic_map(part, main="seamless").uv)
-    assert made[0].density != pytest.approx(made[1].density, rel=1e-3)
-
-
 def test_poles_that_are_moved(pair):
     """The rounding is kept, and only the pole of its part moves."""
     count = len(pair.components[0].vertices)
@@ -128,7 +121,7 @@ def test_poles_that_are_moved(pair):
     options = {"poles": 2, "tiles": made.tiles, "direction": "upright", "evenness": made.evenness}
     alone = structures[1].tile(moves={1: free}, surface=pair.components[1], **options)
     assert np.array_equal(moved[1].uv, alone.uv)
-    assert structures[1].tile(surface=pair.components[1], **options) is made
+    assert np.array_equal(structures[1].tile(surface=pair.components[1], **options).uv, made.uv)
 
 
 @pytest.mark.parametrize("evenness", [0.2, 0.8])

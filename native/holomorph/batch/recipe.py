@@ -9,8 +9,8 @@ from dataclasses import asdict, dataclass, field, fields
 import tomllib
 
 from .. import formats, tiling_options
-from ..automatic_map import EVENNESS, MAIN_MAPS
 from ..checks import SOLVERS
+from ..map_choice import EVENNESS, MAIN_MAPS
 from .errors import UsageError
 
 BOUNDARIES = ("natural", "double_cover", "free")

@@ -12,7 +12,8 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kReach = 0.05;  // how far poles are expected to move, in square roots of the area
+constexpr double kSizeOfEvened = 0.5;  // where evening shears anyway, the wanted size counts more than a little shear
+constexpr double kReach = 0.05;        // how far poles are expected to move, in square roots of the area
 constexpr double kLeastTiles = 100, kTilesPerHandle = 64;
 constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;
 
@@ -122,6 +123,7 @@ Tiling tile(const Placement& placement, const TilingOptions& options, Execution&
   const double usual = std::max(kLeastTiles, kTilesPerHandle * basis.structure().topology.type.genus);
   problem.tiles = options.tiles > 0 ? options.tiles : usual;
   problem.median_density = problem.tiles / basis.area();
+  if (options.evenness > 0) problem.size_weight = kSizeOfEvened;
   if (inversion && !placement.options.is_chosen() && problem.residues.rows() > 0) {
     problem.repairable =
         kReach * kReach * basis.area() * inversion->reach(placement.form.poles, placement.form.residues);

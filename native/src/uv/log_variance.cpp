@@ -17,7 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kSamples = 3000;     // triangles on which the density is sampled, evenly spaced by area
 constexpr double kDistortion = 3;  // weight of the distortion against the variance
 
 // A triangle in the plane: corner 0 at 0, corner 1 at a > 0, corner 2 at x + i y.
@@ -81,8 +80,8 @@ VectorXd weighted(const Eigen::ArrayXd& weights, const VectorXd& z) {
 
 }  // namespace
 
-// Triangles at kSamples equal steps through the total area, along a curve through space where there are positions.
-std::vector<int> sample_triangles(const mesh::Surface& surface) {
+// Triangles at equal steps through the total area, along a curve through space where there are positions.
+std::vector<int> sample_triangles(const mesh::Surface& surface, int most_per_triangle) {
   const std::vector<int> order = in_order(surface);
   std::vector<double> until;
   until.reserve(order.size());
@@ -92,9 +91,10 @@ std::vector<int> sample_triangles(const mesh::Surface& surface) {
     total += mesh::triangle_area(surface.edge_lengths[s[0]], surface.edge_lengths[s[1]], surface.edge_lengths[s[2]]);
     until.push_back(total);
   }
+  const auto count = static_cast<int>(std::min<std::size_t>(kSamples, most_per_triangle * order.size()));
   std::vector<int> samples;
-  for (int i = 0; i < kSamples; ++i) {
-    const double at = total * (i + 0.5) / kSamples;
+  for (int i = 0; i < count; ++i) {
+    const double at = total * (i + 0.5) / count;
     const auto found = std::lower_bound(until.begin(), until.end() - 1, at);
     samples.push_back(order[found - until.begin()]);
   }

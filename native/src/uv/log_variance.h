@@ -9,12 +9,15 @@
 
 namespace holomorph::uv {
 
+inline constexpr int kSamples = 3000;  ///< triangles on which the density is sampled, evenly spaced by area
+
 /// Samples of forms: their values on two sides of a few thousand triangles.
 struct FormSamples {
   std::vector<int> triangles;      ///< evenly spaced by area; all of them on a small surface, some more than once
   forms::RowMajorMatrix on_sides;  ///< (2 #triangles) x #forms, along sides 0 and 1 of each
 };
-std::vector<int> sample_triangles(const mesh::Surface& surface);
+/// @param most_per_triangle on average: fewer samples do on a small surface
+std::vector<int> sample_triangles(const mesh::Surface& surface, int most_per_triangle = kSamples);
 forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const mesh::Sides& sides,
                                       const forms::ClosedForms& forms, const std::vector<int>& triangles);
 

@@ -13,6 +13,9 @@ namespace {
 // Beyond this weight less than nine digits of a flux are certain.
 constexpr double kUncertain = 1e7;
 
+// The search for poles costs as much as it has samples.
+constexpr int kSamplesPerTriangle = 2;
+
 // The largest triangle at each vertex.
 std::vector<int> largest_triangles(const mesh::Surface& surface) {
   std::vector<int> result(surface.vertex_count, -1);
@@ -49,7 +52,7 @@ std::vector<char> uncertain_vertices(const mesh::Surface& surface, const Array<d
 
 PoleBasis::PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
                      Execution& execution)
-    : samples_(uv::sample_triangles(*surface)) {
+    : samples_(uv::sample_triangles(*surface, kSamplesPerTriangle)) {
   structure_.surface = std::move(surface);
   solve(options, execution);
 }

@@ -21,7 +21,7 @@ constexpr int kNearPhases = 7;      // around a phase that is given
 constexpr double kScaleRange = 0.12;
 constexpr double kSame = 1e-9;      // relative distance of points of a lattice that are one
 constexpr double kRegular = 1e-12;  // of the largest diagonal entry: keeps a Gram matrix definite in spite of rounding
-constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1, kSize = 0.05;  // terms and bounds for the rank
+constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1;  // terms and bounds for the rank
 // Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
 // mean than the next, or so much less even than the target, is none.
 constexpr double kFlipped = 10, kNoMap = 2, kUneven = 8;
@@ -107,7 +107,7 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
   }
   rounding.rank = kConformal * (rounding.distortion - 1) +
                   kEvenness * std::max(0.0, std::log(rounding.density_ratio / (kTolerated * p.target_ratio))) +
-                  kSize * std::abs(std::log(median(density) / p.median_density));
+                  p.size_weight * std::abs(std::log(median(density) / p.median_density));
 }
 
 std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingOptions& options, Execution& execution) {

@@ -37,6 +37,7 @@ struct RoundingProblem {
   TextureLattice lattice;       ///< which periods and residues are rounded to
   MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
   double tiles = 1;             ///< over the surface at its median density, which are wanted
+  double size_weight = 0.05;    ///< of the median density in the rank of a rounding
   double median_density = 1;    ///< the same number over the area
 };
 
@@ -54,7 +55,7 @@ struct Rounding {
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
   /// The less the better: 5 (distortion - 1) + 0.15 log+(density ratio / 1.1 that of the target)
-  /// + 0.05 |log(median of |A|^2 / the wanted one)|.
+  /// + size weight |log(median of |A|^2 / the wanted one)|.
   double rank = 0;
 };
 

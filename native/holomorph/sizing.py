@@ -1,0 +1,87 @@
+"""A tiling of a wanted density: the number of tiles that gives it, or another map where no number does."""
+
+import numbers
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ._native import InvalidMesh, SolverError, TopologyError
+from .array_types import Progress
+from .map import Map
+from .map_choice import REFUSALS, Undecided
+from .progress import scaled
+from .tiling import Poles
+
+Refusal = InvalidMesh | TopologyError | SolverError  # what is said about one part, others go on
+
+SAME_SIZE = 0.045  # relative difference of a median density from the wanted one: those of parts then differ by a tenth
+TRIES = 3  # numbers of tiles, until the median density is the wanted one
+TOO_FEW = "whole tiles are too few on it for squares of the size of the other parts"
+
+
+@dataclass(frozen=True)
+class Sizing:
+    """A part that may get a tiling, and what is asked of that: poles and other options of `Structure.tile`."""
+
+    undecided: Undecided
+    poles: Poles
+    options: Mapping[str, Any]
+
+    def about(self, density: float, progress: Progress | None) -> Map | Refusal:
+        """The map with this density, or one that whole tiles have near it, or how it is refused."""
+        tilings, other = self._tried(density, 1, progress)
+        return self._moved(tilings[0], progress) if tilings else other
+
+    def at(self, density: float, progress: Progress | None) -> Map | Refusal:
+        """The map whose median density is within `SAME_SIZE` of this one where it is a tiling. What is asked for in so
+        many words, such as poles that are chosen or moved, is made with another density, or refused."""
+        tilings, other = self._tried(density, TRIES, progress)
+        if tilings:
+            made = _nearest(tilings, density)
+            fits = abs(_excess(made, density)) <= SAME_SIZE or self._is_strict
+            return self._moved(made, progress) if fits else self.undecided.untiled(TOO_FEW, made.tiling)
+        return other if isinstance(other, Map) or self._is_strict else self.undecided.untiled(str(other))
+
+    def _tried(self, density, tries, progress):
+        """(tilings, the first that is none or how it is refused): with one number of tiles after the other, until the
+        density is the wanted one."""
+        tilings, tiles = [], density * self.undecided.surface.area
+        options = {**self.options, "moves": {}}
+        for attempt in range(tries):
+            step = scaled(progress, attempt / tries, (attempt + 1) / tries)
+            try:
+                made = self.undecided.tiled(self.poles, {**options, "tiles": tiles or None}, step)
+            except REFUSALS as error:
+                return tilings, error
+            if made.tiling is None:
+                return tilings, made
+            tilings.append(made)
+            if abs(_excess(made, density)) <= SAME_SIZE:
+                break
+            tiles /= 1 + _excess(made, density)
+        return tilings, None
+
+    def _moved(self, made, progress):
+        """The map with poles moved after its rounding, or how that is refused."""
+        if not self.options.get("moves"):
+            return made
+        try:
+            return self.undecided.tiled(
+                self.poles, {**self.options, "tiles": made.tiling.tiles}, scaled(progress, 1.0, 1.0)
+            )
+        except REFUSALS as error:
+            return error
+
+    @property
+    def _is_strict(self):
+        is_chosen = not isinstance(self.poles, (str, numbers.Real)) or self.poles not in ("auto", 0)
+        is_bound = any(self.options.get(name) is not None for name in ("max_added", "allowed"))
+        return is_chosen or is_bound or bool(self.options.get("moves"))
+
+
+def _nearest(tilings, density):
+    return min(tilings, key=lambda made: abs(_excess(made, density)))
+
+
+def _excess(made, density):
+    return made.quality.median_density / density - 1 if density > 0 else 0.0
