@@ -8,7 +8,7 @@ import bpy
 
 from .. import native
 from ..maps.options import TILING
-from ..scene import faces
+from ..scene import faces, mesh_io
 
 PROPERTY = "holomorph_report"
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
@@ -28,6 +28,7 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     entry = {
         "object": obj.name,
         "mesh": obj.data.name,
+        "shape_key": mesh_io.shape_key(obj.data),
         "vertices": len(solved.polygons.vertices),
         "faces": solved.polygons.face_count,
         "is_selection": solved.polygons.faces is not None,

@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import native
 from ..maps.options import TileOptions
+from ..scene import mesh_io
 
 SUMMARISED = 8  # parts that a panel shows
 SHOWN_PERIODS = 4  # likewise, of each part
@@ -54,6 +55,18 @@ def verdict(entry):
     """The package's `Verdict` on an object or a part in a report; None where there is none."""
     found = entry.get("verdict")
     return native.load().Verdict(**found) if found else None
+
+
+def whole(entry):
+    """What is said of a whole object before details: kinds of maps, what was left out, cut and joined; "" for one part
+    of which there is nothing to say."""
+    text = entry["whole"]["text"]
+    return text[:1].upper() + text[1:]
+
+
+def is_edited(entry, mesh):
+    """Whether a mesh is another than when its report was made."""
+    return entry.get("shape_key") not in (None, mesh_io.shape_key(mesh))
 
 
 @functools.lru_cache(maxsize=16)
