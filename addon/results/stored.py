@@ -33,6 +33,11 @@ def tilings(stored):
     return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
 
 
+def chosen_tiles(stored):
+    """How many tiles all tilings have that a report tells of, a whole number; 0 without a tiling."""
+    return round(sum(tiling["tiles"] for tiling in tilings(stored)))
+
+
 def marks(stored):
     """((n,) vertices, (n,) whether it is a pole): those of all tilings."""
     poles = [vertex for tiling in tilings(stored) for vertex in tiling["poles"]]
@@ -127,7 +132,7 @@ def _sentence(part):
 
 
 def _tiling_lines(tiling):
-    yield f"added distortion {tiling['added_distortion']:.4f}"
+    yield f"stretch that whole tiles add: {tiling['added_distortion']:.4f}"
     yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
     yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
     if tiling["periods"]:
