@@ -23,6 +23,8 @@ def draw(layout, context, text, tile_operator, islands_operator, is_edited=False
     box = layout.box().column(align=True)
     if whole:
         lines.draw(box, context, whole)
+    if stored.is_joined(stored.parsed(text)):
+        box.operator("mesh.remove_doubles", text="Merge by Distance")  # Blender greys it outside of Edit Mode
     if is_edited:
         lines.draw(box, context, EDITED, "INFO")
     lines.draw(box, context, found.sentence, "NONE" if is_edited else ICONS[found.level])

@@ -69,6 +69,11 @@ def whole(entry):
     return text[:1].upper() + text[1:]
 
 
+def is_joined(entry):
+    """Whether vertices at one place were joined for the maps, and the mesh still has them apart."""
+    return entry["repairs"]["joined_vertices"]["count"] > 0
+
+
 def is_edited(entry, mesh):
     """Whether a mesh is another than when its report was made."""
     return entry.get("shape_key") not in (None, mesh_io.shape_key(mesh))

@@ -188,6 +188,22 @@ def test_the_kinds_of_parts_are_the_first_line():
     assert first.startswith("2 parts: 1 ") and "1 flat" in first
 
 
+def test_vertices_that_were_joined_are_offered_to_be_merged():
+    vertices, faces = sphere_arrays(4)
+    assert not drawn_after_run(mesh_object("Whole", vertices, faces)).buttons
+    corners = np.concatenate([list(face) for face in faces])
+    ends = np.cumsum([len(face) for face in faces])
+    apart = [tuple(range(end - len(face), end)) for face, end in zip(faces, ends)]
+    layout = drawn_after_run(mesh_object("Apart", np.array(vertices)[corners], apart))
+    assert layout.buttons[0] == "Merge by Distance" and "vertices joined" in layout.texts[0]
+
+
+def drawn_after_run(obj):
+    select(obj)
+    run(main="AUTOMATIC")
+    return drawn(obj, 1000)
+
+
 def test_warnings_of_one_kind_are_one_line():
     parts = [SimpleNamespace(skipped="no room", component=SimpleNamespace(note=""), not_seamless="")] * 239
     surface = SimpleNamespace(refused=[SimpleNamespace(faces=[1], reason="without area")] * 7)
