@@ -17,13 +17,13 @@ def draw(layout, context, text, tile_operator, islands_operator, is_edited=False
 
     is_edited : whether the mesh is another than then: the verdict has no tick
     """
-    whole, found, places, measured = read(text)
+    whole, is_joined, found, places, measured = read(text)
     if found is None:
         return
     box = layout.box().column(align=True)
     if whole:
         lines.draw(box, context, whole)
-    if stored.is_joined(stored.parsed(text)):
+    if is_joined:
         box.operator("mesh.remove_doubles", text="Merge by Distance")  # Blender greys it outside of Edit Mode
     if is_edited:
         lines.draw(box, context, EDITED, "INFO")
@@ -41,19 +41,20 @@ def draw(layout, context, text, tile_operator, islands_operator, is_edited=False
         row.label(text=value)
 
 
-NOTHING = "", None, "", []
+NOTHING = "", False, None, "", []
 
 
 @functools.lru_cache(maxsize=16)
 def read(text):
-    """(`stored.whole`, `Verdict`, sentence about coarse places, `numbers`) out of a stored report; ("", None, "", [])
-    if there is none, or someone has edited it."""
+    """(`stored.whole`, `stored.is_joined`, `Verdict`, sentence about coarse places, `numbers`) out of a stored report;
+    `NOTHING` if there is none, or someone has edited it."""
     entry = stored.parsed(text)
     try:
         found, places = stored.verdict(entry), entry.get("coarse_places")
         if found is None:
             return NOTHING
-        return stored.whole(entry), found, coarse.sentence(places) if places else "", numbers(entry)
+        told = coarse.sentence(places) if places else ""
+        return stored.whole(entry), stored.is_joined(entry), found, told, numbers(entry)
     except (KeyError, TypeError, IndexError, AttributeError):
         return NOTHING
 
