@@ -116,15 +116,15 @@ def _draw_overlays(layout, context):
 
 
 def _draw_result(layout, context, obj):
-    from ..results import report, restore
+    from ..results import report, restore, stored
     from . import verdict_view
 
     if restore.is_possible(obj):
         layout.operator(tools.HOLOMORPH_OT_restore_materials.bl_idname, icon="MATERIAL")
-    if obj.get(report.PROPERTY):
-        verdict_view.draw(
-            layout, context, obj[report.PROPERTY], HOLOMORPH_OT_tile.bl_idname, HOLOMORPH_OT_islands.bl_idname
-        )
+    text = obj.get(report.PROPERTY)
+    if text:
+        is_edited, offers = stored.is_edited(stored.parsed(text), obj.data), (HOLOMORPH_OT_tile, HOLOMORPH_OT_islands)
+        verdict_view.draw(layout, context, text, *(offer.bl_idname for offer in offers), is_edited)
 
 
 def _draw_menu_entry(self, _context):

@@ -8,16 +8,26 @@ from ..maps import coarse
 from ..results import stored
 from . import lines
 
+EDITED = "Before the last edit:"
 ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
 
 
-def draw(layout, context, text, tile_operator, islands_operator):
-    """Out of a stored report; the operators are offered where poles would help, and islands."""
-    found, places, measured = read(text)
+def draw(layout, context, text, tile_operator, islands_operator, is_edited=False):
+    """Out of a stored report; the operators are offered where poles would help, and islands.
+
+    is_edited : whether the mesh is another than then: the verdict has no tick
+    """
+    whole, is_joined, found, places, measured = read(text)
     if found is None:
         return
     box = layout.box().column(align=True)
-    lines.draw(box, context, found.sentence, ICONS[found.level])
+    if whole:
+        lines.draw(box, context, whole)
+    if is_joined:
+        box.operator("mesh.remove_doubles", text="Merge by Distance")  # Blender greys it outside of Edit Mode
+    if is_edited:
+        lines.draw(box, context, EDITED, "INFO")
+    lines.draw(box, context, found.sentence, "NONE" if is_edited else ICONS[found.level])
     if places:
         lines.draw(box, context, places)
         box.operator(tile_operator, text="Add Poles There").poles = "COARSE"
@@ -31,27 +41,31 @@ def draw(layout, context, text, tile_operator, islands_operator):
         row.label(text=value)
 
 
+NOTHING = "", False, None, "", []
+
+
 @functools.lru_cache(maxsize=16)
 def read(text):
-    """(`Verdict`, sentence about coarse places, `numbers`) out of a stored report; (None, "", []) if there is none, or
-    someone has edited it."""
+    """(`stored.whole`, `stored.is_joined`, `Verdict`, sentence about coarse places, `numbers`) out of a stored report;
+    `NOTHING` if there is none, or someone has edited it."""
     entry = stored.parsed(text)
     try:
         found, places = stored.verdict(entry), entry.get("coarse_places")
-        return found, coarse.sentence(places) if places else "", numbers(entry) if found else []
+        if found is None:
+            return NOTHING
+        told = coarse.sentence(places) if places else ""
+        return stored.whole(entry), stored.is_joined(entry), found, told, numbers(entry)
     except (KeyError, TypeError, IndexError, AttributeError):
-        return None, "", []
+        return NOTHING
 
 
 def numbers(entry):
-    """(name, value) of what is measured: the largest of the parts, or the sum of what is counted."""
-    measured = [part["main_map"] for part in entry["components"] if part["done"]]
-    ratio = max(math.inf if one["density_ratio"] is None else one["density_ratio"] for one in measured)
-    shear = max(one["capped_mean_angle"] for one in measured)
-    size = math.sqrt(ratio)
+    """(name, value) of what is measured over the whole object, and the sums of what is counted."""
+    measured, whole = [part["main_map"] for part in entry["components"] if part["done"]], entry["whole"]
+    size = math.inf if whole["density_ratio"] is None else math.sqrt(whole["density_ratio"])
     return [
         ("Size range", f"{size:.3g} : 1" if size < 1000 else "1000+"),
-        ("Stretch", f"{shear:.2f} : 1"),
+        ("Stretch", f"{whole['capped_mean_angle']:.2f} : 1"),
         ("Flipped triangles", str(sum(one["flipped_triangles"] for one in measured))),
         ("Collapsed triangles", str(sum(one["collapsed_triangles"] for one in measured))),
     ]

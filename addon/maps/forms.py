@@ -7,7 +7,6 @@ import numpy as np
 
 from .. import native
 
-SQUARES_ACROSS = 32  # along the diagonal of the bounding box, where the density is the median one
 SQUARES_LIMIT = 10_000
 
 
@@ -36,10 +35,10 @@ def shape_points(solved):
     return points if any(image is not None for image, _ in found) else None
 
 
-def squares_that_fit(maps, arrangement):
-    """Checker squares per UV unit so that about `SQUARES_ACROSS` of them span the largest part at density 1, an even
-    number."""
+def squares_that_fit(maps, arrangement, across):
+    """Squares of a texture per UV unit so that about `across` of them lie along the diagonal of the bounding box of the
+    largest part where the density is the median one, at density 1; an even number."""
     library = native.load().arrangement
     size = max(library.diagonal(made.surface) for made in maps)
     unit = library.unit_length(maps, replace(arrangement, density=1.0))
-    return min(max(2 * round(SQUARES_ACROSS * unit / size / 2), 2), SQUARES_LIMIT) if unit > 0 else SQUARES_ACROSS
+    return min(max(2 * round(across * unit / size / 2), 2), SQUARES_LIMIT) if unit > 0 else across

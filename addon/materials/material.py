@@ -16,6 +16,7 @@ from . import nodes, textures
 from .patterns import TEXTURES
 
 CHECKER = "CHECKER"
+CHECKER_ACROSS = 32  # squares that span an object where no number is asked for
 CHECKER_CELLS = 2  # squares of the checker after which it repeats
 REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
 EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
@@ -25,6 +26,11 @@ OURS = "holomorph_checker"  # custom property that tells our materials
 def cells(texture):
     """How many squares, bricks, scales ... there are across an image of a texture."""
     return CHECKER_CELLS if texture == CHECKER else TEXTURES[texture].cells
+
+
+def across(texture):
+    """How many squares, bricks, scales ... span an object where no number is asked for."""
+    return CHECKER_ACROSS if texture == CHECKER else TEXTURES[texture].across
 
 
 @dataclass(frozen=True)

@@ -193,13 +193,14 @@ class Texture(NamedTuple):
     cells: int  # things that are counted across: tiles, bricks, scales
     roughness: float = 0.5
     relief: float = 0.0  # greatest height, in sides of the unit square
+    across: int = 16  # cells that span an object where no number is asked for: fewer the more there is to see in one
 
 
 TEXTURES = {
     "NUMBERED": Texture(numbered, CELLS, 0.6),
     "BRICKS": Texture(bricks, 4, 0.85, 0.012),
     "SCALES": Texture(scales, 4, 0.35, 0.04),
-    "WEAVE": Texture(weave, 16, 0.9, 0.010),
+    "WEAVE": Texture(weave, 16, 0.9, 0.010, 64),
     "PLANKS": Texture(planks, 8, 0.55, 0.006),
     "HEXAGONS": Texture(hexagons, 7, 0.18, 0.006),
 }

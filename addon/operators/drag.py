@@ -157,7 +157,8 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
     def _said(self):
         done = [part.tiling for part in self._session.mapped.tiled]
         added = max(made.added_distortion for made in done)
-        return f"added distortion {added:.4f}, density 95 : 5 % = {max(made.density_ratio for made in done):.3g}"
+        ratio = max(made.density_ratio for made in done)
+        return f"stretch that whole tiles add: {added:.4f}, density 95 : 5 % = {ratio:.3g}"
 
     def _keep(self, context):
         """What was asked for last is waited for."""

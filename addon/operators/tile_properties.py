@@ -32,8 +32,8 @@ DIRECTIONS = (
     ("EDGES", "Selected Edges", "Rows run along the selected edges, as far as they can"),
 )
 BOUNDARIES = items(
-    straight="Boundary loops lie along rows of the texture",
-    free="Boundary loops cut through the texture: more even",
+    straight="Borders of holes lie along rows of the texture",
+    free="Borders of holes cut through the texture: more even",
 )
 ABOUT = {
     "tiles": "Tiles of the texture over each object, about: more are smaller, and less is distorted. 0 chooses a "
@@ -94,7 +94,17 @@ class TileProperties(SharedProperties):
 
     def draw_options(self, layout, obj):
         draw_tiling(layout, obj)
+        chosen = chosen_tiles(obj) if self.tiles == 0 else 0
+        if chosen:
+            layout.label(text=f"Tiles: {chosen:,} were chosen")
         super().draw_options(layout, obj)
+
+
+def chosen_tiles(obj):
+    """How many tiles an object or None has."""
+    from ..results import report, stored
+
+    return stored.chosen_tiles(obj.get(report.PROPERTY)) if obj is not None else 0
 
 
 def draw_tiling(layout, obj):

@@ -10,8 +10,9 @@ from ..maps import coarse
 from ..scene import uv_maps
 from . import report, stored
 
+NAMED = 4  # parts that a message numbers
 MERGE = "Mesh > Merge > By Distance"
-OVERLAPS = "overlaps itself: UV > Select Overlap shows where"
+OVERLAP = "UV > Select Overlap shows where"
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
 
@@ -40,9 +41,10 @@ class Outcome:
         self.done.append(obj.name)
         self.entries.append(entry)
         self.forms = max(self.forms, made.solved.form_count)
-        self.problems += _problems(obj, made)
         self.judge(obj, entry)
-        self.notes += _cut_notes(obj, made.solved.surface)
+        self.problems += _problems(obj, made)
+        if len(made.solved.surface.repairs.joined_vertices):
+            self.notes.append(f"{obj.name}: most faces are apart, and were joined for the maps; {MERGE} joins them")
         if target.polygons.faces is None:
             self.notes += _modifier_notes(obj, made.solved)
         extra = sum(w.kind == "attribute" for w in written)
@@ -53,38 +55,51 @@ class Outcome:
 
     def judge(self, obj, entry):
         """Adds the verdict on an object's map: among the problems where no texture can be put on."""
-        found = stored.verdict(entry)
-        (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {found.text}")
-        for index, part in enumerate(entry["components"], 1):
-            if part["done"] and (part["main_map"]["overlapping_part"] or 0.0) > native.load().verdicts.OVERLAPPING[0]:
-                self.problems.append(f"{obj.name}: island {index} {OVERLAPS}")
+        found, whole = stored.verdict(entry), entry["whole"]["text"]
+        told = f"{whole}. {found.text}" if whole else found.text
+        (self.notes if found.is_fit else self.problems).append(f"{obj.name}: {told}")
+        limit = native.load().verdicts.OVERLAPPING[0]
+        overlapping = [
+            str(index)
+            for index, part in enumerate(entry["components"], 1)
+            if part["done"] and (part["main_map"]["overlapping_part"] or 0.0) > limit
+        ]
+        if overlapping:
+            which = _numbered("island", overlapping)
+            which += " overlaps itself" if len(overlapping) == 1 else " overlap themselves"
+            self.problems.append(f"{obj.name}: {which}: {OVERLAP}")
         count = entry["faces_without_area"]
         if count:
             self.problems.append(f"{obj.name}: {count} faces are too small in the map for Blender's single precision")
 
 
 def _problems(obj, made):
-    """What was not done, or not as it was chosen; the parts that are no surface."""
-    count = len(made.parts)
+    """What was not done, or not as it was chosen; the parts that are no surface. One sentence for each reason."""
+    told = {}
     for index, part in enumerate(made.parts, 1):
-        which = "" if count == 1 else f"part {index} of {count} "
-        told = {"skipped": part.skipped, "made without your choice": part.component.note}
-        told["not seamless"] = part.not_seamless
-        yield from (f"{obj.name}: {which}{what}: {why}" for what, why in told.items() if why)
+        reasons = {"skipped": part.skipped, "made without your choice": part.component.note}
+        reasons["not seamless"] = part.not_seamless
+        for what, why in reasons.items():
+            if why:
+                told.setdefault((what, why), []).append(str(index))
+    for (what, why), indices in told.items():
+        which = "" if len(made.parts) == 1 else f"{_numbered('part', indices)} of {len(made.parts)} "
+        yield f"{obj.name}: {which}{what}: {why}"
+    left = {}
     for refused in made.solved.surface.refused:
-        yield f"{obj.name}: {_faces(len(refused.faces))} left out: {native.sentence(refused.reason)}"
+        left.setdefault(native.sentence(refused.reason), []).append(len(refused.faces))
+    yield from (f"{obj.name}: {_faces(sum(counts))} left out: {reason}" for reason, counts in left.items())
+
+
+def _numbered(noun, indices):
+    """Such as "part 3", "parts 1, 4", "30 parts"."""
+    if len(indices) > NAMED:
+        return f"{len(indices)} {noun}s"
+    return f"{noun}{'s' * (len(indices) > 1)} {', '.join(indices)}"
 
 
 def _faces(count):
     return "1 face" if count == 1 else f"{count:,} faces"
-
-
-def _cut_notes(obj, surface):
-    """One sentence for each reason for which the mesh was cut for its maps, and one where it was joined."""
-    yield from (f"{obj.name}: {cut.sentence}" for cut in surface.repairs.cuts)
-    joined = len(surface.repairs.joined_vertices)
-    if joined:
-        yield f"{obj.name}: most faces are apart: {joined:,} vertices were joined for the maps; {MERGE} joins them"
 
 
 def _modifier_notes(obj, solved):

@@ -8,7 +8,7 @@ import bpy
 
 from .. import native
 from ..maps.options import TILING
-from ..scene import faces
+from ..scene import faces, mesh_io
 
 PROPERTY = "holomorph_report"
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
@@ -20,12 +20,15 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
     """One object: its maps as written, the options with which they were, and the report of each part."""
     package, solved = native.load().report, made.solved
     parts = [_part_report(part) for part in made.parts]
+    parts += [package.refused_report(refused) for refused in solved.surface.refused]
+    repairs = faces.repairs(solved)
     dials = asdict(made.options)
     asked = dials.pop("tiling")
     del asked["allowed"]  # a vertex group of the object says it
     entry = {
         "object": obj.name,
         "mesh": obj.data.name,
+        "shape_key": mesh_io.shape_key(obj.data),
         "vertices": len(solved.polygons.vertices),
         "faces": solved.polygons.face_count,
         "is_selection": solved.polygons.faces is not None,
@@ -33,10 +36,10 @@ def object_report(obj, made, written=(), new_seams=0, write_options=None):
         "maps": [{"name": w.name, "stored_as": w.kind} for w in written],
         "dials": dials | (asdict(write_options) if write_options else {}),
         "seams_added": new_seams,
-        "verdict": package.overall_report(parts),
-        "repairs": package.repairs_report(faces.repairs(solved)),
+        **package.whole_report(made.part_maps, parts, repairs),
+        "repairs": package.repairs_report(repairs),
         "seconds": solved.seconds,
-        "components": parts + [package.refused_report(refused) for refused in solved.surface.refused],
+        "components": parts,
     }
     return entry | ({"asked": asked} if made.options.main == TILING else {})
 

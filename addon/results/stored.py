@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import native
 from ..maps.options import TileOptions
+from ..scene import mesh_io
 
 SUMMARISED = 8  # parts that a panel shows
 SHOWN_PERIODS = 4  # likewise, of each part
@@ -30,6 +31,11 @@ def parsed(stored):
 def tilings(stored):
     """Of the parts that have one."""
     return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
+
+
+def chosen_tiles(stored):
+    """How many tiles all tilings have that a report tells of, a whole number; 0 without a tiling."""
+    return round(sum(tiling["tiles"] for tiling in tilings(stored)))
 
 
 def marks(stored):
@@ -54,6 +60,23 @@ def verdict(entry):
     """The package's `Verdict` on an object or a part in a report; None where there is none."""
     found = entry.get("verdict")
     return native.load().Verdict(**found) if found else None
+
+
+def whole(entry):
+    """What is said of a whole object before details: kinds of maps, what was left out, cut and joined; "" for one part
+    of which there is nothing to say."""
+    text = entry["whole"]["text"]
+    return text[:1].upper() + text[1:]
+
+
+def is_joined(entry):
+    """Whether vertices at one place were joined for the maps, and the mesh still has them apart."""
+    return entry["repairs"]["joined_vertices"]["count"] > 0
+
+
+def is_edited(entry, mesh):
+    """Whether a mesh is another than when its report was made."""
+    return entry.get("shape_key") not in (None, mesh_io.shape_key(mesh))
 
 
 @functools.lru_cache(maxsize=16)
@@ -114,7 +137,7 @@ def _sentence(part):
 
 
 def _tiling_lines(tiling):
-    yield f"added distortion {tiling['added_distortion']:.4f}"
+    yield f"stretch that whole tiles add: {tiling['added_distortion']:.4f}"
     yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
     yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
     if tiling["periods"]:

@@ -116,5 +116,6 @@ def _look(made, options, is_tiling):
         cells *= max(1, round(options.checker_scale / cells))
         return material.Look(options.texture, cells, made.unit_length, is_tiling=True)
     plain = made.of_forms()
-    cells = options.checker_scale or forms.squares_that_fit(plain.part_maps, made.options.arrangement)
+    across, arrangement = material.across(options.texture), made.options.arrangement
+    cells = options.checker_scale or forms.squares_that_fit(plain.part_maps, arrangement, across)
     return material.Look(options.texture, cells, plain.unit_length)

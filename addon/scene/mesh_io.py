@@ -5,6 +5,7 @@ Positions are double precision on our side and float32 on Blender's. Corners are
 the polygons, which before Blender 4.0 need not be the order of the mesh's loops.
 """
 
+import zlib
 from dataclasses import dataclass
 
 import bmesh
@@ -13,6 +14,9 @@ import numpy as np
 
 from .. import compatibility, native
 from ..compatibility import Values
+
+KEYED = 100_000  # vertices up to which all positions are in a key: a panel makes one whenever it is drawn
+SAMPLED = 1000  # vertices of a larger mesh that are
 
 
 @dataclass(eq=False)
@@ -104,6 +108,16 @@ def read_polygons(mesh, linear):
         loops = np.repeat(starts - offsets[:-1], sizes) + np.arange(offsets[-1], dtype=np.int32)
         corner_vertices = corner_vertices[loops]
     return Polygons(vertices, corner_vertices, offsets, loops)
+
+
+def shape_key(mesh):
+    """A number that changes when the mesh is edited: out of its counts and positions."""
+    counts = [len(mesh.vertices), len(mesh.edges), len(mesh.polygons), len(mesh.loops)]
+    if counts[0] <= KEYED:
+        positions = read_values(compatibility.position_values(mesh))
+    else:
+        positions = np.array([mesh.vertices[i].co for i in range(0, counts[0], counts[0] // SAMPLED)], np.float32)
+    return zlib.crc32(positions.tobytes(), zlib.crc32(np.array(counts).tobytes()))
 
 
 def write_face_values(mesh, name, values):

@@ -11,7 +11,7 @@ from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
 from .compare_command import compare
 from .map_choice import MAIN_MAPS
-from .report import overall_report, repairs_report
+from .report import repairs_report, whole_report
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 
@@ -79,14 +79,14 @@ def mapped(options):
     main = options.main or ("automatic" if options.output else "balanced")
     recipe = Recipe(Maps(main=main, solver=options.solver))
     parts = mapping.map_parts(surface, recipe, threads=options.threads)
-    reports = [part.report for part in parts]
+    reports = [part.report for part in parts] + mapping.refused_reports(surface)
     report = {
         "holomorph": __version__,
         "mesh": str(options.mesh),
         "faces": len(surface.face_offsets) - 1,
-        "verdict": overall_report(reports),
+        **whole_report([part.map for part in parts if part.map], reports, surface.repairs),
         "repairs": repairs_report(surface.repairs),
-        "components": reports + mapping.refused_reports(surface),
+        "components": reports,
     }
     _write(report, options)
     if options.output and report["verdict"]:

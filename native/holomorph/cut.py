@@ -38,7 +38,9 @@ def cut_along(structure: AStructure, edges: ArrayLike) -> AStructure:
     if isinstance(structure, PlaneMap):
         return structure
     if isinstance(structure, TruncatedStructure):
-        raise TopologyError("the mesh is too coarse for a cut of your own: its poles' stars meet; subdivide it")
+        raise TopologyError(
+            "the mesh is too coarse for a cut of your own: the faces around its poles meet; subdivide it"
+        )
     made = replace(structure, _solution=Solution(structure._native.cut_along(cut.tolist(), labels)))
     return made.computed_by(partial(_computed_cut, structure._solution.compute, given.copy()))
 

@@ -1,9 +1,11 @@
 """The distortion of UV maps."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from .array_types import Flags, Reals
@@ -11,6 +13,7 @@ from .value import Value
 from .verdicts import LONG, UNSEEN, Verdict, verdict
 
 MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
+RANGE = (0.05, 0.95)  # parts of the area, of the density ratio
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -113,3 +116,24 @@ class Quality(Value):
         a, b, c = self._sides.T
         areas = np.sqrt(np.maximum((c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)), 0.0)) / 4
         return areas if areas.any() else np.ones_like(areas)
+
+
+def joined(qualities: Sequence[Quality], densities: ArrayLike) -> tuple[float, float]:
+    """(`capped_mean_angle`, `density_ratio`) over all triangles of several maps.
+
+    densities : (n,) to which the maps are scaled: the median of each
+    """
+    if len(qualities) == 1:
+        return qualities[0].capped_mean_angle, qualities[0].density_ratio
+    weights = [quality._weights for quality in qualities]
+    angle = np.average([each.capped_mean_angle for each in qualities], weights=[each.sum() for each in weights])
+    scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in zip(qualities, densities)]
+    density = np.concatenate([each.area * scale for each, scale in zip(qualities, scales)])
+    low, high = _quantiles(density, np.concatenate(weights), RANGE)
+    return float(angle), float(high / low) if low > 0 else np.inf
+
+
+def _quantiles(values, weights, parts):
+    order = np.argsort(values, kind="stable")
+    below = np.cumsum(weights[order])
+    return values[order[np.searchsorted(below, np.array(parts) * below[-1])]]

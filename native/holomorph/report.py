@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 
 from .form_structure import CertifiedStructure
 from .plain_data import plain
-from .verdicts import Verdict, overall
+from .verdicts import Verdict
+from .whole import whole
 
 if TYPE_CHECKING:
     from .automatic_structure import AnyStructure
@@ -103,11 +104,13 @@ def map_report(coefficients: ArrayLike, quality: "Quality", found: Verdict | Non
     )
 
 
-def overall_report(parts: Sequence[dict[str, Any]]) -> dict[str, Any] | None:
-    """The `overall` verdict on a mesh out of its components' reports; None where none is done."""
-    done = sorted((part for part in parts if part["done"]), key=lambda part: -part["faces"])
-    found = [Verdict(**part["main_map"]["verdict"]) for part in done]
-    return vars(overall(found)) if found else None
+def whole_report(maps: Sequence["Map"], parts: Sequence[dict[str, Any]], repairs: "Repairs") -> dict[str, Any]:
+    """`verdict` and `whole` of a mesh, as `whole.whole` takes what it is made of; both are None without a map."""
+    found = whole(maps, parts, repairs)
+    if found is None:
+        return {"verdict": None, "whole": None}
+    figures = {name: value for name, value in vars(found).items() if name != "verdict"}
+    return plain({"verdict": vars(found.verdict), "whole": figures})
 
 
 def repairs_report(repairs: "Repairs") -> dict[str, Any]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 if TYPE_CHECKING:
     from .quality import Quality
@@ -17,6 +18,8 @@ UNEVEN = (10.0, 40.0, 1000.0)  # 95 : 5 % ratio of the density, in area
 SHEARED = (1.15, 1.4, 2.5)  # mean s1 / s2, each at most `quality.MOST_SHEARED`
 UNSEEN = 0.3  # mean s1 / s2 that evening may add unseen at evenness 1: it is spread out, and squares have one size
 LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
+SMALL_PART = 0.01  # of the area of all parts: worse maps of less do not decide
+SAME_SIZE = 1.1  # largest over smallest median density of parts that is not seen
 OVERLAPPING = (1e-6, 1e-6, 0.2)  # part of an island that covers itself; less is rounding, none is fair
 
 EVENNESS = ("even", "fairly even", "uneven", "very uneven")
@@ -84,14 +87,39 @@ def verdict(quality: "Quality", poles: int | None = None, added_distortion: floa
     return Verdict(LEVELS[worst], _sentence(quality, poles, ranks), "; ".join(decisive or more_exact))
 
 
-def overall(verdicts: Sequence[Verdict]) -> Verdict:
-    """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level."""
-    worst = max(verdicts, key=lambda each: each.rank)
-    count = sum(each.rank == worst.rank for each in verdicts)
-    sentence = worst.sentence
-    if count < len(verdicts):
-        sentence = f"{count} of {len(verdicts)} parts {'is' if count == 1 else 'are'} {worst.level}: {_lower(sentence)}"
-    return Verdict(worst.level, sentence, worst.advice)
+def overall(
+    verdicts: Sequence[Verdict], areas: ArrayLike | None = None, *, sizes: float = 1.0, unmapped: float = 0.0
+) -> Verdict:
+    """The `Verdict` on a mesh: that of its worst part, the first of several, and how many parts are on its level.
+
+    areas : (n,) of the parts, equal by default. Worse parts that have less than `SMALL_PART` of the area together are
+        named, and do not decide
+    sizes : largest over smallest median density of the parts; from `SAME_SIZE` on no texture fits all parts
+    unmapped : part of the faces that has no map, to which the limits `LOST` apply
+    """
+    areas = np.ones(len(verdicts)) if areas is None else np.asarray(areas, float)
+    ranks = np.array([each.rank for each in verdicts])
+    rank = next(r for r in np.unique(ranks)[::-1] if areas[ranks >= r].sum() >= SMALL_PART * areas.sum())
+    first = verdicts[int(np.argmax(ranks == rank))]
+    found = [(rank, _on_parts(first, ranks, rank), first.advice)]
+    if unmapped:
+        found.append((_rank(unmapped, LOST), f"{_percent(unmapped)} of the faces have no map", ""))
+    if sizes > SAME_SIZE:
+        told = f"squares of parts differ by a factor of {_factor(math.sqrt(sizes))}"
+        found.append((LEVELS.index("poor"), told, "ask for more tiles"))
+    if ranks.max() > rank:
+        count = int(np.count_nonzero(ranks > rank))
+        found.append((rank, f"{count} small part{'s are' if count > 1 else ' is'} {LEVELS[ranks.max()]}", ""))
+    levels, words, advice = zip(*found)
+    return Verdict(LEVELS[max(levels)], "; ".join(words), "; ".join(filter(None, advice)))
+
+
+def _on_parts(chosen, ranks, rank):
+    """The sentence of a verdict, and on how many parts of several it is so."""
+    count = int(np.count_nonzero(ranks == rank))
+    if count == np.count_nonzero(ranks <= rank):
+        return chosen.sentence
+    return f"{count} of {len(ranks)} parts {'is' if count == 1 else 'are'} {LEVELS[rank]}: {_lower(chosen.sentence)}"
 
 
 def _rank(value, limits):

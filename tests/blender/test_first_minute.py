@@ -18,10 +18,11 @@ class Drawn:
     """A layout that notes what is drawn in it."""
 
     def __init__(self):
-        self.texts, self.buttons = [], []
+        self.texts, self.buttons, self.icons = [], [], []
 
     def label(self, text="", icon="NONE"):
         self.texts.append(text)
+        self.icons.append(icon)
 
     def operator(self, name, text="", icon="NONE"):
         self.buttons.append(text or name)
@@ -33,12 +34,14 @@ class Drawn:
     row = column = split = box
 
 
-def drawn(obj, width=220):
+def drawn(obj, width=220, is_edited=False):
     """Drawn in a region of so many pixels."""
     style = SimpleNamespace(widget=SimpleNamespace(points=11))
     preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
     layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
-    verdict_view.draw(layout, context, obj["holomorph_report"], "uv.holomorphic_tile", "uv.holomorphic_islands")
+    verdict_view.draw(
+        layout, context, obj["holomorph_report"], "uv.holomorphic_tile", "uv.holomorphic_islands", is_edited
+    )
     return layout
 
 
@@ -149,6 +152,66 @@ def test_an_even_map_is_called_so_in_a_line():
     assert layout.texts[layout.texts.index("Flipped triangles") + 1] == str(flipped)
 
 
+def is_marked_as_edited(obj):
+    stored = module("results.stored")
+    return stored.is_edited(stored.parsed(obj["holomorph_report"]), obj.data)
+
+
+@pytest.mark.parametrize("edit", ["move", "delete"])
+def test_after_an_edit_the_verdict_is_marked_as_of_before(edit):
+    obj = torus()
+    run(main="SEAMLESS")
+    assert not is_marked_as_edited(obj)
+    edited = bmesh.new()
+    edited.from_mesh(obj.data)
+    edited.faces.ensure_lookup_table()
+    if edit == "move":
+        edited.faces[5].verts[0].co.x += 0.1
+    else:
+        bmesh.ops.delete(edited, geom=edited.faces[:1], context="FACES")
+    edited.to_mesh(obj.data)
+    edited.free()
+    assert is_marked_as_edited(obj)
+    layout = drawn(obj, is_edited=True)
+    assert layout.texts[0].startswith("Before the") and "CHECKMARK" not in layout.icons
+
+
+def test_the_kinds_of_parts_are_the_first_line():
+    vertices, faces = sphere_arrays(4)
+    count = len(vertices)
+    flat = [(5, 0, 0), (6, 0, 0), (6, 1, 0), (5, 1, 0)]
+    obj = mesh_object("Two", [*map(tuple, vertices), *flat], [*faces, tuple(range(count, count + 4))])
+    run(main="AUTOMATIC")
+    kinds = [part["main_map"]["kind"] for part in stored_report(obj)["components"]]
+    assert len(set(kinds)) == 2
+    first = drawn(obj, 1000).texts[0]
+    assert first.startswith("2 parts: 1 ") and "1 flat" in first
+
+
+def test_vertices_that_were_joined_are_offered_to_be_merged():
+    vertices, faces = sphere_arrays(4)
+    assert not drawn_after_run(mesh_object("Whole", vertices, faces)).buttons
+    corners = np.concatenate([list(face) for face in faces])
+    ends = np.cumsum([len(face) for face in faces])
+    apart = [tuple(range(end - len(face), end)) for face, end in zip(faces, ends)]
+    layout = drawn_after_run(mesh_object("Apart", np.array(vertices)[corners], apart))
+    assert layout.buttons[0] == "Merge by Distance" and "vertices joined" in layout.texts[0]
+
+
+def drawn_after_run(obj):
+    select(obj)
+    run(main="AUTOMATIC")
+    return drawn(obj, 1000)
+
+
+def test_warnings_of_one_kind_are_one_line():
+    parts = [SimpleNamespace(skipped="no room", component=SimpleNamespace(note=""), not_seamless="")] * 239
+    surface = SimpleNamespace(refused=[SimpleNamespace(faces=[1], reason="without area")] * 7)
+    made = SimpleNamespace(parts=parts, solved=SimpleNamespace(surface=surface))
+    told = list(module("results.outcome")._problems(SimpleNamespace(name="Kit"), made))
+    assert told == ["Kit: 239 parts of 239 skipped: no room", "Kit: 7 faces left out: without area"]
+
+
 def test_lines_are_broken_where_they_do_not_fit():
     def is_fit(text):
         return len(text) <= 12
@@ -166,6 +229,7 @@ def test_lines_are_broken_where_they_do_not_fit():
 def test_a_poor_map_is_a_warning(level, told):
     outcome = module("results.outcome").Outcome()
     entry = {"verdict": {"level": level, "sentence": "Even", "advice": ""}, "components": [], "faces_without_area": 0}
+    entry["whole"] = {"text": ""}
     outcome.judge(SimpleNamespace(name="Ring"), entry)
     assert (outcome.problems, outcome.notes) == told
 

@@ -204,3 +204,17 @@ def test_nodes_that_the_user_has_rebuilt_stay():
     assert run(texture="BRICKS", checker_scale=16) == {"FINISHED"}
     assert [n.type for n in tree.nodes] == ["EMISSION"]
     assert uv_maps.MAIN_MAP in obj.data.uv_layers
+
+
+def test_fewer_bricks_than_squares_span_an_object():
+    obj = torus()
+    material = module("materials.material")
+    counts = {}
+    for texture in ("CHECKER", "BRICKS"):
+        run(main="BALANCED", texture=texture)
+        counts[texture] = material.across(texture)
+    assert counts["BRICKS"] < counts["CHECKER"]
+    bricks = nodes(obj)["Repeats"].outputs[0].default_value * material.cells("BRICKS")
+    run(main="BALANCED", texture="WEAVE")
+    threads = nodes(obj)["Repeats"].outputs[0].default_value * material.cells("WEAVE")
+    assert threads > 2 * bricks

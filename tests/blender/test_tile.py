@@ -291,7 +291,7 @@ def test_what_no_tiling_fits_gets_another_map():
 def test_an_object_that_is_refused_stays_as_it_was(calls):
     obj = two_parts("Spheres", sphere_arrays(), sphere_arrays())
     before = everything(obj)
-    with pytest.raises(RuntimeError, match="part 1 of 2 skipped: there is room for . poles"):
+    with pytest.raises(RuntimeError, match="parts 1, 2 of 2 skipped: there is room for . poles"):
         tile(poles="COUNT", pole_count=6)
     assert everything(obj) == before
 
@@ -307,6 +307,14 @@ def test_report_and_panel_begin_with_words(calls):
     lines = [line.strip() for line in module("results.stored").summary(obj["holomorph_report"])]
     assert lines[:3] == ["1 map", "Part 1: genus 1", verdict]
     assert json.loads(bpy.data.texts["Holomorphic Report"].as_string())["objects"] == [stored_report(obj)]
+
+
+def test_the_number_of_tiles_that_was_chosen_is_told(calls):
+    obj = torus()
+    tile(tiles=0)
+    (tiling,) = [part["tiling"] for part in stored_report(obj)["components"]]
+    assert stored_text.chosen_tiles(obj["holomorph_report"]) == round(tiling["tiles"]) > 0
+    assert stored_text.chosen_tiles("") == 0
 
 
 @pytest.mark.parametrize("stored", ["", "{", "[]", "null", '{"components": []}', '{"components": [{"genus": 1}]}'])

@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 import families
 import numpy as np
 import pytest
-from holomorph import Surface, automatic_structure, overall, verdict
+from holomorph import Surface, automatic_structure, form_map, overall, verdict
 from holomorph.__main__ import main
+from holomorph.report import part_report, whole_report
 from holomorph.verdicts import LEVELS, LOST, OVERLAPPING, SHEARED, UNEVEN
-from solved import solved
+from solved import solved, surface_of
 from test_read import obj
 
 POINTS, TRIANGLES = families.hexagonal_disk(6)
@@ -167,6 +168,57 @@ def test_the_worst_part_decides():
     assert found.level == "poor" and found.advice == poor.advice
     assert found.sentence == "1 of 3 parts is poor: uneven (squares of 1 to 15)"
     assert overall([good, poor, poor]).sentence.startswith("2 of 3 parts are poor: uneven")
+
+
+def test_a_part_without_a_hundredth_of_the_area_is_named_and_does_not_decide():
+    good, poor = verdict(Measured()), verdict(Measured(density_ratio=225))
+    found = overall([good, poor], [1000, 1])
+    assert found.level == "good" and found.sentence == "Even; 1 small part is poor"
+    assert overall([good, poor], [1000, 100]).level == "poor"
+    assert overall([good] + [poor] * 20, [1000] + [1] * 20).level == "poor"  # together they have enough
+
+
+@pytest.mark.parametrize(
+    ("told", "level"),
+    [
+        ({"sizes": 1.05}, "good"),
+        ({"sizes": 4}, "poor"),
+        ({"unmapped": 0.001}, "good"),
+        ({"unmapped": 0.99}, "unusable"),
+    ],
+)
+def test_the_whole_counts(told, level):
+    good = verdict(Measured())
+    found = overall([good, good], **told)
+    assert found.level == level
+    assert ("factor of 2" in found.sentence) == (told.get("sizes") == 4)
+    assert ("no map" in found.sentence) == ("unmapped" in told)
+
+
+def two_sizes(scale):
+    """Two tori of which one is `scale` times as large."""
+    mesh = families.torus(24, 12)
+    return families.united(mesh, replace(mesh, vertices=mesh.vertices * scale + 10))
+
+
+def test_figures_of_several_parts_are_those_of_all_faces():
+    surface = surface_of(two_sizes(3.0))
+    parts = surface.components
+    maps = [form_map(part, automatic_structure(part)) for part in parts]
+    found = whole_report(maps, [part_report(made) for made in maps], surface.repairs)
+    assert found["whole"]["text"] == "2 parts: 2 cut open" and found["whole"]["sizes"] == 1
+    for name in ("capped_mean_angle", "density_ratio"):
+        assert found["whole"][name] == pytest.approx(getattr(maps[0].quality, name), rel=1e-6)
+
+
+def test_faces_left_out_count():
+    surface = surface_of(families.torus(9, 6))
+    made = form_map(surface, automatic_structure(surface))
+    parts = [part_report(made), {"done": False, "faces": 500, "reason": "its coordinates are not finite"}]
+    found = whole_report([made], parts, surface.repairs)
+    assert found["verdict"]["level"] == "unusable" and "no map" in found["verdict"]["sentence"]
+    assert found["whole"]["text"] == "500 faces left out" and found["whole"]["unmapped_faces"] == 500
+    assert whole_report([], parts[1:], surface.repairs) == {"verdict": None, "whole": None}
 
 
 # ---- the command ----------------------------------------------------------------------------------------------------

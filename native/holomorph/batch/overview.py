@@ -36,11 +36,11 @@ class Overview:
         self._journal.write("index.html", TEMPLATE.read_text(encoding="utf-8").replace(PLACE, entries).encode())
 
     def _entry(self, asset):
-        """What the page shows of an asset: the worst of its parts."""
+        """What the page shows of an asset as a whole."""
         task, record, report = asset
         parts = [part for part in report.get("components", []) if part["done"]]
         reasons = [part["reason"] for part in report.get("components", []) if not part["done"]]
-        picture = task.folder / "picture.png"
+        whole, picture = report.get("whole") or {}, task.folder / "picture.png"
         return {
             "name": task.name,
             "status": record["status"],
@@ -51,8 +51,8 @@ class Overview:
             "done": len(parts),
             "genus": [part["genus"] for part in parts],
             "loops": [part["boundary_count"] for part in parts],
-            "density": _worst(parts, "density_ratio"),
-            "angle": _worst(parts, "mean_angle"),
+            "density": whole.get("density_ratio"),
+            "angle": whole.get("capped_mean_angle"),
             "map": _brief(map(_description, parts)),
             "verdict": (report.get("verdict") or {}).get("level", ""),
             "rank": LEVELS.index(report["verdict"]["level"]) if report.get("verdict") else None,
@@ -80,12 +80,6 @@ def _brief(texts):
     """The first of what is told of several parts; report.json has all."""
     told = list(dict.fromkeys(texts))
     return "; ".join(told[:SHOWN]) + (f"; and {len(told) - SHOWN} more" if len(told) > SHOWN else "")
-
-
-def _worst(parts, name):
-    """The largest of a figure of the parts; null, which stands for infinity, is larger."""
-    figures = [part["main_map"][name] for part in parts]
-    return None if None in figures else max(figures, default=None)
 
 
 def _description(part):

@@ -11,7 +11,7 @@ import numpy as np
 from .. import ProgressiveMesh, Surface, __version__, formats
 from .._native import Error
 from ..conformal_image import conformal_image
-from ..report import overall_report, repairs_report
+from ..report import repairs_report, whole_report
 from . import blend, mapping, picture
 from .recipe import Recipe
 from .status import DONE, REFUSED
@@ -71,13 +71,14 @@ def _mapped(task):
     uv = mapping.main_uv(surface, parts, recipe.maps)
     reports = [part.report for part in parts]
     timings = [report.pop("timings", None) for report in reports]
+    reports += mapping.refused_reports(surface)
     content = {
         "holomorph": __version__,
         "name": task.name,
         "faces": len(surface.face_offsets) - 1,
-        "verdict": overall_report(reports),
+        **whole_report([part.map for part in parts if part.map], reports, surface.repairs),
         "repairs": repairs_report(surface.repairs),
-        "components": reports + mapping.refused_reports(surface),
+        "components": reports,
     }
     up = recipe.output.up or ("Y" if task.path.suffix.lower() == ".obj" else "Z")
     files = {"picture.png": picture.png(surface, uv, _is_mapped(surface, parts), up)}
