@@ -140,9 +140,7 @@ class Structure(Value):
         ------
         TopologyError
             poles that do not fit; fewer tiles than the surface needs (names how many are enough); more added distortion
-            than `max_added` (names what can be had)
-
-        Cost: the poles are kept, so that another call with other tiles, lattice or direction is quick.
+            than `max_added` (names what can be had). Poles are kept: a call with other tiles is quick
         """
         evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)
