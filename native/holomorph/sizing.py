@@ -14,7 +14,8 @@ from .tiling import Poles
 
 Refusal = InvalidMesh | TopologyError | SolverError  # what is said about one part, others go on
 
-SAME_SIZE = 0.045  # relative difference of a median density from the wanted one, so that parts differ by a tenth
+SAME_SIZE = 0.045  # relative difference of a median density from the wanted one, until which other numbers are tried
+LIKE_SIZE = 0.1  # and up to which a tiling stays one: without whole tiles a seam would show
 TRIES = 3  # numbers of tiles, until the median density is the wanted one
 TOO_FEW = "whole tiles are too few on it for squares of the size of the other parts"
 
@@ -36,12 +37,12 @@ class Sizing:
         return self._moved(_nearest(tilings, density), tries, progress) if tilings else other
 
     def at(self, density: float, progress: Progress | None) -> Map | Refusal:
-        """The map whose median density is within `SAME_SIZE` of this one where it is a tiling. What is asked for in so
+        """The map whose median density is within `LIKE_SIZE` of this one where it is a tiling. What is asked for in so
         many words, such as poles that are chosen or moved, is made with another density, or refused."""
         tilings, other = self._tried(density, TRIES, progress)
         if tilings:
             made = _nearest(tilings, density)
-            fits = abs(_excess(made, density)) <= SAME_SIZE or self._is_strict
+            fits = abs(_excess(made, density)) <= LIKE_SIZE or self._is_strict
             return self._moved(made, TRIES, progress) if fits else self.undecided.untiled(TOO_FEW, made.tiling)
         return other if isinstance(other, Map) or self._is_strict else self.undecided.untiled(str(other))
 

@@ -84,6 +84,7 @@ EXAMPLES = {
     "DiskMap": lambda: disk_map(disk(), int(np.abs(disk().vertices).sum(axis=1).argmin())),
     "automatic structure": lambda: automatic_structure(disk()),
     "cut": lambda: cut_along(conformal_structure(surface_of(CLOSED["torus of quads"])), both_loops()),
+    "Islands": lambda: holomorph.island_map(surface_of(families.cube())),
     "Map": lambda: automatic_map(surface_of(CLOSED["torus of quads"])),
     "RectangleMap": lambda: rectangle_map(Surface([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])),
     "FreeBoundaryMap": lambda: free_boundary_map(disk()),
