@@ -100,10 +100,11 @@ def test_what_is_asked_of_the_library(calls):
     tile()
     plain = dict(
         tiles=100, poles="auto", lattice="square", direction=None, turn=None, boundary="straight", allowed=None
-    ) | dict(max_turn=0.2, max_added=None, evenness=0.5)
+    ) | dict(max_turn=0.2, max_added=None, size_counts=False, evenness=0.5)
     assert calls == [plain | dict(direction="upright")]
     tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", turn=0.25, direction="NONE")
-    assert calls[1:] == [plain | dict(tiles=120.0, poles=3, lattice="hex", boundary="free", turn=0.25)]
+    chosen = dict(tiles=120.0, poles=3, lattice="hex", boundary="free", turn=0.25, size_counts=True)
+    assert calls[1] == plain | chosen  # other numbers are tried until that many tiles are there
 
 
 def risen(obj):
