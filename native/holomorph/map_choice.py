@@ -62,10 +62,13 @@ def first_map(surface, structure, main, evenness, threads, progress):
 
 
 def _flat_islands(surface, evenness, threads, progress):
-    """None where there are none, or they collapse."""
+    """None where there are none, or they collapse, as where all faces lie on lines."""
     if surface.vertices is None or surface.area == 0:
         return None
-    found = island_map(surface, evenness=evenness, threads=threads or 0, progress=progress)
+    try:
+        found = island_map(surface, evenness=evenness, threads=threads or 0, progress=progress)
+    except REFUSALS:
+        return None  # another map may be made
     return found if found and math.isfinite(found.cost) else None
 
 

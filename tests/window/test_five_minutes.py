@@ -26,9 +26,9 @@ def test_what_is_no_mesh_is_left_alone(seen):
     assert seen["figure"] is None and seen["text"] is None
 
 
-def test_a_mesh_too_coarse_for_a_tiling_is_told_so(seen):
-    """Of eight vertices."""
-    assert "subdivide the mesh" in seen["cube tiled: told"]
+def test_a_mesh_too_coarse_for_a_tiling_gets_another_map(seen):
+    """Of eight vertices: its net."""
+    assert seen["cube tiled"]["level"] == "good" and "cube tiled: told" not in seen
 
 
 @pytest.mark.parametrize("step", PICTURES)
