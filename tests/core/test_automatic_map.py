@@ -146,13 +146,15 @@ def test_the_best_other_map_is_no_tiling(name):
         assert found.tiling is None and found.evenness == automatic.EVENNESS and math.isfinite(found.quality.mean_angle)
 
 
-def test_a_part_whose_faces_all_lie_on_lines_has_no_islands():
-    """Its area is rounding alone."""
-    points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 1e-13, 0], [5, 0, 0], [6, 0, 0], [5, 1, 0]]
-    corners, offsets = np.array([0, 1, 2, 1, 3, 2, 4, 5, 6]), np.array([0, 3, 6, 9])
-    needles, triangle = holomorph.Surface.from_polygons(np.array(points), corners, offsets, strict=False).components
-    assert automatic._flat_islands(needles, 0.5, None, None) is None
-    assert automatic._flat_islands(triangle, 0.5, None, None).quality.density_ratio == pytest.approx(1)
+def test_a_part_whose_islands_are_refused_gets_another_map(monkeypatch):
+    """As where a piece has no area: the needles that a skin is closed with."""
+
+    def refuse(*_arguments, **_options):
+        raise holomorph.InvalidMesh("all faces have zero area")
+
+    monkeypatch.setattr(automatic, "island_map", refuse)
+    for main in ("automatic", "untiled"):
+        assert holomorph.automatic_map(surface_of(cylinder(16, 24)), main=main).islands is None
 
 
 def test_kinds():
