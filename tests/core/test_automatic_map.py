@@ -153,8 +153,8 @@ def test_a_part_whose_islands_are_refused_gets_another_map(monkeypatch):
         raise holomorph.InvalidMesh("all faces have zero area")
 
     monkeypatch.setattr(automatic, "island_map", refuse)
-    for main in ("automatic", "untiled"):
-        assert holomorph.automatic_map(surface_of(cylinder(16, 24)), main=main).islands is None
+    for wanted in ("automatic", "untiled"):
+        assert holomorph.automatic_map(surface_of(cylinder(16, 24)), main=wanted).islands is None
 
 
 def test_kinds():
