@@ -28,9 +28,9 @@ from addon.scene import mesh_io
 
 LARGEST_STRETCH = 10.0
 SAME = 1e-4  # of the UV square: coordinates that differ by less agree in single precision
-LOST = 1e-6  # of the median density: a triangle that is smaller has no map
+LOST = 1e-6  # density over the median: a triangle that is smaller has no map
 EVEN, HARDLY_LESS_EVEN = 3.0, 1.3  # a density ratio that is even, and the factor of another one's that is hardly more
-UNSEEN_SHEAR, HARDLY_MORE_SHEARED = 1.3, 0.1  # of mean s1/s2, where it is spread over the surface
+UNSEEN_SHEAR, HARDLY_MORE_SHEARED = 1.3, 0.1  # mean s1/s2, where it is spread over the surface
 HARDLY_LONGER = 1.01
 UNWRAPS = {"ANGLE_BASED": "angle based", "MINIMUM_STRETCH": "minimum stretch"}
 OTHERS = ("smart", *UNWRAPS.values())

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Repairing a mesh, so that its maps need no cuts: vertices are welded, superfluous elements removed."""
 
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import bmesh
 import numpy as np
+
+from .. import compatibility
+from ..scene import mesh_io
 
 WELD, DOUBLES, INSIDE, LOOSE = "WELD", "DOUBLES", "INSIDE", "LOOSE"
 
@@ -40,55 +44,82 @@ def repair(mesh, kinds, distance):
     kinds : some of WELD, DOUBLES, INSIDE, LOOSE
     distance : below which vertices are welded, in the mesh's own units
     """
+    return Repaired(
+        welded=_weld(mesh, distance) if WELD in kinds else 0,
+        doubles=_remove(mesh, "faces", _doubles(mesh)) if DOUBLES in kinds else 0,
+        inside=_remove(mesh, "faces", _inside(mesh)) if INSIDE in kinds else 0,
+        loose_vertices=_remove(mesh, "verts", _loose_vertices(mesh)) if LOOSE in kinds else 0,
+        loose_edges=_remove(mesh, "edges", _loose_edges(mesh)) if LOOSE in kinds else 0,
+    )
+
+
+@contextmanager
+def _edited(mesh):
+    """Written back where elements are gone."""
     edited = bmesh.new()
     try:
         edited.from_mesh(mesh)
-        done = Repaired(
-            welded=_weld(edited, distance) if WELD in kinds else 0,
-            doubles=_remove_faces(edited, _doubles) if DOUBLES in kinds else 0,
-            inside=_remove_faces(edited, _inside) if INSIDE in kinds else 0,
-            loose_vertices=_remove_loose(edited, edited.verts, "VERTS") if LOOSE in kinds else 0,
-            loose_edges=_remove_loose(edited, edited.edges, "EDGES") if LOOSE in kinds else 0,
-        )
-        if done:
+        before = _counts(edited)
+        yield edited
+        if _counts(edited) != before:
             edited.to_mesh(mesh)
             mesh.update()
-        return done
     finally:
         edited.free()
 
 
-def _weld(edited, distance):
-    before = len(edited.verts)
-    finite = [v for v in edited.verts if all(np.isfinite(v.co))]  # a search among NaNs finds anything
-    bmesh.ops.remove_doubles(edited, verts=finite, dist=distance)
-    return before - len(edited.verts)
+def _counts(edited):
+    return len(edited.verts), len(edited.edges), len(edited.faces)
 
 
-def _remove_faces(edited, chosen):
-    """Removes the faces that `chosen` gives for the mesh, and edges and vertices that only they had."""
-    found = list(chosen(edited))
-    bmesh.ops.delete(edited, geom=found, context="FACES")
+def _weld(mesh, distance):
+    positions = mesh_io.read_values(compatibility.position_values(mesh))
+    is_finite = np.isfinite(positions).all(axis=1)  # a search among NaNs finds anything
+    with _edited(mesh) as edited:
+        edited.verts.ensure_lookup_table()
+        finite = edited.verts[:] if is_finite.all() else [edited.verts[i] for i in np.flatnonzero(is_finite)]
+        bmesh.ops.remove_doubles(edited, verts=finite, dist=distance)
+    return len(positions) - len(mesh.vertices)
+
+
+def _remove(mesh, kind, found):
+    """Removes elements by their indices; of faces also the edges and vertices that only they had."""
+    if len(found):
+        with _edited(mesh) as edited:
+            elements = getattr(edited, kind)
+            elements.ensure_lookup_table()
+            bmesh.ops.delete(edited, geom=[elements[i] for i in found.tolist()], context=kind.upper())
     return len(found)
 
 
-def _doubles(edited):
+def _doubles(mesh):
     """Faces with the vertices of an earlier one."""
-    seen = set()
-    for face in edited.faces:
-        vertices = frozenset(face.verts)
-        if vertices in seen:
-            yield face
-        seen.add(vertices)
+    polygons, found = mesh_io.read_polygons(mesh, np.eye(3)), []
+    sizes = np.diff(polygons.face_offsets)
+    for size in np.unique(sizes):
+        faces = np.flatnonzero(sizes == size)
+        corners = polygons.corner_vertices[polygons.face_offsets[faces][:, None] + np.arange(size)]
+        _, first = np.unique(np.sort(corners, axis=1), axis=0, return_index=True)
+        found.append(np.delete(faces, first))
+    return np.sort(np.concatenate(found))
 
 
-def _inside(edited):
+def _inside(mesh):
     """Faces of which each edge has three faces or more: what "Select Interior Faces" of Blender selects."""
-    return (face for face in edited.faces if all(len(edge.link_faces) > 2 for edge in face.edges))
+    polygons = mesh_io.read_polygons(mesh, np.eye(3))
+    edges = polygons.of_corners(_edges_of_loops(mesh))
+    has_many = np.bincount(edges)[edges] > 2
+    return np.flatnonzero(np.logical_and.reduceat(has_many, polygons.face_offsets[:-1]))
 
 
-def _remove_loose(edited, elements, context):
-    """Removes the vertices or edges of no face."""
-    found = [element for element in elements if not element.link_faces]
-    bmesh.ops.delete(edited, geom=found, context=context)
-    return len(found)
+def _loose_vertices(mesh):
+    used = mesh_io.read_polygons(mesh, np.eye(3)).corner_vertices
+    return np.flatnonzero(np.bincount(used, minlength=len(mesh.vertices)) == 0)
+
+
+def _loose_edges(mesh):
+    return np.flatnonzero(np.bincount(_edges_of_loops(mesh), minlength=len(mesh.edges)) == 0)
+
+
+def _edges_of_loops(mesh):
+    return mesh_io.read_values(compatibility.Values(mesh.loops, "edge_index", np.uint32)).astype(np.int64)

@@ -14,15 +14,15 @@ from .automatic_structure import AnyStructure
 from .copies import Copy, copies
 from .given_vertices import on_part
 from .map import Map
-from .map_choice import EVENNESS, REFUSALS, SOLVING, Undecided, first_map
+from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_map
 from .progress import scaled
 from .side_by_side import side_by_side
-from .sizing import TRIES, Refusal, Sizing
+from .sizing import TRIES, Sizing
 from .surface import Surface
 from .tiling import Poles
 
 LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
-SCALE_DIGITS = 3  # of the logarithm of a copy's scale: parts that differ by less have the same tiles
+SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
 
 def automatic_maps(

@@ -9,7 +9,7 @@ from .array_types import Reals
 from .surface import Surface
 
 SINGLE = 2.0**-22  # rounding of differences of coordinates in single precision, relative to the largest coordinate
-MOST_ROUNDING = 1e-3  # of the mean edge: parts so far from the origin are no longer known to be alike
+MOST_ROUNDING = 1e-3  # over the mean edge: parts so far from the origin are no longer known to be alike
 
 
 @dataclass(frozen=True)

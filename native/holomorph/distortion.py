@@ -66,7 +66,7 @@ def measure(mesh: Polygons, uv: Reals) -> Distortion:
         angle = np.clip(np.nan_to_num(angle, nan=MOST_ANGLE, posinf=MOST_ANGLE), 1, MOST_ANGLE)
         angle = np.where(face_area > 0, np.bincount(polygon, area * angle, count) / face_area, 1)
         density = np.where(face_area > 0, face_uv / face_area, np.nan)
-        low, median, high = _quantiles(density, face_area, (LOW, 0.5, HIGH))
+        low, median, high = quantiles(density, face_area, (LOW, 0.5, HIGH))
         octaves = np.clip(np.nan_to_num(np.log2(density / median), nan=0.0), -MOST_OCTAVES, MOST_OCTAVES)
     kept = angle < MOST_ANGLE
     mean = np.average(angle[kept], weights=face_area[kept]) if face_area[kept].any() else 1.0
@@ -80,7 +80,7 @@ def length_ratio(mesh: Polygons, uv: Reals) -> float:
     points = mesh.vertices[mesh.corner_vertices[corners]], uv.astype(np.float64)[corners]
     area, uv_area = (np.bincount(polygon, _metric(of_kind)[-1], count) for of_kind in points)
     has_area = area > 0
-    (median,) = _quantiles(uv_area[has_area] / area[has_area], area[has_area], (0.5,))
+    (median,) = quantiles(uv_area[has_area] / area[has_area], area[has_area], (0.5,))
     return float(np.sqrt(median))
 
 
@@ -91,9 +91,9 @@ def _metric(points):
     return a, b, c, 0.5 * np.sqrt(np.clip(a * c - b * b, 0, None))
 
 
-def _quantiles(values, weights, shares):
+def quantiles(values, weights, shares):
     """The values below which these shares of the weights lie; 0 where nothing has weight."""
-    order = np.argsort(values)
+    order = np.argsort(values, kind="stable")
     total = np.cumsum(weights[order])
     if not len(total) or total[-1] <= 0:
         return [0.0] * len(shares)

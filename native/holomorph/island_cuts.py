@@ -9,7 +9,7 @@ from .cut_open import cut_open, on_border, paths_to_border
 from .hard_edges import cuts_to_tips
 from .surface import Surface
 
-STRETCHED = 3.0  # factor of lengths, from which on a piece is also tried with cuts to its cone points
+STRETCHED = 2.5  # factor of lengths, from which on a piece is also tried with cuts to its cone points
 
 
 class Cuts:

@@ -12,6 +12,7 @@ from .hard_edges import bends, curvature
 from .island_cuts import Cuts, corner_pieces, in_one_orientation
 from .layout import pack
 from .overlap import overlapping_part
+from .progress import scaled
 from .quality import Quality
 from .surface import Surface
 from .value import Value, counted
@@ -72,7 +73,7 @@ def island_map(
 
     The surface is cut along edges between faces that meet at more than an angle, from tips to these, and until all
     pieces are disks but for small holes. Each is mapped with a free boundary and evened; where lengths change by more
-    than a factor of 3, it is cut open to its cone points too if that looks better, and parted where it lies over
+    than a factor of 2.5, it is cut open to its cone points too if that looks better, and parted where it lies over
     itself. Pieces are turned upright, and those that fit edge to edge are joined: first those that stay upright, longer
     edges first.
 
@@ -86,6 +87,7 @@ def island_map(
 
     Raises Cancelled.
     """
+    progress = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
     given, (surface, order) = surface, in_one_orientation(surface)
     bent, found = bends(surface), None
     first, *_ = angles = HARD if hard_edges is None else (hard_edges,)
@@ -111,7 +113,7 @@ def one_island(surface, tiling):
     size = math.sqrt(tiling.quality.median_density)
     ends = surface.vertices[tiling.seams]
     soft = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() / math.sqrt(surface.area)
-    quality = replace(tiling.quality.of_copy(size), overlapping_part=0.0)
+    quality = tiling.quality.of_copy(size)
     return Islands(arrays.frozen(tiling.uv / size), tiling.seams, 1, float(soft), 0.0, quality, tiling.evenness)
 
 

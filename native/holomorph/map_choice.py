@@ -14,7 +14,8 @@ from .progress import scaled
 from .surface import Surface
 from .value import counted
 
-REFUSALS = (InvalidMesh, TopologyError, SolverError)  # what is said about one part, others go on
+REFUSALS = InvalidMesh, TopologyError, SolverError  # what is said about one part, others go on
+Refusal = InvalidMesh | TopologyError | SolverError
 
 MAIN_MAPS = ("automatic", "seamless", "untiled", "balanced")
 
@@ -49,7 +50,7 @@ def first_map(surface, structure, main, evenness, threads, progress):
         return Undecided(surface, structure, None, evenness=evenness)
     if main == "balanced":
         return form_map(surface, structure, evenness=evenness)
-    flat = _flat_islands(surface, evenness, threads, progress)
+    flat = _flat_islands(surface, evenness, threads, scaled(progress, 1.0, 1.0))
     if flat and _is_taken_at_once(flat, surface):
         return _map_of(flat, surface, structure)
     if main == "untiled":

@@ -18,7 +18,7 @@ class Origin(NamedTuple):
     vertex_index: Integers | None = None
     face_index: Integers | None = None
     corner_index: Integers | None = None
-    vertex_count: int | None = None  # of the mesh; None for that of the surface
+    vertex_count: int | None = None  # the mesh's; None for that of the surface
     cuts: tuple[Cut, ...] = ()
     joined_vertices: Integers = NO_VERTICES
     refused: tuple[Refused, ...] = ()

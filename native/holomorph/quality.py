@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from .array_types import Flags, Reals
+from .distortion import HIGH, LOW, quantiles
 from .value import Value
 from .verdicts import LONG, UNSEEN, Verdict, verdict
 
 MOST_SHEARED = 10.0  # what s1 / s2 counts at most in the capped mean
-RANGE = (0.05, 0.95)  # parts of the area, of the density ratio
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -129,11 +129,5 @@ def joined(qualities: Sequence[Quality], densities: ArrayLike) -> tuple[float, f
     angle = np.average([each.capped_mean_angle for each in qualities], weights=[each.sum() for each in weights])
     scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in zip(qualities, densities)]
     density = np.concatenate([each.area * scale for each, scale in zip(qualities, scales)])
-    low, high = _quantiles(density, np.concatenate(weights), RANGE)
+    low, high = quantiles(density, np.concatenate(weights), (LOW, HIGH))
     return float(angle), float(high / low) if low > 0 else np.inf
-
-
-def _quantiles(values, weights, parts):
-    order = np.argsort(values, kind="stable")
-    below = np.cumsum(weights[order])
-    return values[order[np.searchsorted(below, np.array(parts) * below[-1])]]

@@ -58,7 +58,8 @@ class _Crew:
         with ThreadPoolExecutor(min(threads, len(self._shares))) as pool:
             try:
                 made = {k: pool.submit(self._one, work, k) for k in self._shares}
-                self._watch(made.values())
+                if not self._watch(made.values()):
+                    raise Cancelled("cancelled by the progress function")
             finally:
                 self._goes_on = False  # for those that still work when another has failed
         failed = [k for k in sorted(made) if made[k].exception() is not None]
@@ -66,10 +67,14 @@ class _Crew:
         return {k: made[k].result() for k in [*stopped, *failed, *made]}
 
     def _watch(self, pending: Sequence[Future]):
+        """Until all are done or one has failed; False where the progress function cancels."""
         while pending:
             finished, pending = wait(pending, TICK, FIRST_EXCEPTION)
-            if any(one.exception() is not None for one in finished) or not self._is_wanted():
-                return
+            if any(one.exception() is not None for one in finished):
+                break
+            if not self._is_wanted():
+                return False
+        return True
 
     def _is_wanted(self):
         if self._progress is None:

@@ -5,14 +5,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ._native import InvalidMesh, SolverError, TopologyError
 from .array_types import Progress
 from .map import Map
-from .map_choice import REFUSALS, Undecided
+from .map_choice import REFUSALS, Refusal, Undecided
 from .progress import scaled
 from .tiling import Poles
-
-Refusal = InvalidMesh | TopologyError | SolverError  # what is said about one part, others go on
 
 SAME_SIZE = 0.045  # relative difference of a median density from the wanted one, until which other numbers are tried
 LIKE_SIZE = 0.1  # and up to which a tiling stays one: without whole tiles a seam would show

@@ -132,7 +132,7 @@ def dome(height, n=24, m=24):
 
 
 def test_a_deep_dome_is_cut_to_its_tip_and_a_shallow_one_is_not():
-    """The cut pays where lengths change by more than a factor of 3."""
+    """The cut pays where lengths change by more than a factor of 2.5."""
     shallow, deep = island_map(dome(0.5), evenness=0.5), island_map(dome(1.9), evenness=0.5)
     assert len(shallow.seams) == 0 and shallow.quality.density_ratio < 2
     assert len(deep.seams) > 0 and deep.quality.density_ratio < 4

@@ -77,7 +77,7 @@ class StrainEnergy {
     double emphasis = 1;               // by which its part of the energy is multiplied
     double log_size = 0;               // 2 ln of the size that it is to have
     bool at_pole = false;
-    bool keeps_shape = false, reversed = false;  // of any size; reversed: in the plane that z is in
+    bool keeps_shape = false, reversed = false;  // whatever its size; reversed in the plane of z
 
     void lay_out(const mesh::Surface& surface, int t, const uv::UvArray& uv);
     void keep_shape(const Derivatives& map);
@@ -99,7 +99,7 @@ class StrainEnergy {
   double log_size_ = 0;    // 2 ln s0
   double whole_area_ = 1;  // area of the triangles that the mean is over
   Array<Triangle> triangles_;
-  std::vector<int> star_starts_, star_corners_;  // of each vertex: 3 t + i where it is corner i of triangle t
+  std::vector<int> star_starts_, star_corners_;  // at each vertex, 3 t + i where it is corner i of triangle t
 };
 
 }  // namespace holomorph::evening

@@ -13,7 +13,7 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr double kSmall = 0.5;  // of the longest loop
+constexpr double kSmall = 0.5;  // a hole's length over that of the longest loop
 
 struct Loop {
   std::vector<int> vertices;  // around the hole, which lies on the left

@@ -6,8 +6,8 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr double kTouching = 1e-6;     // of a triangle's size: so deep do triangles lie in each other that only touch
-constexpr double kLeastWidth = 1e-12;  // of the squared length
+constexpr double kTouching = 1e-6;     // depth over a triangle's size of two that only touch
+constexpr double kLeastWidth = 1e-12;  // twice the area over the squared sides
 
 double cross(Complex a, Complex b) { return (std::conj(a) * b).imag(); }
 

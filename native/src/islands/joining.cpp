@@ -10,8 +10,8 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr int kMostTriangles = 4096;  // of a net: larger islands are pictures of their own
-constexpr double kSameLength = 1e-3;  // of the longer side
+constexpr int kMostTriangles = 4096;  // in a net: larger islands are pictures of their own
+constexpr double kSameLength = 1e-3;  // difference over the longer side
 
 // z -> turn z + shift
 struct Motion {
@@ -100,9 +100,9 @@ class Nets {
   const mesh::Surface& surface_;
   const uv::UvArray& uv_;
   std::vector<int> corner_islands_;
-  std::vector<std::vector<int>> triangles_, islands_;  // of each island; of each net
-  std::vector<Motion> motions_;                        // of each island
-  std::vector<int> net_, sizes_;                       // of each island; triangles of each net
+  std::vector<std::vector<int>> triangles_, islands_;  // in each island; in each net
+  std::vector<Motion> motions_;                        // each island's
+  std::vector<int> net_, sizes_;                       // each island's net; triangles in each net
 };
 
 // Each island: the lowest one of its net.

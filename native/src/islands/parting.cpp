@@ -130,7 +130,7 @@ class Parts {
   const mesh::Surface& surface_;
   const uv::UvArray& uv_;
   std::vector<int> part_, queued_for_;
-  std::vector<std::vector<int>> triangles_, neighbours_;  // of each polygon
+  std::vector<std::vector<int>> triangles_, neighbours_;  // each polygon's
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ struct RoundingProblem {
   TextureLattice lattice;       ///< which periods and residues are rounded to
   MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
   double tiles = 1;             ///< over the surface at its median density, which are wanted
-  double size_weight = 0.05;    ///< of the median density in the rank of a rounding
+  double size_weight = 0.05;    ///< how much the median density counts in the rank of a rounding
   double median_density = 1;    ///< the same number over the area
 };
 
