@@ -4,6 +4,7 @@ Any UV map and any mesh will do: nothing is solved, and the mesh need not be a s
 triangles of surfaces.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -91,7 +92,7 @@ def _metric(points):
     return a, b, c, 0.5 * np.sqrt(np.clip(a * c - b * b, 0, None))
 
 
-def quantiles(values, weights, shares):
+def quantiles(values: Reals, weights: Reals, shares: Sequence[float]) -> list[float]:
     """The values below which these shares of the weights lie; 0 where nothing has weight."""
     order = np.argsort(values, kind="stable")
     total = np.cumsum(weights[order])
