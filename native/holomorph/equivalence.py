@@ -94,7 +94,7 @@ def _by_topology(first, second):
     """The `Equivalence` of surfaces whose topology decides it, else None."""
     genus, loops = first.genus, first.boundary_count
     if (genus, loops) != (second.genus, second.boundary_count):
-        texts = [_topology_text(part.genus, part.boundary_count) for part in (first, second)]
+        texts = [part._topology.text() for part in (first, second)]
         return Equivalence("not_equivalent", f"Not equivalent: {texts[0]}, and {texts[1]}.", margin=math.inf)
     if genus == 0 and loops <= 1:
         kind = "disks" if loops else "spheres"
@@ -123,10 +123,6 @@ def _structure(given, component, progress):
     if isinstance(given, (ConformalStructure, BoundedStructure)):
         return given
     return conformal_structure(component, progress=progress)
-
-
-def _topology_text(genus, loops):
-    return f"genus {genus} with {loops} boundary loop{'' if loops == 1 else 's'}"
 
 
 def _equivalence(verdict, made, is_exact):

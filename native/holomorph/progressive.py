@@ -195,12 +195,9 @@ class ProgressiveMesh(Value):
         """
         again = partial(self.conformal_structure, n_faces, solver=solver, threads=threads, memory_limit=memory_limit)
         threads, memory_limit = check_options(solver, threads), check_memory_limit(memory_limit)
-        genus, boundaries = self.base.genus, self.base.boundary_count
-        if genus == 0 or boundaries:
-            raise TopologyError(
-                f"the surface has genus {genus} and {boundaries} boundary loops; "
-                "a closed surface of genus 1 or more is needed"
-            )
+        if self.base.genus == 0 or self.base.boundary_count:
+            found = self.base._topology.text()
+            raise TopologyError(f"the surface has {found}; a closed surface of genus 1 or more is needed")
         splits = self._split_count(n_faces)
         surface = self._level(splits)
         level = self._native, splits, surface._native
