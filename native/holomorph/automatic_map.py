@@ -21,7 +21,7 @@ def automatic_map(
     poles: Poles = "auto",
     lattice: str | ArrayLike = "square",
     direction: ArrayLike | str | None = "upright",
-    boundary: str = "straight",
+    boundary: str = "automatic",
     turn: float | None = None,
     max_turn: float = 0.2,
     max_added: float | None = None,
