@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 from ._native import TopologyError
 from .array_types import Progress
-from .checks import checked_evenness, real_number
+from .checks import checked_evenness, only_component, real_number
 from .direction import along
 from .quality import Quality
 from .surface import Surface
@@ -46,8 +46,7 @@ class Tiler:
         threads: int | None = 0,
         progress: Progress | None = None,
     ) -> None:
-        surface.require_connected()
-        self._surface, self._component, self._threads = surface, surface.components[0], threads or 0
+        self._surface, self._component, self._threads = surface, only_component(surface), threads or 0
         count, chosen = asked_poles(poles)
         vertices, labels = own_poles(surface, self._component, chosen)
         self._placement = _native.place_poles(
