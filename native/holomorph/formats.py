@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import arrays
+from . import arrays, whole_file
 from ._native import InvalidMesh
 
 
@@ -19,7 +19,7 @@ def write(surface, path, uv=None):
         uv, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
         if uv.shape != (count, 2) or not np.isfinite(uv).all():
             raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) finite numbers are needed")
-    Path(path).write_bytes(writer(surface, uv))
+    whole_file.write(path, writer(surface, uv))
 
 
 def check(formats):
