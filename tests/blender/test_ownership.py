@@ -1,9 +1,9 @@
-"""What is the artist's stays: copies of our results."""
+"""What is the artist's stays: copies of our results, attributes with our names."""
 
 import bpy
 import pytest
 from conftest import module
-from scenes import select, torus
+from scenes import everything, select, stored_report, torus
 
 results = {name: module(name).OF for name in ("results.stand_in", "results.empties", "levels.level_objects")}
 
@@ -66,3 +66,37 @@ def test_a_renamed_result_is_the_artists():
     bpy.data.objects["Torus Mapped"].name = "Hero"
     mapped(obj)
     assert {"Hero", "Torus Mapped"} < {o.name for o in bpy.data.objects}
+
+
+KINDS = [("POINT", "FLOAT"), ("FACE", "FLOAT_COLOR"), ("CORNER", "FLOAT2"), ("CORNER", "BYTE_COLOR"), ("EDGE", "INT")]
+
+
+@pytest.mark.parametrize(("domain", "kind"), KINDS)
+@pytest.mark.parametrize("are_slots_full", [False, True])
+def test_an_attribute_with_the_name_of_our_map_stays(domain, kind, are_slots_full):
+    obj = torus()
+    for _ in range(8 * are_slots_full):
+        obj.data.uv_layers.new(name="Own")
+    obj.data.attributes.new("Holomorphic", kind, domain)
+    before = everything(obj)
+    for press in (bpy.ops.uv.holomorphic_maps, bpy.ops.uv.holomorphic_tile):
+        assert press() == {"FINISHED"}
+        (name, *_) = [entry["name"] for entry in stored_report(obj)["maps"]]
+        assert name == "Holomorphic.001"
+        covering = obj.material_slots[0].material.node_tree.nodes["Checker Map"]
+        assert getattr(covering, "uv_map", "") == name or covering.attribute_name == name
+    bpy.ops.uv.holomorphic_remove_maps()
+    after = everything(obj)
+    for found in (before, after):
+        found["attributes"] = [each for each in found["attributes"] if each[0] == "Holomorphic"]
+    assert after["attributes"] == before["attributes"] and after["maps"] == before["maps"]
+
+
+@pytest.mark.parametrize("name", ["Holomorphic Shape", "Holomorphic Density"])
+def test_an_attribute_of_another_kind_stays_where_nothing_is_stored(name):
+    obj = torus()
+    obj.data.attributes.new(name, "INT", "EDGE")
+    bpy.ops.uv.holomorphic_maps()
+    bpy.ops.uv.holomorphic_remove_maps()
+    attribute = obj.data.attributes[name]
+    assert (attribute.domain, attribute.data_type) == ("EDGE", "INT")
