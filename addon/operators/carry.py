@@ -33,12 +33,12 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
         from .. import compatibility
         from ..scene import targets, uv_maps
 
-        taking, given = targets.mesh_objects(context)
+        taking, given = targets.active_first(context, targets.selected_meshes(context))
         layer = given.data.uv_layers.active
         if layer is None:
             raise ValueError(f"{given.name} has no UV map")
-        if taking.data.library is not None:
-            raise ValueError(f"{taking.name}: its mesh is linked from another file; make it local first")
+        if targets.why_fixed(taking):
+            raise ValueError(f"{taking.name}: {targets.why_fixed(taking)}")
         if len(taking.data.uv_layers) >= compatibility.UV_MAP_LIMIT:
             raise ValueError(f"{taking.name} has {compatibility.UV_MAP_LIMIT} UV maps, and Blender takes no more")
         self._sides = self.read_sides([given, taking])

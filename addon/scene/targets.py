@@ -31,9 +31,13 @@ class Target:
     mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
     modifiers: bool = False  # whether the polygons are those that the modifiers make
     makes_object: bool = False  # whether these become an object of their own
+    sharers: tuple = ()  # names of the further objects with this mesh that are asked for
 
     def find(self):
         return bpy.data.objects.get((self.name, self.library))
+
+    def find_sharers(self):
+        return [bpy.data.objects[name, None] for name in self.sharers]
 
     def has_changed(self, time_has_passed):
         """Whether the object is gone or, where Blender was alive meanwhile, its mesh is not what was read."""
@@ -49,12 +53,25 @@ class Target:
 
 def mesh_objects(context):
     """The mesh objects the operator is about, the active one first."""
-    if context.mode == "EDIT_MESH":
-        objects = compatibility.objects_being_edited(context)
-    else:
-        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH" and not _is_helper(o)]
+    return active_first(context, candidates(context))
+
+
+def active_first(context, objects):
     active = context.view_layer.objects.active
     return sorted(objects, key=lambda o: o != active)
+
+
+def candidates(context):
+    """Those that are edited, that is sculpted or painted, or that are selected."""
+    if context.mode == "OBJECT":
+        return selected_meshes(context)
+    return compatibility.objects_being_edited(context) if context.mode == "EDIT_MESH" else [context.object]
+
+
+def selected_meshes(context):
+    """Yields the selected mesh objects that are visible, where there is a 3D view in this one."""
+    selected = compatibility.selected_objects(context)
+    return (o for o in selected if o.type == "MESH" and o.visible_get() and not _is_helper(o))
 
 
 def _is_helper(obj):
@@ -72,11 +89,11 @@ def collect(objects, asked=EVERYTHING):
         other = first.get(obj.data)
         target = _target(obj, masks[obj.data], asked) if other is None or asked.modifiers else None
         if target is None or (other is not None and not target.makes_object):
-            targets[other] = _with_scale_note(targets[other], obj, other)
+            targets[other] = replace(targets[other], sharers=(*targets[other].sharers, obj.name))
             continue
         targets[obj] = target
         if not target.makes_object:
-            first[obj.data] = obj
+            targets[obj], first[obj.data] = replace(target, note=_scale_note(obj)), obj
     return list(targets.values())
 
 
@@ -86,11 +103,25 @@ def _write_pending_edits(objects):
             obj.update_from_editmode()
 
 
-def _with_scale_note(target, obj, other):
-    """The target of the object `other` with a note where `obj`, of the same mesh, has another scale."""
-    if np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
-        return target
-    return replace(target, note=f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts")
+def others(obj):
+    """The further objects with its mesh that can be changed."""
+    if obj.data.users < 2:
+        return []
+    return [other for other in bpy.data.objects if other.data == obj.data and other != obj and other.library is None]
+
+
+def has_other_scale(obj, other):
+    """Whether their matrices differ by more than rotation, reflection or a factor."""
+    return not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE)
+
+
+def _scale_note(obj):
+    """What is told where further objects have the mesh in another scale."""
+    names = [other.name for other in others(obj) if has_other_scale(obj, other)]
+    if not names:
+        return ""
+    which = f"{names[0]} has" if len(names) == 1 else f"{names[0]} and {len(names) - 1} more have"
+    return f"{which} the same mesh in another scale; the scale of {obj.name} counts"
 
 
 def _masks(objects, wanted):
@@ -123,18 +154,32 @@ def _flags(mesh, name):
 def _target(obj, mask, asked):
     library = obj.library.filepath if obj.library else None
     target = Target(obj.name, library, None, mask=mask)
-    if obj.data.library is not None:
-        return replace(target, refused="its mesh is linked from another file; make it local first")
+    reason = why_fixed(obj) or ("all its faces are hidden" if mask is not None and not mask.any() else "")
+    if reason:
+        return replace(target, refused=reason)
     if asked.are_islands and asked.is_explicit:
         return replace(target, refused="islands have no poles or corners: choose those or another main map")
     own = read(obj, mask)
-    if asked.modifiers and obj.mode != "EDIT":
+    if asked.modifiers and obj.mode == "OBJECT":
         return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
     modifier = "" if own.face_count else first_modifier(obj)
     if modifier and mesh_io.read_shown(obj, _linear(obj), own)[0].face_count:
         sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
         return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_chosen(obj, asked))
+
+
+def why_fixed(obj):
+    """Why the mesh of an object cannot be changed, one sentence, or ""."""
+    mesh = obj.data
+    if mesh.library is not None:
+        return "its mesh is linked from another file; make it local first"
+    if mesh.override_library is not None:
+        return "its mesh is a library override, in which no UV map lasts; make it local first"
+    shown = bpy.context.view_layer.objects
+    if mesh.is_editmode and not any(other.mode == "EDIT" and other.data == mesh for other in shown):
+        return "its mesh is edited in another scene or view layer; leave edit mode there first"
+    return ""
 
 
 def _with_modifiers(target, obj, own, asked):
