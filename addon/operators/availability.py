@@ -67,9 +67,9 @@ class OnMeshes(Explained):
 
     @classmethod
     def why_not(cls, context):
-        from ..scene import targets
+        from ..scene import gathering
 
-        if any(True for _ in targets.candidates(context)):
+        if any(True for _ in gathering.candidates(context)):
             return ""
         selected = context.view_layer.objects.selected
         if any(o.instance_type == "COLLECTION" for o in selected):
@@ -91,10 +91,10 @@ class AtOnce(OnMeshes):
         return objects
 
     def execute(self, context):
-        from ..scene import targets
+        from ..scene import gathering
         from ..writing import transaction
 
-        reasons = {obj: targets.why_fixed(obj) for obj in targets.mesh_objects(context)}
+        reasons = {obj: gathering.why_fixed(obj) for obj in gathering.mesh_objects(context)}
         for obj, reason in reasons.items():
             if reason:
                 self.report({"WARNING"}, f"{obj.name}: {reason}")

@@ -14,9 +14,9 @@ class TwoMeshes:
 
     @classmethod
     def why_not(cls, context):
-        from ..scene import targets
+        from ..scene import gathering
 
-        return "" if len(list(islice(targets.selected_meshes(context), 3))) == 2 else "Select two meshes"
+        return "" if len(list(islice(gathering.selected_meshes(context), 3))) == 2 else "Select two meshes"
 
     @staticmethod
     def read_sides(objects):
@@ -41,9 +41,9 @@ class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
         """There are none."""
 
     def prepare(self, context):
-        from ..scene import targets
+        from ..scene import gathering
 
-        self._sides = self.read_sides(targets.active_first(context, targets.selected_meshes(context)))
+        self._sides = self.read_sides(gathering.active_first(context, gathering.selected_meshes(context)))
 
     def make_work(self, progress):
         from ..maps import comparison

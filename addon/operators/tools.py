@@ -63,9 +63,9 @@ class HOLOMORPH_OT_heat(AtOnce, bpy.types.Operator):
 
     @classmethod
     def why_not(cls, context):
-        from ..scene import targets
+        from ..scene import gathering
 
-        return "" if any(o.data.uv_layers for o in targets.candidates(context)) else "Select a mesh with a UV map"
+        return "" if any(o.data.uv_layers for o in gathering.candidates(context)) else "Select a mesh with a UV map"
 
     def act(self, _step, objects):
         from ..results import heat

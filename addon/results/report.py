@@ -8,7 +8,7 @@ import bpy
 
 from .. import native
 from ..maps.options import TILING
-from ..scene import faces, mesh_io, targets
+from ..scene import faces, gathering, mesh_io
 
 PROPERTY = "holomorph_report"
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
@@ -65,10 +65,10 @@ def as_json(value, indent=None):
 def store(obj, entry):
     """The custom property of an object that was mapped, and of others with its mesh, whose scale may be another; of so
     many of these that a file stays small."""
-    others = targets.others(obj)
+    others = gathering.others(obj)
     _store_on_object(obj, entry)
     for other in others[:MOST_OTHERS]:
-        scale = {"scale_of": obj.name} if targets.has_other_scale(obj, other) else {}
+        scale = {"scale_of": obj.name} if gathering.has_other_scale(obj, other) else {}
         _store_on_object(other, {**entry, "object": other.name, **scale})
     for other in others[MOST_OTHERS:]:
         other.pop(PROPERTY, None)  # it told of an earlier map

@@ -2,7 +2,7 @@
 """What an object showed before its maps were made: its materials, and the active UV maps of its mesh."""
 
 from ..materials import material
-from ..scene import targets, uv_maps
+from ..scene import gathering, uv_maps
 from . import empties, heat, report
 
 BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that were active, in editors and for renders
@@ -28,7 +28,7 @@ def restore(obj):
     """Brings back the materials of all objects with this mesh, and the maps that were active; returns whether there was
     something."""
     mesh = obj.data
-    found = [material.uncover(user) for user in (obj, *targets.others(obj))]
+    found = [material.uncover(user) for user in (obj, *gathering.others(obj))]
     before = mesh.get(BEFORE)
     if before is None:
         return any(found)
@@ -49,7 +49,7 @@ def remove_maps(step, obj):
     uv_maps.remove_maps(mesh)
     heat.refresh(obj)
     mesh.update()
-    for user in (obj, *targets.others(obj)):
+    for user in (obj, *gathering.others(obj)):
         step.remove(empties.of(user))
         found |= user.pop(report.PROPERTY, None) is not None
     return found

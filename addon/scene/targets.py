@@ -6,15 +6,12 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from .. import compatibility
 from ..compatibility import Values
 from ..solving import choices, solve
 from ..solving.choices import Choices
-from . import faces, mesh_io
+from . import faces, gathering, mesh_io
 
-SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 EVERYTHING = Choices()
-IMPORTER_HELPERS = "glTF_not_exported"  # the collection of the glTF importer
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
 
 
@@ -46,37 +43,9 @@ class Target:
 
     def _is_what_was_read(self, obj):
         if self.modifiers:
-            return mesh_io.read_shown(obj, _linear(obj), self.polygons)[0].equals(self.polygons)
+            return mesh_io.read_shown(obj, gathering.linear(obj), self.polygons)[0].equals(self.polygons)
         has_faces = self.mask is None or len(obj.data.polygons) == len(self.mask)
         return has_faces and read(obj, self.mask).equals(self.polygons)
-
-
-def mesh_objects(context):
-    """The mesh objects the operator is about, the active one first."""
-    return active_first(context, candidates(context))
-
-
-def active_first(context, objects):
-    active = context.view_layer.objects.active
-    return sorted(objects, key=lambda o: o != active)
-
-
-def candidates(context):
-    """Those that are edited, that is sculpted or painted, or that are selected."""
-    if context.mode == "OBJECT":
-        return selected_meshes(context)
-    return compatibility.objects_being_edited(context) if context.mode == "EDIT_MESH" else [context.object]
-
-
-def selected_meshes(context):
-    """Yields the selected mesh objects that are visible, where there is a 3D view in this one."""
-    selected = compatibility.selected_objects(context)
-    return (o for o in selected if o.type == "MESH" and o.visible_get() and not _is_helper(o))
-
-
-def _is_helper(obj):
-    """Whether Blender's importer made it for its own use, such as the shapes of bones: it is no part of the scene."""
-    return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 
 def collect(objects, asked=EVERYTHING):
@@ -103,21 +72,9 @@ def _write_pending_edits(objects):
             obj.update_from_editmode()
 
 
-def others(obj):
-    """The further objects with its mesh that can be changed."""
-    if obj.data.users < 2:
-        return []
-    return [other for other in bpy.data.objects if other.data == obj.data and other != obj and other.library is None]
-
-
-def has_other_scale(obj, other):
-    """Whether their matrices differ by more than rotation, reflection or a factor."""
-    return not np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE)
-
-
 def _scale_note(obj):
     """What is told where further objects have the mesh in another scale."""
-    names = [other.name for other in others(obj) if has_other_scale(obj, other)]
+    names = [other.name for other in gathering.others(obj) if gathering.has_other_scale(obj, other)]
     if not names:
         return ""
     which = f"{names[0]} has" if len(names) == 1 else f"{names[0]} and {len(names) - 1} more have"
@@ -154,7 +111,7 @@ def _flags(mesh, name):
 def _target(obj, mask, asked):
     library = obj.library.filepath if obj.library else None
     target = Target(obj.name, library, None, mask=mask)
-    reason = why_fixed(obj) or ("all its faces are hidden" if mask is not None and not mask.any() else "")
+    reason = gathering.why_fixed(obj) or ("all its faces are hidden" if mask is not None and not mask.any() else "")
     if reason:
         return replace(target, refused=reason)
     if asked.are_islands and asked.is_explicit:
@@ -163,28 +120,15 @@ def _target(obj, mask, asked):
     if asked.modifiers and obj.mode == "OBJECT":
         return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
     modifier = "" if own.face_count else first_modifier(obj)
-    if modifier and mesh_io.read_shown(obj, _linear(obj), own)[0].face_count:
+    if modifier and mesh_io.read_shown(obj, gathering.linear(obj), own)[0].face_count:
         sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
         return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_chosen(obj, asked))
 
 
-def why_fixed(obj):
-    """Why the mesh of an object cannot be changed, one sentence, or ""."""
-    mesh = obj.data
-    if mesh.library is not None:
-        return "its mesh is linked from another file; make it local first"
-    if mesh.override_library is not None:
-        return "its mesh is a library override, in which no UV map lasts; make it local first"
-    shown = bpy.context.view_layer.objects
-    if mesh.is_editmode and not any(other.mode == "EDIT" and other.data == mesh for other in shown):
-        return "its mesh is edited in another scene or view layer; leave edit mode there first"
-    return ""
-
-
 def _with_modifiers(target, obj, own, asked):
     """The target as its modifiers make it: its own polygons in other places, or other ones."""
-    shown, seams, are_own = mesh_io.read_shown(obj, _linear(obj), own)
+    shown, seams, are_own = mesh_io.read_shown(obj, gathering.linear(obj), own)
     if target.mask is None and are_own:
         return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=_chosen(obj, asked))
     return _of_modifiers(target, asked, shown, seams, first_modifier(obj))
@@ -223,17 +167,6 @@ def _selected(obj, use):
     return tuple(selected.tolist())
 
 
-def _linear(obj):
-    return np.array(obj.matrix_world, np.float64)[:3, :3]
-
-
-def _metric(obj):
-    """How the object's matrix changes shapes: equal for matrices that differ by rotation, reflection or factor."""
-    metric = _linear(obj).T @ _linear(obj)
-    size = np.trace(metric)
-    return metric / size if size > 0 else metric
-
-
 def with_positions(target, vertices):
     """The same target with these (#V,3) float64 positions: those of a file are more precise than Blender's."""
     return replace(target, polygons=replace(target.polygons, vertices=vertices))
@@ -257,4 +190,4 @@ def align(targets, results):
 
 def read(obj, mask=None):
     """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
-    return faces.part(mesh_io.read_polygons(obj.data, _linear(obj)), mask)
+    return faces.part(mesh_io.read_polygons(obj.data, gathering.linear(obj)), mask)
