@@ -14,6 +14,11 @@ class Modes:
         for obj in _elsewhere(layer):
             self._before.setdefault(obj.mode, []).append(obj)
 
+    def push_undo(self):
+        """Where something is sculpted or painted: Blender would undo what follows together with the last stroke."""
+        if self._before.keys() - {"EDIT"}:
+            bpy.ops.ed.undo_push(message="Before Holomorph")
+
     def leave(self):
         """Object mode for all, also for those that are in another mode since."""
         for obj in _elsewhere(self._layer):

@@ -22,6 +22,7 @@ def one_step(context, objects):
     objects : whose meshes, materials and properties are going to be changed; those that share their meshes count too
     """
     before, step = _Before(context), Step(context)
+    before.modes.push_undo()
     try:
         before.modes.leave()
         before.read(objects, step)
