@@ -52,12 +52,12 @@ def mesh_objects(context):
     if context.mode == "EDIT_MESH":
         objects = compatibility.objects_being_edited(context)
     else:
-        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH" and not _is_helper(o)]
+        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH" and not is_helper(o)]
     active = context.view_layer.objects.active
     return sorted(objects, key=lambda o: o != active)
 
 
-def _is_helper(obj):
+def is_helper(obj):
     """Whether Blender's importer made it for its own use, such as the shapes of bones: it is no part of the scene."""
     return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
