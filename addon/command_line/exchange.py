@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from .. import compatibility
-from ..materials import material
+from ..materials import material, plain
 from ..scene import mesh_io, targets, uv_maps
 from ..writing import states
 
@@ -89,12 +89,12 @@ def read(path, up):
     return meshes
 
 
-def write(path, forms=False):
+def write(path, forms=False, texture=False):
     """Writes the scene with the objects' own materials; it is left as it is in the file. @throws ExchangeError
 
-    forms : whether the maps of single forms are written, too
+    forms : whether the maps of single forms are written, too; texture : whether what ours show is, instead
     """
-    _prepare(bpy.data.objects, forms)  # those of instanced collections, too, which are in no view layer
+    _prepare(bpy.data.objects, forms, texture)  # those of instanced collections, too, which are in no view layer
     kind = path.suffix.lower()
     if kind in GLTF:
         form = "GLB" if kind == ".glb" else "GLTF_SEPARATE"
@@ -126,19 +126,22 @@ def _with_fbx():
     return WITH_FBX | {"bake_anim_use_all_actions": not is_one_clip, "bake_anim_use_nla_strips": not is_one_clip}
 
 
-def _prepare(objects, forms):
-    """Takes from these objects our materials and custom properties and, unless wanted, the maps of forms; and what an
-    importer made for its own use away, which exporters of other formats do not know."""
+def _prepare(objects, forms, texture):
+    """Takes from these objects our materials, but for the texture where it is wanted, our custom properties and, unless
+    wanted, the maps of forms; and what an importer made for its own use, which exporters of other formats do not know.
+    """
     bpy.data.batch_remove([obj for obj in objects if targets.is_helper(obj)])
     meshes = [obj for obj in objects if obj.type == "MESH"]
-    for obj in meshes:
-        material.uncover(obj)
     for mesh in {obj.data for obj in meshes if obj.data.library is None}:
         main = uv_maps.main_map(mesh)
         for name in uv_maps.own_maps(mesh):
             if not forms and name != main and name in mesh.uv_layers:
                 mesh.uv_layers.remove(mesh.uv_layers[name])
         states.restore_properties(mesh, {})
+    for obj in meshes:
+        if texture:
+            plain.show(obj)
+        material.uncover(obj)
     for obj in objects:
         if obj.library is None:
             states.restore_properties(obj, {})

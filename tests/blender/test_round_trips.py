@@ -103,6 +103,24 @@ def test_nothing_of_ours_is_in_the_file_but_the_map(suffix, tmp_path):
 
 
 @pytest.mark.parametrize("suffix", SCENES)
+def test_the_texture_is_in_the_file_where_it_is_asked_for(suffix, tmp_path):
+    """In place of the materials, by a picture that the importer finds on the map of ours."""
+    sheet = mesh_object("Sheet", *grid_arrays(4))
+    sheet.data.materials.append(bpy.data.materials.new("Own"))
+    sheet.data.uv_layers.new(name="UVMap")
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    out = tmp_path / f"out{suffix}"
+    options = ("--texture", "bricks" if suffix == ".glb" else "checker", "--export-texture", *MAPS)
+    done = headless("--output", out, *options, blend=tmp_path / "scene.blend")
+    assert done.returncode == 0, done.stderr
+    read(out)
+    (shown,) = [obj.material_slots[0].material for obj in bpy.data.objects if obj.type == "MESH"]
+    (picture,) = [node for node in shown.node_tree.nodes if node.type == "TEX_IMAGE"]
+    assert picture.outputs["Color"].links[0].to_socket.name == "Base Color" and min(picture.image.size) > 100
+    assert len(set(picture.image.pixels[:4000])) > 3
+
+
+@pytest.mark.parametrize("suffix", SCENES)
 def test_what_modifiers_make_is_written(suffix, tmp_path):
     half = mesh_object("Half", *grid_arrays(4))
     half.location.x = 1
