@@ -112,7 +112,7 @@ def _write_files(options, objects):
     if options.output is not None and not is_blend:
         bpy.data.batch_remove(set(bpy.data.objects) - own)
         try:
-            exchange.write(options.output, options.export_forms)
+            exchange.write(options.output, options.export_forms, options.export_texture)
         except exchange.ExchangeError as error:
             raise UsageError(str(error)) from error
 

@@ -30,10 +30,10 @@ def candidates(context):
 def selected_meshes(context):
     """Yields the selected mesh objects that are visible, where there is a 3D view in this one."""
     selected = compatibility.selected_objects(context)
-    return (o for o in selected if o.type == "MESH" and o.visible_get() and not _is_helper(o))
+    return (o for o in selected if o.type == "MESH" and o.visible_get() and not is_helper(o))
 
 
-def _is_helper(obj):
+def is_helper(obj):
     """Whether Blender's importer made it for its own use, such as the shapes of bones: it is no part of the scene."""
     return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
