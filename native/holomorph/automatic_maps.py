@@ -139,39 +139,36 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
         density is given"""
     if not sizings:
         return {}
-    groups = _groups(alike, sizings)
-    members = [k for group in groups.values() for k in group]
+    members = [k for k, copy in enumerate(alike) if copy.first in sizings]
     largest, total = max(members, key=lambda k: parts[k].area), sum(parts[k].area for k in members) or 1.0
     share, first = parts[largest].area / total, alike[largest].first
     leader = sizings[first].about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
     if tries and isinstance(leader, Map) and leader.tiling:
         density = leader.quality.median_density / alike[largest].scale ** 2
-    firsts = list(groups)
-
-    def work(i, _threads, step):
-        known = {_scale_key(alike[largest]): leader} if firsts[i] == first else {}
-        return _of_group(sizings[firsts[i]], groups[firsts[i]], alike, density, known, step)
-
-    sizes = [len(parts[k].triangles) * len(groups[k]) for k in firsts]
-    found = side_by_side(work, sizes, threads, scaled(progress, share, 1.0))
-    return {k: one for group in found for k, one in group.items()}
+    names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
+    wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members)}
+    del wanted[names[largest]]
+    made = _all_sized(parts, sizings, wanted, threads, scaled(progress, share, 1.0)) | {names[largest]: leader}
+    return {k: made[names[k]] for k in members}
 
 
-def _groups(alike, firsts):
-    """{first part: it and its copies}."""
-    groups = {first: [] for first in firsts}
-    for k, copy in enumerate(alike):
-        groups.get(copy.first, []).append(k)
-    return groups
+def _all_sized(parts, sizings, wanted, threads, progress):
+    """{(part, scale): its map or how it is refused} for densities by these. One of each part comes first: it places the
+    poles for all."""
+    leading = list({name[0]: name for name in wanted}.values())
+    following = [name for name in wanted if name not in set(leading)]
+    sizes = {name: len(parts[name[0]].triangles) for name in wanted}
+    made, done = {}, 0.0
+    for names in leading, following:
+        share = sum(sizes[name] for name in names) / (sum(sizes.values()) or 1)
 
+        def work(i, _threads, step, names=names):
+            return sizings[names[i][0]].at(wanted[names[i]], step)
 
-def _of_group(sizing, group, alike, density, known, progress):
-    """{part: its map or how it is refused} of copies. known : {key of its scale: map} of some of them"""
-    for n, k in enumerate(group):
-        if (own := _scale_key(alike[k])) not in known:
-            step = scaled(progress, n / len(group), (n + 1) / len(group))
-            known[own] = sizing.at(_on_first(density, alike[k]), step)
-    return {k: known[_scale_key(alike[k])] for k in group}
+        step = scaled(progress, done, done + share)
+        made |= zip(names, side_by_side(work, [sizes[name] for name in names], threads, step))
+        done += share
+    return made
 
 
 def _tries(tiles, density):
@@ -183,10 +180,6 @@ def _tries(tiles, density):
 def _on_first(density, copy):
     """The density of a copy's map on the first part."""
     return density * copy.scale**2
-
-
-def _scale_key(copy):
-    return round(math.log(copy.scale), SCALE_DIGITS)
 
 
 def _of_copy(found, part, structure, scale):
