@@ -17,11 +17,12 @@ from .map import Map
 from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_map
 from .progress import scaled
 from .side_by_side import side_by_side
-from .sizing import TRIES, Sizing
+from .sizing import TRIES, Sizing, best_window, relative_size, window_around
 from .surface import Surface
 from .tiling import Poles
 
 LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
+TRYING = 0.9  # of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
 
@@ -141,34 +142,47 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
         return {}
     members = [k for k, copy in enumerate(alike) if copy.first in sizings]
     largest, total = max(members, key=lambda k: parts[k].area), sum(parts[k].area for k in members) or 1.0
-    share, first = parts[largest].area / total, alike[largest].first
-    leader = sizings[first].about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
-    if tries and isinstance(leader, Map) and leader.tiling:
-        density = leader.quality.median_density / alike[largest].scale ** 2
     names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
-    wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members)}
-    del wanted[names[largest]]
-    made = _all_sized(parts, sizings, wanted, threads, scaled(progress, share, 1.0)) | {names[largest]: leader}
+    share, made = 0.0, {}
+    if tries:
+        share, sizing = parts[largest].area / total, sizings[alike[largest].first]
+        leader = sizing.about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
+        if isinstance(leader, Map) and leader.tiling:
+            density = leader.quality.median_density / alike[largest].scale ** 2
+        made[names[largest]] = leader
+    wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
+    areas = dict.fromkeys(wanted, 0.0)
+    for k in members:
+        if names[k] in wanted:
+            areas[names[k]] += parts[k].area
+    made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))
     return {k: made[names[k]] for k in members}
 
 
-def _all_sized(parts, sizings, wanted, threads, progress):
-    """{(part, scale): its map or how it is refused} for densities by these. One of each part comes first: it places the
-    poles for all."""
+def _of_one_size(parts, sizings, wanted, areas, is_given, threads, progress):
+    """{(part, scale): its map or how it is refused} for densities by these. One of each part is tried before the
+    others: it places the poles for all."""
     leading = list({name[0]: name for name in wanted}.values())
     following = [name for name in wanted if name not in set(leading)]
-    sizes = {name: len(parts[name[0]].triangles) for name in wanted}
-    made, done = {}, 0.0
-    for names in leading, following:
-        share = sum(sizes[name] for name in names) / (sum(sizes.values()) or 1)
 
-        def work(i, _threads, step, names=names):
-            return sizings[names[i][0]].at(wanted[names[i]], step)
+    def done(names, work, start, end):
+        sizes = [len(parts[name[0]].triangles) for name in names]
+        made = side_by_side(
+            lambda i, _threads, step: work(names[i], step), sizes, threads, scaled(progress, start, end)
+        )
+        return dict(zip(names, made))
 
-        step = scaled(progress, done, done + share)
-        made |= zip(names, side_by_side(work, [sizes[name] for name in names], threads, step))
-        done += share
-    return made
+    def tried(name, step):
+        return sizings[name[0]].tried(wanted[name], TRIES, step)
+
+    found = done(leading, tried, 0.0, TRYING / 2) | done(following, tried, TRYING / 2, TRYING)
+    sizes = {name: [relative_size(made, wanted[name]) for made in each.tilings] for name, each in found.items()}
+    window = window_around() if is_given else best_window(list(sizes.values()), [areas[name] for name in sizes])
+
+    def settled(name, step):
+        return sizings[name[0]].settled(found[name], wanted[name], window, step)
+
+    return done(list(wanted), settled, TRYING, 1.0)
 
 
 def _tries(tiles, density):
