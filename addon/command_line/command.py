@@ -46,6 +46,7 @@ def process(options):
     """Does the job; returns the sentences about what was not done."""
     if native.problem():
         raise UsageError(native.problem())
+    _check_places(options)
     start = time.perf_counter()
     try:
         outcome = _make_maps(options)
@@ -65,6 +66,15 @@ def process(options):
     if options.strict:
         _check_strictly(outcome.entries)
     return outcome.problems + outcome.notes
+
+
+def _check_places(options):
+    source = options.mesh or (Path(bpy.data.filepath) if bpy.data.filepath else None)
+    written = [options.render, options.report]
+    try:
+        native.load().whole_file.check_places(source, options.output, written, options.overwrite)
+    except ValueError as error:
+        raise UsageError(str(error)) from error
 
 
 def _make_maps(options):
@@ -106,9 +116,11 @@ def _write_files(options, objects):
         bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
     own = set(bpy.data.objects)
     if options.render is not None:
-        studio.render(objects, str(options.render.resolve()), options.resolution, options.samples)
-        if not options.render.is_file():
-            raise UsageError(f"{options.render}: the picture could not be written")
+        with native.load().whole_file.folder_beside(options.render) as folder:
+            picture = folder / options.render.name
+            studio.render(objects, str(picture), options.resolution, options.samples)
+            if not picture.is_file():
+                raise UsageError(f"{options.render}: the picture could not be written")
     if options.output is not None and not is_blend:
         bpy.data.batch_remove(set(bpy.data.objects) - own)
         try:

@@ -5,11 +5,13 @@ In glTF each corner has a position of its own: vertices in one place are joined 
 boundary.
 """
 
+import functools
+
 import bmesh
 import bpy
 import numpy as np
 
-from .. import compatibility
+from .. import compatibility, native
 from ..materials import material, plain
 from ..scene import gathering, mesh_io, uv_maps
 from ..writing import states
@@ -95,18 +97,24 @@ def write(path, forms=False, texture=False):
     forms : whether the maps of single forms are written, too; texture : whether what ours show is, instead
     """
     _prepare(bpy.data.objects, forms, texture)  # those of instanced collections, too, which are in no view layer
-    kind = path.suffix.lower()
+    with native.load().whole_file.folder_beside(path) as folder:
+        _export(path, folder / path.name)
+        if not (folder / path.name).is_file():
+            raise ExchangeError(f"{path}: Blender has not written it")
+
+
+def _export(path, place):
+    """Writes to a place what is to be a path's file, with images beside it."""
+    kind, called = path.suffix.lower(), functools.partial(_call, path, "write", place=place)
     if kind in GLTF:
         form = "GLB" if kind == ".glb" else "GLTF_SEPARATE"
-        _call(path, "write", bpy.ops.export_scene.gltf, export_format=form, **_with_gltf())
+        called(bpy.ops.export_scene.gltf, export_format=form, **_with_gltf())
     elif kind in USD:
-        _call(path, "write", bpy.ops.wm.usd_export, **WITH_USD)
+        called(bpy.ops.wm.usd_export, **WITH_USD)
     elif kind == ".obj":
-        _call(path, "write", bpy.ops.wm.obj_export)
+        called(bpy.ops.wm.obj_export, path_mode="COPY")
     else:
-        _call(path, "write", bpy.ops.export_scene.fbx, **_with_fbx())
-    if not path.is_file():
-        raise ExchangeError(f"{path}: Blender has not written it")
+        called(bpy.ops.export_scene.fbx, **_with_fbx())
 
 
 def _with_gltf():
@@ -147,15 +155,16 @@ def _prepare(objects, forms, texture):
             states.restore_properties(obj, {})
 
 
-def _call(path, verb, operator, **options):
-    """Calls an importer or exporter; what it raises may be a whole traceback, whose last line tells."""
+def _call(path, verb, operator, place=None, **options):
+    """Calls an importer or exporter for a path, or for a place in its stead; what it raises may be a whole traceback,
+    whose last line tells."""
     kind = KINDS[path.suffix.lower()]
     if not compatibility.is_there(operator):
         raise ExchangeError(f"{path}: this Blender cannot {verb} {kind}")
     known = operator.get_rna_type().properties.keys()
     options = {name: value for name, value in options.items() if name in known}  # some are new in later versions
     try:
-        operator(filepath=str(path.resolve()), **options)
+        operator(filepath=str((place or path).resolve()), **options)
     except RuntimeError as error:
         lines = [line.strip() for line in str(error).splitlines() if line.strip()]
         told = [line for line in lines if not line.startswith(("Location:", "File "))]

@@ -43,6 +43,7 @@ def parse(arguments):
     )
     text = "put the texture on the objects in what is no .blend file, in place of their materials"
     parser.add_argument("--export-texture", action="store_true", help=text)
+    parser.add_argument("--overwrite", action="store_true", help="let --output be the file that is read")
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")

@@ -28,6 +28,7 @@ def main(arguments=None):
         return compare(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
+        whole_file.check_places(options.mesh, options.output, [options.report], options.overwrite)
         _check_output(options.output, options.texture)
     except (ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
@@ -48,6 +49,7 @@ def _parser():
     parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")
     text = "with --output FILE.glb: a PNG or JPEG image on the mesh, or checker"
     parser.add_argument("--texture", metavar="IMAGE", help=text)
+    parser.add_argument("--overwrite", action="store_true", help="let --output be the file that is read")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
     text = "with --output default automatic: a seamless tiling where that is no less even; else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)

@@ -30,6 +30,23 @@ def write(path, *contents):
             new.unlink(missing_ok=True)
 
 
+def check_places(source, output, others, overwrite):
+    """Before any work: that no file is written over another one of a run.
+
+    source : the file that is read; output : None or where the result goes, which may be the source where `overwrite` is
+        true; others : paths of other files that are written, None for none
+
+    Raises ValueError."""
+    read, new, *more = (None if path is None else Path(path).resolve() for path in (source, output, *others))
+    if new is not None and new == read and not overwrite:
+        raise ValueError(f"{output} is the file that is read: --overwrite replaces it")
+    taken = {read, new}
+    for path, place in zip(others, more):
+        if place is not None and place in taken:
+            raise ValueError(f"{path} is another file of this run, too: it would be written over")
+        taken.add(place)
+
+
 @contextlib.contextmanager
 def folder_beside(path):
     """A new folder, in which the path's name and files beside it are written: in the end all are moved to where the

@@ -157,6 +157,7 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
         (["ring.obj", "--output", "nowhere/out.blend"], "folder"),
         (["ring.obj", "--output", "foo.txt"], "must end with .blend"),
         (["ring.obj", "--render", "picture.jpg"], "must end with .png"),
+        (["ring.obj", "--output", "ring.obj"], "--overwrite replaces it"),
         (["ring.obj", "--report", "report"], "must end with .json"),
     ],
 )

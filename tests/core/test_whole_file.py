@@ -7,6 +7,7 @@ import stat
 import subprocess
 import sys
 import time
+from contextlib import nullcontext
 
 import families
 import pytest
@@ -110,3 +111,29 @@ def test_no_file_is_moved_after_an_error(old):
         (folder / old.name).write_bytes(NEW)
         raise RuntimeError
     assert old.read_bytes() == OLD and list(old.parent.iterdir()) == [old]
+
+
+@pytest.mark.parametrize(
+    "output, others, overwrite, problem",
+    [
+        ("new.obj", ["report.json", None], False, None),
+        (None, [None], False, None),
+        ("./in.obj", [], True, None),
+        ("./in.obj", [], False, "in.obj is the file that is read: --overwrite replaces it"),
+        ("new.obj", ["in.obj"], True, "in.obj is another file of this run"),
+        ("new.obj", ["folder/../new.obj"], True, "new.obj is another file of this run"),
+    ],
+)
+def test_no_file_of_a_run_is_written_over(output, others, overwrite, problem, monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
+    with nullcontext() if problem is None else pytest.raises(ValueError, match=problem):
+        whole_file.check_places("in.obj", output, others, overwrite)
+
+
+def test_the_command_keeps_its_mesh(tmp_path):
+    path = tmp_path / "torus.obj"
+    surface_of(families.torus(8, 6)).write(path)
+    before, command = path.read_bytes(), [sys.executable, "-m", "holomorph", path, "--output", path]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 2 and "--overwrite replaces it" in done.stderr and path.read_bytes() == before
+    assert subprocess.run([*command, "--overwrite"]).returncode == 0 and b"\nvt " in path.read_bytes()
