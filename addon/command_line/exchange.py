@@ -8,7 +8,7 @@ import bpy
 
 from .. import compatibility
 from ..materials import material, plain
-from ..scene import targets, uv_maps
+from ..scene import gathering, uv_maps
 from ..writing import states
 from . import joining
 
@@ -75,7 +75,7 @@ def read(path, up):
     layer = bpy.context.view_layer
     layer.update()
     made = [obj for obj in layer.objects if obj.type == "MESH" and obj not in before]
-    meshes = sorted((obj for obj in made if not targets.is_helper(obj)), key=lambda obj: obj.name)
+    meshes = sorted((obj for obj in made if not gathering.is_helper(obj)), key=lambda obj: obj.name)
     if not meshes:
         raise ExchangeError(f"{path}: there is no mesh in it")
     for mesh in {obj.data for obj in meshes} if kind in GLTF else ():
@@ -127,7 +127,7 @@ def _prepare(objects, forms, texture):
     """Takes from these objects our materials, but for the texture where it is wanted, our custom properties and, unless
     wanted, the maps of forms; and what an importer made for its own use, which exporters of other formats do not know.
     """
-    bpy.data.batch_remove([obj for obj in objects if targets.is_helper(obj)])
+    bpy.data.batch_remove([obj for obj in objects if gathering.is_helper(obj)])
     meshes = [obj for obj in objects if obj.type == "MESH"]
     for mesh in {obj.data for obj in meshes if obj.data.library is None}:
         main = uv_maps.main_map(mesh)

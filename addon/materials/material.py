@@ -76,7 +76,8 @@ def cover(obj, material):
     replaced = dict(obj.get(REPLACED, {}))
     for index, slot in enumerate(obj.material_slots):
         if is_ours(slot.material):
-            slot.material = material
+            if slot.material != material:  # Blender takes milliseconds to write it
+                slot.material = material
             continue
         if slot.link == "OBJECT":
             replaced[str(index)] = slot.material or EMPTY

@@ -5,7 +5,7 @@ import json
 import sys
 from pathlib import Path
 
-from . import Error, Surface, Verdict, __version__, formats
+from . import Error, Surface, Verdict, __version__, formats, whole_file
 from .batch import mapping
 from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
@@ -103,8 +103,7 @@ def mapped(options):
 def _write(report, options):
     text = json.dumps(report, indent=1, allow_nan=False)
     if options.report:
-        with open(options.report, "w", encoding="utf-8") as file:
-            file.write(text + "\n")
+        whole_file.write(options.report, text.encode() + b"\n")
     elif not options.output:
         print(text)
 

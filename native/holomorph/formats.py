@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import arrays, gltf, textures
+from . import arrays, gltf, textures, whole_file
 from ._native import InvalidMesh
 
 
@@ -24,7 +24,7 @@ def write(surface, path, uv=None, texture=None):
         if uv is None:
             raise ValueError("a texture needs uv, the map by which it lies on the surface")
         image = textures.image(texture, surface, uv)
-    Path(path).write_bytes(content(name, surface, uv, image))
+    whole_file.write(path, content(name, surface, uv, image))
 
 
 def content(name, surface, uv=None, image=None):

@@ -8,6 +8,7 @@ import numpy as np
 from . import _native, arrays
 from .appearance import cost
 from .array_types import Integers, Progress, Reals
+from .checks import check_type
 from .hard_edges import bends, curvature
 from .island_cuts import Cuts, corner_pieces, in_one_orientation
 from .layout import pack
@@ -87,6 +88,7 @@ def island_map(
 
     Raises Cancelled.
     """
+    check_type(surface, Surface)
     progress = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
     given, (surface, order) = surface, in_one_orientation(surface)
     bent, found = bends(surface), None
