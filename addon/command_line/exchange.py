@@ -1,25 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files of other programs, read and written by Blender's own importers and exporters: with objects, materials, UV maps.
 
-In glTF each corner has a position of its own: vertices in one place are joined after reading, or every seam would be a
-boundary.
+In glTF each corner has a position of its own: vertices in one place are joined after reading, see `joining`.
 """
 
 import functools
 
-import bmesh
 import bpy
-import numpy as np
 
 from .. import compatibility, native
 from ..materials import material, plain
-from ..scene import gathering, mesh_io, uv_maps
+from ..scene import gathering, uv_maps
 from ..writing import states
+from . import joining
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
 GLTF = (".glb", ".gltf")
 SUFFIXES = (*GLTF, ".fbx", *USD, ".obj")
-SAME_PLACE = 1e-6  # of a mesh's largest extent: equal positions, for Blender joins nothing at a distance of 0
 KEPT_OF_OBJ = (b"vt ", b"usemtl ")  # lines of OBJ files for which Blender's importer is taken
 KINDS = {".obj": "OBJ", ".fbx": "FBX", **dict.fromkeys(GLTF, "glTF"), **dict.fromkeys(USD, "USD")}
 
@@ -84,7 +81,7 @@ def read(path, up):
     if not meshes:
         raise ExchangeError(f"{path}: there is no mesh in it")
     for mesh in {obj.data for obj in meshes} if kind in GLTF else ():
-        _join(mesh)
+        joining.join(mesh)
     for obj in layer.objects:
         obj.select_set(obj in meshes)
     layer.objects.active = meshes[0]
@@ -169,19 +166,3 @@ def _call(path, verb, operator, place=None, **options):
         lines = [line.strip() for line in str(error).splitlines() if line.strip()]
         told = [line for line in lines if not line.startswith(("Location:", "File "))]
         raise ExchangeError(f"{path}: Blender cannot {verb} this {kind} file: {told[-1] if told else kind}") from error
-
-
-def _join(mesh):
-    """Joins vertices in the very same place; normals of corners stay."""
-    if not len(mesh.vertices):
-        return
-    normals = mesh_io.corner_normals(mesh)
-    extent = np.ptp(mesh_io.read_values(compatibility.position_values(mesh)), axis=0).max()
-    edited = bmesh.new()
-    edited.from_mesh(mesh)
-    bmesh.ops.remove_doubles(edited, verts=edited.verts, dist=SAME_PLACE * extent)
-    edited.to_mesh(mesh)
-    edited.free()
-    if len(mesh.loops) == len(normals):
-        compatibility.set_corner_normals(mesh, normals)
-    mesh.update()

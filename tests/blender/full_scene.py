@@ -101,8 +101,9 @@ def sheet():
     obj = mesh_object("Sheet", *grid_arrays(4))
     mesh = obj.data
     obj.location = (9, 0, 0)
-    layer = mesh.uv_layers.new(name="UVMap")
-    paint = mesh.color_attributes.new("Paint", "BYTE_COLOR", "CORNER")
+    mesh.uv_layers.new(name="UVMap")
+    mesh.color_attributes.new("Paint", "BYTE_COLOR", "CORNER")
+    layer, paint = mesh.uv_layers["UVMap"], mesh.color_attributes["Paint"]  # a new layer moves those that there are
     for loop in mesh.loops:
         x, y, _ = mesh.vertices[loop.vertex_index].co
         layer.data[loop.index].uv = (x / 4, y / 4)

@@ -77,8 +77,9 @@ def mesh_arrays(obj, is_split):
 
 
 def first_at_each_place(points):
-    """(#V,) the lowest vertex with these coordinates."""
-    _, first, place = np.unique(points + 0.0, axis=0, return_index=True, return_inverse=True)  # -0 is 0
+    """(#V,) the lowest vertex with these coordinates, compared as bytes."""
+    keys = (points + np.float32(0)).view(np.dtype((np.void, 3 * points.itemsize)))[:, 0]  # -0 is 0
+    _, first, place = np.unique(keys, return_index=True, return_inverse=True)
     return first[place.ravel()]
 
 
