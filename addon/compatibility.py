@@ -103,11 +103,6 @@ def objects_being_edited(context):
     return [o for o in objects if o.type == "MESH"]
 
 
-def selected_objects(context):
-    """The selected objects of the view layer, from any editor and in background mode."""
-    return list(context.view_layer.objects.selected)
-
-
 def copy_auto_smooth(source, target):
     """Auto smooth of one mesh for another, where there is such a setting (until 4.0)."""
     if hasattr(source, "use_auto_smooth"):

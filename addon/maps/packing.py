@@ -8,7 +8,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from .. import compatibility, native
+from .. import native
 from ..scene import mesh_io, uv_maps
 
 MIDDLE = 0.5  # of the UV square
@@ -52,7 +52,7 @@ def _length(parts, uv):
 def _mesh_of(context, polygons):
     """A mesh of these polygons, as the only object that is selected, and the active one; it is gone in the end."""
     layer = context.view_layer
-    before, active = compatibility.selected_objects(context), layer.objects.active
+    before, active = list(layer.objects.selected), layer.objects.active
     mesh = mesh_io.new_mesh("Holomorphic Islands", polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
     obj = bpy.data.objects.new(mesh.name, mesh)
     context.scene.collection.objects.link(obj)

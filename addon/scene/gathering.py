@@ -16,20 +16,21 @@ def mesh_objects(context):
 
 
 def active_first(context, objects):
+    """These objects as a list."""
     active = context.view_layer.objects.active
     return sorted(objects, key=lambda o: o != active)
 
 
 def candidates(context):
-    """Those that are edited, that is sculpted or painted, or that are selected."""
+    """Those that are edited, the one that is sculpted or painted, or those that are selected."""
     if context.mode == "OBJECT":
         return selected_meshes(context)
     return compatibility.objects_being_edited(context) if context.mode == "EDIT_MESH" else [context.object]
 
 
 def selected_meshes(context):
-    """Yields the selected mesh objects that are visible, where there is a 3D view in this one."""
-    selected = compatibility.selected_objects(context)
+    """Yields the selected mesh objects that are visible, in a 3D view those of its local view."""
+    selected = context.view_layer.objects.selected
     return (o for o in selected if o.type == "MESH" and o.visible_get() and not is_helper(o))
 
 
