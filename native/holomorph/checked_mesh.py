@@ -1,5 +1,7 @@
 """Native surfaces of checked arrays. Those of meshes come with their `Origin`."""
 
+import os
+
 import numpy as np
 
 from . import _native, arrays
@@ -20,6 +22,12 @@ def of_polygons(vertices, corner_vertices, face_offsets, strict):
         arrays.integer(face_offsets, "face_offsets"),
         strict,
     )
+
+
+def of_file(path, strict, weld):
+    """As `Surface.read` takes them."""
+    part = _native.Surface.read(os.fspath(path), strict, weld)
+    return part.surface, Origin.of_part(part)
 
 
 def _of(vertices, corner_vertices, face_offsets, strict):

@@ -1,16 +1,15 @@
 """Surfaces: validated, consistently oriented polygon meshes, or intrinsic triangulations."""
 
-import os
 from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native, arrays, checked_mesh, formats, pickled_surface
+from . import arrays, checked_mesh, formats, pickled_surface
 from ._native import TopologyError
 from .array_types import FilePath, Integers, Reals
-from .origin import AS_GIVEN, Origin
+from .origin import AS_GIVEN
 from .repairs import Refused, Repairs
 from .value import Value, freeze
 
@@ -88,8 +87,7 @@ class Surface(Value):
         InvalidMesh
             if the file is missing or malformed (names the line or byte), or no face of the mesh in it can be mapped.
         """
-        part = _native.Surface.read(os.fspath(path), strict, weld)
-        return cls._of(part.surface, Origin.of_part(part))
+        return cls._of(*checked_mesh.of_file(path, strict, weld))
 
     def write(self, path: FilePath, uv: ArrayLike | None = None, texture: FilePath | None = None) -> None:
         """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles: positions, and with `uv`,
