@@ -14,6 +14,7 @@ from .automatic_structure import AnyStructure
 from .copies import Copy, copies
 from .given_vertices import on_part
 from .map import Map
+from .mixed_sizing import Divided, MixedSizing, divided
 from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_map
 from .progress import scaled
 from .side_by_side import side_by_side
@@ -85,7 +86,8 @@ def sized_maps(
     alike = _alike(parts, mains, choices)
     done = SOLVING if structures is None else 0.0
     made = _first_maps(parts, structures, mains, alike, choices, threads, scaled(progress, 0.0, done))
-    sizings = {k: Sizing(found, *choices[k]) for k, found in made.items() if isinstance(found, Undecided)}
+    kinds = {Undecided: Sizing, Divided: MixedSizing}
+    sizings = {k: kinds[type(found)](found, *choices[k]) for k, found in made.items() if type(found) in kinds}
     wanted = _density(parts, tiles) if density is None else density
     sized = _sized(parts, alike, sizings, wanted, _tries(tiles, density), threads, scaled(progress, done, 1.0))
     found = [sized[k] if k in sized else made[copy.first] for k, copy in enumerate(alike)]
@@ -124,7 +126,9 @@ def _first_maps(parts, structures, mains, alike, choices, threads, progress):
     def work(i, count, step):
         k = firsts[i]
         try:
-            return first_map(parts[k], structures and structures[k], mains[k], choices[k][1]["evenness"], count, step)
+            evenness = choices[k][1]["evenness"]
+            found = first_map(parts[k], structures and structures[k], mains[k], evenness, count, step)
+            return divided(found, evenness, count, step) if mains[k] == "automatic" else found
         except REFUSALS as error:
             return error
 
@@ -144,7 +148,7 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
     largest, total = max(members, key=lambda k: parts[k].area), sum(parts[k].area for k in members) or 1.0
     share, first = parts[largest].area / total, alike[largest].first
     leader = sizings[first].about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
-    if tries and isinstance(leader, Map) and leader.tiling:
+    if tries and isinstance(leader, Map) and leader.is_tiled:
         density = leader.quality.median_density / alike[largest].scale ** 2
     firsts = list(groups)
 

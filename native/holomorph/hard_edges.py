@@ -5,6 +5,7 @@ import numpy as np
 from .cut_open import on_border, paths_to_border
 
 TIP = np.pi / 3  # radians that are missing around a vertex, or too many
+HIDING = np.pi / 3  # radians, from which on the bend hides a seam; where it is less, in proportion
 
 
 def is_hard(surface, degrees):
@@ -23,6 +24,11 @@ def bends(surface):
     result = np.zeros(len(surface._native.edges))
     result[edges[order[both]]] = bend
     return result
+
+
+def seen(bent):
+    """How far a seam is seen along edges with these `bends`: from 0 where they hide it to 1 across the smooth."""
+    return np.maximum(1 - bent / HIDING, 0)
 
 
 def cuts_to_tips(surface, is_seam):

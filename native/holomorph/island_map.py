@@ -8,7 +8,7 @@ import numpy as np
 from . import _native, arrays
 from .appearance import cost
 from .array_types import Integers, Progress, Reals
-from .hard_edges import bends, curvature
+from .hard_edges import bends, curvature, seen
 from .island_cuts import Cuts, corner_pieces, in_one_orientation
 from .layout import pack
 from .overlap import overlapping_part
@@ -19,7 +19,6 @@ from .value import Value, counted
 
 HARD = 60.0, 40.0, 30.0  # degrees between two faces, from which on a seam is expected, if need be
 SMOOTH = 35.0  # degrees: a part without sharper edges is a coarse mesh of something smooth
-HIDING = math.pi / 3  # radians, from which on the bend hides a seam; where it is less, in proportion
 FINE = 0.3  # cost of the squares, from which on no other angle is tried
 MARGIN = 0.02  # between islands, in sides of the square that they are packed into
 AXES = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))  # what is up on an island: the first that it shows
@@ -180,7 +179,7 @@ class _Layout:
         seams = cuts.mask & ~_is_continuous(cuts, uv, joints)
         native = self.surface._native
         ends, lengths = np.asarray(native.edges)[seams], np.asarray(native.edge_lengths)[seams]
-        soft = np.maximum(1 - self.bends[seams] / HIDING, 0)
+        soft = seen(self.bends[seams])
         visible = (float((lengths * part).sum()) / math.sqrt(self.surface.area) for part in (soft, 1 - soft))
         quality = self._quality(cuts, pieces, flat, uv)
         return Islands(arrays.frozen(uv), arrays.frozen(ends), count, *visible, quality, self.evenness), flat_uv

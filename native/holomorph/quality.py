@@ -49,6 +49,33 @@ class Quality(Value):
         parts = found.angle, found.area, found.flipped
         return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
 
+    @classmethod
+    def joined(cls, qualities: Sequence["Quality"], densities: ArrayLike) -> "Quality":
+        """That of several maps, each scaled until its median density is the one that is given, with the triangles of
+        one after those of the other.
+
+        densities : (n,); maps without area keep theirs
+        """
+        scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in zip(qualities, densities)]
+        if len(qualities) == 1:
+            return qualities[0].of_copy(scales[0] ** -0.5)
+        density = np.concatenate([each.area * scale for each, scale in zip(qualities, scales)])
+        angle = np.concatenate([each.angle for each in qualities])
+        flipped = np.concatenate([each.flipped for each in qualities])
+        weights = np.concatenate([each._weights for each in qualities])
+        low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
+        ratio = float(high / low) if low > 0 else np.inf
+        parts = [each._weights.sum() for each in qualities]
+        long, unseen, overlapping = (
+            float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=parts))
+            for name in ("long_part", "unseen_angle", "overlapping_part")
+        )
+        has_size = np.isfinite(angle)
+        mean = float(np.average(angle[has_size], weights=weights[has_size])) if weights[has_size].any() else np.inf
+        result = cls(*map(arrays.frozen, (angle, density, flipped)), mean, ratio, float(median), None, overlapping, unseen)
+        vars(result).update(long_part=long, _weights=weights)
+        return result
+
     def evened_from(self, before: "Quality", evenness: float) -> "Quality":
         """The same, of a map that evening made of one with the quality `before`."""
         added = self.capped_mean_angle - before.capped_mean_angle
@@ -116,18 +143,3 @@ class Quality(Value):
         a, b, c = self._sides.T
         areas = np.sqrt(np.maximum((c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)), 0.0)) / 4
         return areas if areas.any() else np.ones_like(areas)
-
-
-def joined(qualities: Sequence[Quality], densities: ArrayLike) -> tuple[float, float]:
-    """(`capped_mean_angle`, `density_ratio`) over all triangles of several maps.
-
-    densities : (n,) to which the maps are scaled: the median of each
-    """
-    if len(qualities) == 1:
-        return qualities[0].capped_mean_angle, qualities[0].density_ratio
-    weights = [quality._weights for quality in qualities]
-    angle = np.average([each.capped_mean_angle for each in qualities], weights=[each.sum() for each in weights])
-    scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in zip(qualities, densities)]
-    density = np.concatenate([each.area * scale for each, scale in zip(qualities, scales)])
-    low, high = quantiles(density, np.concatenate(weights), (LOW, HIGH))
-    return float(angle), float(high / low) if low > 0 else np.inf

@@ -43,6 +43,13 @@ class Sizing:
             return self._moved(made, TRIES, progress) if fits else self.undecided.untiled(TOO_FEW, made.tiling)
         return other if isinstance(other, Map) or self._is_strict else self.undecided.untiled(str(other))
 
+    def tiling(self, density: float, tries: int, progress: Progress | None) -> Map | None:
+        """The tiling with this density, or the nearest one that so many numbers of tiles give; without any try the one
+        that is within `LIKE_SIZE` of it. None where there is none."""
+        tilings, _ = self._tried(density, tries or TRIES, progress)
+        made = _nearest(tilings, density) if tilings else None
+        return made if made and (tries or abs(_excess(made, density)) <= LIKE_SIZE) else None
+
     def _tried(self, density, tries, progress):
         """(tilings, the first that is none or how it is refused): with one number of tiles after the other, until the
         density is the wanted one."""
