@@ -39,10 +39,14 @@ def cuts_to_tips(surface, is_seam):
     return paths_to_border(surface, is_on_border, tips)
 
 
-def curvature(surface):
-    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians."""
+def curvature(surface, most=np.inf):
+    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians.
+
+    most : vertices where it is more do not count, such as `TIP`
+    """
     no_seam = np.zeros(len(surface._native.edges), bool)
-    return float(np.abs(_defects(surface)[~on_border(surface, no_seam)]).sum())
+    missing = np.abs(_defects(surface)[~on_border(surface, no_seam)])
+    return float(missing[missing <= most].sum())
 
 
 def _face_normals(surface):

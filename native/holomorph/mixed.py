@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import arrays
+from .appearance import cost
 from .array_types import Integers, Reals
 from .quality import Quality
 from .tilings import Tiling
@@ -20,7 +21,8 @@ class Mixed(Value):
     seams : (#S, 2) vertices of the edges where the UVs jump
     quality : `Quality`, with the triangles of one piece after those of another
     evenness : from 0, conformal, to 1: how far squares of one size were preferred to angles
-    cost : see `appearance.cost`
+    soft_length, hard_length : of the seams across the smooth, and along hard edges that hide them, over the square root
+        of the surface's area
     """
 
     uv: Reals
@@ -28,7 +30,13 @@ class Mixed(Value):
     seams: Integers
     quality: Quality
     evenness: float
-    cost: float
+    soft_length: float
+    hard_length: float
+
+    @property
+    def cost(self) -> float:
+        """See `appearance.cost`."""
+        return cost(self.quality, len(self.poles), self.soft_length, self.hard_length)
 
     def _facts(self):
         return [counted(len(self.tilings), "tiling"), *self.quality._facts()]

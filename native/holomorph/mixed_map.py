@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 
 from . import arrays
-from .appearance import cost
 from .arrangement import arranged, unit_length
 from .automatic_structure import AnyStructure
 from .edges import boundary_edges, edge_keys
@@ -29,9 +28,7 @@ def mixed_map(surface: Surface, structure: AnyStructure, pieces: Sequence[Map], 
     uv = arrays.frozen(arranged(pieces, len(surface.corner_vertices)))
     tilings = tuple(_of_part(made.tiling, made.surface.vertex_index) for made in tiled)
     is_border, seams = _seams(surface, pieces)
-    poles = sum(len(tiling.poles) for tiling in tilings)
-    minded = cost(quality, poles, *_seen_lengths(surface, is_border))
-    mixed = Mixed(uv, tilings, seams, quality, evenness, minded)
+    mixed = Mixed(uv, tilings, seams, quality, evenness, *_seen_lengths(surface, is_border))
     has = f"{counted(len(tiled), 'piece')} between hard edges {'has' if len(tiled) == 1 else 'have'} whole tiles"
     why = f"{has}, the rest flattens: density ratio {quality.density_ratio:.3g}"
     return Map(surface, structure, uv, quality, np.empty(0), why, mixed=mixed)

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from .appearance import cost
+from .appearance import HARD_SEAM, cost
 from .array_types import Integers, Progress
 from .automatic_structure import automatic_structure
 from .hard_edges import bends
-from .island_map import HARD
+from .island_map import HARD, SMOOTH
 from .map import Map, form_map
 from .map_choice import FLAT, GOOD, MOST_SOFT, REFUSALS, Refusal, Undecided, first_map
 from .mixed_map import mixed_map
@@ -44,7 +44,7 @@ def divided(
     if not _may_be_divided(found, flat):
         return found
     bent, surface = bends(found.surface), found.surface
-    for degrees in HARD:
+    for degrees in (angle for angle in HARD if angle > SMOOTH):
         names = names_of_pieces(surface, bent > math.radians(degrees))
         pieces = smooth_pieces(surface, flat, names, threads or 0) if names.any() else []
         if pieces:
@@ -86,7 +86,7 @@ class MixedSizing:
     def _less_minded(self, mixed, how, size, progress):
         other = self.part.other
         if isinstance(other, Undecided):
-            if mixed and mixed.cost <= GOOD:
+            if mixed and mixed.cost - HARD_SEAM * mixed.mixed.hard_length <= GOOD:
                 return mixed
             other = getattr(Sizing(other, self.poles, self.options), how)(*size, scaled(progress, MIXING, 1.0))
         return mixed if mixed and (not isinstance(other, Map) or mixed.cost < other.cost) else other

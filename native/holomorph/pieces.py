@@ -9,16 +9,17 @@ from .appearance import cost
 from .array_types import Integers
 from .cut_open import cut_open
 from .edges import edge_keys
-from .hard_edges import bends, curvature, seen
+from .hard_edges import TIP, bends, curvature, seen
 from .island_cuts import edges_between, in_one_orientation
 from .island_map import Islands
 from .map_choice import FLAT, MOST_SOFT
 from .origin import Origin
 from .quality import Quality
 from .surface import Surface
+from .tube import is_tube
 
 WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
-SMOOTH = 1.0  # radians of curvature, from which on a piece that is no tube is more than flat sheets and cones
+SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is no tube is more than sheets and cones
 TUBES = 0.5  # part of the area of a part without islands, from which on its tubes are looked at
 
 
@@ -51,18 +52,14 @@ def smooth_pieces(surface, flat, names, threads):
         if part.area < WORTH * surface.area or not _may_be_smooth(part, flat):
             continue
         soft, own, squares = _costs(part, flat, threads)
-        if soft > MOST_SOFT or squares > FLAT:
+        if soft * math.sqrt(part.area / surface.area) > MOST_SOFT or squares > FLAT:
             found.append(Piece(part, int(names[part.face_index[0]]), own))
     tubes = sum(piece.surface.area for piece in found)
     return found if flat or tubes >= TUBES * surface.area else []
 
 
-def is_tube(surface):
-    return (surface.genus, surface.boundary_count) == (0, 2)
-
-
 def _may_be_smooth(part, flat):
-    return is_tube(part) or flat is not None and part.boundary_count > 0 and curvature(part) > SMOOTH
+    return is_tube(part) or flat is not None and part.boundary_count > 0 and curvature(part, TIP) > SMOOTH
 
 
 def _costs(part, flat: Islands | None, threads):

@@ -10,6 +10,7 @@ from .map import Map
 from .map_choice import REFUSALS, Refusal, Undecided
 from .progress import scaled
 from .tiling import Poles
+from .tube import is_tube, stretched
 
 SAME_SIZE = 0.045  # relative difference of a median density from the wanted one, until which other numbers are tried
 LIKE_SIZE = 0.1  # and up to which a tiling stays one: without whole tiles a seam would show
@@ -44,11 +45,15 @@ class Sizing:
         return other if isinstance(other, Map) or self._is_strict else self.undecided.untiled(str(other))
 
     def tiling(self, density: float, tries: int, progress: Progress | None) -> Map | None:
-        """The tiling with this density, or the nearest one that so many numbers of tiles give; without any try the one
-        that is within `LIKE_SIZE` of it. None where there is none."""
-        tilings, _ = self._tried(density, tries or TRIES, progress)
+        """The nearest tiling that so many numbers of tiles give; without any try one that is within `LIKE_SIZE` of the
+        density, for which a tube is stretched. None where there is none."""
+        surface = self.undecided.surface
+        tilings, _ = self._tried(density, tries or (1 if is_tube(surface) else TRIES), progress)
         made = _nearest(tilings, density) if tilings else None
-        return made if made and (tries or abs(_excess(made, density)) <= LIKE_SIZE) else None
+        if made is None or tries or abs(_excess(made, density)) <= SAME_SIZE:
+            return made
+        long = stretched(made, density) if is_tube(surface) else None
+        return long or (made if abs(_excess(made, density)) <= LIKE_SIZE else None)
 
     def _tried(self, density, tries, progress):
         """(tilings, the first that is none or how it is refused): with one number of tiles after the other, until the
