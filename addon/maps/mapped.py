@@ -37,7 +37,7 @@ class MappedPart:
     @property
     def seams(self):
         """(#S, 2) vertices of the whole object: where the main map is cut."""
-        made, structure = self.map.tiling or self.map.islands, self.component.structure
+        made, structure = self.map.own, self.component.structure
         return self.vertices(made.seams) if made else structure.edges[structure.seams]
 
 
@@ -57,8 +57,8 @@ class MappedObject:
 
     @property
     def tiled(self):
-        """The parts whose main map is a tiling."""
-        return [part for part in self.parts if part.tiling]
+        """The parts whose main map is a tiling, or has tilings of pieces."""
+        return [part for part in self.parts if part.map and part.map.is_tiled]
 
     @property
     def part_maps(self):

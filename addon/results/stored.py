@@ -29,8 +29,9 @@ def parsed(stored):
 
 
 def tilings(stored):
-    """Of the parts that have one."""
-    return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
+    """Of the parts that have one, and of pieces of parts."""
+    parts = parsed(stored).get("components", [])
+    return [tiling for part in parts for tiling in part.get("tilings", [part["tiling"]] if "tiling" in part else [])]
 
 
 def chosen_tiles(stored):

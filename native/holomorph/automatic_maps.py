@@ -14,8 +14,8 @@ from .automatic_structure import AnyStructure
 from .copies import Copy, copies
 from .given_vertices import on_part
 from .map import Map
-from .mixed_sizing import Divided, MixedSizing, divided
 from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_map
+from .mixed_sizing import Divided, MixedSizing, divided
 from .progress import scaled
 from .side_by_side import side_by_side
 from .sizing import TRIES, Sizing

@@ -69,8 +69,8 @@ class Map(Value):
         return "tiling" if self.tiling else self.structure.map_kind
 
     @property
-    def _own(self):
-        """What the map is made of where that is not its structure."""
+    def own(self) -> Tiling | Islands | Mixed | None:
+        """What the map is where it is none of the forms of its structure."""
         return self.tiling or self.islands or self.mixed
 
     @property
@@ -95,13 +95,13 @@ class Map(Value):
     @property
     def evenness(self) -> float:
         """From 0, conformal, to 1: how far squares of one size were preferred to angles."""
-        return self._own.evenness if self._own else self._evenness
+        return self.own.evenness if self.own else self._evenness
 
     @cached_property
     def seams(self) -> Integers:
         """(#S, 2) vertices of the edges where the UVs jump."""
-        if self._own:
-            return self._own.seams
+        if self.own:
+            return self.own.seams
         return self._of_surface(self.structure._triangulation.edges[self.structure.seams])
 
     @cached_property

@@ -3,11 +3,12 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from .appearance import HARD_SEAM, cost
+from .appearance import HARD_SEAM, TURN, cost
 from .array_types import Integers, Progress
 from .automatic_structure import automatic_structure
 from .hard_edges import bends
@@ -17,8 +18,9 @@ from .map_choice import FLAT, GOOD, MOST_SOFT, REFUSALS, Refusal, Undecided, fir
 from .mixed_map import mixed_map
 from .pieces import Piece, cut_apart, names_of_pieces, smooth_pieces
 from .progress import scaled
-from .sizing import TRIES, Sizing
+from .sizing import Sizing
 from .tiling import Poles
+from .tube import is_tube
 
 REST = -1  # name of the polygons of all pieces without a tiling
 MIXING = 0.5  # of the work, for the pieces
@@ -48,7 +50,6 @@ def divided(
         names = names_of_pieces(surface, bent > math.radians(degrees))
         pieces = smooth_pieces(surface, flat, names, threads or 0) if names.any() else []
         if pieces:
-            pieces.sort(key=lambda piece: -piece.surface.area)
             undecided = [_undecided(piece.surface, evenness, threads, progress) for piece in pieces]
             return Divided(found, names, tuple(zip(pieces, undecided)), evenness, threads)
     return found
@@ -65,6 +66,26 @@ def _undecided(piece, evenness, threads, progress):
     return Undecided(piece, structure, form_map(piece, structure), evenness=evenness)
 
 
+@dataclass(frozen=True, eq=False)
+class _Tiled:
+    """A piece with its tiling. share : its part of the area"""
+
+    piece: Piece
+    map: Map
+    share: float
+
+    @cached_property
+    def turn(self):
+        """What is minded of how far rows turn in its islands; nothing where poles turn them in the tiling, too."""
+        is_round = is_tube(self.piece.surface) and not len(self.map.poles)
+        return TURN * self.piece.turn(self.map.uv) if is_round else 0.0
+
+    @property
+    def turns(self):
+        """Of the whole part."""
+        return self.share * self.turn
+
+
 @dataclass(frozen=True)
 class MixedSizing:
     """A `Divided` part, and what is asked of tilings: poles and other options of `Structure.tile`."""
@@ -73,43 +94,62 @@ class MixedSizing:
     poles: Poles
     options: Mapping[str, Any]
 
-    def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
-        """As `Sizing.about`."""
-        mixed = self._mixed(density, tries, scaled(progress, 0.0, MIXING))
-        return self._less_minded(mixed, "about", (density, tries), progress)
-
     def at(self, density: float, progress: Progress | None) -> Map | Refusal:
         """As `Sizing.at`."""
-        mixed = self._mixed(density, 0, scaled(progress, 0.0, MIXING))
-        return self._less_minded(mixed, "at", (density,), progress)
+        return self.about(density, 0, progress)
 
-    def _less_minded(self, mixed, how, size, progress):
-        other = self.part.other
+    def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
+        """As `Sizing.about`; in pieces where that is less minded."""
+        tiled, other = self._tiled(density, tries, scaled(progress, 0.0, MIXING)), self.part.other
+        mixed, turns = self._least_minded(tiled, scaled(progress, MIXING, MIXING))
         if isinstance(other, Undecided):
-            if mixed and mixed.cost - HARD_SEAM * mixed.mixed.hard_length <= GOOD:
+            if mixed and _is_taken_at_once(mixed.mixed):
                 return mixed
-            other = getattr(Sizing(other, self.poles, self.options), how)(*size, scaled(progress, MIXING, 1.0))
-        return mixed if mixed and (not isinstance(other, Map) or mixed.cost < other.cost) else other
+            other = self._sizing(other).about(density, tries, scaled(progress, MIXING, 1.0))
+        if mixed is None or not isinstance(other, Map):
+            return mixed or other
+        all_turns = sum(one.turns for one in tiled) if other.islands else 0.0
+        return mixed if mixed.cost + turns < other.cost + all_turns else other
 
-    def _mixed(self, density, tries, progress):
-        """The map in pieces; None where none of them gets a tiling, or the rest has no map."""
-        made, names = [], np.full_like(self.part.names, REST)
-        for n, (piece, undecided) in enumerate(self.part.pieces):
-            step = scaled(progress, n / (len(self.part.pieces) + 1), (n + 1) / (len(self.part.pieces) + 1))
-            tiling = Sizing(undecided, self.poles, self.options).tiling(density, 0 if made else tries, step)
-            if tiling is None or tiling.cost >= piece.cost:
-                continue
-            density = tiling.density if not made else density
-            made.append(tiling)
-            names[self.part.names == piece.name] = piece.name
-        if not made:
-            return None
-        surface = self.part.other.surface
+    def _tiled(self, density, tries, progress):
+        """The `_Tiled` pieces that may be better than islands: of one density, that of the largest."""
+        pieces, made = self.part.pieces, []
+        for n, (piece, undecided) in enumerate(pieces):
+            step = scaled(progress, n / len(pieces), (n + 1) / len(pieces))
+            sizing = self._sizing(undecided)
+            tiling = None if sizing.is_strict else sizing.tiling(density, 0 if made else tries, step)
+            one = tiling and _Tiled(piece, tiling, piece.surface.area / self.part.other.surface.area)
+            if one and tiling.cost < piece.cost + one.turn:
+                density = density if made else tiling.density
+                made.append(one)
+        return made
+
+    def _least_minded(self, tiled, progress):
+        """(The map in pieces, what is minded of how far rows turn in its islands); None where there is none."""
+        choices = [tiled, [one for one in tiled if one.map.cost < one.piece.cost]]
+        best, least = None, math.inf
+        for kept in choices[: 1 + (len(choices[1]) < len(tiled))]:
+            found = self._glued(kept, progress) if kept else None
+            turns = sum(one.turns for one in tiled if one not in kept)
+            if found and found.cost + turns < least:
+                best, least = found, found.cost + turns
+        return best, least - best.cost if best else 0.0
+
+    def _glued(self, tiled, progress):
+        """The map with these tilings; None where the rest has none."""
+        names = np.where(np.isin(self.part.names, [one.piece.name for one in tiled]), self.part.names, REST)
+        other, evenness = self.part.other, self.part.evenness
         try:
-            rest = [self._untiled(one) for one in cut_apart(surface, names) if names[one.face_index[0]] == REST]
+            parts = [one for one in cut_apart(other.surface, names) if names[one.face_index[0]] == REST]
+            rest = [first_map(one, None, "untiled", evenness, self.part.threads, progress) for one in parts]
         except REFUSALS:
             return None
-        return mixed_map(surface, self.part.other.structure, made + rest, self.part.evenness)
+        return mixed_map(other.surface, other.structure, [one.map for one in tiled] + rest, evenness)
 
-    def _untiled(self, surface):
-        return first_map(surface, None, "untiled", self.part.evenness, self.part.threads, None)
+    def _sizing(self, undecided):
+        return Sizing(undecided, self.poles, self.options)
+
+
+def _is_taken_at_once(mixed):
+    """Hard edges do not count: a tiling of the whole part would stretch there."""
+    return mixed.cost - HARD_SEAM * mixed.hard_length <= GOOD

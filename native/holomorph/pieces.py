@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .appearance import cost
-from .array_types import Integers
+from .array_types import Integers, Reals
 from .cut_open import cut_open
 from .edges import edge_keys
 from .hard_edges import TIP, bends, curvature, seen
@@ -25,12 +25,30 @@ TUBES = 0.5  # part of the area of a part without islands, from which on its tub
 
 @dataclass(frozen=True)
 class Piece:
-    """A connected piece, whose surface counts vertices, polygons and corners as the part does. name : that of its
-    polygons; cost : of its islands, see `appearance.cost`; infinite without any"""
+    """A connected piece, whose surface counts vertices, polygons and corners as the part does.
+
+    name : that of its polygons
+    uv, cost : of its islands, (#C, 2), see `appearance.cost`; None and infinite without any
+    """
 
     surface: Surface
     name: int
+    uv: Reals | None
     cost: float
+
+    def turn(self, uv: Reals) -> float:
+        """Radians by which rows of squares of the islands turn against those of another map of the piece, in the mean
+        over the area; 0 without islands."""
+        if self.uv is None:
+            return 0.0
+        own, other = ((each @ [1, 1j])[self.surface.triangle_corners] for each in (self.uv, uv))
+        sides = other[:, 1:] - other[:, :1]
+        areas = np.abs((np.conj(sides[:, 0]) * sides[:, 1]).imag)
+        centred = own - own.mean(axis=1, keepdims=True)
+        rotations = np.angle((np.conj(centred) * other).sum(axis=1))  # the best one of each triangle
+        mean = (areas * np.exp(4j * rotations)).sum()  # squares look the same after a quarter turn
+        off = np.abs(np.angle(np.exp(4j * rotations) * np.conj(mean))) / 4
+        return float(np.average(off, weights=areas)) if areas.any() else 0.0
 
 
 def names_of_pieces(surface, is_hard_edge):
@@ -46,14 +64,13 @@ def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
 
 
 def smooth_pieces(surface, flat, names, threads):
-    """The `Piece`s that are tubes, or smooth, and across which islands have a seam or stretch."""
+    """The `Piece`s that are tubes, or smooth, and across which islands have a seam or stretch, the largest first."""
+    parts = [part for part in cut_apart(surface, names) if part.area >= WORTH * surface.area]
     found = []
-    for part in cut_apart(surface, names):
-        if part.area < WORTH * surface.area or not _may_be_smooth(part, flat):
-            continue
-        soft, own, squares = _costs(part, flat, threads)
-        if soft * math.sqrt(part.area / surface.area) > MOST_SOFT or squares > FLAT:
-            found.append(Piece(part, int(names[part.face_index[0]]), own))
+    for part in sorted(parts, key=lambda part: -part.area):
+        piece, soft, squares = _piece(part, int(names[part.face_index[0]]), flat, threads)
+        if _may_be_smooth(part, flat) and (soft > MOST_SOFT * math.sqrt(surface.area) or squares > FLAT):
+            found.append(piece)
     tubes = sum(piece.surface.area for piece in found)
     return found if flat or tubes >= TUBES * surface.area else []
 
@@ -62,13 +79,14 @@ def _may_be_smooth(part, flat):
     return is_tube(part) or flat is not None and part.boundary_count > 0 and curvature(part, TIP) > SMOOTH
 
 
-def _costs(part, flat: Islands | None, threads):
-    """(length of seams across the smooth, cost of all, of squares alone) that islands have on a piece."""
+def _piece(part, name, flat: Islands | None, threads):
+    """(`Piece`, length of the seams of islands across the smooth, what is minded of their squares)"""
     if flat is None:
-        return math.inf, math.inf, math.inf
-    quality = Quality.of(part._native, flat.uv[part.corner_index], threads)
+        return Piece(part, name, None, math.inf), math.inf, math.inf
+    uv = np.ascontiguousarray(flat.uv[part.corner_index])
+    quality = Quality.of(part._native, uv, threads)
     native, count = part._native, part.given_vertex_count
     is_inner = np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 2
     is_seam = np.isin(edge_keys(part.vertex_index[native.edges], count), edge_keys(flat.seams, count)) & is_inner
-    soft = float((native.edge_lengths * seen(bends(part)))[is_seam].sum()) / math.sqrt(part.area)
-    return soft, cost(quality, 0, soft), cost(quality)
+    soft = float((native.edge_lengths * seen(bends(part)))[is_seam].sum())
+    return Piece(part, name, uv, cost(quality, 0, soft / math.sqrt(part.area))), soft, cost(quality)

@@ -56,23 +56,25 @@ class Quality(Value):
 
         densities : (n,); maps without area keep theirs
         """
-        scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in zip(qualities, densities)]
+        pairs = zip(qualities, densities)
+        scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in pairs]
         if len(qualities) == 1:
             return qualities[0].of_copy(scales[0] ** -0.5)
         density = np.concatenate([each.area * scale for each, scale in zip(qualities, scales)])
-        angle = np.concatenate([each.angle for each in qualities])
-        flipped = np.concatenate([each.flipped for each in qualities])
-        weights = np.concatenate([each._weights for each in qualities])
+        parts = [(each.angle, each.flipped, each._weights) for each in qualities]
+        angle, flipped, weights = map(np.concatenate, zip(*parts))
         low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
-        ratio = float(high / low) if low > 0 else np.inf
-        parts = [each._weights.sum() for each in qualities]
+        kept = np.isfinite(angle)
+        mean = float(np.average(angle[kept], weights=weights[kept])) if weights[kept].any() else np.inf
+        figures = mean, float(high / low) if low > 0 else np.inf, float(median)
+        shares = [each._weights.sum() for each in qualities]
         long, unseen, overlapping = (
-            float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=parts))
+            float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=shares))
             for name in ("long_part", "unseen_angle", "overlapping_part")
         )
-        has_size = np.isfinite(angle)
-        mean = float(np.average(angle[has_size], weights=weights[has_size])) if weights[has_size].any() else np.inf
-        result = cls(*map(arrays.frozen, (angle, density, flipped)), mean, ratio, float(median), None, overlapping, unseen)
+        is_island = any(each.overlapping_part is not None for each in qualities)
+        of_triangles = map(arrays.frozen, (angle, density, flipped))
+        result = cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen)
         vars(result).update(long_part=long, _weights=weights)
         return result
 

@@ -40,9 +40,9 @@ class Sizing:
         tilings, other = self._tried(density, TRIES, progress)
         if tilings:
             made = _nearest(tilings, density)
-            fits = abs(_excess(made, density)) <= LIKE_SIZE or self._is_strict
+            fits = abs(_excess(made, density)) <= LIKE_SIZE or self.is_strict
             return self._moved(made, TRIES, progress) if fits else self.undecided.untiled(TOO_FEW, made.tiling)
-        return other if isinstance(other, Map) or self._is_strict else self.undecided.untiled(str(other))
+        return other if isinstance(other, Map) or self.is_strict else self.undecided.untiled(str(other))
 
     def tiling(self, density: float, tries: int, progress: Progress | None) -> Map | None:
         """The nearest tiling that so many numbers of tiles give; without any try one that is within `LIKE_SIZE` of the
@@ -85,7 +85,8 @@ class Sizing:
             return error
 
     @property
-    def _is_strict(self):
+    def is_strict(self) -> bool:
+        """Whether more is asked of a tiling than its density."""
         is_chosen = not isinstance(self.poles, (str, numbers.Real)) or self.poles not in ("auto", 0)
         is_bound = any(self.options.get(name) is not None for name in ("max_added", "allowed"))
         return is_chosen or is_bound or bool(self.options.get("moves"))

@@ -64,7 +64,8 @@ def whole(maps: Sequence["Map"], parts: Sequence[dict[str, Any]], repairs: "Repa
     spread = float(seen.max() / seen.min()) if len(seen) else 1.0
     order = np.argsort(-areas, kind="stable")
     found = overall([maps[k].verdict for k in order], areas[order], sizes=spread, unmapped=unmapped / faces)
-    return Whole("; ".join(_words(maps, unmapped, repairs)), quality.capped_mean_angle, quality.density_ratio, spread, unmapped, found)
+    text = "; ".join(_words(maps, unmapped, repairs))
+    return Whole(text, quality.capped_mean_angle, quality.density_ratio, spread, unmapped, found)
 
 
 def _sizes(maps):
