@@ -112,7 +112,7 @@ def one_island(surface, tiling):
     size = math.sqrt(tiling.quality.median_density)
     ends = surface.vertices[tiling.seams]
     soft = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() / math.sqrt(surface.area)
-    quality = tiling.quality.of_copy(size)
+    quality = tiling.quality.of_density(1.0)
     return Islands(arrays.frozen(tiling.uv / size), tiling.seams, 1, float(soft), 0.0, quality, tiling.evenness)
 
 

@@ -56,13 +56,11 @@ class Quality(Value):
 
         densities : (n,); maps without area keep theirs
         """
-        pairs = zip(qualities, densities)
-        scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in pairs]
-        if len(qualities) == 1:
-            return qualities[0].of_copy(scales[0] ** -0.5)
-        density = np.concatenate([each.area * scale for each, scale in zip(qualities, scales)])
-        parts = [(each.angle, each.flipped, each._weights) for each in qualities]
-        angle, flipped, weights = map(np.concatenate, zip(*parts))
+        scaled = [each.of_density(density) for each, density in zip(qualities, densities)]
+        if len(scaled) == 1:
+            return scaled[0]
+        parts = [(each.angle, each.area, each.flipped, each._weights) for each in scaled]
+        angle, density, flipped, weights = map(np.concatenate, zip(*parts))
         low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
         kept = np.isfinite(angle)
         mean = float(np.average(angle[kept], weights=weights[kept])) if weights[kept].any() else np.inf
@@ -85,8 +83,19 @@ class Quality(Value):
 
     def of_copy(self, scale: float) -> "Quality":
         """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
-        area = arrays.frozen(self.area / scale**2)
-        return replace(self, area=area, median_density=self.median_density / scale**2)
+        result = self._scaled(scale**-2)
+        vars(result)["_weights"] = self._weights * scale**2
+        return result
+
+    def of_density(self, density: float) -> "Quality":
+        """That of the map scaled until its median density is this one; of one without area its own."""
+        return self._scaled(density / self.median_density if self.median_density > 0 else 1.0)
+
+    def _scaled(self, factor):
+        area = arrays.frozen(self.area * factor)
+        result = replace(self, area=area, median_density=self.median_density * factor)
+        vars(result).update(long_part=self.long_part, _weights=self._weights)
+        return result
 
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]

@@ -115,8 +115,8 @@ def test_a_copy_has_the_map_of_its_part():
     first = capped(*SHAPES["barrel of 0.1"])
     copy = Surface.from_polygons(2 * first.vertices + 10, first.corner_vertices, first.face_offsets)
     made = automatic_maps([first, copy], density=6.0)
-    own = Quality.of(copy._native, made[1].uv, 0)
-    assert made[1].kind == "mixed" and made[1].surface is copy
+    own, verdict = Quality.of(copy._native, made[1].uv, 0), made[1].verdict
+    assert made[1].kind == "mixed" and made[1].surface is copy and verdict == made[0].verdict
     assert made[1].density == pytest.approx(own.median_density, rel=0.05)
     assert made[0].density == pytest.approx(made[1].density, rel=0.1)
 
