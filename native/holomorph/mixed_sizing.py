@@ -21,19 +21,26 @@ from .progress import scaled
 from .sizing import Sizing
 from .tiling import Poles
 from .tube import is_tube
+from .windows import closed, opened
 
 REST = -1  # name of the polygons of all pieces without a tiling
 MIXING = 0.5  # of the work, for the pieces
 
 
 @dataclass(frozen=True)
-class Divided:
-    """A part that may be mapped in pieces. names : (#F,) the piece of each polygon; pieces : those that may get a
-    tiling, the largest first; other : what the part gets else"""
+class Division:
+    """names : (#F,) the piece of each polygon; pieces : those that may get a tiling, the largest first"""
 
-    other: Map | Undecided
     names: Integers
     pieces: tuple[tuple[Piece, Undecided], ...]
+
+
+@dataclass(frozen=True)
+class Divided:
+    """A part that may be mapped in pieces, by one of several divisions. other : what the part gets else"""
+
+    other: Map | Undecided
+    divisions: tuple[Division, ...]
     evenness: float
     threads: int | None
 
@@ -45,14 +52,16 @@ def divided(
     flat = found.islands if isinstance(found, Map) else found.flat
     if not _may_be_divided(found, flat):
         return found
-    bent, surface = bends(found.surface), found.surface
+    bent, surface, divisions, known = bends(found.surface), found.surface, [], None
     for degrees in (angle for angle in HARD if angle > SMOOTH):
         names = names_of_pieces(surface, bent > math.radians(degrees))
-        pieces = smooth_pieces(surface, flat, names, threads or 0) if names.any() else []
-        if pieces:
-            undecided = [_undecided(piece.surface, evenness, threads, progress) for piece in pieces]
-            return Divided(found, names, tuple(zip(pieces, undecided)), evenness, threads)
-    return found
+        if not names.any() or np.array_equal(names, known):
+            continue
+        known, pieces = names, smooth_pieces(surface, flat, names, threads or 0)
+        pairs = [(piece, _undecided(piece, evenness, threads, progress)) for piece in pieces]
+        solved = tuple((piece, undecided) for piece, undecided in pairs if undecided)
+        divisions += [Division(names, solved)] if solved else []
+    return Divided(found, tuple(divisions), evenness, threads) if divisions else found
 
 
 def _may_be_divided(found, flat):
@@ -62,28 +71,27 @@ def _may_be_divided(found, flat):
 
 
 def _undecided(piece, evenness, threads, progress):
-    structure = automatic_structure(piece, threads=threads, progress=scaled(progress, 1.0, 1.0))
-    return Undecided(piece, structure, form_map(piece, structure), evenness=evenness)
+    """None for a piece on which nothing can be solved: it becomes an island."""
+    try:
+        surface = closed(piece.surface)
+        structure = automatic_structure(surface, threads=threads, progress=scaled(progress, 1.0, 1.0))
+    except REFUSALS:
+        return None
+    return Undecided(surface, structure, form_map(surface, structure), evenness=evenness)
 
 
 @dataclass(frozen=True, eq=False)
 class _Tiled:
-    """A piece with its tiling. share : its part of the area"""
+    """A piece with its tiling. is_tube : but for windows"""
 
     piece: Piece
     map: Map
-    share: float
+    is_tube: bool
 
     @cached_property
     def turn(self):
         """What is minded of how far rows turn in its islands; nothing where poles turn them in the tiling, too."""
-        is_round = is_tube(self.piece.surface) and not len(self.map.poles)
-        return TURN * self.piece.turn(self.map.uv) if is_round else 0.0
-
-    @property
-    def turns(self):
-        """Of the whole part."""
-        return self.share * self.turn
+        return TURN * self.piece.turn(self.map.uv) if self.is_tube and not len(self.map.poles) else 0.0
 
 
 @dataclass(frozen=True)
@@ -100,44 +108,51 @@ class MixedSizing:
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
         """As `Sizing.about`; in pieces where that is less minded."""
-        tiled, other = self._tiled(density, tries, scaled(progress, 0.0, MIXING)), self.part.other
-        mixed, turns = self._least_minded(tiled, scaled(progress, MIXING, MIXING))
+        mixed, minded, turns = None, math.inf, 0.0
+        for division in self.part.divisions:
+            tiled = self._tiled(division, density, tries, scaled(progress, MIXING, MIXING))
+            found, cost_and_turns = self._least_minded(division, tiled, scaled(progress, MIXING, MIXING))
+            if cost_and_turns < minded:
+                mixed, minded, turns = found, cost_and_turns, self._turns(tiled)
+            if mixed and _without_hard_edges(mixed.mixed) <= FLAT:
+                break
+        other = self.part.other
         if isinstance(other, Undecided):
-            if mixed and _is_taken_at_once(mixed.mixed):
+            if mixed and _without_hard_edges(mixed.mixed) <= GOOD:
                 return mixed
             other = self._sizing(other).about(density, tries, scaled(progress, MIXING, 1.0))
         if mixed is None or not isinstance(other, Map):
             return mixed or other
-        all_turns = sum(one.turns for one in tiled) if other.islands else 0.0
-        return mixed if mixed.cost + turns < other.cost + all_turns else other
+        return mixed if minded < other.cost + (turns if other.islands else 0.0) else other
 
-    def _tiled(self, density, tries, progress):
+    def _tiled(self, division, density, tries, progress):
         """The `_Tiled` pieces that may be better than islands: of one density, that of the largest."""
-        pieces, made = self.part.pieces, []
-        for n, (piece, undecided) in enumerate(pieces):
-            step = scaled(progress, n / len(pieces), (n + 1) / len(pieces))
+        made = []
+        for piece, undecided in division.pieces:
             sizing = self._sizing(undecided)
-            tiling = None if sizing.is_strict else sizing.tiling(density, 0 if made else tries, step)
-            one = tiling and _Tiled(piece, tiling, piece.surface.area / self.part.other.surface.area)
-            if one and tiling.cost < piece.cost + one.turn:
-                density = density if made else tiling.density
+            tiling = None if sizing.is_strict else sizing.tiling(density, 0 if made else tries, progress)
+            if tiling is None:
+                continue
+            one = _Tiled(piece, opened(tiling, piece.surface), is_tube(undecided.surface))
+            if one.map.cost < piece.cost + one.turn:
+                density = density if made else one.map.density
                 made.append(one)
         return made
 
-    def _least_minded(self, tiled, progress):
-        """(The map in pieces, what is minded of how far rows turn in its islands); None where there is none."""
+    def _least_minded(self, division, tiled, progress):
+        """(The map in pieces, or None; its cost, and what is minded of how far rows turn in its islands)"""
         choices = [tiled, [one for one in tiled if one.map.cost < one.piece.cost]]
         best, least = None, math.inf
         for kept in choices[: 1 + (len(choices[1]) < len(tiled))]:
-            found = self._glued(kept, progress) if kept else None
-            turns = sum(one.turns for one in tiled if one not in kept)
-            if found and found.cost + turns < least:
-                best, least = found, found.cost + turns
-        return best, least - best.cost if best else 0.0
+            found = self._glued(division, kept, progress) if kept else None
+            minded = found.cost + self._turns(one for one in tiled if one not in kept) if found else math.inf
+            if minded < least:
+                best, least = found, minded
+        return best, least
 
-    def _glued(self, tiled, progress):
+    def _glued(self, division, tiled, progress):
         """The map with these tilings; None where the rest has none."""
-        names = np.where(np.isin(self.part.names, [one.piece.name for one in tiled]), self.part.names, REST)
+        names = np.where(np.isin(division.names, [one.piece.name for one in tiled]), division.names, REST)
         other, evenness = self.part.other, self.part.evenness
         try:
             parts = [one for one in cut_apart(other.surface, names) if names[one.face_index[0]] == REST]
@@ -146,10 +161,14 @@ class MixedSizing:
             return None
         return mixed_map(other.surface, other.structure, [one.map for one in tiled] + rest, evenness)
 
+    def _turns(self, tiled):
+        """What is minded of the whole part if these pieces are islands."""
+        return sum(one.turn * one.piece.surface.area for one in tiled) / self.part.other.surface.area
+
     def _sizing(self, undecided):
         return Sizing(undecided, self.poles, self.options)
 
 
-def _is_taken_at_once(mixed):
-    """Hard edges do not count: a tiling of the whole part would stretch there."""
-    return mixed.cost - HARD_SEAM * mixed.hard_length <= GOOD
+def _without_hard_edges(mixed):
+    """What is minded of a map; hard edges do not count, for a tiling of the whole part would stretch there."""
+    return mixed.cost - HARD_SEAM * mixed.hard_length

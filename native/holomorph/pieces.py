@@ -16,7 +16,6 @@ from .map_choice import FLAT, MOST_SOFT
 from .origin import Origin
 from .quality import Quality
 from .surface import Surface
-from .tube import is_tube
 
 WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
 SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is no tube is more than sheets and cones
@@ -76,7 +75,8 @@ def smooth_pieces(surface, flat, names, threads):
 
 
 def _may_be_smooth(part, flat):
-    return is_tube(part) or flat is not None and part.boundary_count > 0 and curvature(part, TIP) > SMOOTH
+    is_round = part.genus == 0 and part.boundary_count > 1  # a tube, perhaps with windows
+    return is_round or flat is not None and part.boundary_count > 0 and curvature(part, TIP) > SMOOTH
 
 
 def _piece(part, name, flat: Islands | None, threads):
