@@ -108,14 +108,7 @@ class MixedSizing:
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
         """As `Sizing.about`; in pieces where that is less minded."""
-        mixed, minded, turns = None, math.inf, 0.0
-        for division in self.part.divisions:
-            tiled = self._tiled(division, density, tries, scaled(progress, MIXING, MIXING))
-            found, cost_and_turns = self._least_minded(division, tiled, scaled(progress, MIXING, MIXING))
-            if cost_and_turns < minded:
-                mixed, minded, turns = found, cost_and_turns, self._turns(tiled)
-            if mixed and _without_hard_edges(mixed.mixed) <= FLAT:
-                break
+        mixed, minded, turns = self._in_pieces(density, tries, scaled(progress, 0.0, MIXING))
         other = self.part.other
         if isinstance(other, Undecided):
             if mixed and _without_hard_edges(mixed.mixed) <= GOOD:
@@ -125,12 +118,23 @@ class MixedSizing:
             return mixed or other
         return mixed if minded < other.cost + (turns if other.islands else 0.0) else other
 
+    def _in_pieces(self, density, tries, progress):
+        """(The map in pieces, or None; what is minded of it; of how far rows turn where all pieces are islands)"""
+        best, count = (None, math.inf, 0.0), len(self.part.divisions)
+        for n, division in enumerate(self.part.divisions):
+            tiled = self._tiled(division, density, tries, scaled(progress, n / count, (n + 1) / count))
+            mixed, minded = self._least_minded(division, tiled, scaled(progress, (n + 1) / count, (n + 1) / count))
+            best = min(best, (mixed, minded, self._turns(tiled)), key=lambda found: found[1])
+            if mixed and _without_hard_edges(mixed.mixed) <= FLAT:
+                break
+        return best
+
     def _tiled(self, division, density, tries, progress):
         """The `_Tiled` pieces that may be better than islands: of one density, that of the largest."""
-        made = []
-        for piece, undecided in division.pieces:
-            sizing = self._sizing(undecided)
-            tiling = None if sizing.is_strict else sizing.tiling(density, 0 if made else tries, progress)
+        made, count = [], len(division.pieces)
+        for n, (piece, undecided) in enumerate(division.pieces):
+            sizing, step = self._sizing(undecided), scaled(progress, n / count, (n + 1) / count)
+            tiling = None if sizing.is_strict else sizing.tiling(density, 0 if made else tries, step)
             if tiling is None:
                 continue
             one = _Tiled(piece, opened(tiling, piece.surface), is_tube(undecided.surface))

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from holomorph import Surface, automatic_map, automatic_maps
 from holomorph.arrangement import Arrangement, arranged
+from holomorph.island_cuts import sides_of
 from holomorph.pieces import Piece, cut_apart
 from holomorph.quality import Quality
 from holomorph.report import part_report
+from holomorph.windows import closed, opened
 from solved import surface_of
 
 EXACT = 1e-12
@@ -17,7 +19,8 @@ HEIGHTS = np.linspace(-1, 1, RINGS + 1)
 
 
 def capped(radii, n, stretch=1.0):
-    """Rings of n quads one above the other, then a polygon at each end."""
+    """Rings of n quads one above the other, then a polygon at each end. stretch : of the heights, by which all or each
+    are multiplied"""
     turn = 2 * np.pi * np.arange(n) / n
     rings = [np.stack([r * np.cos(turn), r * np.sin(turn), 0 * turn + z], 1) for r, z in zip(radii, stretch * HEIGHTS)]
     a, b = np.arange(n), (np.arange(n) + 1) % n
@@ -39,12 +42,13 @@ def mapped(request):
 
 
 def jumps(surface, uv):
-    """(n, 2) of the UVs between neighbouring quads of the tube, at both ends of their edges."""
-    n = len(surface.vertices) // (RINGS + 1)
-    uv = uv[: 4 * n * RINGS].reshape(RINGS, n, 4, 2)
-    around = [uv[:, :, 1] - np.roll(uv[:, :, 0], -1, axis=1), uv[:, :, 2] - np.roll(uv[:, :, 3], -1, axis=1)]
-    along = [uv[:-1, :, 3] - uv[1:, :, 0], uv[:-1, :, 2] - uv[1:, :, 1]]
-    return np.concatenate([jump.reshape(-1, 2) for jump in around + along])
+    """(n, 2) of the UVs between neighbouring quads, at both ends of their edges."""
+    edges, following = sides_of(surface)
+    is_quad = np.repeat(np.diff(surface.face_offsets) == 4, np.diff(surface.face_offsets))
+    order = np.argsort(np.where(is_quad, edges, -1), kind="stable")[np.count_nonzero(~is_quad) :]
+    both = np.flatnonzero(edges[order[1:]] == edges[order[:-1]])
+    one, other = order[both], order[both + 1]
+    return np.concatenate([uv[one] - uv[following[other]], uv[following[one]] - uv[other]])
 
 
 def pieces(surface):
@@ -132,10 +136,9 @@ def test_progress_grows_and_cancels():
     surface, told = capped(*SHAPES["barrel of 0.25"]), []
     automatic_map(surface, progress=lambda fraction, _stage: told.append(fraction))
     assert told and told == sorted(told) and told[-1] <= 1
-    for stop in (1, len(told) // 2, len(told)):
-        count = iter(range(len(told)))
+    for limit in (0.0, 0.5, 0.75):  # at once, among the first maps, among the pieces
         with pytest.raises(holomorph.Cancelled):
-            automatic_map(surface, progress=lambda *_, count=count, stop=stop: next(count, stop) < stop - 1)
+            automatic_map(surface, progress=lambda fraction, _, limit=limit: fraction < limit)
 
 
 def test_what_is_asked_for_is_not_divided():
@@ -174,3 +177,41 @@ def test_rows_that_turn_are_told_from_a_turned_map():
     piece = Piece(surface, 0, uv[0], 0.0)
     assert [piece.turn(other) for other in uv[1:]] == pytest.approx([angle / 4] * 2, rel=1e-2)
     assert Piece(surface, 0, uv[1], 0.0).turn(uv[2]) == pytest.approx(0, abs=EXACT)
+
+
+def with_window(surface, first, count):
+    """Without some of its quads, next to each other in each of the two middle rings."""
+    n = len(surface.vertices) // (RINGS + 1)
+    faces = np.split(surface.corner_vertices, surface.face_offsets[1:-1])
+    gone = {k * n + first + i for k in (RINGS // 2 - 1, RINGS // 2) for i in range(count)}
+    return Surface(surface.vertices, [face.tolist() for k, face in enumerate(faces) if k not in gone])
+
+
+@pytest.mark.parametrize("count", [1, 3, 9])
+def test_whole_tiles_lie_around_a_tube_with_a_window(count):
+    surface = with_window(capped(*SHAPES["cylinder of 32"]), 4, count)
+    made = automatic_map(surface)
+    found = jumps(surface, made.uv)
+    assert made.kind == "mixed" and np.abs(found - np.round(found)).max() <= EXACT
+    assert made.quality.density_ratio < 1.02  # without the window it is 1
+
+
+def test_a_window_is_closed_while_a_tube_is_mapped():
+    surface = with_window(capped(*SHAPES["cylinder of 32"]), 4, 3)
+    names = np.diff(surface.face_offsets) == 4
+    tube = next(part for part in cut_apart(surface, names) if names[part.face_index[0]])
+    filled = closed(tube)
+    assert (tube.boundary_count, filled.boundary_count) == (3, 2) and closed(filled) is filled
+    assert np.array_equal(filled.corner_vertices[: len(tube.corner_vertices)], tube.corner_vertices)
+    made = automatic_map(filled)
+    again = opened(made, tube)
+    assert again.surface is tube and np.array_equal(again.uv, made.uv[: len(tube.corner_vertices)])
+    assert len(again.quality.angle) == len(tube.triangles) and opened(made, filled) is made
+
+
+def test_softer_edges_divide_where_the_hard_ones_leave_what_stretches():
+    """A bottle whose shoulder bends by 50 degrees at both ends: two tubes of different widths."""
+    radii, heights = np.array([1, 1, 1, 1, 0.4, 0.4, 0.4]), np.array([-2, -1.2, -0.6, 0, 0.5, 1.2, 1.8])
+    surface = capped(radii, 32, stretch=heights / np.where(HEIGHTS == 0, 1, HEIGHTS))
+    made = automatic_map(surface)
+    assert made.kind == "mixed" and len(made.mixed.tilings) >= 2 and made.quality.density_ratio < 1.5
