@@ -106,7 +106,7 @@ def _take_over(options):
     if options.seamless:
         options.turn, options.quarters, options.repeats, options.empties = options.rotation, 0, 1, False
         if options.boundary == "natural":
-            options.boundary = "straight"
+            options.boundary = "automatic"
         if options.poles.isdecimal():
             options.poles, options.pole_count = "COUNT", int(options.poles)
     chosen = tile_choices if options.seamless else map_choices
@@ -122,9 +122,9 @@ def _add_choices(parser):
     _add_properties(group, MapProperties, "residues", "cut_at_seams", "hard_edges", "most_stretch")
     group.add_argument(
         "--boundary",
-        choices=("natural", "double_cover", "straight", "free"),
+        choices=("natural", "double_cover", "automatic", "straight", "free"),
         default="natural",
-        help="how holes are solved; with --seamless straight (default) or free",
+        help="how holes are solved; with --seamless automatic (default), straight or free",
     )
     group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
 
@@ -158,8 +158,8 @@ def _check_values(options):
     is_used = options.main == "islands"
     _refuse_if(options.hard_edges and not is_used, "--hard-edges cuts islands: it goes with --main islands")
     _refuse_if(options.most_stretch and not is_used, "--most-stretch cuts islands: it goes with --main islands")
-    boundaries = ("natural", "straight", "free") if options.seamless else ("natural", "double_cover")
-    sentence = "--boundary is straight or free with --seamless, natural or double_cover without"
+    boundaries = ("natural", "automatic", "straight", "free") if options.seamless else ("natural", "double_cover")
+    sentence = "--boundary is automatic, straight or free with --seamless, natural or double_cover without"
     _refuse_if(options.boundary not in boundaries, sentence)
     poles = options.poles
     is_number = poles.isdecimal() and int(poles) <= MOST_POLES

@@ -25,7 +25,7 @@ class TileOptions:
     poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
     lattice: str = "square"
     direction: object = "upright"  # or a vector in the frame of the solved polygons, or None
-    boundary: str = "straight"
+    boundary: str = "automatic"
     turn: float = 0.0  # radians by which the texture is rotated
     quarters: int = 0  # turns of the map by 90 degrees after it is made
     pole_group: str = ""  # the vertex group that `allowed` was read of

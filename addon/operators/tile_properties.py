@@ -32,6 +32,7 @@ DIRECTIONS = (
     ("EDGES", "Selected Edges", "Rows run along the selected edges, as far as they can"),
 )
 BOUNDARIES = items(
+    automatic="Borders of holes lie along rows of the texture, but where that would leave faces without texture",
     straight="Borders of holes lie along rows of the texture",
     free="Borders of holes cut through the texture: more even",
 )
@@ -76,7 +77,7 @@ class TileProperties(SharedProperties):
         soft_max=math.pi,
     )
     quarters: IntProperty(name="Quarter Turns", description=ABOUT["quarters"], default=0, min=0, max=3)
-    boundary: EnumProperty(name="Boundary", description=ABOUT["boundary"], items=BOUNDARIES, default="straight")
+    boundary: EnumProperty(name="Boundary", description=ABOUT["boundary"], items=BOUNDARIES, default="automatic")
     repeats: IntProperty(name="Repeats", description=ABOUT["repeats"], default=1, min=1, soft_max=8)
     empties: BoolProperty(name="Poles as Empties", description=ABOUT["empties"], default=False)
 

@@ -55,6 +55,7 @@ def _check_integers(array, name):
 
 def polygons(faces):
     """Corner vertices and face offsets of (#F, 3) or (#F, 4) integers, or of a list of lists of any sizes."""
+    faces = np.asarray(faces) if isinstance(faces, memoryview) else faces
     if isinstance(faces, np.ndarray) and faces.dtype != object:
         array = integer(faces, "faces", dimensions=2, columns=(3, 4))
         kind = array.dtype if array.size <= np.iinfo(np.int32).max else np.int64  # too many are refused natively

@@ -5,6 +5,7 @@ from numpy.typing import ArrayLike
 from .array_types import Progress
 from .automatic_maps import sized_maps
 from .automatic_structure import AnyStructure
+from .checks import check_type
 from .map import Map
 from .map_choice import EVENNESS
 from .surface import Surface
@@ -21,7 +22,7 @@ def automatic_map(
     poles: Poles = "auto",
     lattice: str | ArrayLike = "square",
     direction: ArrayLike | str | None = "upright",
-    boundary: str = "straight",
+    boundary: str = "automatic",
     turn: float | None = None,
     max_turn: float = 0.2,
     max_added: float | None = None,
@@ -54,6 +55,7 @@ def automatic_map(
     Raises what `automatic_structure` does; TopologyError or SolverError where a tiling was asked for and cannot be
     made, or would lose more than 2 % of the area, as on a mesh of few faces.
     """
+    check_type(surface, Surface)
     options = {"lattice": lattice, "direction": direction, "boundary": boundary, "evenness": evenness}
     options |= {"turn": turn, "max_turn": max_turn, "max_added": max_added}
     structures = None if structure is None else [structure]

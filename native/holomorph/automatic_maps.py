@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from .array_types import Progress
 from .arrays import integer
 from .automatic_structure import AnyStructure
+from .checks import check_type
 from .copies import Copy, copies
 from .given_vertices import on_part
 from .map import Map
@@ -61,6 +62,8 @@ def automatic_maps(
     direction, evenness, options, threads, progress : as in `automatic_map`
     """
     parts = surfaces.components if isinstance(surfaces, Surface) else tuple(surfaces)
+    for part in parts:
+        check_type(part, Surface, "a part")
     mains = [main] * len(parts) if isinstance(main, str) else main
     common = {"direction": direction, "evenness": evenness} | options
     choices = [_own_choices(part, poles, allowed, moves) for part in parts]

@@ -140,10 +140,10 @@ class BoundedStructure(CertifiedStructure):
             raise TopologyError(f"a {what} belongs to planar surfaces; the surface has genus {genus}")
 
     def _check_annulus(self):
-        genus, loops = self._component.genus, self._component.boundary_count
-        if (genus, loops) != (0, 2):
-            found = f"the surface has genus {genus} and {loops} boundary loops"
-            raise TopologyError(f"a modulus belongs to annuli; {found}")
+        component = self._component
+        if (component.genus, component.boundary_count) != (0, 2):
+            found = component._topology.text()
+            raise TopologyError(f"a modulus belongs to annuli; the surface has {found}")
 
     def invariants(self) -> dict[str, Any]:
         """Period matrix of the double, capacities and modulus with their bounds, as plain data."""

@@ -7,6 +7,7 @@ import os
 import numpy as np
 
 from ._native import TopologyError
+from .surface import Surface
 
 SOLVERS = ("auto", "direct", "multigrid", "paper")
 
@@ -55,8 +56,15 @@ def checked_evenness(value):
     return float(value)
 
 
+def check_type(value, kind, name="surface"):
+    """@throws TypeError where `value` is none of this kind"""
+    if not isinstance(value, kind):
+        raise TypeError(f"{name} is of type {type(value).__name__}; a {kind.__name__} is needed")
+
+
 def only_component(surface):
-    """The one component of a connected surface, without isolated vertices. @throws TopologyError"""
+    """The one component of a connected surface, without isolated vertices. @throws TypeError or TopologyError"""
+    check_type(surface, Surface)
     surface.require_connected()
     return surface.components[0]
 

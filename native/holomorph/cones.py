@@ -4,7 +4,7 @@ import numpy as np
 
 from ._native import TopologyError
 from .array_types import Progress
-from .checks import real_number
+from .checks import check_type, real_number
 from .cut_open import cut_open, on_border, paths_to_border
 from .disk import free_boundary_map
 from .surface import Surface
@@ -32,8 +32,9 @@ def cut_to_cones(disk: Surface, most_stretch: float = 3.0, *, progress: Progress
     Source: cone points, Kharevych, Springborn and Schroeder 2006, doi:10.1145/1138450.1138461; the map, Sawhney and
     Crane 2017, doi:10.1145/3132705.
     """
+    check_type(disk, Surface)
     if (disk.genus, disk.boundary_count) != (0, 1) or disk.vertices is None:
-        raise TopologyError("cone points are made in a disk with positions: genus 0, one boundary loop")
+        raise TopologyError("cone points are made in a disk with positions: genus 0 and 1 boundary")
     most = real_number(most_stretch, "most_stretch", positive=True)
     if most <= 1:
         raise ValueError(f"most_stretch is {most}; a factor above 1 is needed")

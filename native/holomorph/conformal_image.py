@@ -4,13 +4,16 @@ import numpy as np
 
 from .array_types import Reals
 from .automatic_structure import AnyStructure
+from .checks import check_type
 from .plane_maps import DiskMap
 from .pole_structure import PoleStructure
+from .results import Structure
 
 
 def conformal_image(structure: AnyStructure) -> Reals | None:
     """(#V, 3) where the structure's map takes the vertices: of a sphere with two poles to the unit sphere, of a
     `DiskMap` to the unit disk in the plane z = 0. NaN at isolated vertices; None for other structures."""
+    check_type(structure, Structure, "structure")
     if isinstance(structure, DiskMap):
         disk = structure.disk_map()
         return np.stack([disk.real, disk.imag, 0 * disk.real], axis=1)

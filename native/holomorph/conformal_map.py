@@ -1,5 +1,6 @@
 """The conformal map between two equivalent surfaces, by matching their forms."""
 
+import math
 from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
@@ -37,8 +38,9 @@ class ConformalMap(Value):
 
     triangles : (#V,) triangle of the second surface in which the image lies, -1 at isolated vertices
     barycentric : (#V, 3) its coordinates there
-    residual : root mean square of the difference of the forms' integrals at corresponding points, in units where the
-        integral over a closed loop is about 1: an error of the map
+    residual : an error of the map: root mean square of the difference of the forms' integrals at corresponding points,
+        in units where the integral over a closed loop is about 1; `Equivalence.residual` where that is larger, as on
+        tori and annuli, whose one form always has points where it agrees
     equivalence : the `Equivalence` that it is made of
     """
 
@@ -136,8 +138,11 @@ class _Matching:
         return found[0][1:]
 
     def _misfit(self, sign, start, most, part):
-        """`part` of the whole work is done."""
-        return _size(self._continuations[sign].run(*start, most, scaled(self._progress, part, part)))
+        """Infinite where the map goes to the reflected copy of the second surface: back on the surface, it would keep
+        no orientation. `part` of the whole work is done."""
+        made = self._continuations[sign].run(*start, most, scaled(self._progress, part, part))
+        is_reflected = np.mean(made.triangles >= self._sides[1].own_count) > 0.5
+        return math.inf if is_reflected else _size(made)
 
     def _tried(self):
         """(size of the residuals, sign, start) of the first vertices from each start."""
@@ -190,6 +195,7 @@ def _result(a, b, made, found):
     all_triangles[where], all_barycentric[where] = triangles, barycentric
     corners = b._of_surface(b._triangulation.triangles)
     surfaces = surface, b.surface
+    residual = max(residual, found.residual)
     return ConformalMap(
         arrays.frozen(all_triangles), arrays.frozen(all_barycentric), residual, found, surfaces, corners
     )

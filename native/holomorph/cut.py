@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._native import TopologyError
-from .checks import own_vertices
+from .checks import check_type, own_vertices
 from .edges import edge_keys, edges_of_keys, polygon_sides
 from .plane_maps import PlaneMap
 from .results import Structure
@@ -28,6 +28,7 @@ def cut_along(structure: AStructure, edges: ArrayLike) -> AStructure:
     Raises TopologyError where two vertices are joined by no edge, or a map would still jump elsewhere.
     Cost: O(#C log #C), no solve.
     """
+    check_type(structure, Structure, "structure")
     given, component = np.asarray(edges), structure._component
     if not len(given):
         return structure

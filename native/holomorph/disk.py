@@ -103,8 +103,7 @@ def _disk(surface, what):
     component = only_component(surface)
     if (component.genus, component.boundary_count) == (0, 1):
         return component
-    loops = f"{component.boundary_count} boundary loop{'' if component.boundary_count == 1 else 's'}"
-    raise TopologyError(f"the surface has genus {component.genus} and {loops}; {what} needs a disk")
+    raise TopologyError(f"the surface has {component._topology.text()}; {what} needs a disk")
 
 
 def default_disk_map(surface, **options) -> PlaneMap | PoleStructure:

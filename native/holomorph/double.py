@@ -4,6 +4,7 @@ import numpy as np
 
 from . import arrays
 from ._native import TopologyError
+from .checks import check_type
 from .surface import Surface
 
 
@@ -31,6 +32,7 @@ def double_cover(surface: Surface) -> Surface:
 
     Cost: linear.
     """
+    check_type(surface, Surface)
     native = surface._native
     triangles, sides = native.triangles.astype(np.int64), native.triangle_edges.astype(np.int64)
     edges, lengths = native.edges, native.edge_lengths

@@ -21,10 +21,15 @@ def edges_of_keys(edges, keys, vertex_count):
 
 def polygon_sides(mesh):
     """(#C, 2) int64 vertices of the side from each polygon corner to the next one of its polygon."""
-    corners, offsets = mesh.corner_vertices.astype(np.int64), mesh.face_offsets
-    following = np.arange(1, len(corners) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    return np.stack([corners, corners[following]], axis=1)
+    corners = mesh.corner_vertices.astype(np.int64)
+    return np.stack([corners, corners[following_corners(mesh)]], axis=1)
+
+
+def following_corners(mesh):
+    """(#C,) the next corner of its polygon."""
+    following = np.arange(1, len(mesh.corner_vertices) + 1)
+    following[mesh.face_offsets[1:] - 1] = mesh.face_offsets[:-1]
+    return following
 
 
 def boundary_corners(surface):
@@ -39,6 +44,21 @@ def boundary_corners(surface):
 def boundary_edges(surface):
     """(#B, 2) vertices of the edges of the boundary, in the direction of their triangles."""
     return surface.corner_vertices[boundary_corners(surface)]
+
+
+def has_angle_on_one_boundary(surface):
+    """Whether a polygon has three corners in a row on one boundary loop. Each loop is named by its least vertex, found
+    by pointer doubling, O(#V log #B)."""
+    start, end = boundary_edges(surface).astype(np.int64).T
+    if not len(start):
+        return False
+    least, following = np.full(surface._native.vertex_count, -1), np.arange(surface._native.vertex_count)
+    least[start], following[start] = start, end
+    for _ in range(len(start).bit_length()):
+        least[start] = np.minimum(least[start], least[following[start]])
+        following[start] = following[following[start]]
+    loops, after = least[surface.corner_vertices], following_corners(surface)
+    return bool(((loops >= 0) & (loops == loops[after]) & (loops == loops[after[after]])).any())
 
 
 def around_boundary(surface, vertices):

@@ -84,17 +84,32 @@ def conformally_equivalent(
     ]
     lattices = [period_lattice(structure) for structure in structures]
     made = _native.compare(*lattices, allowed=float(tolerance), progress=scaled(progress, 0.8, 1.0))
-    verdict = made.verdict.name
+    verdict, isometry = made.verdict.name, made.isometry
     if verdict == "equivalent" and first.genus == 0 and first.boundary_count > LOOPS_OF_ACHIRAL_SURFACES:
-        verdict = planar_verdict(*structures, made.isometry.matrix)
-    return _equivalence(verdict, made, all(structure.period_bounds is not None for structure in structures))
+        verdict, isometry = _planar(structures, lattices, made, scaled(progress, 1.0, 1.0))
+    is_exact = all(structure.period_bounds is not None for structure in structures)
+    return _equivalence(verdict, isometry, made, is_exact)
+
+
+def _planar(structures, lattices, made, progress):
+    """(verdict, isometry): an isometry that keeps the orientation, if any does. All that bring the periods as near as
+    is needed are tried, for a symmetric surface has mirror images among its own."""
+    verdict = planar_verdict(*structures, made.isometry.matrix)
+    if verdict == "equivalent":
+        return verdict, made.isometry
+    needed = made.isometry.residual + made.margin
+    others = _native.isometries(*(lattice.projected() for lattice in lattices), sign=1, slack=needed, progress=progress)
+    for isometry in sorted(others.found, key=lambda each: each.residual):
+        if planar_verdict(*structures, isometry.matrix) == "equivalent":
+            return "equivalent", isometry
+    return verdict, made.isometry
 
 
 def _by_topology(first, second):
     """The `Equivalence` of surfaces whose topology decides it, else None."""
     genus, loops = first.genus, first.boundary_count
     if (genus, loops) != (second.genus, second.boundary_count):
-        texts = [_topology_text(part.genus, part.boundary_count) for part in (first, second)]
+        texts = [part._topology.text() for part in (first, second)]
         return Equivalence("not_equivalent", f"Not equivalent: {texts[0]}, and {texts[1]}.", margin=math.inf)
     if genus == 0 and loops <= 1:
         kind = "disks" if loops else "spheres"
@@ -125,17 +140,15 @@ def _structure(given, component, progress):
     return conformal_structure(component, progress=progress)
 
 
-def _topology_text(genus, loops):
-    return f"genus {genus} with {loops} boundary loop{'' if loops == 1 else 's'}"
-
-
-def _equivalence(verdict, made, is_exact):
-    margin = made.margin
+def _equivalence(verdict, isometry, made, is_exact):
+    margin, tolerance = made.margin, made.tolerance
     if verdict == "undecided" or (verdict == "not_equivalent" and not is_exact):
         verdict, margin = "undecided", 0.0
-    matrix, residual = (made.isometry.matrix, made.isometry.residual) if made.isometry else (None, math.inf)
-    sentence = _sentence(verdict, residual, made.tolerance, margin, made.is_complete, is_exact)
-    return Equivalence(verdict, sentence, matrix, residual, made.tolerance, margin)
+    matrix, residual = (isometry.matrix, isometry.residual) if isometry else (None, math.inf)
+    if isometry:
+        tolerance += residual - made.isometry.residual
+    sentence = _sentence(verdict, residual, tolerance, margin, made.is_complete, is_exact)
+    return Equivalence(verdict, sentence, matrix, residual, tolerance, margin)
 
 
 def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):

@@ -8,8 +8,10 @@ import numpy as np
 from . import arrays
 from ._native import TopologyError
 from .array_types import Complexes, Reals
+from .checks import check_type
 from .closed import ConformalStructure
 from .equivalence import period_lattice
+from .results import Structure
 from .siegel import siegel_reduction
 from .theta_constants import even_characteristics, even_theta_constants
 from .value import Value
@@ -43,8 +45,8 @@ def igusa_invariants(structure: ConformalStructure) -> IgusaInvariants:
     Source: Streng (2014), doi:10.1090/S0025-5718-2013-02712-3, § 7: theta constants, with the invariants' definition by
     Igusa (1960).
     """
-    genus = structure._component.genus
-    if not isinstance(structure, ConformalStructure) or genus != 2:
+    check_type(structure, Structure, "structure")
+    if not isinstance(structure, ConformalStructure) or structure._component.genus != 2:
         raise TopologyError("Igusa's invariants belong to closed surfaces of genus 2")
     omega = siegel_reduction(structure.period_matrix).period_matrix
     balls = invariants(omega, period_lattice(structure).radius())

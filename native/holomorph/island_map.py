@@ -8,6 +8,7 @@ import numpy as np
 from . import _native, arrays
 from .appearance import cost
 from .array_types import Integers, Progress, Reals
+from .checks import check_type
 from .hard_edges import bends, curvature, seen
 from .island_cuts import Cuts, corner_pieces, in_one_orientation
 from .layout import pack
@@ -86,6 +87,7 @@ def island_map(
 
     Raises Cancelled.
     """
+    check_type(surface, Surface)
     progress = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
     given, (surface, order) = surface, in_one_orientation(surface)
     bent, found = bends(surface), None
@@ -201,9 +203,7 @@ def _upright(pieces, uv):
     """The map with each piece turned about 0 so that the axis which it shows most of runs up."""
     z = uv @ [1, 1j]
     corners = z[pieces.triangle_corners]
-    across = 0.5j * (
-        np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
-    )  # times a height, summed: its gradient
+    across = 0.5j * (np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))  # times heights, summed: gradients
     at, count = pieces._native.face_component[pieces.triangle_faces], pieces._native.component_count
     points = pieces.vertices[pieces.triangles]
     sides = points[:, 1:] - points[:, :1]

@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ._native import TopologyError
-from .checks import real_number
+from .checks import check_type, real_number
 from .cut_open import cut_open
 from .edges import edge_keys
 from .hard_edges import cuts_to_tips, is_hard
@@ -32,6 +32,7 @@ def islands(
 
     Cost: O(#C log #C).
     """
+    check_type(surface, Surface)
     if surface.vertices is None:
         raise TopologyError("islands are cut out of surfaces with positions; this one has edge lengths alone")
     edges = surface._native.edges

@@ -14,12 +14,14 @@ from .surface import Surface
 @dataclass(frozen=True, eq=False)
 class Side:
     """surface : native triangulation; forms : (n, #E); starts : (k, 2) triangle and corner at which maps may begin;
-    is_at_corner : whether they begin there exactly, as on a boundary, or in the triangle's middle"""
+    is_at_corner : whether they begin there exactly, as on a boundary, or in the triangle's middle; own_count : how many
+    of its triangles, the first, are the surface's own: on a double the others are their reflections"""
 
     surface: _native.Surface
     forms: Reals
     starts: Integers
     is_at_corner: bool
+    own_count: int
 
     @property
     def vertices(self):
@@ -47,22 +49,25 @@ def sides(a, b, found):
 def _closed_side(structure, forms):
     surface = structure._triangulation
     everywhere = np.stack([np.arange(len(surface.triangles)), np.zeros(len(surface.triangles), int)], axis=1)
-    return Side(surface, forms, everywhere, is_at_corner=False)
+    return Side(surface, forms, everywhere, is_at_corner=False, own_count=len(surface.triangles))
 
 
 def _bounded_sides(a, b, found):
     """The forms are the Dirichlet ones and their conjugates, symmetric on the double, which a reflection reverses."""
     whiten = np.linalg.inv(np.linalg.cholesky(b.projected_gram_matrices[1]))
     sign = -1 if found.verdict == "mirror_image" else 1
-    first, second = whiten @ found.matrix, whiten
-    forms = np.concatenate([first @ a.dirichlet_forms, sign * first @ _conjugates(a)])
-    from_side = Side(a._triangulation, forms, _boundary_sides(a._triangulation), is_at_corner=True)
+    matrix = whiten @ found.matrix
+    forms = np.concatenate([matrix @ a.dirichlet_forms, sign * matrix @ _conjugates(a)])
+    first, second = (
+        {"starts": _boundary_sides(side), "is_at_corner": True, "own_count": len(side.triangles)}
+        for side in (a._triangulation, b._triangulation)
+    )
     double = double_cover(Surface._of(b._triangulation))._native
     parts = [
-        _on_double(b._triangulation, double, second @ values, parity)
+        _on_double(b._triangulation, double, whiten @ values, parity)
         for values, parity in ((b.dirichlet_forms, -1), (_conjugates(b), 1))
     ]
-    return from_side, Side(double, np.concatenate(parts), _boundary_sides(b._triangulation), is_at_corner=True)
+    return Side(a._triangulation, forms, **first), Side(double, np.concatenate(parts), **second)
 
 
 def _conjugates(structure):

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .array_types import Reals
+from .checks import real_number
 from .surface import Surface
 
 
@@ -24,7 +25,7 @@ def frame(surface: Surface, uv: ArrayLike, rotation: float = 0.0) -> Frame:
     """The `Frame` of a (#C, 2) map of the surface's polygon corners, rotated by `rotation` (radians, counter-clockwise)
     about 0."""
     uv = _corners(uv, len(surface.corner_vertices))
-    found = _native.frame(surface._native, uv, rotation=float(rotation), threads=0)
+    found = _native.frame(surface._native, uv, rotation=real_number(rotation, "rotation"), threads=0)
     return Frame(found.low, found.high, found.area)
 
 

@@ -27,10 +27,13 @@ def planar_verdict(a, b, matrix):
 
 
 def _values(structure, matrix):
-    """(#T, n) unit vectors: the holomorphic forms whose real parts are the Dirichlet forms, in each triangle."""
+    """(k, n) unit vectors: the holomorphic forms whose real parts are the Dirichlet forms, in each triangle but those
+    where all are 0, for all corners lie on one boundary loop."""
     slopes = _native.form_slopes(structure._triangulation, np.ascontiguousarray(structure.dirichlet_forms))
     values = (slopes @ np.array([1, -1j])) @ matrix.T
-    return values / np.linalg.norm(values, axis=1, keepdims=True)
+    norms = np.linalg.norm(values, axis=1, keepdims=True)
+    has_value = norms[:, 0] > 0
+    return values[has_value] / norms[has_value]
 
 
 def _miss(values, others):

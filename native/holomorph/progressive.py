@@ -1,5 +1,7 @@
 """Progressive meshes: a small base mesh and a sequence of vertex splits that rebuilds the original exactly."""
 
+import math
+import numbers
 import os
 from functools import cached_property, partial
 from typing import Any
@@ -10,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native, arrays, checked_file, level_forms, levels
 from ._native import InvalidMesh, TopologyError
 from .array_types import FilePath, Integers, Progress
-from .checks import check_memory_limit, check_options
+from .checks import check_memory_limit, check_options, check_type
 from .closed import ConformalStructure
 from .origin import Origin
 from .results import result
@@ -57,6 +59,7 @@ class ProgressiveMesh(Value):
         order: str = "quadric",
         progress: Progress | None = None,
     ) -> None:
+        check_type(surface, Surface)
         if order not in ORDERS:
             raise ValueError(f"order is {order!r}; one of {', '.join(map(repr, ORDERS))} is needed")
         kind, data = "", b""
@@ -144,7 +147,9 @@ class ProgressiveMesh(Value):
         return int(offsets[-1]) if len(offsets) else self._corners.size
 
     def _split_count(self, n_faces):
-        return self._native.split_count(max(0, min(int(n_faces), 2**62)))
+        if not isinstance(n_faces, numbers.Real) or math.isnan(n_faces):
+            raise ValueError(f"n_faces is {n_faces!r}; a number of triangles is needed")
+        return self._native.split_count(int(max(0, min(n_faces, 2**62))))
 
     def _level(self, splits):
         level = self._native.level(splits)
@@ -195,12 +200,9 @@ class ProgressiveMesh(Value):
         """
         again = partial(self.conformal_structure, n_faces, solver=solver, threads=threads, memory_limit=memory_limit)
         threads, memory_limit = check_options(solver, threads), check_memory_limit(memory_limit)
-        genus, boundaries = self.base.genus, self.base.boundary_count
-        if genus == 0 or boundaries:
-            raise TopologyError(
-                f"the surface has genus {genus} and {boundaries} boundary loops; "
-                "a closed surface of genus 1 or more is needed"
-            )
+        if self.base.genus == 0 or self.base.boundary_count:
+            found = self.base._topology.text()
+            raise TopologyError(f"the surface has {found}; a closed surface of genus 1 or more is needed")
         splits = self._split_count(n_faces)
         surface = self._level(splits)
         level = self._native, splits, surface._native

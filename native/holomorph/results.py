@@ -100,7 +100,7 @@ class Structure(Value):
         poles: Poles = "auto",
         lattice: str | ArrayLike = "square",
         direction: ArrayLike | str | None = None,
-        boundary: str = "straight",
+        boundary: str = "automatic",
         max_turn: float = 0.2,
         turn: float | None = None,
         max_added: float | None = None,
@@ -128,7 +128,7 @@ class Structure(Value):
         direction : (3,) vector in space along which u runs, as far as it can; any where that is normal to a plane.
             "upright" for rows that run level: v runs along +Z, as far as it can. turn : radians, rotates the texture
             beside it; max_turn : radians by which the rounding may turn it away
-        boundary : "straight" or "free", see `Tiler`
+        boundary : "automatic", "straight" or "free", see `Tiler`
         max_added : the largest `added_distortion` that is wanted; default any
         evenness : from 0 for a conformal map to 1 for squares of nearly one size, which are sheared instead. Textures
             look best at about 0.5. Fewer poles are placed for any evenness above 0
@@ -177,7 +177,7 @@ class Structure(Value):
         self,
         poles: Poles = "auto",
         *,
-        boundary: str = "straight",
+        boundary: str = "automatic",
         allowed: ArrayLike | None = None,
         evened: bool = False,
         surface: Surface | None = None,

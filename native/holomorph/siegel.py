@@ -36,9 +36,9 @@ def siegel_reduction(period_matrix: ArrayLike) -> SiegelReduction:
     Source: Deconinck, Heil, Bobenko, van Hoeij & Schmies (2004), doi:10.1090/S0025-5718-03-01609-0.
     """
     omega = np.array(period_matrix, dtype=np.complex128)
-    g = len(omega)
-    if omega.shape != (g, g) or not np.isfinite(omega).all() or np.abs(omega - omega.T).max() > ROUNDING * g:
-        raise ValueError("a period matrix is square, symmetric and finite")
+    g = omega.shape[0] if omega.ndim == 2 else 0
+    if omega.shape != (g, g) or not g or not np.isfinite(omega).all() or np.abs(omega - omega.T).max() > ROUNDING * g:
+        raise ValueError("a period matrix is square, symmetric and finite, such as [[0.3 + 1j]]")
     if not (np.linalg.eigvalsh(omega.imag) > 0).all():
         raise ValueError("the imaginary part of a period matrix is positive definite")
     matrix, one, none = np.eye(2 * g, dtype=np.int64), np.eye(g, dtype=np.int64), np.zeros((g, g), np.int64)

@@ -1,5 +1,6 @@
 """Surfaces: validated, consistently oriented polygon meshes, or intrinsic triangulations."""
 
+import os
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -87,7 +88,7 @@ class Surface(Value):
         InvalidMesh
             if the file is missing or malformed (names the line or byte), or no face of the mesh in it can be mapped.
         """
-        part = _native.Surface.read(path, strict, weld)
+        part = _native.Surface.read(os.fspath(path), strict, weld)
         return cls._of(part.surface, Origin.of_part(part))
 
     def write(self, path: FilePath, uv: ArrayLike | None = None) -> None:

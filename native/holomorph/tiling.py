@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 from ._native import TopologyError
 from .array_types import Progress
-from .checks import checked_evenness, real_number
+from .checks import checked_evenness, only_component, real_number
 from .direction import along
 from .quality import Quality
 from .surface import Surface
-from .tiling_options import BOUNDARIES, Poles, asked_poles, generators, own_allowed, own_poles
+from .tiling_options import Poles, asked_poles, generators, is_straight, own_allowed, own_poles
 from .tilings import PlacedPoles, Tiling
 from .value import counted
 
@@ -26,8 +26,9 @@ class Tiler:
     ----------
     surface : Surface, connected
     poles : "auto" for as many as the density asks for, a number, or a list of vertices, which stay where they are
-    boundary : "straight" for boundary loops along lines of constant v, "free" for a more even density; a surface with
-        both handles and a boundary has straight ones in any case
+    boundary : "straight" for boundary loops along lines of constant v, "free" for a more even density; "automatic" for
+        straight ones, but where a face has three corners in a row on one, which evening opens on a free one alone. A
+        surface with both handles and a boundary has straight ones in any case
     allowed : (#V,) bool, where poles may be that are not chosen; default anywhere
     evened : whether tilings will be evened: fewer poles are enough then
     solver, threads, progress : as in `conformal_structure`
@@ -38,17 +39,14 @@ class Tiler:
         surface: Surface,
         poles: Poles = "auto",
         *,
-        boundary: str = "straight",
+        boundary: str = "automatic",
         allowed: ArrayLike | None = None,
         evened: bool = False,
         solver: str = "auto",
         threads: int | None = 0,
         progress: Progress | None = None,
     ) -> None:
-        if boundary not in BOUNDARIES:
-            raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
-        surface.require_connected()
-        self._surface, self._component, self._threads = surface, surface.components[0], threads or 0
+        self._surface, self._component, self._threads = surface, only_component(surface), threads or 0
         count, chosen = asked_poles(poles)
         vertices, labels = own_poles(surface, self._component, chosen)
         self._placement = _native.place_poles(
@@ -56,7 +54,7 @@ class Tiler:
             count=count,
             vertices=vertices,
             allowed=own_allowed(allowed, surface, self._component),
-            straight=boundary == "straight",
+            straight=is_straight(boundary, self._component, evened),
             labels=labels,
             evened=evened,
             solver=solver,
@@ -197,7 +195,7 @@ def place_poles(
     surface: Surface,
     count: Poles = "auto",
     *,
-    boundary: str = "straight",
+    boundary: str = "automatic",
     allowed: ArrayLike | None = None,
     threads: int | None = 0,
     progress: Progress | None = None,

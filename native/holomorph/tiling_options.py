@@ -11,9 +11,10 @@ from . import arrays
 from ._native import TopologyError
 from .array_types import Integers
 from .checks import own_vertices
+from .edges import has_angle_on_one_boundary
 
 LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
-BOUNDARIES = ("straight", "free")
+BOUNDARIES = ("automatic", "straight", "free")
 Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
 
 
@@ -52,6 +53,15 @@ def own_allowed(allowed, surface, component):
     if not own.any():
         raise ValueError("allowed leaves no vertex for a pole")
     return own.tolist()
+
+
+def is_straight(boundary, component, evened):
+    """Whether the boundary of a tiling is to be straight. @throws ValueError"""
+    if boundary not in BOUNDARIES:
+        raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
+    if boundary == "automatic":
+        return not (evened and has_angle_on_one_boundary(component))
+    return boundary == "straight"
 
 
 def generators(lattice):

@@ -20,7 +20,7 @@ UNSEEN = 0.3  # mean s1 / s2 that evening may add unseen at evenness 1: it is sp
 LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
 SMALL_PART = 0.01  # of the area of all parts: worse maps of less do not decide
 SAME_SIZE = 1.1  # largest over smallest median density of parts that is not seen
-OVERLAPPING = (1e-6, 1e-6, 0.2)  # part of an island that covers itself; less is rounding, none is fair
+OVERLAPPING = (1e-6, 0.01, 0.2)  # part of an island that covers itself: less is rounding; it can be textured, not baked
 
 EVENNESS = ("even", "fairly even", "uneven", "very uneven")
 SHEAR = (None, "slightly sheared", "sheared", "badly sheared")

@@ -89,7 +89,7 @@ def test_refusals(capfd, source):
         assert all(sentence in said for sentence in sentences), said
         return target
 
-    target = refused(torus("Other"), "there is no map to be made; Not equivalent", "genus 1 with 0 boundary loops")
+    target = refused(torus("Other"), "there is no map to be made; Not equivalent", "genus 1 and 0 boundaries")
     assert not target.data.uv_layers
     refused(mesh_object("Ball", *sphere_arrays()), "Ball: a sphere or a disk has no forms")
     full = mesh_object("Full", *holed_torus())

@@ -99,7 +99,7 @@ def test_what_is_asked_of_the_library(calls):
     torus()
     tile()
     plain = dict(
-        tiles=100, poles="auto", lattice="square", direction=None, turn=None, boundary="straight", allowed=None
+        tiles=100, poles="auto", lattice="square", direction=None, turn=None, boundary="automatic", allowed=None
     ) | dict(max_turn=0.2, max_added=None, size_counts=False, evenness=0.5)
     assert calls == [plain | dict(direction="upright")]
     tile(tiles=120, poles="COUNT", pole_count=3, lattice="hex", boundary="free", turn=0.25, direction="NONE")
@@ -292,7 +292,7 @@ def test_what_no_tiling_fits_gets_another_map():
 def test_an_object_that_is_refused_stays_as_it_was(calls):
     obj = two_parts("Spheres", sphere_arrays(), sphere_arrays())
     before = everything(obj)
-    with pytest.raises(RuntimeError, match="parts 1, 2 of 2 skipped: there is room for . poles"):
+    with pytest.raises(RuntimeError, match="parts 1, 2 of 2 skipped: there is room for . of . poles"):
         tile(poles="COUNT", pole_count=6)
     assert everything(obj) == before
 

@@ -360,6 +360,21 @@ def hemisphere(n, jitter=0.0, seed=0):
     return uniform(points, faces, ((0, 1),))
 
 
+def saw_blade(n=24, rings=2, tip=1.5):
+    """A flat disk of rings with a tooth at each edge of its boundary: all corners of a tooth lie on the boundary."""
+    turn, following = 2 * np.pi * np.arange(n) / n, (np.arange(n) + 1) % n
+    circle = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
+    teeth = tip / 2 * (circle + circle[following])
+    points = [np.zeros((1, 3)), *(radius * circle for radius in np.arange(1, rings + 1) / rings), teeth]
+    here = 1 + n * np.arange(rings + 1)[:, None] + np.arange(n)
+    after = here[:, following]
+    faces = [[0, a, b] for a, b in zip(here[0], after[0])]
+    for k in range(rings - 1):
+        faces += np.stack([here[k], here[k + 1], after[k + 1], after[k]], axis=1).tolist()
+    faces += np.stack([here[-2], here[-1], after[-2]], axis=1).tolist()
+    return polygons(np.concatenate(points), faces, ((0, 1),))
+
+
 def cylinder(n, m):
     """A tube without ends: genus 0, two boundary loops."""
     theta, height = angles(n, m)

@@ -117,24 +117,12 @@ def test_the_balanced_map_is_that_of_the_structure(name):
         assert np.array_equal(found.seams, found.structure.edges[found.structure.seams])
 
 
-def saw_blade(n=24):
-    """A disk of two rings with a tooth at each edge of its boundary: a straight boundary collapses the teeth."""
-    turn = 2 * np.pi * np.arange(n) / n
-    ring = np.stack([np.cos(turn), np.sin(turn), 0 * turn], axis=1)
-    teeth = 1.5 * (ring + np.roll(ring, -1, axis=0)) / 2
-    points = np.concatenate([[[0, 0, 0]], 0.5 * ring, ring, teeth])
-    following = (np.arange(n) + 1) % n
-    faces = [[0, 1 + i, 1 + j] for i, j in enumerate(following)]
-    faces += [[1 + i, 1 + n + i, 1 + n + j, 1 + j] for i, j in enumerate(following)]
-    return holomorph.Surface(points, faces + [[1 + n + i, 1 + 2 * n + i, 1 + n + j] for i, j in enumerate(following)])
-
-
 def test_a_tiling_that_loses_much_is_refused_and_the_best_other_map_is_not():
     tilings = [SimpleNamespace(quality=SimpleNamespace(lost_part=part)) for part in (0.01, 0.03)]
     assert automatic._whole(tilings[0]) is tilings[0]
     with pytest.raises(holomorph.TopologyError, match="would lose 3 % of its area"):
         automatic._whole(tilings[1])
-    made = holomorph.automatic_map(saw_blade(), main="untiled")
+    made = holomorph.automatic_map(surface_of(families.saw_blade()), main="untiled")
     assert made.kind == "flat" and made.quality.density_ratio == pytest.approx(1) and made.quality.lost_part == 0
     assert holomorph.automatic_map(surface_of(families.cube()), main="untiled").kind == "islands"
 

@@ -275,7 +275,7 @@ def test_spheres_and_disks_are_equivalent():
 def test_different_topology_is_said():
     made = equivalent(surface_of(families.torus(8, 6)), surface_of(families.cylinder(8, 4)))
     assert made.verdict == "not_equivalent" and made.matrix is None
-    assert made.sentence == "Not equivalent: genus 1 with 0 boundary loops, and genus 0 with 2 boundary loops."
+    assert made.sentence == "Not equivalent: genus 1 and 0 boundaries, and genus 0 and 2 boundaries."
 
 
 def test_refusals():

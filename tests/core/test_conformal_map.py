@@ -266,5 +266,5 @@ def test_refusals():
         conformal_map(torus, other)
     with pytest.raises(TypeError, match="not of a PoleStructure"):
         conformal_map(torus, log_map(surface_of(families.geodesic_sphere(2))))
-    with pytest.raises(TopologyError, match="genus 1 with 0 boundary loops, and genus 0 with 2"):
+    with pytest.raises(TopologyError, match="genus 1 and 0 boundaries, and genus 0 and 2"):
         conformal_map(torus, *structures(families.cylinder(8, 4)))

@@ -154,7 +154,7 @@ def test_what_a_free_boundary_is_made_of():
 @pytest.mark.parametrize(
     ("mesh", "words"),
     [
-        (families.cylinder(8, 3), "2 boundary loops; a free boundary needs a disk"),
+        (families.cylinder(8, 3), "2 boundaries; a free boundary needs a disk"),
         (families.cube(), "a free boundary needs a disk: cut it open along seams"),
     ],
 )

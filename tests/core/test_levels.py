@@ -328,8 +328,8 @@ def test_harmonic_maps_need_translations_across_seams():
 @pytest.mark.parametrize(
     ("mesh", "words"),
     [
-        (families.cube(), "genus 0 and 0 boundary loops"),
-        (families.hemisphere(4), "genus 0 and 1 boundary loops"),
+        (families.cube(), "genus 0 and 0 boundaries"),
+        (families.hemisphere(4), "genus 0 and 1 boundary"),
         (families.united(families.torus(10, 8), families.torus(8, 6)), "2 components"),
     ],
 )

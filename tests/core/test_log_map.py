@@ -300,7 +300,7 @@ REFUSED = {
     "residues alone": (QUADS, {"residues": [1, -1]}, "2 residues for 0 poles"),
     "neighbours": (SPHERE, {"poles": adjacent(SPHERE)}, "corners of one face"),
     "one quad": (QUADS, {"poles": [int(QUADS.corners[0]), int(QUADS.corners[2])]}, "corners of one face"),
-    "stars share a vertex": (QUADS, {"poles": [0, 36]}, "stars of the vertices 0 and 36 share vertex 18"),
+    "stars share a vertex": (QUADS, {"poles": [0, 36]}, "faces around the vertices 0 and 36 share vertex 18"),
     "star meets itself": (families.torus(3, 2 + 1), {"poles": [0, 4]}, "share vertex|corners of one face"),
 }
 
@@ -315,7 +315,7 @@ def test_refusals(case):
 
 def test_a_star_that_meets_itself():
     flat = families.flat_torus(0.3 + 1.1j, 2)
-    with pytest.raises(TopologyError, match="star of vertex 0 meets itself at vertex"):
+    with pytest.raises(TopologyError, match="faces around vertex 0 touch each other at vertex"):
         log_map(surface_of(flat), poles=[0, 3])
 
 

@@ -489,7 +489,7 @@ def test_the_finest_level_has_the_structure_of_the_original(name):
 
 
 def test_levels_without_holomorphic_forms_are_refused():
-    with pytest.raises(TopologyError, match="genus 0 and 0 boundary loops"):
+    with pytest.raises(TopologyError, match="genus 0 and 0 boundaries"):
         progressive("cube", "quadric").conformal_structure(100)
     with pytest.raises(TopologyError, match="2 connected components"):
         progressive("two components", "quadric").conformal_structure(100)

@@ -183,8 +183,8 @@ REFUSED = {
     "out of order": (GRID, [A, C, B, D], f"not in the order of the boundary.*: that is {A}, {B}, {C}, {D}"),
     "clockwise": (GRID, [A, D, C, B], f"not in the order of the boundary.*: that is {A}, {B}, {C}, {D}"),
     "no integers": (GRID, [0.5, 1, 2, 3], "list of vertex indices"),
-    "a tube": (families.cylinder(9, 5), [0, 1, 2, 3], "genus 0 and 2 boundary loops; a rectangle needs a disk"),
-    "closed": (families.cube(), [0, 1, 2, 3], "genus 0 and 0 boundary loops; a rectangle needs a disk"),
+    "a tube": (families.cylinder(9, 5), [0, 1, 2, 3], "genus 0 and 2 boundaries; a rectangle needs a disk"),
+    "closed": (families.cube(), [0, 1, 2, 3], "genus 0 and 0 boundaries; a rectangle needs a disk"),
 }
 
 

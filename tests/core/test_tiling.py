@@ -23,14 +23,14 @@ CASES = {
     "genus 2, hexagonal": (DOUBLE, {"poles": 4, "tiles": 128, "lattice": "hex"}),
     "sphere, brick": (SPHERE, {"poles": 4, "tiles": 40, "lattice": "brick"}),
     "handle and hole": (HANDLE_AND_HOLE, {"poles": 2, "tiles": 100}),
-    "holes, straight": (HOLES, {"poles": 2, "tiles": 60}),
+    "holes, straight": (HOLES, {"poles": 2, "tiles": 60, "boundary": "straight"}),
     "holes, free": (HOLES, {"poles": 2, "tiles": 60, "boundary": "free"}),
     "disk": (DISK, {"poles": 3, "tiles": 40}),
     "sphere, evened": (SPHERE, {"poles": 4, "tiles": 40, "evenness": 0.5}),
     "torus, evened": (TORUS, {"poles": 4, "tiles": 60, "evenness": 1}),
     "genus 2, evened": (DOUBLE, {"poles": 4, "tiles": 128, "evenness": 0.5}),
     "handle and hole, evened": (HANDLE_AND_HOLE, {"poles": 2, "tiles": 100, "evenness": 0.5}),
-    "holes, straight, evened": (HOLES, {"poles": 2, "tiles": 60, "evenness": 1}),
+    "holes, straight, evened": (HOLES, {"poles": 2, "tiles": 60, "boundary": "straight", "evenness": 1}),
     "holes, free, evened": (HOLES, {"poles": 2, "tiles": 60, "boundary": "free", "evenness": 0.5}),
 }
 everywhere = pytest.mark.parametrize("name", CASES)
@@ -364,3 +364,17 @@ def test_moved_poles_may_move_on(name):
         assert made.poles[pole] == place
         found = jumps(mesh, made.uv, made.poles)
         assert np.abs(found[:, 0] - np.rint(found[:, 0])).max() < 10 * EXACT * np.abs(made.uv).max()
+
+
+def test_a_boundary_is_straight_but_where_faces_would_collapse():
+    def made(mesh, boundary):
+        return automatic_structure(surface_of(mesh)).tile(poles=3, tiles=200, boundary=boundary, evenness=0.5)
+
+    blade = {
+        boundary: made(families.saw_blade(rings=8, tip=1.04), boundary)
+        for boundary in ("automatic", "straight", "free")
+    }
+    assert np.array_equal(blade["automatic"].uv, blade["free"].uv)
+    assert blade["automatic"].quality.lost_part == 0 < blade["straight"].quality.lost_part
+    assert np.array_equal(made(DISK, "automatic").uv, made(DISK, "straight").uv)
+    assert not np.array_equal(made(DISK, "automatic").uv, made(DISK, "free").uv)

@@ -51,9 +51,12 @@ def test_each_quantity_alone_decides_the_level(field, limits):
     assert {verdict(Measured(**{field: value})).level for value in (np.inf, np.nan)} == {"unusable"}
 
 
-def test_an_island_that_lies_over_itself_is_not_fit():
+def test_an_island_that_lies_over_itself_is_named():
+    """A texture is not harmed, and a bake is: where little does, the map is fair."""
     found = verdict(Measured(overlapping_part=2 * OVERLAPPING[0]))
-    assert found.level == "poor" and verdict(Measured(overlapping_part=0.3)).level == "unusable"
+    assert found.level == "fair" and "lies over itself: mark one more seam" in found.text
+    assert verdict(Measured(overlapping_part=2 * OVERLAPPING[1])).level == "poor"
+    assert verdict(Measured(overlapping_part=0.3)).level == "unusable"
 
 
 def test_islands_are_offered_where_the_mesh_is_too_coarse():

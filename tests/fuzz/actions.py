@@ -123,7 +123,7 @@ def tiling_options(random, count):
     """Of `tiling`, on a mesh of `count` vertices; a few of them wrong."""
     drawn = {
         "poles": (0, 1, 2, 3, [random.randrange(count) for _ in range(3)], "auto", "many", None),
-        "boundary": ("free", "straight", "round"),
+        "boundary": ("free", "straight", "automatic", "round"),
         "tiles": (60, 1e4, 1e-3, 1e300, -1, "many"),
         "lattice": ("brick", "hex", [[1, 0.5], [0, 1e-3]], [[1e200, 0], [0, 1]], [[1, 2], [2, 4]], "round"),
         "direction": ([0, 0, 1], [1e300, 1, -1e300], [1e-300, 0, 0], [0, 0, 0], "up"),

@@ -97,7 +97,7 @@ class Tiles:
         '"upright", "none" or a list of three numbers that are not all 0',
         lambda v: v in ("upright", "none") or (_is_list(v, _is_number) and len(v) == 3 and any(v)),
     )
-    boundary: str = _one_of(tiling_options.BOUNDARIES, "straight")
+    boundary: str = _one_of(tiling_options.BOUNDARIES, "automatic")
     turn: float | None = _optional_number("an angle in radians", lambda value: True)
     max_turn: float = _number(0.2, "an angle of at least 0 radians", lambda value: value >= 0)
     evenness: float = _number(EVENNESS, "a number from 0 to 1", lambda value: 0 <= value <= 1)

@@ -122,7 +122,8 @@ void bind_parts(py::module_& m) {
   using mesh::TopologicalType;
   py::class_<TopologicalType>(m, "TopologicalType")
       .def_readonly("genus", &TopologicalType::genus)
-      .def_readonly("boundary_count", &TopologicalType::boundary_count);
+      .def_readonly("boundary_count", &TopologicalType::boundary_count)
+      .def("text", &TopologicalType::text);
   py::class_<RefusedFaces>(m, "RefusedFaces")
       .def_property_readonly("faces", [](const RefusedFaces& refused) { return copy(refused.faces); })
       .def_readonly("reason", &RefusedFaces::reason);

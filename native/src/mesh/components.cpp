@@ -94,7 +94,8 @@ int boundary_count(const Surface& surface) {
 }
 
 std::string TopologicalType::text() const {
-  return "genus " + std::to_string(genus) + " and " + std::to_string(boundary_count) + " boundary loops";
+  const std::string boundaries = boundary_count == 1 ? " boundary" : " boundaries";
+  return "genus " + std::to_string(genus) + " and " + std::to_string(boundary_count) + boundaries;
 }
 
 TopologicalType topological_type(const Surface& surface) {

@@ -34,7 +34,7 @@ struct TopologicalType {
   bool closed() const { return boundary_count == 0; }
   /// Genus of the double with boundary, 2g + b - 1; 2g of a closed surface: forms of a family.
   int form_count() const { return 2 * genus + (closed() ? 0 : boundary_count - 1); }
-  /// "genus 1 and 2 boundary loops"
+  /// "genus 1 and 2 boundaries"
   std::string text() const;
 };
 

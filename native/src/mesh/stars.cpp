@@ -31,12 +31,12 @@ bool on_boundary(const HalfEdges& half_edges, int vertex) {
 
 // Marks the vertices of a star with its centre. Refuses those of another star, of the boundary, and any twice.
 void claim(const HalfEdges& half_edges, const Star& star, const Labels& label, std::vector<int>& owner) {
-  const std::string itself = "the star of vertex " + label(star.vertex);
+  const std::string itself = "the faces around vertex " + label(star.vertex);
   const auto take = [&](int v) {
     if (owner[v] == star.vertex)
-      throw TopologyError(itself + " meets itself at vertex " + label(v) + ": the mesh is too coarse there");
+      throw TopologyError(itself + " touch each other at vertex " + label(v) + ": the mesh is too coarse there");
     if (owner[v] >= 0) {
-      throw TopologyError("the stars of the vertices " + label(owner[v]) + " and " + label(star.vertex) +
+      throw TopologyError("the faces around the vertices " + label(owner[v]) + " and " + label(star.vertex) +
                           " share vertex " + label(v) + ": take vertices farther apart, or subdivide the mesh");
     }
     owner[v] = star.vertex;
@@ -44,7 +44,7 @@ void claim(const HalfEdges& half_edges, const Star& star, const Labels& label, s
   take(star.vertex);
   for (const HalfedgeHandle h : star.link) {
     const int v = to_vertex(half_edges, h);
-    if (on_boundary(half_edges, v)) throw TopologyError(itself + " touches the boundary at vertex " + label(v));
+    if (on_boundary(half_edges, v)) throw TopologyError(itself + " touch the boundary at vertex " + label(v));
     take(v);
   }
 }

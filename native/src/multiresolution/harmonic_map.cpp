@@ -24,7 +24,7 @@ void check_topology(const mesh::Surface& surface) {
   const std::string found =
       surface.component_count == 1 ? type.text() : std::to_string(surface.component_count) + " components";
   throw TopologyError("the surface has " + found +
-                      "; a harmonic map of the same periods needs one surface with handles or two boundary loops");
+                      "; a harmonic map of the same periods needs one surface with handles or two boundaries");
 }
 
 // The columns of v must not change along the boundary.

@@ -12,7 +12,7 @@ Structure planned_structure(std::shared_ptr<const mesh::Surface> surface, const 
   const auto type = mesh::topological_type(*surface);
   if (type.form_count() == 0) {
     throw TopologyError("the surface has " + type.text() +
-                        "; a handle, or a second boundary loop, is needed for harmonic forms");
+                        "; a handle, or a second boundary, is needed for harmonic forms");
   }
   Structure result;
   result.record.memory = plan_memory(*surface, type, options, keeping);

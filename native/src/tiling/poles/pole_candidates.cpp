@@ -44,10 +44,9 @@ std::vector<int> PoleCandidates::first_candidates() {
   for (const std::size_t count = basis_.closed() ? 2 : 1; poles.size() < count;) {
     const std::vector<int> candidates = everywhere(poles);
     if (candidates.empty()) {
-      throw TopologyError(
-          (options_.allowed.empty() ? "the vertices of the mesh" : "the vertices where poles may be") +
-          std::string(" have no room for ") + std::to_string(count) +
-          " poles: their stars must be apart, and no two may be corners of one face; subdivide the mesh");
+      throw TopologyError((options_.allowed.empty() ? "the vertices of the mesh" : "the vertices where poles may be") +
+                          std::string(" have no room for ") + std::to_string(count) +
+                          " poles: the faces around poles must not touch; subdivide the mesh");
     }
     const auto& distance = distances(poles.empty() ? candidates.front() : poles.front());
     poles.push_back(*std::max_element(candidates.begin(), candidates.end(),

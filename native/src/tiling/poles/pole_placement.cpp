@@ -57,8 +57,8 @@ MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& option
   PoleSearch search(greens, options, count <= kFew ? 1 : kEvery, execution);
   MeromorphicForm form = search.begin();
   if (!search.add(form, count)) {
-    throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " poles, not for " +
-                        std::to_string(count) + ": their stars must be apart; take fewer, or subdivide the mesh");
+    throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " of " + std::to_string(count) +
+                        " poles: the faces around them must not touch; take fewer, or subdivide the mesh");
   }
   if (static_cast<int>(options.fixed.size()) < count) form = at_the_best_places(search, std::move(form));
   return optimised(greens, options.kind, std::move(form), execution);
