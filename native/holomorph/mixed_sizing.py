@@ -16,14 +16,13 @@ from .island_map import HARD, SMOOTH
 from .map import Map, form_map
 from .map_choice import FLAT, GOOD, MOST_SOFT, REFUSALS, Refusal, Undecided, first_map
 from .mixed_map import mixed_map
-from .pieces import Piece, cut_apart, names_of_pieces, smooth_pieces
+from .pieces import REST, Piece, cut_apart, names_of_pieces, smooth_pieces
 from .progress import scaled
 from .sizing import Sizing
 from .tiling import Poles
 from .tube import is_tube
 from .windows import closed, opened
 
-REST = -1  # name of the polygons of all pieces without a tiling
 MIXING = 0.5  # of the work, for the pieces
 
 
@@ -55,7 +54,7 @@ def divided(
     bent, surface, divisions, known = bends(found.surface), found.surface, [], None
     for degrees in (angle for angle in HARD if angle > SMOOTH):
         names = names_of_pieces(surface, bent > math.radians(degrees))
-        if not names.any() or np.array_equal(names, known):
+        if names.max() == names.min() or np.array_equal(names, known):
             continue
         known, pieces = names, smooth_pieces(surface, flat, names, threads or 0)
         pairs = [(piece, _undecided(piece, evenness, threads, progress)) for piece in pieces]

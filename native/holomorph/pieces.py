@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .appearance import cost
-from .array_types import Integers, Reals
+from .array_types import Flags, Integers, Reals
 from .cut_open import cut_open
 from .edges import edge_keys
 from .hard_edges import TIP, bends, curvature, seen
@@ -17,6 +17,7 @@ from .origin import Origin
 from .quality import Quality
 from .surface import Surface
 
+REST = -1  # name of polygons that are looked at with others
 WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
 SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is no tube is more than sheets and cones
 TUBES = 0.5  # part of the area of a part without islands, from which on its tubes are looked at
@@ -50,9 +51,13 @@ class Piece:
         return float(np.average(off, weights=areas)) if areas.any() else 0.0
 
 
-def names_of_pieces(surface, is_hard_edge):
-    """(#F,) the piece of each polygon: hard edges that end within one do not divide it."""
-    return np.asarray(cut_open(surface, is_hard_edge)._native.face_component)
+def names_of_pieces(surface: Surface, is_hard_edge: Flags) -> Integers:
+    """(#F,) the piece of each polygon, from 0 on: hard edges, (#E,), that end within one do not divide it. Those of
+    less than `WORTH` of the area are `REST`."""
+    names = np.asarray(cut_open(surface, is_hard_edge)._native.face_component)
+    a, b, c = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
+    areas = np.bincount(names[surface.triangle_faces], np.linalg.norm(np.cross(b - a, c - a), axis=1))
+    return np.where((areas >= WORTH * areas.sum())[names], names, REST)
 
 
 def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
@@ -62,12 +67,15 @@ def cut_apart(surface: Surface, names: Integers) -> tuple[Surface, ...]:
     return cut_open(Surface._of(oriented._native, origin), edges_between(oriented, names)).components
 
 
-def smooth_pieces(surface, flat, names, threads):
-    """The `Piece`s that are tubes, or smooth, and across which islands have a seam or stretch, the largest first."""
-    parts = [part for part in cut_apart(surface, names) if part.area >= WORTH * surface.area]
+def smooth_pieces(surface: Surface, flat: Islands | None, names: Integers, threads: int) -> list[Piece]:
+    """The `Piece`s with `names_of_pieces` that are tubes, or smooth, and across which islands have a seam or stretch,
+    the largest first."""
+    parts = [(part, int(names[part.face_index[0]])) for part in cut_apart(surface, names)]
     found = []
-    for part in sorted(parts, key=lambda part: -part.area):
-        piece, soft, squares = _piece(part, int(names[part.face_index[0]]), flat, threads)
+    for part, name in sorted(parts, key=lambda pair: -pair[0].area):
+        if name == REST:
+            continue
+        piece, soft, squares = _piece(part, name, flat, threads)
         if _may_be_smooth(part, flat) and (soft > MOST_SOFT * math.sqrt(surface.area) or squares > FLAT):
             found.append(piece)
     tubes = sum(piece.surface.area for piece in found)
@@ -79,7 +87,7 @@ def _may_be_smooth(part, flat):
     return is_round or flat is not None and part.boundary_count > 0 and curvature(part, TIP) > SMOOTH
 
 
-def _piece(part, name, flat: Islands | None, threads):
+def _piece(part, name, flat, threads):
     """(`Piece`, length of the seams of islands across the smooth, what is minded of their squares)"""
     if flat is None:
         return Piece(part, name, None, math.inf), math.inf, math.inf

@@ -11,6 +11,7 @@ from .surface import Surface
 
 
 def is_tube(surface: Surface) -> bool:
+    """Whether it is a sphere with two holes."""
     return (surface.genus, surface.boundary_count) == (0, 2)
 
 
