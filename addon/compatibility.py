@@ -2,6 +2,7 @@
 """Every difference between the APIs of Blender 3.4 and 5.2 that this add-on meets."""
 
 from contextlib import contextmanager
+from itertools import chain, count
 from typing import NamedTuple
 
 import bpy
@@ -28,6 +29,14 @@ def uv_values(layer):
     if hasattr(layer, "uv"):
         return Values(layer.uv, "vector", np.float32, 2)
     return Values(layer.data, "uv", np.float32, 2)
+
+
+def free_name(mesh, name):
+    """The name for a new UV map: before 3.5 Blender gives it that of an attribute, too."""
+    if bpy.app.version >= (3, 5, 0):
+        return name
+    numbered = (f"{name}.{number:03}" for number in count(1))
+    return next(free for free in chain([name], numbered) if free not in mesh.attributes)
 
 
 def position_values(mesh):

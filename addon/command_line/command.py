@@ -95,7 +95,7 @@ def _add_levels(options, outcome):
 
 def _write_report(options, content):
     if options.report is not None:
-        options.report.write_text(report.as_json(content, indent=1) + "\n", encoding="utf-8")
+        native.load().whole_file.write(options.report, report.as_json(content, indent=1).encode() + b"\n")
 
 
 def _write_files(options, objects):
@@ -112,7 +112,7 @@ def _write_files(options, objects):
     if options.output is not None and not is_blend:
         bpy.data.batch_remove(set(bpy.data.objects) - own)
         try:
-            exchange.write(options.output, options.export_forms)
+            exchange.write(options.output, options.export_forms, options.export_texture)
         except exchange.ExchangeError as error:
             raise UsageError(str(error)) from error
 

@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 
 from .. import compatibility
-from ..materials import material
-from ..scene import mesh_io, uv_maps
+from ..materials import material, plain
+from ..scene import gathering, mesh_io, uv_maps
 from ..writing import states
 
 USD = (".usd", ".usda", ".usdc", ".usdz")
@@ -21,9 +21,25 @@ SAME_PLACE = 1e-6  # of a mesh's largest extent: equal positions, for Blender jo
 KEPT_OF_OBJ = (b"vt ", b"usemtl ")  # lines of OBJ files for which Blender's importer is taken
 KINDS = {".obj": "OBJ", ".fbx": "FBX", **dict.fromkeys(GLTF, "glTF"), **dict.fromkeys(USD, "USD")}
 
-# What exporters leave out or rename by default.
-WITH_GLTF = {"export_cameras": True, "export_lights": True, "export_extras": True}
-WITH_USD = {"export_uvmaps": True, "rename_uvmaps": False, "export_animation": True}
+# What exporters leave out, rename or add by default.
+WITH_GLTF = {
+    "export_cameras": True,
+    "export_lights": True,
+    "export_extras": True,
+    "export_vertex_color": "ACTIVE",
+    "export_attributes": True,
+    "export_all_influences": True,
+    "use_mesh_edges": True,
+    "use_mesh_vertices": True,
+}
+WITH_USD = {"export_uvmaps": True, "rename_uvmaps": False, "export_animation": True, "use_instancing": True}
+WITH_FBX = {
+    "use_custom_props": True,
+    "path_mode": "COPY",
+    "embed_textures": True,
+    "add_leaf_bones": False,
+    "use_mesh_edges": True,
+}
 
 
 class ExchangeError(Exception):
@@ -61,7 +77,8 @@ def read(path, up):
         _call(path, "read", compatibility.fbx_importer())
     layer = bpy.context.view_layer
     layer.update()
-    meshes = sorted((o for o in layer.objects if o.type == "MESH" and o not in before), key=lambda o: o.name)
+    made = [obj for obj in layer.objects if obj.type == "MESH" and obj not in before]
+    meshes = sorted((obj for obj in made if not gathering.is_helper(obj)), key=lambda obj: obj.name)
     if not meshes:
         raise ExchangeError(f"{path}: there is no mesh in it")
     for mesh in {obj.data for obj in meshes} if kind in GLTF else ():
@@ -72,16 +89,16 @@ def read(path, up):
     return meshes
 
 
-def write(path, forms=False):
+def write(path, forms=False, texture=False):
     """Writes the scene with the objects' own materials; it is left as it is in the file. @throws ExchangeError
 
-    forms : whether the maps of single forms are written, too
+    forms : whether the maps of single forms are written, too; texture : whether what ours show is, instead
     """
-    _prepare([obj for obj in bpy.context.view_layer.objects if obj.type == "MESH"], forms)
+    _prepare(bpy.data.objects, forms, texture)  # those of instanced collections, too, which are in no view layer
     kind = path.suffix.lower()
     if kind in GLTF:
         form = "GLB" if kind == ".glb" else "GLTF_SEPARATE"
-        _call(path, "write", bpy.ops.export_scene.gltf, export_format=form, **WITH_GLTF)
+        _call(path, "write", bpy.ops.export_scene.gltf, export_format=form, **_with_gltf())
     elif kind in USD:
         _call(path, "write", bpy.ops.wm.usd_export, **WITH_USD)
     elif kind == ".obj":
@@ -92,26 +109,39 @@ def write(path, forms=False):
         raise ExchangeError(f"{path}: Blender has not written it")
 
 
+def _with_gltf():
+    """What modifiers make is written, as it is in other formats, where no object has shape keys: they would be lost."""
+    modifiers = [modifier for obj in bpy.data.objects for modifier in obj.modifiers]
+    is_changed = any(modifier.type != "ARMATURE" and modifier.show_viewport for modifier in modifiers)
+    return WITH_GLTF | {"export_apply": is_changed and not any(mesh.shape_keys for mesh in bpy.data.meshes)}
+
+
 def _with_fbx():
-    """Every action is a clip, where no shape key is animated: those are written only with the scene as one clip."""
-    has_clips = not any(key.animation_data for key in bpy.data.shape_keys)
-    return {
-        "use_custom_props": True,
-        "bake_anim_use_all_actions": has_clips,
-        "bake_anim_use_nla_strips": has_clips,
-    }
+    """Every action of an object is a clip, in which shape keys move along. Where keys alone are animated, the scene is
+    one clip, for no other would have them."""
+    animated = [obj.animation_data for obj in bpy.context.scene.objects if obj.animation_data]
+    has_clips = any(data.action or data.nla_tracks for data in animated)
+    has_keys = any(key.animation_data for key in bpy.data.shape_keys)
+    is_one_clip = has_keys and not has_clips
+    return WITH_FBX | {"bake_anim_use_all_actions": not is_one_clip, "bake_anim_use_nla_strips": not is_one_clip}
 
 
-def _prepare(objects, forms):
-    """Takes from these mesh objects our materials and custom properties and, unless wanted, the maps of forms."""
-    for obj in objects:
-        material.uncover(obj)
-    for mesh in {obj.data for obj in objects if obj.data.library is None}:
+def _prepare(objects, forms, texture):
+    """Takes from these objects our materials, but for the texture where it is wanted, our custom properties and, unless
+    wanted, the maps of forms; and what an importer made for its own use, which exporters of other formats do not know.
+    """
+    bpy.data.batch_remove([obj for obj in objects if gathering.is_helper(obj)])
+    meshes = [obj for obj in objects if obj.type == "MESH"]
+    for mesh in {obj.data for obj in meshes if obj.data.library is None}:
         main = uv_maps.main_map(mesh)
         for name in uv_maps.own_maps(mesh):
             if not forms and name != main and name in mesh.uv_layers:
                 mesh.uv_layers.remove(mesh.uv_layers[name])
         states.restore_properties(mesh, {})
+    for obj in meshes:
+        if texture:
+            plain.show(obj)
+        material.uncover(obj)
     for obj in objects:
         if obj.library is None:
             states.restore_properties(obj, {})

@@ -41,6 +41,8 @@ def parse(arguments):
     parser.add_argument(
         "--export-forms", action="store_true", help="keep maps of single forms in what is no .blend file"
     )
+    text = "put the texture on the objects in what is no .blend file, in place of their materials"
+    parser.add_argument("--export-texture", action="store_true", help=text)
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
@@ -152,6 +154,8 @@ def _check_folders(*files):
 def _check_values(options):
     is_ratio = 0 < options.ratio < 1
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
+    is_shown = options.checker or not options.export_texture
+    _refuse_if(not is_shown, "--export-texture and --no-checker exclude each other")
     _refuse_if(options.pole and options.rectangle, "--pole and --rectangle exclude each other")
     is_factor = options.most_stretch == 0 or 1 < options.most_stretch < math.inf
     _refuse_if(not is_factor, "--most-stretch must be above 1, or 0 for no cuts")

@@ -7,7 +7,7 @@ from dataclasses import replace
 import bpy
 
 from .. import native
-from ..scene import mesh_io, targets
+from ..scene import gathering, mesh_io, targets
 from ..solving import choices
 from . import exchange
 from .options import UsageError
@@ -76,7 +76,7 @@ def _mesh_objects(options):
         return exchange.read(options.mesh, options.up or "Y")
     if not bpy.data.filepath:
         raise UsageError("name a mesh file after --, or a .blend file before --python")
-    return [o for o in bpy.context.view_layer.objects if o.type == "MESH"]
+    return [o for o in bpy.context.view_layer.objects if o.type == "MESH" and not gathering.is_helper(o)]
 
 
 def _named(options, meshes):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import bpy
 
 from .. import compatibility
-from ..results import report
+from ..results import report, tags
 from ..scene import mesh_io
 from . import transfer
 
@@ -26,7 +26,7 @@ class Presentation:
 
 def write(step, obj, data, work, presentation=Presentation()):
     """Replaces the levels of an earlier run; `data` is the object's `transfer.MeshData`, `work` a `LevelsWork`."""
-    step.remove(o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o != obj)
+    step.remove(tags.find(OF, obj))
     context = step.context
     collection, name = _collection(context, obj), obj.name.removesuffix(FINEST)
     levels = [
@@ -73,7 +73,7 @@ def _copy(obj, mesh, name):
     copy.data = mesh
     copy.name = mesh.name = name
     copy.pop(report.PROPERTY, None)
-    copy[OF] = obj.name
+    tags.put(copy, OF, obj)
     return copy
 
 
@@ -81,11 +81,10 @@ def _collection(context, obj):
     """The collection of the levels: a child of a visible, editable collection of the object, else of the scene's."""
     shown = _shown_collections(context.view_layer.layer_collection)
     parent = next((c for c in shown if obj.name in c.objects and c.library is None), context.scene.collection)
-    for collection in parent.children:
-        if collection.get(OF) == obj.name:
-            return collection
+    for collection in tags.find(OF, obj, parent.children):
+        return collection
     collection = bpy.data.collections.new(f"{obj.name} LODs")
-    collection[OF] = obj.name
+    tags.put(collection, OF, obj)
     parent.children.link(collection)
     return collection
 

@@ -75,8 +75,9 @@ def cover(obj, material):
         return
     replaced = dict(obj.get(REPLACED, {}))
     for index, slot in enumerate(obj.material_slots):
-        if _is_ours(slot.material):
-            slot.material = material
+        if is_ours(slot.material):
+            if slot.material != material:  # Blender takes milliseconds to write it
+                slot.material = material
             continue
         if slot.link == "OBJECT":
             replaced[str(index)] = slot.material or EMPTY
@@ -91,13 +92,13 @@ def uncover(obj):
     found = is_covered(obj)
     replaced = obj.get(REPLACED, {})
     for index, slot in enumerate(obj.material_slots):
-        if not _is_ours(slot.material):
+        if not is_ours(slot.material):
             continue
         if slot.link == "OBJECT":
             before = replaced.get(str(index))
             slot.material = None if before == EMPTY else before
             slot.link = "DATA" if before is None else "OBJECT"
-    if len(obj.data.materials) == 1 and _is_ours(obj.data.materials[0]):
+    if len(obj.data.materials) == 1 and is_ours(obj.data.materials[0]):
         _clear(obj.data)
     if REPLACED in obj:
         del obj[REPLACED]
@@ -113,8 +114,8 @@ def _clear(mesh):
 
 
 def is_covered(obj):
-    return any(_is_ours(slot.material) for slot in obj.material_slots)
+    return any(is_ours(slot.material) for slot in obj.material_slots)
 
 
-def _is_ours(material):
+def is_ours(material):
     return material is not None and OURS in material

@@ -134,3 +134,19 @@ def adjust_texture(material, texture, repeats, unit_length):
         nodes[RELIEF_NODE].outputs[0].default_value = TEXTURES[texture].relief * unit_length
     if PREVIEW_NODE in nodes:
         nodes[PREVIEW_NODE].image = textures.preview_image(texture, repeats)
+
+
+def shown_map(material):
+    """The name of the UV map that one of our materials shows, "" where there is none, as of an attribute."""
+    return getattr(material.node_tree.nodes.get(MAP_NODE), "uv_map", "")
+
+
+def build_plain(material, shown):
+    """The image that another of our materials has for views without shading, over the whole UV square."""
+    nodes = shown.node_tree.nodes
+    image = next(nodes[name].image for name in (PREVIEW_NODE, IMAGE_NODE) if name in nodes)
+    shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
+    tree = Tree(material)
+    picture = tree.node("ShaderNodeTexImage", -480, 200, image=image)
+    tree.link(tree.map_vector(shown_map(shown), is_attribute=False), picture.inputs["Vector"])
+    tree.link(picture.outputs[0], tree.shader(shader.inputs["Roughness"].default_value).inputs["Base Color"])

@@ -7,6 +7,9 @@ from .. import native
 
 CONVERTIBLE = {"FONT", "CURVE", "SURFACE", "META"}
 CONVERT = "Object > Convert > Mesh makes this a mesh"
+INSTANCES = "Object > Apply > Make Instances Real makes these meshes"
+PAINTING = {"SCULPT", "PAINT_VERTEX", "PAINT_WEIGHT", "PAINT_TEXTURE", "PARTICLE"}  # modes that are left meanwhile
+DYNTOPO = "Turn Dyntopo off: it keeps no UV maps"
 
 
 class Explained:
@@ -18,6 +21,7 @@ class Explained:
     bl_options = {"REGISTER", "UNDO"}
     needs_library = True
     modes = {"OBJECT": "Object Mode"}  # in which it can run, as menus name them; none for any
+    left_modes = PAINTING  # further ones: it leaves them and comes back
 
     @classmethod
     def poll(cls, context):
@@ -29,8 +33,11 @@ class Explained:
 
     @classmethod
     def _other_mode(cls, context):
-        is_right = context.mode in cls.modes or not cls.modes
-        return "" if is_right else f"Go to {' or '.join(cls.modes.values())}"
+        if not cls.modes or context.mode in cls.modes:
+            return ""
+        if context.mode in cls.left_modes:
+            return DYNTOPO if context.object.use_dynamic_topology_sculpting else ""
+        return f"Go to {' or '.join(cls.modes.values())}"
 
     def refuse(self, sentence):
         """Says why nothing is done; what the operator returns."""
@@ -60,29 +67,40 @@ class OnMeshes(Explained):
 
     @classmethod
     def why_not(cls, context):
+        from ..scene import gathering
+
+        if any(True for _ in gathering.candidates(context)):
+            return ""
         selected = context.view_layer.objects.selected
-        if context.mode == "OBJECT" and not any(o.type == "MESH" for o in selected):
-            return CONVERT if any(o.type in CONVERTIBLE for o in selected) else "Select a mesh"
-        return ""
+        if any(o.instance_type == "COLLECTION" for o in selected):
+            return INSTANCES
+        return CONVERT if any(o.type in CONVERTIBLE for o in selected) else "Select a mesh"
 
 
 class AtOnce(OnMeshes):
     """A mixin: an operator whose work is so quick that it is done at once. One of them defines
 
-    act(step, objects) : changes these mesh objects in a `transaction.Step`, out of edit mode; returns whether there was
+    act(step, objects) : changes these mesh objects in a `transaction.Step`, in object mode; returns whether there was
         something to do
     """
 
-    def read(self, context):
-        """The objects that `act` may change; what it needs of edit mode is read here."""
-        from ..scene import targets
+    nothing = ""  # what is said where there was nothing to do; "" where `act` says it
 
-        return targets.mesh_objects(context)
+    def read(self, _context, objects):
+        """Those of these objects that `act` may change; what it needs of edit mode is read here."""
+        return objects
 
     def execute(self, context):
+        from ..scene import gathering
         from ..writing import transaction
 
-        objects = self.read(context)
+        reasons = {obj: gathering.why_fixed(obj) for obj in gathering.mesh_objects(context)}
+        for obj, reason in reasons.items():
+            if reason:
+                self.report({"WARNING"}, f"{obj.name}: {reason}")
+        objects = self.read(context, [obj for obj, reason in reasons.items() if not reason])
         with transaction.one_step(context, objects) as step:
             has_acted = self.act(step, objects)
+        if objects and not has_acted and self.nothing:
+            self.report({"INFO"}, self.nothing)
         return {"FINISHED"} if has_acted else {"CANCELLED"}

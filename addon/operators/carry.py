@@ -31,14 +31,15 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
 
     def prepare(self, context):
         from .. import compatibility
-        from ..scene import targets, uv_maps
+        from ..scene import gathering, uv_maps
 
-        taking, given = targets.mesh_objects(context)
+        taking, given = gathering.active_first(context, gathering.selected_meshes(context))
         layer = given.data.uv_layers.active
         if layer is None:
             raise ValueError(f"{given.name} has no UV map")
-        if taking.data.library is not None:
-            raise ValueError(f"{taking.name}: its mesh is linked from another file; make it local first")
+        reason = gathering.why_fixed(taking)
+        if reason:
+            raise ValueError(f"{taking.name}: {reason}")
         if len(taking.data.uv_layers) >= compatibility.UV_MAP_LIMIT:
             raise ValueError(f"{taking.name} has {compatibility.UV_MAP_LIMIT} UV maps, and Blender takes no more")
         self._sides = self.read_sides([given, taking])

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator that says whether two objects are conformally equivalent."""
 
+from itertools import islice
+
 import bpy
 
 from .. import native
@@ -8,12 +10,13 @@ from .modal import WorkOperator
 
 
 class TwoMeshes:
-    """A mixin: an operator on the two selected meshes."""
+    """A mixin: an operator on the two selected meshes, in all modes."""
 
     @classmethod
     def why_not(cls, context):
-        selected = context.view_layer.objects.selected
-        return "" if sum(o.type == "MESH" for o in selected) == 2 else "Select two meshes"
+        from ..scene import gathering
+
+        return "" if len(list(islice(gathering.selected_meshes(context), 3))) == 2 else "Select two meshes"
 
     @staticmethod
     def read_sides(objects):
@@ -38,9 +41,9 @@ class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
         """There are none."""
 
     def prepare(self, context):
-        from ..scene import targets
+        from ..scene import gathering
 
-        self._sides = self.read_sides(targets.mesh_objects(context))
+        self._sides = self.read_sides(gathering.active_first(context, gathering.selected_meshes(context)))
 
     def make_work(self, progress):
         from ..maps import comparison

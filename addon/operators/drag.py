@@ -25,6 +25,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
     bl_idname = "uv.holomorphic_drag_poles"
     bl_label = "Drag Poles"
 
+    left_modes = frozenset()  # the poles are shown in object mode alone
     moves: StringProperty(
         name="Moves",
         description='The poles that are moved, by their places in the report, and vertices: "0:512 3:77"',

@@ -26,6 +26,9 @@ class Session:
         text = obj.get(report.PROPERTY)
         if stored.parsed(text).get("is_selection"):
             raise ValueError(f"{obj.name}: poles are dragged where a whole mesh was tiled, not selected faces")
+        other = stored.parsed(text).get("scale_of")
+        if other:
+            raise ValueError(f"{obj.name}: drag the poles on {other}, in whose scale its mesh was tiled")
         self.target, asked = targets.collect([obj])[0], stored.asked(text)
         self._map = uv_maps.main_map(obj.data)
         if asked is None or self.target.refused or self._map not in obj.data.uv_layers:

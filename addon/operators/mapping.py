@@ -16,10 +16,11 @@ class _MapsOperator(OnMeshes, WorkOperator):
     them."""
 
     def prepare(self, context):
-        from ..scene import targets
+        from ..scene import gathering, targets
         from . import run
 
-        self._run = run.Run(self, targets.collect(targets.mesh_objects(context), self.choices().request(self)))
+        objects, request = gathering.mesh_objects(context), self.choices().request(self)
+        self._run = run.Run(self, targets.collect(objects, request))
 
     def make_work(self, progress):
         return self._run.job(progress)

@@ -23,11 +23,11 @@ class _TexelOperator(AtOnce):
                 setattr(self, name, getattr(context.window_manager, stored))
         return self.execute(context)
 
-    def read(self, context):
+    def read(self, _context, objects):
         from ..scene import targets
         from ..solving.choices import SELECTED, Choices
 
-        self._found = targets.collect(targets.mesh_objects(context), Choices(faces=SELECTED))
+        self._found = targets.collect(objects, Choices(faces=SELECTED))
         return targets.objects(self._found)
 
     def act(self, step, _objects):

@@ -38,7 +38,7 @@ class HOLOMORPH_OT_restore_materials(AtOnce, bpy.types.Operator):
 
     bl_idname = "uv.holomorphic_restore_materials"
     bl_label = "Restore Materials"
-    needs_library = False
+    needs_library, nothing = False, "There is nothing to restore"
 
     @classmethod
     def why_not(cls, _context):
@@ -48,7 +48,7 @@ class HOLOMORPH_OT_restore_materials(AtOnce, bpy.types.Operator):
         from ..materials import viewport
         from ..results import restore
 
-        restored = [restore.restore(obj) for obj in objects if obj.data.library is None]
+        restored = [restore.restore(obj) for obj in objects]
         viewport.restore_without_textures(step.context)
         return any(restored)
 
@@ -59,11 +59,13 @@ class HOLOMORPH_OT_heat(AtOnce, bpy.types.Operator):
 
     bl_idname = "uv.holomorphic_heat"
     bl_label = "Holomorphic Heat Maps"
+    nothing = "No UV map has faces"
 
     @classmethod
     def why_not(cls, context):
-        selected = context.view_layer.objects.selected
-        return "" if any(o.type == "MESH" and o.data.uv_layers for o in selected) else "Select a mesh with a UV map"
+        from ..scene import gathering
+
+        return "" if any(o.data.uv_layers for o in gathering.candidates(context)) else "Select a mesh with a UV map"
 
     def act(self, _step, objects):
         from ..results import heat
@@ -83,7 +85,7 @@ class HOLOMORPH_OT_remove_maps(AtOnce, bpy.types.Operator):
 
     bl_idname = "uv.holomorphic_remove_maps"
     bl_label = "Remove Maps"
-    needs_library = False
+    needs_library, nothing = False, "There are no maps to remove"
 
     def execute(self, context):
         result = super().execute(context)
@@ -96,10 +98,7 @@ class HOLOMORPH_OT_remove_maps(AtOnce, bpy.types.Operator):
 
         has_removed = False
         for obj in {obj.data: obj for obj in reversed(objects)}.values():
-            if obj.data.library is not None:
-                self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
-            else:
-                has_removed |= restore.remove_maps(step, obj)
+            has_removed |= restore.remove_maps(step, obj)
         viewport.restore_without_textures(step.context)
         return has_removed
 
@@ -109,6 +108,7 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
 
     bl_idname = "mesh.holomorphic_select_bad"
     bl_label = "Select Bad Elements"
+    nothing = "There are no bad elements"
 
     kinds: EnumProperty(
         name="Elements",
@@ -121,9 +121,9 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
     def draw(self, _context):
         self.layout.column().prop(self, "kinds")
 
-    def read(self, context):
-        self._mode = context.mode
-        return super().read(context)
+    def read(self, context, objects):
+        self._is_editing = context.mode == "EDIT_MESH"
+        return objects
 
     def act(self, step, objects):
         from ..results import bad
@@ -132,13 +132,12 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
         context = step.context
         found = {target.find(): self._elements(target) for target in targets.collect(objects)}
         if not any(found.values()):
-            self.report({"INFO"}, "There are no bad elements")
             return False
         for obj, elements in found.items():
             if elements is not None:
                 bad.select(obj.data, elements)
         context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
-        if self._mode == "OBJECT":
+        if not self._is_editing:
             _edit(context, [obj for obj, elements in found.items() if elements])
         return True
 
@@ -172,7 +171,7 @@ class HOLOMORPH_OT_repair(AtOnce, bpy.types.Operator):
 
     bl_idname = "mesh.holomorphic_repair"
     bl_label = "Repair Mesh for Maps"
-    needs_library = False
+    needs_library, nothing = False, "There is nothing to repair"
 
     kinds: EnumProperty(
         name="Repairs",
@@ -200,12 +199,11 @@ class HOLOMORPH_OT_repair(AtOnce, bpy.types.Operator):
 
         done = []
         for obj in {obj.data: obj for obj in reversed(objects)}.values():
-            if obj.data.library is not None:
-                self.report({"WARNING"}, f"{obj.name}: its mesh is linked from another file; make it local first")
-            elif len(obj.data.polygons):
+            if len(obj.data.polygons):
                 repaired = repair.repair(obj.data, self.kinds, self.distance)
                 done += [f"{obj.name}: {repaired}"] * bool(repaired)
-        self.report({"INFO"}, "; ".join(done) or "There is nothing to repair")
+        if done:
+            self.report({"INFO"}, "; ".join(done))
         return bool(done)
 
 

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 
 from ..scene import mesh_io
+from . import tags
 
 OF = "holomorph_mark_of"  # custom property: name of the object whose pole or branch point it is
 SIZE = 0.02  # of the object's largest extent
@@ -17,7 +18,7 @@ def write(context, obj, vertices, is_pole):
     context.view_layer.update()
     for vertex, pole in zip(vertices.tolist(), is_pole.tolist()):
         empty = bpy.data.objects.new(f"{obj.name} {'Pole' if pole else 'Branch Point'}", None)
-        empty[OF] = obj.name
+        tags.put(empty, OF, obj)
         empty.empty_display_type = "SPHERE" if pole else "PLAIN_AXES"
         empty.empty_display_size = size
         for collection in obj.users_collection:
@@ -29,4 +30,4 @@ def write(context, obj, vertices, is_pole):
 
 def of(obj):
     """Those of an earlier run."""
-    return [o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o.type == "EMPTY"]
+    return [made for made in tags.find(OF, obj) if made.type == "EMPTY"]

@@ -8,7 +8,7 @@ DENSITY, ANGLE = "Holomorphic Density", "Holomorphic Angle"  # attributes
 
 
 def is_possible(obj):
-    return obj.data.library is None and obj.data.uv_layers.active is not None and len(obj.data.polygons) > 0
+    return obj.data.uv_layers.active is not None and len(obj.data.polygons) > 0
 
 
 def measured(mesh, linear):
@@ -33,5 +33,5 @@ def write(obj):
 
 def refresh(obj):
     """Writes the attributes again where they are: another map has become active."""
-    if DENSITY in obj.data.attributes and is_possible(obj):
+    if mesh_io.is_attribute(obj.data, DENSITY, "FACE", "FLOAT") and is_possible(obj):
         write(obj)

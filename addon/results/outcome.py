@@ -51,6 +51,8 @@ class Outcome:
         if extra:
             maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
             self.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
+        if obj.override_library is not None:
+            self.notes.append(f"{obj.name} is a library override: its report is gone when the file is opened again")
         self.notes += [target.note] if target.note else []
 
     def judge(self, obj, entry):

@@ -8,10 +8,11 @@ import bpy
 
 from .. import native
 from ..maps.options import TILING
-from ..scene import faces, mesh_io
+from ..scene import faces, gathering, mesh_io
 
 PROPERTY = "holomorph_report"
 PROPERTY_LIMIT = 1_000_000  # characters; reached at a genus of about 120
+MOST_OTHERS = 100  # objects with one mesh that get its report, besides the one that was mapped
 MATRICES = ("period_matrix", "period_bounds", "capacity_matrix", "capacity_bounds")
 TEXT = "Holomorphic Report"
 
@@ -61,8 +62,20 @@ def as_json(value, indent=None):
     return json.dumps(value, indent=indent, allow_nan=False)
 
 
-def store_on_object(obj, entry):
-    """The custom property; without the matrices where they would make it long, for they are in the text as well."""
+def store(obj, entry):
+    """The custom property of an object that was mapped, and of others with its mesh, whose scale may be another; of so
+    many of these that a file stays small."""
+    others = gathering.others(obj)
+    _store_on_object(obj, entry)
+    for other in others[:MOST_OTHERS]:
+        scale = {"scale_of": obj.name} if gathering.has_other_scale(obj, other) else {}
+        _store_on_object(other, {**entry, "object": other.name, **scale})
+    for other in others[MOST_OTHERS:]:
+        other.pop(PROPERTY, None)  # it told of an earlier map
+
+
+def _store_on_object(obj, entry):
+    """Without the matrices where they would make it long, for they are in the text as well."""
     text = as_json(entry)
     if len(text) > PROPERTY_LIMIT:
         parts = [{k: v for k, v in part.items() if k not in MATRICES} for part in entry["components"]]

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an object showed before its maps were made: its materials, and the active UV maps of its mesh."""
 
-import bpy
-
 from ..materials import material
-from ..scene import uv_maps
+from ..scene import gathering, uv_maps
 from . import empties, heat, report
 
 BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that were active, in editors and for renders
@@ -30,7 +28,7 @@ def restore(obj):
     """Brings back the materials of all objects with this mesh, and the maps that were active; returns whether there was
     something."""
     mesh = obj.data
-    found = [material.uncover(user) for user in users(mesh)]
+    found = [material.uncover(user) for user in (obj, *gathering.others(obj))]
     before = mesh.get(BEFORE)
     if before is None:
         return any(found)
@@ -51,12 +49,7 @@ def remove_maps(step, obj):
     uv_maps.remove_maps(mesh)
     heat.refresh(obj)
     mesh.update()
-    for user in users(mesh):
+    for user in (obj, *gathering.others(obj)):
         step.remove(empties.of(user))
         found |= user.pop(report.PROPERTY, None) is not None
     return found
-
-
-def users(mesh):
-    """The objects with this mesh that can be changed."""
-    return [obj for obj in bpy.data.objects if obj.data == mesh and obj.library is None]

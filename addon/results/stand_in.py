@@ -4,7 +4,7 @@ object is hidden, so that nothing is lost."""
 
 import bpy
 
-from . import report
+from . import report, tags
 
 OF = "holomorph_mapped_of"  # custom property of such an object: name of the one whose modifiers made it
 
@@ -12,7 +12,7 @@ OF = "holomorph_mapped_of"  # custom property of such an object: name of the one
 def make(step, obj):
     """A new object with the mesh that the modifiers of `obj` make, in place of that of an earlier run; it is selected
     instead of `obj`, which is hidden."""
-    step.remove(o for o in bpy.data.objects if o.library is None and o.get(OF) == obj.name and o != obj)
+    step.remove(tags.find(OF, obj))
     context = step.context
     shown = context.evaluated_depsgraph_get()
     mesh = bpy.data.meshes.new_from_object(obj.evaluated_get(shown), preserve_all_data_layers=True, depsgraph=shown)
@@ -21,7 +21,7 @@ def make(step, obj):
     made.data = mesh
     made.name = mesh.name = f"{obj.name} Mapped"
     made.pop(report.PROPERTY, None)
-    made[OF] = obj.name
+    tags.put(made, OF, obj)
     collections = [c for c in obj.users_collection if c.library is None] or [context.scene.collection]
     for collection in collections:
         collection.objects.link(made)

@@ -64,9 +64,10 @@ def verdict(entry):
 
 
 def whole(entry):
-    """What is said of a whole object before details: kinds of maps, what was left out, cut and joined; "" for one part
-    of which there is nothing to say."""
-    text = entry["whole"]["text"]
+    """What is said of a whole object before details: whose scale counted, kinds of maps, what was left out, cut and
+    joined; "" for one part of which there is nothing to say."""
+    scale = [f"in the scale of {entry['scale_of']}"] if "scale_of" in entry else []
+    text = "; ".join([*scale, entry["whole"]["text"]]).removesuffix("; ")
     return text[:1].upper() + text[1:]
 
 

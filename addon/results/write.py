@@ -72,12 +72,14 @@ def _write_object(step, outcome, target, made, options):
         shown = _shown(written, options)
         look = _look(made, options, shown is written[0] and bool(made.tiled))
         look = outcome.looks.setdefault(look.is_tiling, look)
-        material.cover(obj, material.showing(shown.name, shown.kind == "attribute", look))
+        covering = material.showing(shown.name, shown.kind == "attribute", look)
+        for each in (obj, *target.find_sharers()):
+            material.cover(each, covering)
     heat.refresh(obj)
     obj.data.update()
     entry = report.object_report(obj, made, written, new_seams, options)
     entry = with_coarse_places(obj, polygons, entry)
-    report.store_on_object(obj, entry)
+    report.store(obj, entry)
     step.remove(empties.of(obj))
     if options.empties:
         empties.write(step.context, obj, *stored.marks(obj[report.PROPERTY]))

@@ -122,12 +122,17 @@ def shape_key(mesh):
 
 def write_face_values(mesh, name, values):
     """Writes (#F,) numbers as a float attribute of the faces, in place of an attribute of that name."""
+    if not is_attribute(mesh, name, "FACE", "FLOAT"):
+        if name in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[name])
+        mesh.attributes.new(name, "FLOAT", "FACE")
+    write_values(Values(mesh.attributes[name].data, "value", np.float32), values)
+
+
+def is_attribute(mesh, name, domain, kind):
+    """Whether there is an attribute of this name, and it is of this domain and type."""
     attribute = mesh.attributes.get(name)
-    if attribute is None or (attribute.domain, attribute.data_type) != ("FACE", "FLOAT"):
-        if attribute is not None:
-            mesh.attributes.remove(attribute)
-        attribute = mesh.attributes.new(name, "FLOAT", "FACE")
-    write_values(Values(attribute.data, "value", np.float32), values)
+    return attribute is not None and (attribute.domain, attribute.data_type) == (domain, kind)
 
 
 def read_shown(obj, linear, own):

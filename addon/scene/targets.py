@@ -6,15 +6,12 @@ from dataclasses import dataclass, replace
 import bpy
 import numpy as np
 
-from .. import compatibility
 from ..compatibility import Values
 from ..solving import choices, solve
 from ..solving.choices import Choices
-from . import faces, mesh_io
+from . import faces, gathering, mesh_io
 
-SAME_SCALE = 1e-5  # relative: matrices of objects are float32
 EVERYTHING = Choices()
-IMPORTER_HELPERS = "glTF_not_exported"  # the collection of the glTF importer
 MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
 
 
@@ -31,9 +28,13 @@ class Target:
     mask: np.ndarray | None = None  # (#F,) which faces of the mesh are mapped, None for all
     modifiers: bool = False  # whether the polygons are those that the modifiers make
     makes_object: bool = False  # whether these become an object of their own
+    sharers: tuple = ()  # names of the further objects with this mesh that are asked for
 
     def find(self):
         return bpy.data.objects.get((self.name, self.library))
+
+    def find_sharers(self):
+        return [bpy.data.objects[name, None] for name in self.sharers]
 
     def has_changed(self, time_has_passed):
         """Whether the object is gone or, where Blender was alive meanwhile, its mesh is not what was read."""
@@ -42,24 +43,9 @@ class Target:
 
     def _is_what_was_read(self, obj):
         if self.modifiers:
-            return mesh_io.read_shown(obj, _linear(obj), self.polygons)[0].equals(self.polygons)
+            return mesh_io.read_shown(obj, gathering.linear(obj), self.polygons)[0].equals(self.polygons)
         has_faces = self.mask is None or len(obj.data.polygons) == len(self.mask)
         return has_faces and read(obj, self.mask).equals(self.polygons)
-
-
-def mesh_objects(context):
-    """The mesh objects the operator is about, the active one first."""
-    if context.mode == "EDIT_MESH":
-        objects = compatibility.objects_being_edited(context)
-    else:
-        objects = [o for o in compatibility.selected_objects(context) if o.type == "MESH" and not _is_helper(o)]
-    active = context.view_layer.objects.active
-    return sorted(objects, key=lambda o: o != active)
-
-
-def _is_helper(obj):
-    """Whether Blender's importer made it for its own use, such as the shapes of bones: it is no part of the scene."""
-    return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 
 def collect(objects, asked=EVERYTHING):
@@ -72,11 +58,11 @@ def collect(objects, asked=EVERYTHING):
         other = first.get(obj.data)
         target = _target(obj, masks[obj.data], asked) if other is None or asked.modifiers else None
         if target is None or (other is not None and not target.makes_object):
-            targets[other] = _with_scale_note(targets[other], obj, other)
+            targets[other] = replace(targets[other], sharers=(*targets[other].sharers, obj.name))
             continue
         targets[obj] = target
         if not target.makes_object:
-            first[obj.data] = obj
+            targets[obj], first[obj.data] = replace(target, note=_scale_note(obj)), obj
     return list(targets.values())
 
 
@@ -86,11 +72,13 @@ def _write_pending_edits(objects):
             obj.update_from_editmode()
 
 
-def _with_scale_note(target, obj, other):
-    """The target of the object `other` with a note where `obj`, of the same mesh, has another scale."""
-    if np.allclose(_metric(obj), _metric(other), rtol=0, atol=SAME_SCALE):
-        return target
-    return replace(target, note=f"{obj.name} has the same mesh in another scale; the scale of {other.name} counts")
+def _scale_note(obj):
+    """What is told where further objects have the mesh in another scale."""
+    names = [other.name for other in gathering.others(obj) if gathering.has_other_scale(obj, other)]
+    if not names:
+        return ""
+    which = f"{names[0]} has" if len(names) == 1 else f"{names[0]} and {len(names) - 1} more have"
+    return f"{which} the same mesh in another scale; the scale of {obj.name} counts"
 
 
 def _masks(objects, wanted):
@@ -123,15 +111,16 @@ def _flags(mesh, name):
 def _target(obj, mask, asked):
     library = obj.library.filepath if obj.library else None
     target = Target(obj.name, library, None, mask=mask)
-    if obj.data.library is not None:
-        return replace(target, refused="its mesh is linked from another file; make it local first")
+    reason = gathering.why_fixed(obj) or ("all its faces are hidden" if mask is not None and not mask.any() else "")
+    if reason:
+        return replace(target, refused=reason)
     if asked.are_islands and asked.is_explicit:
         return replace(target, refused="islands have no poles or corners: choose those or another main map")
     own = read(obj, mask)
-    if asked.modifiers and obj.mode != "EDIT":
+    if asked.modifiers and obj.mode == "OBJECT":
         return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
     modifier = "" if own.face_count else first_modifier(obj)
-    if modifier and mesh_io.read_shown(obj, _linear(obj), own)[0].face_count:
+    if modifier and mesh_io.read_shown(obj, gathering.linear(obj), own)[0].face_count:
         sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
         return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_chosen(obj, asked))
@@ -139,7 +128,7 @@ def _target(obj, mask, asked):
 
 def _with_modifiers(target, obj, own, asked):
     """The target as its modifiers make it: its own polygons in other places, or other ones."""
-    shown, seams, are_own = mesh_io.read_shown(obj, _linear(obj), own)
+    shown, seams, are_own = mesh_io.read_shown(obj, gathering.linear(obj), own)
     if target.mask is None and are_own:
         return replace(target, polygons=replace(own, vertices=shown.vertices), chosen=_chosen(obj, asked))
     return _of_modifiers(target, asked, shown, seams, first_modifier(obj))
@@ -178,17 +167,6 @@ def _selected(obj, use):
     return tuple(selected.tolist())
 
 
-def _linear(obj):
-    return np.array(obj.matrix_world, np.float64)[:3, :3]
-
-
-def _metric(obj):
-    """How the object's matrix changes shapes: equal for matrices that differ by rotation, reflection or factor."""
-    metric = _linear(obj).T @ _linear(obj)
-    size = np.trace(metric)
-    return metric / size if size > 0 else metric
-
-
 def with_positions(target, vertices):
     """The same target with these (#V,3) float64 positions: those of a file are more precise than Blender's."""
     return replace(target, polygons=replace(target.polygons, vertices=vertices))
@@ -212,4 +190,4 @@ def align(targets, results):
 
 def read(obj, mask=None):
     """The polygons as they are seen: with the object's scale, without modifiers; some of them for a mask."""
-    return faces.part(mesh_io.read_polygons(obj.data, _linear(obj)), mask)
+    return faces.part(mesh_io.read_polygons(obj.data, gathering.linear(obj)), mask)

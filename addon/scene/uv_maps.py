@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import compatibility
 from ..compatibility import Values
-from .mesh_io import read_values, write_values
+from .mesh_io import is_attribute, read_values, write_values
 
 MAIN_MAP = "Holomorphic"
 SHAPE = "Holomorphic Shape"  # vector attribute of vertices
@@ -63,7 +63,8 @@ def remove_maps(mesh):
     own = own_maps(mesh)
     for name in [layer.name for layer in mesh.uv_layers if layer.name in own]:
         mesh.uv_layers.remove(mesh.uv_layers[name])
-    for name in [a.name for a in mesh.attributes if is_own_attribute(mesh, a) or a.name == SHAPE]:
+    others = [a.name for a in mesh.attributes if is_own_attribute(mesh, a)]
+    for name in others + [SHAPE] * is_attribute(mesh, SHAPE, "POINT", "FLOAT_VECTOR"):
         mesh.attributes.remove(mesh.attributes[name])
     if OWN_MAPS in mesh:
         del mesh[OWN_MAPS]
@@ -92,7 +93,7 @@ def write_map(mesh, polygons, name, uv):
     uv = _of_loops(mesh, polygons, uv, "" if polygons.faces is None else getattr(mesh.uv_layers.active, "name", ""))
     # References to layers do not survive the next `new`: look up by name, keep nothing.
     if len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT:
-        layer = mesh.uv_layers.new(name=name, do_init=False)
+        layer = mesh.uv_layers.new(name=compatibility.free_name(mesh, name), do_init=False)
         write_values(compatibility.uv_values(layer), uv)
         return WrittenMap(layer.name, "uv_map")
     attribute = mesh.attributes.new(name, "FLOAT2", "CORNER")

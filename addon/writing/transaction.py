@@ -5,7 +5,7 @@ from contextlib import ExitStack, contextmanager
 
 import bpy
 
-from . import mesh_state, states
+from . import mesh_state, modes, states
 
 MADE = ("objects", "meshes", "materials", "images", "texts", "collections")  # kinds of data-blocks that are made here
 REMOVED = "Holomorph Removed"  # name of what is about to be removed
@@ -16,17 +16,18 @@ PUT_BACK = "Nothing is changed: what had been written was put back"
 def one_step(context, objects):
     """Does all that is written within, or puts everything back and raises the error again.
 
-    Gives the `Step`, which takes objects that are to be removed. Edit mode is left meanwhile, since Blender gives no
-    UV layers in it.
+    Gives the `Step`, which takes objects that are to be removed. Objects are in object mode meanwhile, since Blender
+    gives no UV layers in edit mode, and other modes keep copies of the mesh.
 
     objects : whose meshes, materials and properties are going to be changed; those that share their meshes count too
     """
     before, step = _Before(context), Step(context)
+    before.modes.push_undo()
     try:
-        before.leave_edit_mode()
+        before.modes.leave()
         before.read(objects, step)
         yield step
-        before.return_to_edit_mode()
+        before.modes.enter()
         step.finish()
     except BaseException as error:
         if not step.is_finished():
@@ -88,12 +89,12 @@ class _Before:
         self._context = context
         self._active, self._selected = layer.objects.active, set(layer.objects.selected)
         self._hidden = {obj for obj in layer.objects if obj.hide_get()}
-        self._edited = [obj for obj in layer.objects if obj.mode == "EDIT"]
+        self.modes = modes.Modes(context)
         self._blocks = {block.as_pointer() for block in _blocks()}
         self._kept = [states.Attributes(context.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
 
     def read(self, objects, step):
-        """@pre edit mode is left"""
+        """@pre their modes are left"""
         meshes = {obj.data for obj in objects if obj.data.library is None}
         users = [obj for obj in bpy.data.objects if obj.data in meshes and obj.library is None]
         self._kept += [*states.texts(), *states.materials(), *states.views(self._context.window)]
@@ -112,19 +113,7 @@ class _Before:
             last_first.callback(self._remove_new)
             for state in self._kept:
                 last_first.callback(state.restore)
-            last_first.callback(self.leave_edit_mode)
-
-    def leave_edit_mode(self):
-        if self._context.mode == "EDIT_MESH":
-            bpy.ops.object.mode_set(mode="OBJECT")
-
-    def return_to_edit_mode(self):
-        if self._edited and self._context.mode != "EDIT_MESH":
-            for obj in self._selected | set(self._edited):
-                obj.select_set(obj in self._edited)
-            bpy.ops.object.mode_set(mode="EDIT")
-            for obj in self._selected | set(self._edited):
-                obj.select_set(obj in self._selected)
+            last_first.callback(self.modes.leave)
 
     def _restore_view(self):
         layer = self._context.view_layer
@@ -132,7 +121,7 @@ class _Before:
             obj.hide_set(obj in self._hidden)
             obj.select_set(obj in self._selected)
         layer.objects.active = self._active
-        self.return_to_edit_mode()
+        self.modes.enter()
 
     def _remove_new(self):
         new = [block for block in _blocks() if block.as_pointer() not in self._blocks]

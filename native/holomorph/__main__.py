@@ -5,7 +5,7 @@ import json
 import sys
 from pathlib import Path
 
-from . import Error, Surface, Verdict, __version__, formats
+from . import Error, Surface, Verdict, __version__, formats, whole_file
 from .batch import mapping
 from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
@@ -28,8 +28,8 @@ def main(arguments=None):
         return compare(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
-        _check_output(options.output)
-    except (ValueError, ModuleNotFoundError) as error:
+        _check_output(options.output, options.texture)
+    except (ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
     try:
         report = mapped(options)
@@ -46,6 +46,8 @@ def _parser():
     )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")
+    text = "with --output FILE.glb: a PNG or JPEG image on the mesh, or checker"
+    parser.add_argument("--texture", metavar="IMAGE", help=text)
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
     text = "with --output default automatic: a seamless tiling where that is no less even; else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
@@ -62,11 +64,15 @@ def failed(status, sentence):
     return status
 
 
-def _check_output(path):
-    """Raises ValueError or ModuleNotFoundError, before any work."""
+def _check_output(path, texture):
+    """Raises ValueError or OSError, before any work."""
     if path is None:
+        if texture is not None:
+            raise ValueError("--texture goes with --output FILE.glb")
         return
-    formats.of_path(path)
+    name = formats.of_path(path)
+    if texture is not None:
+        formats.check_texture(name, texture)
     folder = Path(path).resolve().parent
     if not folder.is_dir():
         raise ValueError(f"{path}: the folder {folder} does not exist")
@@ -90,15 +96,14 @@ def mapped(options):
     }
     _write(report, options)
     if options.output and report["verdict"]:
-        surface.write(options.output, mapping.main_uv(surface, parts, recipe.maps))
+        surface.write(options.output, mapping.main_uv(surface, parts, recipe.maps), options.texture)
     return report
 
 
 def _write(report, options):
     text = json.dumps(report, indent=1, allow_nan=False)
     if options.report:
-        with open(options.report, "w", encoding="utf-8") as file:
-            file.write(text + "\n")
+        whole_file.write(options.report, text.encode() + b"\n")
     elif not options.output:
         print(text)
 

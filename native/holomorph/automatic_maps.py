@@ -19,11 +19,12 @@ from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_m
 from .mixed_sizing import Divided, MixedSizing, divided
 from .progress import scaled
 from .side_by_side import side_by_side
-from .sizing import TRIES, Sizing
+from .sizing import TRIES, Sizing, best_window, relative_size, window_around
 from .surface import Surface
 from .tiling import Poles
 
 LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
+TRYING = 0.9  # of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
 
@@ -146,39 +147,49 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
         density is given"""
     if not sizings:
         return {}
-    groups = _groups(alike, sizings)
-    members = [k for group in groups.values() for k in group]
+    members = [k for k, copy in enumerate(alike) if copy.first in sizings]
     largest, total = max(members, key=lambda k: parts[k].area), sum(parts[k].area for k in members) or 1.0
-    share, first = parts[largest].area / total, alike[largest].first
-    leader = sizings[first].about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
-    if tries and isinstance(leader, Map) and leader.is_tiled:
-        density = leader.quality.median_density / alike[largest].scale ** 2
-    firsts = list(groups)
-
-    def work(i, _threads, step):
-        known = {_scale_key(alike[largest]): leader} if firsts[i] == first else {}
-        return _of_group(sizings[firsts[i]], groups[firsts[i]], alike, density, known, step)
-
-    sizes = [len(parts[k].triangles) * len(groups[k]) for k in firsts]
-    found = side_by_side(work, sizes, threads, scaled(progress, share, 1.0))
-    return {k: one for group in found for k, one in group.items()}
-
-
-def _groups(alike, firsts):
-    """{first part: it and its copies}."""
-    groups = {first: [] for first in firsts}
-    for k, copy in enumerate(alike):
-        groups.get(copy.first, []).append(k)
-    return groups
+    names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
+    share, made = 0.0, {}
+    if tries:
+        share, sizing = parts[largest].area / total, sizings[alike[largest].first]
+        leader = sizing.about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
+        if isinstance(leader, Map) and leader.is_tiled:
+            density = leader.quality.median_density / alike[largest].scale ** 2
+        made[names[largest]] = leader
+    wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
+    areas = dict.fromkeys(wanted, 0.0)
+    for k in members:
+        if names[k] in wanted:
+            areas[names[k]] += parts[k].area
+    made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))
+    return {k: made[names[k]] for k in members}
 
 
-def _of_group(sizing, group, alike, density, known, progress):
-    """{part: its map or how it is refused} of copies. known : {key of its scale: map} of some of them"""
-    for n, k in enumerate(group):
-        if (own := _scale_key(alike[k])) not in known:
-            step = scaled(progress, n / len(group), (n + 1) / len(group))
-            known[own] = sizing.at(_on_first(density, alike[k]), step)
-    return {k: known[_scale_key(alike[k])] for k in group}
+def _of_one_size(parts, sizings, wanted, areas, is_given, threads, progress):
+    """{(part, scale): its map or how it is refused} for densities by these. One of each part is tried before the
+    others: it places the poles for all."""
+    leading = list({name[0]: name for name in wanted}.values())
+    following = [name for name in wanted if name not in set(leading)]
+
+    def done(names, work, start, end):
+        sizes = [len(parts[name[0]].triangles) for name in names]
+        made = side_by_side(
+            lambda i, _threads, step: work(names[i], step), sizes, threads, scaled(progress, start, end)
+        )
+        return dict(zip(names, made))
+
+    def tried(name, step):
+        return sizings[name[0]].tried(wanted[name], TRIES, step)
+
+    found = done(leading, tried, 0.0, TRYING / 2) | done(following, tried, TRYING / 2, TRYING)
+    sizes = {name: [relative_size(made, wanted[name]) for made in each.tilings] for name, each in found.items()}
+    window = window_around() if is_given else best_window(list(sizes.values()), [areas[name] for name in sizes])
+
+    def settled(name, step):
+        return sizings[name[0]].settled(found[name], wanted[name], window, step)
+
+    return done(list(wanted), settled, TRYING, 1.0)
 
 
 def _tries(tiles, density):
@@ -190,10 +201,6 @@ def _tries(tiles, density):
 def _on_first(density, copy):
     """The density of a copy's map on the first part."""
     return density * copy.scale**2
-
-
-def _scale_key(copy):
-    return round(math.log(copy.scale), SCALE_DIGITS)
 
 
 def _of_copy(found, part, structure, scale):

@@ -2,14 +2,13 @@
 
 import zlib
 
+from . import whole_file
 from ._native import InvalidMesh
 
 
 def write(path, content):
     """Writes the content and its checksum, 4 bytes in little endian order."""
-    with open(path, "wb") as file:
-        file.write(content)
-        file.write(zlib.crc32(content).to_bytes(4, "little"))
+    whole_file.write(path, content, zlib.crc32(content).to_bytes(4, "little"))
 
 
 def read(path):

@@ -4,7 +4,7 @@ import argparse
 import json
 import sys
 
-from . import Error, Surface
+from . import Error, Surface, whole_file
 from .equivalence import VERDICTS, conformally_equivalent
 from .plain_data import plain
 
@@ -26,8 +26,7 @@ def compare(arguments):
     try:
         made = conformally_equivalent(*map(_surface, options.meshes))
         if options.report:
-            with open(options.report, "w", encoding="utf-8") as file:
-                json.dump(plain(vars(made)), file, indent=1, allow_nan=False)
+            whole_file.write(options.report, json.dumps(plain(vars(made)), indent=1, allow_nan=False).encode() + b"\n")
     except (Error, OSError) as error:
         print(f"holomorph: {error}", file=sys.stderr)
         return 1

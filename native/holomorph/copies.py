@@ -36,10 +36,11 @@ def copies(parts: Sequence[Surface]) -> list[Copy]:
 
 @dataclass(frozen=True)
 class _Shape:
-    """lengths : (#E,); heights : (#V,) above their mean, none of an intrinsic surface; size : root of the area;
-    rounding : of the lengths, and of the heights"""
+    """lengths : (#E,), and their mean; heights : (#V,) above their mean, none of an intrinsic surface; size : root of
+    the area; rounding : of the lengths, and of the heights"""
 
     lengths: Reals
+    mean_length: float
     heights: Reals
     size: float
     rounding: float
@@ -48,9 +49,9 @@ class _Shape:
     def of(cls, part):
         lengths, size = part._native.edge_lengths, part.area**0.5
         if part.vertices is None:
-            return cls(lengths, np.empty(0), size, SINGLE * lengths.max())
+            return cls(lengths, lengths.mean(), np.empty(0), size, SINGLE * lengths.max())
         heights = part.vertices[:, 2] - part.vertices[:, 2].mean()
-        return cls(lengths, heights, size, SINGLE * np.abs(part.vertices).max())
+        return cls(lengths, lengths.mean(), heights, size, SINGLE * np.abs(part.vertices).max())
 
     def scale_of(self, other):
         """Lengths over those of the other, 0 where it is no copy. @pre the same triangles"""
@@ -58,7 +59,10 @@ class _Shape:
             return 0.0
         scale = self.size / other.size
         tolerance = self.rounding + scale * other.rounding
-        if tolerance > MOST_ROUNDING * self.lengths.mean():
+        if (
+            tolerance > MOST_ROUNDING * self.mean_length
+            or abs(self.mean_length - scale * other.mean_length) > tolerance
+        ):
             return 0.0
         pairs = (self.lengths, other.lengths), (self.heights, other.heights)
         return scale if all(np.allclose(own, scale * its, rtol=0, atol=tolerance) for own, its in pairs) else 0.0

@@ -1,43 +1,53 @@
 """Meshes with UVs as files. Every writer gives bytes, the same for the same mesh on every run."""
 
-import importlib.util
 import io
 from pathlib import Path
 
 import numpy as np
 
-from . import arrays
+from . import arrays, gltf, textures, whole_file
 from ._native import InvalidMesh
 
 
-def write(surface, path, uv=None):
+def write(surface, path, uv=None, texture=None):
     """See `Surface.write`."""
-    writer = WRITERS[of_path(path)]
+    name = of_path(path)
     if surface.vertices is None:
         raise InvalidMesh("an intrinsic surface, without positions, cannot be written")
     if uv is not None:
         uv, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
         if uv.shape != (count, 2) or not np.isfinite(uv).all():
             raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) finite numbers are needed")
-    Path(path).write_bytes(writer(surface, uv))
+    image = None
+    if texture is not None:
+        check_texture(name, texture)
+        if uv is None:
+            raise ValueError("a texture needs uv, the map by which it lies on the surface")
+        image = textures.image(texture, surface, uv)
+    whole_file.write(path, content(name, surface, uv, image))
 
 
-def check(formats):
-    """@throws ModuleNotFoundError where a library is missing that a format needs"""
-    if "glb" in formats and importlib.util.find_spec("trimesh") is None:
-        raise ModuleNotFoundError('the format glb needs the library trimesh: pip install "holomorph[batch]"')
+def content(name, surface, uv=None, image=None):
+    """The bytes of a file. name : in `WRITERS`; image : a `textures.Image` for formats that are `TEXTURED`"""
+    return WRITERS[name](surface, uv, image) if name in TEXTURED else WRITERS[name](surface, uv)
+
+
+def check_texture(name, texture):
+    """@throws ValueError, OSError where files of a format cannot have a texture, or it is no image"""
+    if name not in TEXTURED:
+        raise ValueError(f"a texture goes into .{' and .'.join(TEXTURED)} files alone, not into .{name}")
+    textures.check(texture)
 
 
 def of_path(path):
     """The name in `WRITERS` of the format that a path ends with.
 
-    Raises ValueError for any other ending; ModuleNotFoundError as `check`."""
+    Raises ValueError for any other ending."""
     name = Path(path).suffix.lower().removeprefix(".")
     if name not in WRITERS:
         endings = [f".{known}" for known in WRITERS]
         wanted = f"{', '.join(endings[:-1])} or {endings[-1]}"
         raise ValueError(f"{path} must end with {wanted}, for that is what is written")
-    check([name])
     return name
 
 
@@ -75,20 +85,17 @@ def ply(surface, uv=None):
     return "\n".join(header).encode() + points.astype("<f8").tobytes() + faces.astype("<i4").tobytes()
 
 
-def glb(surface, uv=None):
-    """Binary glTF of the triangles, by trimesh."""
-    import trimesh
-
+def glb(surface, uv=None, image=None):
+    """Binary glTF of the triangles. image : a `textures.Image`, which the UVs lay on them"""
     points, corners = _split(surface, uv)
-    visual = None
-    if uv is not None:
-        visual = trimesh.visual.TextureVisuals(points[:, 3:], trimesh.visual.material.PBRMaterial())
-    faces = corners[surface.triangle_corners]
-    mesh = trimesh.Trimesh(vertices=points[:, :3], faces=faces, visual=visual, process=False)
-    return mesh.export(file_type="glb")
+    triangles = corners[surface.triangle_corners]
+    if uv is None:
+        return gltf.encoded(points, triangles)
+    return gltf.encoded(points[:, :3], triangles, points[:, 3:], image)
 
 
 WRITERS = {"obj": obj, "ply": ply, "glb": glb}
+TEXTURED = ("glb",)
 
 
 def _lines(template, rows):

@@ -11,6 +11,7 @@ from .automatic_structure import AnyStructure, automatic_structure
 from .island_map import Islands, island_map, one_island
 from .map import Map, form_map
 from .progress import scaled
+from .stretched import stretched
 from .surface import Surface
 from .value import counted
 
@@ -138,6 +139,15 @@ class Undecided:
         one = one_island(self.surface, tiling)
         made = Map(self.surface, self.structure, one.uv, one.quality, np.empty(0), why, islands=one)
         return made if one.cost < found.cost else found
+
+    def stretched(self, made, density, lattice):
+        """The `Map` of the tiling of another one, stretched to a density; None where it cannot be, or another map looks
+        better."""
+        tiling = stretched(made.tiling, density, lattice)
+        if tiling is None or self.balanced and _drawback(tiling, self.balanced.quality):
+            return None
+        found = self._map(tiling, made.why)
+        return found if _least_minded(self.flat, found) is found else None
 
     def _tiling(self, poles, options, progress):
         return self.structure.tile(poles=poles, surface=self.surface, progress=progress, **options)

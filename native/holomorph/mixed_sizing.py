@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,10 +18,9 @@ from .map_choice import FLAT, GOOD, MOST_SOFT, REFUSALS, Refusal, Undecided, fir
 from .mixed_map import mixed_map
 from .pieces import REST, Piece, cut_apart, names_of_pieces, smooth_pieces
 from .progress import scaled
-from .sizing import Sizing
+from .sizing import SAME_SIZE, Sizing, Tried, Window, is_in, nearest, relative_size
 from .tiling import Poles
-from .tube import is_tube
-from .windows import closed, opened
+from .tubes import closed, is_tube, opened
 
 MIXING = 0.5  # of the work, for the pieces
 
@@ -93,52 +92,86 @@ class _Tiled:
         return TURN * self.piece.turn(self.map.uv) if self.is_tube and not len(self.map.poles) else 0.0
 
 
+class _Found(NamedTuple):
+    """The map in pieces, or None; what is minded of it, and of how far rows turn where all its pieces are islands."""
+
+    map: Map | None = None
+    minded: float = math.inf
+    turns: float = 0.0
+
+    @property
+    def is_good(self):
+        return self.map is not None and _without_hard_edges(self.map.mixed) <= GOOD
+
+    def or_else(self, other):
+        """It, or another map that is less minded, or how that is refused, if there is no map in pieces."""
+        if self.map is None or not isinstance(other, Map):
+            return self.map or other
+        return self.map if self.minded < other.cost + (self.turns if other.islands else 0.0) else other
+
+
 @dataclass(frozen=True)
 class MixedSizing:
-    """A `Divided` part, and what is asked of tilings: poles and other options of `Structure.tile`."""
+    """A `Divided` part, and what is asked of tilings: poles and other options of `Structure.tile`. Its functions are
+    those of `Sizing`."""
 
     part: Divided
     poles: Poles
     options: Mapping[str, Any]
 
-    def at(self, density: float, progress: Progress | None) -> Map | Refusal:
-        """As `Sizing.at`."""
-        return self.about(density, 0, progress)
-
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
-        """As `Sizing.about`; in pieces where that is less minded."""
-        mixed, minded, turns = self._in_pieces(density, tries, scaled(progress, 0.0, MIXING))
+        """In pieces where that is less minded; the largest piece has the density that whole tiles have around it."""
+        found = self._in_pieces(density, tries, SAME_SIZE, scaled(progress, 0.0, MIXING))
         other = self.part.other
-        if isinstance(other, Undecided):
-            if mixed and _without_hard_edges(mixed.mixed) <= GOOD:
-                return mixed
-            other = self._sizing(other).about(density, tries, scaled(progress, MIXING, 1.0))
-        if mixed is None or not isinstance(other, Map):
-            return mixed or other
-        return mixed if minded < other.cost + (turns if other.islands else 0.0) else other
+        if isinstance(other, Map) or found.is_good:
+            return found.or_else(other)
+        return found.or_else(self._sizing(other).about(density, tries, scaled(progress, MIXING, 1.0)))
 
-    def _in_pieces(self, density, tries, progress):
-        """(The map in pieces, or None; what is minded of it; of how far rows turn where all pieces are islands)"""
-        best, count = (None, math.inf, 0.0), len(self.part.divisions)
+    def tried(self, density: float, tries: int, progress: Progress | None) -> Tried:
+        """In pieces, as a tiling, where that is less minded."""
+        found = self._in_pieces(density, 0, SAME_SIZE, scaled(progress, 0.0, MIXING))
+        other, is_map = self.part.other, isinstance(self.part.other, Map)
+        if found.is_good and not is_map:
+            return Tried([found.map], None)
+        tried = Tried([], other) if is_map else self._sizing(other).tried(density, tries, scaled(progress, MIXING, 1.0))
+        rival = nearest(tried.tilings, density) if tried.tilings else tried.other
+        return tried if found.or_else(rival) is rival else Tried([found.map], None)
+
+    def settled(self, tried: Tried, density: float, window: Window, progress: Progress | None) -> Map | Refusal:
+        """In pieces that have the density exactly, where those that were tried are not in the window."""
+        if tried.tilings and tried.tilings[0].mixed:
+            (made,) = tried.tilings
+            is_inside = is_in(window, relative_size(made, density))
+            return made if is_inside else self._in_pieces(density, 0, 0.0, progress).map or made
+        other = self.part.other
+        return other if isinstance(other, Map) else self._sizing(other).settled(tried, density, window, progress)
+
+    def _in_pieces(self, density, tries, near, progress):
+        """What is `_Found`. near : relative difference of pieces' densities from the one that is wanted"""
+        best, count = _Found(), len(self.part.divisions)
         for n, division in enumerate(self.part.divisions):
-            tiled = self._tiled(division, density, tries, scaled(progress, n / count, (n + 1) / count))
+            tiled = self._tiled(division, density, tries, near, scaled(progress, n / count, (n + 1) / count))
             mixed, minded = self._least_minded(division, tiled, scaled(progress, (n + 1) / count, (n + 1) / count))
-            best = min(best, (mixed, minded, self._turns(tiled)), key=lambda found: found[1])
+            best = min(best, _Found(mixed, minded, self._turns(tiled)), key=lambda found: found.minded)
             if mixed and _without_hard_edges(mixed.mixed) <= FLAT:
                 break
         return best
 
-    def _tiled(self, division, density, tries, progress):
-        """The `_Tiled` pieces that may be better than islands: of one density, that of the largest."""
+    def _tiled(self, division, density, tries, near, progress):
+        """The `_Tiled` pieces that may be better than islands. tries : numbers of tiles for the first one, the largest,
+        whose density is then that of the others; 0 where the density is given"""
         made, count = [], len(division.pieces)
         for n, (piece, undecided) in enumerate(division.pieces):
             sizing, step = self._sizing(undecided), scaled(progress, n / count, (n + 1) / count)
-            tiling = None if sizing.is_strict else sizing.tiling(density, 0 if made else tries, step)
-            if tiling is None:
+            if sizing.is_strict:
+                return []
+            is_first = tries > 0 and not made
+            tiling = sizing.about(density, tries, step) if is_first else sizing.of_piece(density, near, step)
+            if not isinstance(tiling, Map) or not tiling.tiling:
                 continue
             one = _Tiled(piece, opened(tiling, piece.surface), is_tube(undecided.surface))
             if one.map.cost < piece.cost + one.turn:
-                density = density if made else one.map.density
+                density = one.map.density if is_first else density
                 made.append(one)
         return made
 

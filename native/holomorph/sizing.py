@@ -1,21 +1,31 @@
 """A tiling of a wanted density: the number of tiles that gives it, or another map where no number does."""
 
+import math
 import numbers
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 from .array_types import Progress
 from .map import Map
 from .map_choice import REFUSALS, Refusal, Undecided
 from .progress import scaled
 from .tiling import Poles
-from .tube import is_tube, stretched
+from .tubes import is_tube
 
 SAME_SIZE = 0.045  # relative difference of a median density from the wanted one, until which other numbers are tried
-LIKE_SIZE = 0.1  # and up to which a tiling stays one: without whole tiles a seam would show
-TRIES = 3  # numbers of tiles, until the median density is the wanted one
+LIKE_SIZE = 1.095  # largest over smallest median density of tilings, for parts whose squares have one size
+TRIES = 4  # numbers of tiles, until the median density is the wanted one
 TOO_FEW = "whole tiles are too few on it for squares of the size of the other parts"
+
+Window: TypeAlias = tuple[float, float]  # least and largest median density, over the wanted one
+
+
+class Tried(NamedTuple):
+    """tilings : with several numbers of tiles; other : the first map that is none, or how one is refused"""
+
+    tilings: Sequence[Map]
+    other: Map | Refusal | None
 
 
 @dataclass(frozen=True)
@@ -27,52 +37,58 @@ class Sizing:
     options: Mapping[str, Any]
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
-        """The map with this density, or the nearest one that so many numbers of tiles give, or how it is refused.
-        Without any try, what is `at` this density."""
-        if tries == 0:
-            return self.at(density, progress)
-        tilings, other = self._tried(density, tries, progress)
-        return self._moved(_nearest(tilings, density), tries, progress) if tilings else other
+        """The map with the nearest density that so many numbers of tiles give, or how it is refused."""
+        tilings, other = self.tried(density, tries, progress)
+        return self._moved(nearest(tilings, density), tries, progress) if tilings else other
 
-    def at(self, density: float, progress: Progress | None) -> Map | Refusal:
-        """The map whose median density is within `LIKE_SIZE` of this one where it is a tiling. What is asked for in so
-        many words, such as poles that are chosen or moved, is made with another density, or refused."""
-        tilings, other = self._tried(density, TRIES, progress)
-        if tilings:
-            made = _nearest(tilings, density)
-            fits = abs(_excess(made, density)) <= LIKE_SIZE or self.is_strict
-            return self._moved(made, TRIES, progress) if fits else self.undecided.untiled(TOO_FEW, made.tiling)
-        return other if isinstance(other, Map) or self.is_strict else self.undecided.untiled(str(other))
-
-    def tiling(self, density: float, tries: int, progress: Progress | None) -> Map | None:
-        """The nearest tiling that so many numbers of tiles give; without any try one that is within `LIKE_SIZE` of the
-        density, for which a tube is stretched. None where there is none."""
-        surface = self.undecided.surface
-        tilings, _ = self._tried(density, tries or (1 if is_tube(surface) else TRIES), progress)
-        made = _nearest(tilings, density) if tilings else None
-        if made is None or tries or abs(_excess(made, density)) <= SAME_SIZE:
-            return made
-        long = stretched(made, density) if is_tube(surface) else None
-        return long or (made if abs(_excess(made, density)) <= LIKE_SIZE else None)
-
-    def _tried(self, density, tries, progress):
-        """(tilings, the first that is none or how it is refused): with one number of tiles after the other, until the
-        density is the wanted one."""
-        tilings, tiles = [], density * self.undecided.surface.area
+    def tried(self, density: float, tries: int, progress: Progress | None) -> Tried:
+        """With one number of tiles after the other, until the density is the wanted one."""
+        tilings, tiles, below, above = [], density * self.undecided.surface.area, 0.0, math.inf
         options = {**self.options, "moves": {}, "size_counts": tries > 1}
         for attempt in range(tries):
             step = scaled(progress, attempt / tries, (attempt + 1) / tries)
             try:
                 made = self.undecided.tiled(self.poles, {**options, "tiles": tiles or None}, step)
             except REFUSALS as error:
-                return tilings, error
+                return Tried(tilings, error)
             if made.tiling is None:
-                return tilings, made
+                return Tried(tilings, made)
             tilings.append(made)
-            if abs(_excess(made, density)) <= SAME_SIZE:
+            size = relative_size(made, density)
+            if abs(size - 1) <= SAME_SIZE:
                 break
-            tiles /= 1 + _excess(made, density)
-        return tilings, None
+            below, above = (max(below, tiles), above) if size < 1 else (below, min(above, tiles))
+            tiles /= size
+            if not below < tiles < above:  # the density grows in steps
+                tiles = math.sqrt(below * above)
+        return Tried(tilings, None)
+
+    def settled(self, tried: Tried, density: float, window: Window, progress: Progress | None) -> Map | Refusal:
+        """The tiling that was tried and is in the window, or stretched to the density; else the best other map. What is
+        asked for in so many words, such as poles that are chosen or moved, is made with another density, or refused."""
+        tilings, other = tried
+        if not tilings:
+            is_final = isinstance(other, Map) or self.is_strict
+            return other if is_final else self.undecided.untiled(str(other))
+        inside = [made for made in tilings if is_in(window, relative_size(made, density))]
+        made = self._moved(nearest(inside or tilings, density), TRIES, progress)
+        if inside or not isinstance(made, Map) or made.tiling is None:
+            return made
+        stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
+        if stretched or self.is_strict:
+            return stretched or made
+        return self.undecided.untiled(TOO_FEW, made.tiling)
+
+    def of_piece(self, density: float, near: float, progress: Progress | None) -> Map | None:
+        """The tiling of a piece of a part whose density is this one, relatively as near, or for which it is stretched;
+        None where there is none."""
+        surface = self.undecided.surface
+        tilings, _ = self.tried(density, 1 if is_tube(surface) else TRIES, progress)
+        made = nearest(tilings, density) if tilings else None
+        if made is None or abs(relative_size(made, density) - 1) <= near:
+            return made
+        stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
+        return stretched or (made if is_in(window_around(), relative_size(made, density)) else None)
 
     def _moved(self, made, tries, progress):
         """The map with poles moved after its rounding, or how that is refused."""
@@ -92,9 +108,35 @@ class Sizing:
         return is_chosen or is_bound or bool(self.options.get("moves"))
 
 
-def _nearest(tilings, density):
-    return min(tilings, key=lambda made: abs(_excess(made, density)))
+def relative_size(made: Map, density: float) -> float:
+    """The median density over the wanted one."""
+    return made.quality.median_density / density if density > 0 else 1.0
 
 
-def _excess(made, density):
-    return made.quality.median_density / density - 1 if density > 0 else 0.0
+def is_in(window: Window, size: float) -> bool:
+    """Whether a median density, over the wanted one, is in a window."""
+    return window[0] <= size <= window[1]
+
+
+def window_around(low: float = LIKE_SIZE**-0.5) -> Window:
+    """The window from `low` on; by default the one in whose middle the wanted density is."""
+    return low, low * LIKE_SIZE
+
+
+def best_window(sizes: Sequence[Sequence[float]], weights: Sequence[float]) -> Window:
+    """The window with the wanted density, 1, that holds one of the `sizes` of most parts by their weights; of equal
+    ones the one whose middle is nearest to it."""
+    tried = [window_around()]
+    tried += [window_around(size) for each in sizes for size in each if 1 / LIKE_SIZE <= size <= 1]
+    tried += [window_around(size / LIKE_SIZE) for each in sizes for size in each if 1 <= size <= LIKE_SIZE]
+
+    def held(window):
+        weight = sum(w for each, w in zip(sizes, weights) if any(is_in(window, size) for size in each))
+        return weight, -abs(math.log(window[0] * window[1]))
+
+    return max(tried, key=held)
+
+
+def nearest(tilings: Sequence[Map], density: float) -> Map:
+    """The one whose median density is nearest."""
+    return min(tilings, key=lambda made: abs(relative_size(made, density) - 1))

@@ -91,20 +91,23 @@ class Surface(Value):
         part = _native.Surface.read(os.fspath(path), strict, weld)
         return cls._of(part.surface, Origin.of_part(part))
 
-    def write(self, path: FilePath, uv: ArrayLike | None = None) -> None:
-        """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles, which takes the library
-        trimesh: positions, and with `uv`, (#C, 2), a UV map. Positions and UVs keep double precision, in GLB single.
+    def write(self, path: FilePath, uv: ArrayLike | None = None, texture: FilePath | None = None) -> None:
+        """Writes OBJ or PLY with its polygons, or GLB (binary glTF) with its triangles: positions, and with `uv`,
+        (#C, 2), a UV map. Positions and UVs keep double precision, in GLB single.
+
+        texture : lies on the surface and repeats, in GLB alone: a PNG or JPEG file, which is embedded as it is, or
+            "checker" for one that suits the map
 
         Raises
         ------
         ValueError
-            if the path ends with neither .obj, .ply nor .glb, before anything is written, or `uv` does not fit
-        ModuleNotFoundError
-            if trimesh is missing: pip install "holomorph[batch]"
+            if the path ends with neither .obj, .ply nor .glb, or `uv` or `texture` does not fit; nothing is written
+        OSError
+            if the image cannot be read, or the file not written
         InvalidMesh
             if the surface is intrinsic
         """
-        formats.write(self, path, uv)
+        formats.write(self, path, uv, texture)
 
     @classmethod
     def _of(cls, native, origin=AS_GIVEN):

@@ -180,11 +180,11 @@ class Tiler:
         return tiling
 
     def _quality(self, made, evenness):
-        after = Quality.of(made.surface(), made.uv(), 0)
+        after = Quality.of(made.surface(), made.uv(), self._threads)
         if evenness == 0:
             return after
         conformal = _native.evened_tiling(made, evenness=0.0, threads=self._threads, progress=None)
-        return after.evened_from(Quality.of(made.surface(), conformal.uv(), 0), evenness)
+        return after.evened_from(Quality.of(made.surface(), conformal.uv(), self._threads), evenness)
 
     def _of_surface(self, vertices):
         same = self._component is self._surface

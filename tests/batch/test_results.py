@@ -92,6 +92,18 @@ def test_gltf():
     assert formats.glb(surface, uv) == content
 
 
+def test_one_texture_is_in_the_files_of_all_levels(tmp_path):
+    """A checker that suits the finest one: from level to level it stays in place."""
+    text = "[maps]\nmain = 'balanced'\n[levels]\nlevels = 1\n[output]\nformats = ['glb']\ntexture = 'checker'\n"
+    (tmp_path / "recipe.toml").write_text(text)
+    source = torus_obj(tmp_path / "torus.obj")
+    result = run(source, "--out", tmp_path / "out", "--recipe", tmp_path / "recipe.toml")
+    assert result.returncode == 0, result.stderr
+    files = [tmp_path / "out/assets/torus.obj" / name for name in ("mesh.glb", "lod1.glb")]
+    images = [path.read_bytes().partition(b"\x89PNG")[2] for path in files]
+    assert images[0] and images[0] == images[1]
+
+
 def test_a_picture_shows_what_is_in_front():
     """Two squares, the nearer one without a map: its grey covers the middle."""
     square = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])

@@ -1,12 +1,11 @@
 """What cannot be done is said in one clear sentence, and nothing is written."""
 
-import importlib.util
 import os
 from pathlib import Path
 
 import pytest
 from conftest import library, run, torus_obj
-from holomorph.batch import command, recipe, sources
+from holomorph.batch import recipe, sources
 from holomorph.batch.errors import UsageError
 
 RECIPES = {
@@ -22,6 +21,9 @@ RECIPES = {
     "[tiling]\ntiles = 4\ndensity = 2.0": "tiling.density and tiling.tiles exclude each other",
     "[tiling]\ndirection = [0, 0, 0]": "a list of three numbers that are not all 0 is needed",
     "[output]\nformats = ['fbx']": "a list of npz, obj, ply, glb, blend is needed",
+    "[output]\ntexture = 'checker'": "output.texture goes into files of output.formats that are glb",
+    "[output]\nformats = ['glb']\ntexture = 'absent.png'": "absent.png",
+    "[output]\nformats = ['glb']\ntexture = 'recipe.toml'": "neither a PNG nor a JPEG",
     "maps = 3": "maps is 3; a table [maps] is needed",
     "[maps": "this is not TOML",
 }
@@ -42,6 +44,18 @@ def test_same_options_are_the_same_recipe(tmp_path):
     one.write_text("[maps]\nmain = 'balanced'\nforms = 2\n")
     other.write_text("# the same\n[maps]\nforms = 2\nmain = 'balanced'\n[levels]\n")
     assert recipe.read(one).canonical == recipe.read(other).canonical != recipe.Recipe().canonical
+
+
+def test_what_is_on_a_texture_tells_recipes_apart_and_not_its_name(tmp_path):
+    """It is named from the recipe's folder on."""
+    texts = []
+    for name, content in (("one", b"a"), ("other", b"a"), ("third", b"b")):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / f"{name}.png").write_bytes(b"\x89PNG\r\n\x1a\n" + content)
+        path = tmp_path / name / "recipe.toml"
+        path.write_text(f"[output]\nformats = ['glb']\ntexture = '{name}.png'\n")
+        texts.append(recipe.read(path).canonical)
+    assert texts[0] == texts[1] != texts[2]
 
 
 @pytest.fixture
@@ -115,14 +129,3 @@ def test_the_command_writes_nothing(case, folder, tmp_path):
     assert result.returncode == 2
     assert result.stdout == "" and "Traceback" not in result.stderr
     assert not Path(tmp_path, "out").exists()
-
-
-def test_a_format_whose_library_is_missing(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    monkeypatch.setattr(command, "_hear_signals", lambda: None)
-    (tmp_path / "recipe.toml").write_text("[output]\nformats = ['glb']\n")
-    source = torus_obj(tmp_path / "torus.obj")
-    arguments = [source, "--out", tmp_path / "out", "--recipe", tmp_path / "recipe.toml"]
-    assert command.main(list(map(str, arguments))) == 2
-    assert 'the format glb needs the library trimesh: pip install "holomorph[batch]"' in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()

@@ -67,6 +67,8 @@ def _properties(kind):
     own = [p for p in kind.bl_rna.properties if p.identifier not in COMPUTED]
     if kind is bpy.types.Mesh:
         own = [p for p in own if p.identifier not in ELEMENTS]
+    if kind is bpy.types.ParticleEdit:  # notes the object at any step of undo while it is sculpted
+        own = [p for p in own if p.identifier != "object"]
     return [(p.identifier, p.type, getattr(p, "is_array", False)) for p in own]
 
 

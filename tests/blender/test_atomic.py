@@ -43,6 +43,13 @@ def half_selected():
     bpy.ops.mesh.select_mode(type="FACE")
 
 
+@pytest.mark.parametrize("mode", ["SCULPT", "TEXTURE_PAINT"])
+def test_while_painting(mode):
+    two_objects()
+    bpy.ops.object.mode_set(mode=mode)
+    check(tile)
+
+
 @pytest.mark.parametrize("press", [maps, tile])
 def test_selected_faces(press):
     half_selected()

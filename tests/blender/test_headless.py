@@ -153,6 +153,7 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
         (["ring.obj", "--evenness", "1.5"], "1.5 is not from 0 to 1"),
         (["ring.obj", "--margin", "-1"], "-1 is not from 0"),
         (["ring.obj", "--levels", "2", "--ratio", "1.5"], "ratio"),
+        (["ring.obj", "--export-texture", "--no-checker"], "exclude each other"),
         (["ring.obj", "--output", "nowhere/out.blend"], "folder"),
         (["ring.obj", "--output", "foo.txt"], "must end with .blend"),
         (["ring.obj", "--render", "picture.jpg"], "must end with .png"),

@@ -210,14 +210,6 @@ def test_no_mesh_selected():
     assert not bpy.ops.uv.holomorphic_maps.poll()
 
 
-def test_other_modes_are_told_what_to_do():
-    torus()
-    bpy.ops.object.mode_set(mode="SCULPT")
-    assert not bpy.ops.uv.holomorphic_maps.poll()
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert bpy.ops.uv.holomorphic_maps.poll()
-
-
 def test_only_the_librarys_errors_are_caught(monkeypatch):
     obj = torus()
     before = everything(obj)

@@ -391,7 +391,7 @@ def test_edit_mode_and_several_objects(calls):
 def test_cancelling_leaves_no_result(calls):
     torus()
     targets, jobs = module("scene.targets"), module("solving.jobs")
-    tasks = targets.tasks(targets.collect(targets.mesh_objects(bpy.context))) * 2
+    tasks = targets.tasks(targets.collect(module("scene.gathering").mesh_objects(bpy.context))) * 2
     made = [then(main="TILING")] * 2
     work = jobs.Job(tasks, lambda fraction, _stage: work.cancel() if fraction > 0.2 else None, made)
     work.run()

@@ -10,7 +10,7 @@ from holomorph.island_cuts import sides_of
 from holomorph.pieces import Piece, cut_apart
 from holomorph.quality import Quality
 from holomorph.report import part_report
-from holomorph.windows import closed, opened
+from holomorph.tubes import closed, opened
 from solved import surface_of
 
 EXACT = 1e-12

@@ -1,6 +1,7 @@
 """Parts of a mesh: worked on side by side, copies once."""
 
 import threading
+from dataclasses import replace
 
 import families
 import holomorph
@@ -75,6 +76,15 @@ def test_copies_are_moved_turned_about_the_vertical_and_scaled():
     assert found[2].scale == pytest.approx(2.5, rel=1e-6)
 
 
+@pytest.mark.parametrize("scale", [1.0, 0.37])
+def test_polygons_with_corners_on_a_circle_are_cut_alike_in_all_copies(scale):
+    """Both diagonals are as good, and rounding would choose another one in each copy."""
+    first = surface_of(families.torus(24, 12))
+    parts = [first, *(moved(first, angle, scale, (3, 4, 5)) for angle in (0.1, 0.7, 2.0))]
+    assert all(np.array_equal(part.triangles, first.triangles) for part in parts)
+    assert [copy.first for copy in copies(parts)] == [0] * 4
+
+
 def test_the_map_of_a_copy_is_that_of_its_part():
     first = surface_of(families.torus(24, 12, shape="triangles"))
     parts = [first, moved(first, 0.7, 1.0, (30, 4, 5)), moved(first, 0.2, 2.0, (0, 30, 0))]
@@ -97,8 +107,9 @@ def test_copies_are_maps_of_their_own_where_u_runs_along_a_vector():
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_maps_have_the_same_bits_at_any_number_of_threads(threads):
-    parts = families.united(families.torus(12, 8), families.geodesic_sphere(4), families.cube(), families.torus(16, 9))
-    surface = surface_of(parts)
+    parts = [families.torus(12, 8), families.geodesic_sphere(4), families.cube(), families.torus(16, 9)]
+    scaled = [replace(parts[0], vertices=scale * parts[0].vertices) for scale in (0.5, 2.0)]
+    surface = surface_of(families.united(*parts, *scaled))
     expected, made = automatic_maps(surface, threads=4), automatic_maps(surface, threads=threads)
     assert all(np.array_equal(a.uv, b.uv) and a.kind == b.kind for a, b in zip(expected, made, strict=True))
 

@@ -10,7 +10,6 @@ import sys
 from functools import partial
 from pathlib import Path
 
-from .. import formats
 from ..verdicts import LEVELS
 from . import blend, progress, recipe, sources, workers
 from .errors import EngineError, StorageError, UsageError
@@ -91,7 +90,6 @@ def _options(arguments):
 def _run(options):
     found = sources.find(options.source, options.out)
     wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
-    _check_formats(wanted.output.formats)
     needs_blender = "blend" in wanted.output.formats or any(sources.is_scene(s.path) for s in found)
     program = blend.program(options.blender) if needs_blender else ""
     if options.share:
@@ -108,13 +106,6 @@ def _run(options):
             if not options.share:
                 Overview(journal, plan.tasks() + plan.unopened()).write()
     return _exit_code(records + [stored(opening) for opening in plan.unopened()], options)
-
-
-def _check_formats(wanted):
-    try:
-        formats.check(wanted)
-    except ModuleNotFoundError as error:
-        raise UsageError(str(error)) from error
 
 
 def _exit_code(records, options):

@@ -1,19 +1,16 @@
 """A small picture of a mesh with a checker, drawn by NumPy alone: a z-buffer filled span by span."""
 
-import struct
-import zlib
-
 import numpy as np
 
+from .. import checker, indexed_png
+
 SIZE = 192  # pixels of a side; pages show it smaller, which smooths it
-SQUARES = 32  # checker squares along the diagonal of the bounding box, about, at the median density
-MOST_SQUARES = 10_000  # per UV unit
 MARGIN = 6.0  # pixels
 VIEW = np.array([0.55, 0.35, 1.0])  # from where one looks, y up
 LIGHT = np.array([0.2, 0.45, 1.0])  # in the frame of the picture: right, up, towards the viewer
 SHADES = 64
 AMBIENT = 0.35  # the darkest shade
-COLOURS = np.array([[244, 240, 232], [214, 110, 50], [150, 150, 158]])  # the two squares; what has no map
+COLOURS = np.array([*checker.COLOURS, (150, 150, 158)])  # what has no map is grey
 BACKGROUND = SHADES * len(COLOURS)  # in the palette, transparent
 DEPTHS = 2**30  # steps of the z-buffer
 
@@ -31,7 +28,7 @@ def png(surface, uv, is_mapped, up):
     image = np.full(SIZE * SIZE, BACKGROUND, np.uint8)
     pixels, winners = _visible(corners[seen], planes)
     if len(pixels):
-        squares = _squares(surface, texture, is_mapped)
+        squares = checker.squares(surface, uv, is_mapped)
         u, v = (_at(planes[winners, axis], pixels) for axis in (1, 2))
         colour = ((np.floor(u * squares) + np.floor(v * squares)) % 2).astype(np.uint8)
         colour[~is_mapped[seen[winners]]] = 2
@@ -108,21 +105,6 @@ def _ranges(low, high):
     return first[owner] + within, owner
 
 
-def _squares(surface, texture, is_mapped):
-    """Checker squares per UV unit, an even number, so that whole units change nothing."""
-    if not is_mapped.any():
-        return 2
-    corners = surface.vertices[surface.triangles[is_mapped]]
-    sides, sides_uv = np.diff(corners, axis=1), np.diff(texture[is_mapped], axis=1)
-    area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    area_uv = np.abs(sides_uv[:, 0, 0] * sides_uv[:, 1, 1] - sides_uv[:, 0, 1] * sides_uv[:, 1, 0])
-    density = np.median(area_uv[area > 0] / area[area > 0]) if area.any() else 0.0
-    diagonal = np.linalg.norm(np.ptp(surface.vertices, axis=0))
-    if not (density > 0 and diagonal > 0):
-        return 2
-    return int(min(max(2 * round(SQUARES / (diagonal * np.sqrt(density)) / 2), 2), MOST_SQUARES))
-
-
 def _shades(normals):
     """Both sides are lit alike."""
     light = LIGHT / np.linalg.norm(LIGHT)
@@ -133,18 +115,6 @@ def _shades(normals):
 
 def _encoded(image):
     shades = AMBIENT + (1 - AMBIENT) * np.arange(SHADES) / (SHADES - 1)
-    palette = (COLOURS[:, None, :] * shades[None, :, None]).astype(np.uint8).tobytes() + bytes(3)
-    rows = np.insert(image, 0, 0, axis=1).astype(np.uint8).tobytes()  # each row begins with its filter, 0 for none
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        [
-            _chunk(b"IHDR", struct.pack(">IIBBBBB", SIZE, SIZE, 8, 3, 0, 0, 0)),
-            _chunk(b"PLTE", palette),
-            _chunk(b"tRNS", b"\xff" * BACKGROUND + b"\x00"),
-            _chunk(b"IDAT", zlib.compress(rows, 6)),
-            _chunk(b"IEND", b""),
-        ]
-    )
-
-
-def _chunk(kind, content):
-    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+    lit = (COLOURS[:, None, :] * shades[None, :, None]).astype(np.uint8).reshape(-1, 3)
+    palette = np.append(lit, np.zeros((1, 3), np.uint8), axis=0)
+    return indexed_png.encoded(image, palette, b"\xff" * BACKGROUND + b"\0")

@@ -4,11 +4,13 @@ import difflib
 import json
 import math
 import numbers
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cached_property
+from pathlib import Path
 
 import tomllib
 
-from .. import formats, tiling_options
+from .. import formats, textures, tiling_options
 from ..checks import SOLVERS
 from ..map_choice import EVENNESS, MAIN_MAPS
 from .errors import UsageError
@@ -119,6 +121,9 @@ class Output:
     formats: tuple = _option(
         ("npz",), f"a list of {', '.join(FORMATS)}", lambda value: _is_list(value, FORMATS.__contains__)
     )
+    texture: str | None = _option(
+        None, '"checker" or a PNG or JPEG file', lambda value: isinstance(value, str)
+    )  # of glb
     up: str | None = _option(None, '"Y" or "Z"', lambda value: value in ("Y", "Z"))  # of mesh files; OBJ Y, others Z
 
 
@@ -131,14 +136,16 @@ class Recipe:
     levels: Levels = field(default_factory=Levels)
     output: Output = field(default_factory=Output)
 
-    @property
+    @cached_property
     def canonical(self):
-        """The same text for the same options, whatever the file looks like."""
-        return json.dumps(asdict(self), sort_keys=True)
+        """The same text for the same options and the same texture, whatever the files look like."""
+        options, texture = asdict(self), self.output.texture
+        options["output"]["texture"] = None if texture is None else textures.digest(texture)
+        return json.dumps(options, sort_keys=True)
 
 
 def read(path):
-    """The `Recipe` of a TOML file. @throws UsageError"""
+    """The `Recipe` of a TOML file; a texture's path starts at its folder. @throws UsageError"""
     try:
         with open(path, "rb") as file:
             content = tomllib.load(file)
@@ -147,9 +154,18 @@ def read(path):
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise UsageError(f"{path}: this is not TOML: {error}") from error
     try:
-        return of(content)
-    except UsageError as error:
+        recipe = of(content)
+        return replace(recipe, output=_with_texture(recipe.output, Path(path).resolve().parent))
+    except (UsageError, ValueError, OSError) as error:
         raise UsageError(f"{path}: {error}") from error
+
+
+def _with_texture(output, folder):
+    """@throws ValueError, OSError where there is no such texture"""
+    if output.texture in (None, textures.CHECKER):
+        return output
+    textures.check(folder / output.texture)
+    return replace(output, texture=str(folder / output.texture))
 
 
 def of(content):
@@ -186,5 +202,7 @@ def _check_together(recipe):
         raise UsageError("maps.poles and maps.rectangle_corners exclude each other")
     if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.poles):
         raise UsageError("maps.residues has not as many entries as maps.poles")
+    if recipe.output.texture is not None and not set(formats.TEXTURED) & set(recipe.output.formats):
+        raise UsageError(f"output.texture goes into files of output.formats that are {' or '.join(formats.TEXTURED)}")
     if recipe.tiling.density is not None and recipe.tiling.tiles:
         raise UsageError("tiling.density and tiling.tiles exclude each other")

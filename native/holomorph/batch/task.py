@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import ProgressiveMesh, Surface, __version__, formats
+from .. import ProgressiveMesh, Surface, __version__, formats, textures
 from .._native import Error
 from ..conformal_image import conformal_image
 from ..report import repairs_report, whole_report
@@ -105,12 +105,13 @@ def _is_mapped(surface, parts):
 
 
 def _files(task, surface, uv, parts):
-    wanted, files = task.recipe.output.formats, {}
+    wanted, texture, files = task.recipe.output.formats, task.recipe.output.texture, {}
+    image = None if texture is None else textures.image(texture, surface, uv)  # of the levels, too
     for name in formats.WRITERS.keys() & set(wanted):
-        files[f"mesh.{name}"] = formats.WRITERS[name](surface, uv)
+        files[f"mesh.{name}"] = formats.content(name, surface, uv, image)
     for number, level in enumerate(_levels(task.recipe.levels, surface, uv), 1):
         for name in formats.WRITERS.keys() & set(wanted):
-            files[f"lod{number}.{name}"] = formats.WRITERS[name](level.surface, level.uv)
+            files[f"lod{number}.{name}"] = formats.content(name, level.surface, level.uv, image)
         if "npz" in wanted:
             arrays = {"uv": level.uv, "corners": level.corners, "vertex_index": level.surface.vertex_index}
             files[f"lod{number}.npz"] = formats.npz(level.surface, arrays)

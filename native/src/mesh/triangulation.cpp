@@ -17,6 +17,9 @@ constexpr double kBadTriangle = 1e12;
 constexpr double kThin = 1e-10;
 // Added for a triangle with all corners on one boundary loop: more than any but a nearly degenerate shape costs.
 constexpr double kOnOneLoop = 1e8;
+// Less of a cost decides nothing, a hundredth of a degree: it would be the rounding that does, otherwise on each copy
+// of a polygon, where its corners lie on one circle.
+constexpr double kTie = 1e-3;
 
 class Polygon {
  public:
@@ -55,7 +58,7 @@ class Polygon {
   const std::vector<int>& loops_;
 };
 
-// best(i, k) = least cost of the sub-polygon i, i+1, .., k; the first of equal choices is taken.
+// best(i, k) = least cost of the sub-polygon i, i+1, .., k; the first of choices that cost the same is taken.
 Triangles optimal(const Polygon& polygon) {
   const int n = polygon.size();
   std::vector<double> best(n * n, 0.0);
@@ -64,7 +67,7 @@ Triangles optimal(const Polygon& polygon) {
     for (int i = 0, k = width; k < n; ++i, ++k) {
       for (int j = i + 1; j < k; ++j) {
         const double cost = best[i * n + j] + best[j * n + k] + polygon.cost(i, j, k);
-        if (j == i + 1 || cost < best[i * n + k]) best[i * n + k] = cost, middle[i * n + k] = j;
+        if (j == i + 1 || cost < best[i * n + k] - kTie) best[i * n + k] = cost, middle[i * n + k] = j;
       }
     }
   }

@@ -12,7 +12,7 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kSizeThatCounts = 0.5;
+constexpr double kSizeThatCounts = 1;
 constexpr double kReach = 0.05;  // how far poles are expected to move, in square roots of the area
 constexpr double kLeastTiles = 100, kTilesPerHandle = 64;
 constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;

@@ -41,17 +41,22 @@ double weighted_quantile(std::vector<Weighted>& items, double wanted) {
 }
 
 // Weights of values >= 0 by the leading bits of the values, of which there are 16 classes in each octave: they are in
-// the order of the values. Only the items of the class with a quantile are visited again.
+// the order of the values. Only the items of the class with a quantile are visited again. Fewer values than classes
+// are all in one, which is visited sooner than all classes.
 class Distribution {
  public:
   Distribution(const Array<double>& values, const Array<double>& weights, Workers& workers)
-      : values_(values), weights_(weights), workers_(workers), classes_(kClasses, 0.0) {
-    std::vector<std::vector<double>> parts(kParts, std::vector<double>(kClasses, 0.0));
-    workers.run(kParts, [&](int, int part) {
+      : values_(values),
+        weights_(weights),
+        workers_(workers),
+        parts_(values.size() < kMost ? 1 : 8),
+        classes_(parts_ > 1 ? kMost : 1, 0.0) {
+    std::vector<std::vector<double>> parts(parts_, classes_);
+    workers.run(parts_, [&](int, int part) {
       for (std::size_t i = begin(part); i < begin(part + 1); ++i) parts[part][class_of(values[i])] += weights[i];
     });
     for (const auto& part : parts) {
-      for (int k = 0; k < kClasses; ++k) classes_[k] += part[k];
+      for (std::size_t k = 0; k < classes_.size(); ++k) classes_[k] += part[k];
     }
     for (const double weight : classes_) total_ += weight;
   }
@@ -59,19 +64,19 @@ class Distribution {
   /// The value below which this fraction of the total weight lies.
   double quantile(double fraction) const {
     double wanted = fraction * total_;
-    int k = 0;
-    for (; k + 1 < kClasses && !(classes_[k] >= wanted && classes_[k] > 0); ++k) wanted -= classes_[k];
+    std::size_t k = 0;
+    for (; k + 1 < classes_.size() && !(classes_[k] >= wanted && classes_[k] > 0); ++k) wanted -= classes_[k];
     std::vector<Weighted> items = items_of(k);
     return items.empty() ? 0.0 : weighted_quantile(items, wanted);
   }
 
  private:
-  static constexpr int kClasses = 1 << 15, kParts = 8;
-  std::size_t begin(int part) const { return values_.size() * part / kParts; }
+  static constexpr int kMost = 1 << 15;
+  std::size_t begin(int part) const { return values_.size() * part / parts_; }
 
-  std::vector<Weighted> items_of(int k) const {
-    std::vector<std::vector<Weighted>> parts(kParts);
-    run_throwing(workers_, kParts, [&](int part) {
+  std::vector<Weighted> items_of(std::size_t k) const {
+    std::vector<std::vector<Weighted>> parts(parts_);
+    run_throwing(workers_, parts_, [&](int part) {
       for (std::size_t i = begin(part); i < begin(part + 1); ++i) {
         if (class_of(values_[i]) == k) parts[part].push_back({values_[i], weights_[i]});
       }
@@ -81,11 +86,12 @@ class Distribution {
     return items;
   }
 
-  static int class_of(double value) { return static_cast<int>(std::bit_cast<std::uint64_t>(value) >> 48) % kClasses; }
+  std::size_t class_of(double value) const { return (std::bit_cast<std::uint64_t>(value) >> 48) % classes_.size(); }
 
   const Array<double>& values_;
   const Array<double>& weights_;
   Workers& workers_;
+  const int parts_;  // that are gone through side by side
   std::vector<double> classes_;
   double total_ = 0;
 };

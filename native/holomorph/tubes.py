@@ -1,4 +1,4 @@
-"""Windows in the side of a tube, such as where a handle is fixed: closed while it is mapped, and cut out again."""
+"""Tubes, around which whole tiles lie. Windows in them, such as where a handle is fixed, are closed for the map."""
 
 from dataclasses import replace
 
@@ -11,6 +11,11 @@ from .quality import Quality
 from .surface import Surface
 
 ENDS = 2  # of a tube: the longest boundary loops
+
+
+def is_tube(surface: Surface) -> bool:
+    """Whether it is a sphere with two holes."""
+    return (surface.genus, surface.boundary_count) == (0, ENDS)
 
 
 def closed(surface: Surface) -> Surface:

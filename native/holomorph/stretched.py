@@ -1,0 +1,37 @@
+"""A tiling of another density than whole tiles allow: stretched across the line along which all its jumps run."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import arrays
+from .arrangement import on_grid
+from .quality import Quality
+from .tiling_options import generators
+from .tilings import Tiling
+
+MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are never further from the wanted size
+ALONG = 1e-9  # sine of an angle that is rounding
+
+
+def stretched(tiling: Tiling, density: float, lattice: str | ArrayLike) -> Tiling | None:
+    """The tiling with this median density, stretched across its jumps where these all run along one line, as around a
+    limb with a pole at each end: no seam shows all the same. None where there are jumps both ways, or it would be
+    stretched by more than `MOST_STRETCHED`.
+
+    density : more than 0; lattice : of the tiling, as in `Structure.tile`
+    """
+    factor = density / tiling.quality.median_density
+    jumps = np.concatenate([tiling.residues, tiling.periods @ np.array(generators(lattice))])
+    if not len(jumps) or not 1 / MOST_STRETCHED <= factor <= MOST_STRETCHED:
+        return None
+    line = jumps[np.abs(jumps).argmax()]
+    if not np.all(np.abs((np.conj(line) * jumps).imag) <= ALONG * abs(line) ** 2):
+        return None
+    # Both sides of a cut are as far across the line, exactly, and are shifted by the same.
+    across = np.array([-line.imag, line.real])
+    shift = ((factor - 1) / abs(line) ** 2) * (tiling.uv @ across)[:, None] * across
+    uv = arrays.frozen(tiling.uv + on_grid(shift))
+    quality = replace(Quality.of(tiling.quality._triangulation, uv, 1), unseen_angle=tiling.quality.unseen_angle)
+    return replace(tiling, uv=uv, tiles=factor * tiling.tiles, quality=quality)

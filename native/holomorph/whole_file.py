@@ -1,0 +1,70 @@
+"""Files that are written whole or not at all."""
+
+import contextlib
+import os
+import shutil
+import uuid
+from pathlib import Path
+
+
+def write(path, *contents):
+    """Writes bytes, one after the other, beside the path and moves them there in one step: what is there stays as it
+    was where the disk is full or the process ends. Links are followed; into what is no file, such as a pipe, they are
+    written at once.
+
+    Raises OSError that names the path."""
+    with _naming(path):
+        place = Path(path).resolve()
+        if place.exists() and not place.is_file():
+            with open(place, "wb") as file:
+                file.writelines(contents)
+            return
+        new = place.with_name(_hidden_name())
+        try:
+            with open(new, "xb") as file:
+                file.writelines(contents)
+                file.flush()
+                os.fsync(file.fileno())
+            _move(new, place)
+        finally:
+            new.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def folder_beside(path):
+    """A new folder, in which the path's name and files beside it are written: in the end all are moved to where the
+    path is. Without any, and after an error, what is there stays as it was.
+
+    Raises OSError that names the path."""
+    place = Path(path).resolve()
+    new = place.with_name(_hidden_name())
+    with _naming(path):
+        new.mkdir()
+    try:
+        yield new
+        with _naming(path):
+            for made in sorted(each for each in new.rglob("*") if each.is_file()):
+                target = place.parent / made.relative_to(new)
+                target.parent.mkdir(exist_ok=True)
+                _move(made, target)
+    finally:
+        shutil.rmtree(new, ignore_errors=True)
+
+
+def _hidden_name():
+    return f".{uuid.uuid4().hex}"
+
+
+def _move(new, place):
+    """Keeps the mode of a file that is replaced."""
+    with contextlib.suppress(FileNotFoundError):
+        shutil.copymode(place, new)
+    os.replace(new, place)
+
+
+@contextlib.contextmanager
+def _naming(path):
+    try:
+        yield
+    except OSError as error:
+        raise type(error)(error.errno, error.strerror, os.fspath(path)) from error

@@ -1,0 +1,67 @@
+"""One size of squares over all parts: which tilings have it, and what is done where none has."""
+
+import families
+import numpy as np
+import pytest
+from holomorph import Quality, Surface, automatic_map, automatic_maps
+from holomorph.arrangement import arranged
+from holomorph.sizing import LIKE_SIZE, best_window, is_in, window_around
+from holomorph.stretched import MOST_STRETCHED, stretched
+from solved import surface_of
+
+LIKE = 1.1  # largest over smallest median density of parts whose squares have one size
+
+
+def limb(scale=1.0, length=6.0):
+    """A ball with a long limb: poles at both ends are enough for it."""
+    surface = surface_of(families.geodesic_sphere(6))
+    points = np.array(surface.vertices)
+    is_limb = points[:, 2] > 0.3
+    points[is_limb, 2] += length * (points[is_limb, 2] - 0.3)
+    return Surface.from_polygons(scale * points, surface.corner_vertices, surface.face_offsets)
+
+
+def test_the_window_holds_the_wanted_density_and_most_by_weight():
+    assert best_window([], []) == window_around()
+    sizes = [[0.93], [0.92, 1.2], [1.06], [1.5]]
+    low, high = best_window(sizes, [1.0, 1.0, 1.5, 9.0])
+    assert low <= 0.92 and low <= 1 <= high == pytest.approx(low * LIKE_SIZE)
+    assert is_in(best_window(sizes, [1.0, 1.0, 2.5, 9.0]), 1.06)
+
+
+@pytest.mark.parametrize("options", [{}, {"tiles": 150.0}, {"density": 5.0}], ids=["default", "tiles", "density"])
+@pytest.mark.parametrize("main", ["automatic", "seamless"])
+def test_all_parts_have_one_size(main, options):
+    balls = [families.geodesic_sphere(3) for _ in range(3)]
+    parts = [limb(), limb(0.5), limb(0.8)]
+    parts += [Surface.from_polygons(k * b.vertices, b.corners, b.offsets) for k, b in zip((0.3, 0.6, 1.1), balls)]
+    whole = surface_of(families.united(*[families.Mesh(p.vertices, p.corner_vertices, p.face_offsets) for p in parts]))
+    uv = arranged(automatic_maps(whole, main=main, **options), len(whole.corner_vertices))
+    found = [
+        Quality.of(p._native, np.ascontiguousarray(uv[p.corner_index]), 1).median_density for p in whole.components
+    ]
+    assert max(found) <= LIKE * min(found)
+
+
+@pytest.mark.parametrize("factor", [0.8, 1 / MOST_STRETCHED, 1.3])
+@pytest.mark.parametrize("turn", [0.0, 0.3], ids=["along u", "oblique"])
+def test_a_limb_is_stretched_across_its_jumps_and_shows_no_seam(factor, turn):
+    made = automatic_map(limb(), main="seamless", poles=2, turn=turn, max_turn=0.05, evenness=0.0).tiling
+    assert (made.residues.imag != 0).any() == (turn > 0)
+    found = stretched(made, factor * made.quality.median_density, "square")
+    assert found.quality.median_density == pytest.approx(factor * made.quality.median_density, rel=1e-5)
+    vertices = limb().corner_vertices
+    _, first, index = np.unique(vertices, return_index=True, return_inverse=True)
+    is_place = ~np.isin(vertices, made.poles)
+    before, after = ((uv - uv[first[index]])[is_place] for uv in (made.uv, found.uv))
+    assert before.any() and np.array_equal(before, np.rint(before)) and np.array_equal(before, after)
+    stretch = max(factor, 1 / factor)
+    assert found.quality.mean_angle == pytest.approx(stretch, abs=0.2) and not found.quality.flipped.any()
+
+
+def test_what_jumps_both_ways_or_would_be_stretched_too_far_is_not():
+    made = automatic_map(limb(), main="seamless", poles=2).tiling
+    for factor in (1.01 * MOST_STRETCHED, 0.99 / MOST_STRETCHED):
+        assert stretched(made, factor * made.quality.median_density, "square") is None
+    torus = automatic_map(surface_of(families.torus(16, 8)), main="seamless").tiling
+    assert stretched(torus, torus.quality.median_density, "square") is None

@@ -1,0 +1,33 @@
+"""The button in a real window while an object is sculpted or painted, its undo there, and local view."""
+
+import pytest
+
+BOTH_MAPS = ["Holomorphic", "Holomorphic 1"]
+PAINTED = ["Small in TEXTURE_PAINT", "Large in SCULPT"]
+
+
+@pytest.fixture(scope="module")
+def seen(take_steps):
+    return take_steps("mode_steps")
+
+
+def test_every_step_was_taken(seen):
+    assert "traceback" not in seen, seen["traceback"]
+
+
+@pytest.mark.parametrize("step", PAINTED)
+def test_the_mode_stays_with_the_map_and_without_it(seen, step):
+    mode = step.split()[-1]
+    assert seen[step] == seen[f"{step}, done again"] == [mode, BOTH_MAPS]
+    assert seen[f"{step}, undone"] == [mode, []]
+
+
+def test_redo_makes_another_map_and_undo_takes_it_back_then_the_stroke_of_the_brush(seen):
+    assert seen["after the stroke"] == ["SCULPT", BOTH_MAPS, True, True]
+    assert seen["the redo panel"] == ["SCULPT", BOTH_MAPS[:1], True, True]
+    assert seen["the map undone"] == ["SCULPT", [], True, True]
+    assert seen["the stroke undone"] == ["SCULPT", [], True, True]
+
+
+def test_only_what_is_in_local_view_is_mapped(seen):
+    assert seen["local view"] == [BOTH_MAPS, []]
