@@ -24,6 +24,7 @@ from .surface import Surface
 from .tiling import Poles
 
 LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
+LEADING = 0.25  # of the area of the largest part, from which on a part may say the density of all
 TRYING = 0.9  # of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
@@ -148,7 +149,7 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
     if not sizings:
         return {}
     members = [k for k, copy in enumerate(alike) if copy.first in sizings]
-    largest, total = max(members, key=lambda k: parts[k].area), sum(parts[k].area for k in members) or 1.0
+    largest, total = _leader(parts, alike, sizings, members), sum(parts[k].area for k in members) or 1.0
     names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
     share, made = 0.0, {}
     if tries:
@@ -164,6 +165,15 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
             areas[names[k]] += parts[k].area
     made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))
     return {k: made[names[k]] for k in members}
+
+
+def _leader(parts, alike, sizings, members):
+    """The part that says the density of all: the largest, or, where pieces of that may have any density, the largest
+    other one, if it is no smaller than `LEADING` of it."""
+    largest = max(members, key=lambda k: parts[k].area)
+    whole = [k for k in members if isinstance(sizings[alike[k].first], Sizing)]
+    leader = max(whole, key=lambda k: parts[k].area, default=largest)
+    return leader if parts[leader].area >= LEADING * parts[largest].area else largest
 
 
 def _of_one_size(parts, sizings, wanted, areas, is_given, threads, progress):

@@ -125,6 +125,27 @@ def test_a_copy_has_the_map_of_its_part():
     assert made[0].density == pytest.approx(made[1].density, rel=0.1)
 
 
+def test_parts_in_pieces_have_the_density_of_a_rigid_one():
+    """A ball takes whole tiles alone; the tube of a can, though it is larger, is stretched."""
+    ball, can = families.geodesic_sphere(6), mesh_of(capped(*SHAPES["cylinder of 32"]))
+    ball = families.Mesh(0.8 * ball.vertices, ball.corners, ball.offsets, ((0, 0),))
+    parts = surface_of(families.united(ball, can))
+    made, alone = (automatic_maps(parts, main=["automatic", main]) for main in ("automatic", "untiled"))
+    assert [found.kind for found in made] == ["tiling", "mixed"] and np.array_equal(made[0].uv, alone[0].uv)
+    assert made[1].density == pytest.approx(made[0].density, rel=0.1)
+
+
+def test_a_smaller_copy_weighs_less():
+    """Of two different maps, the one of a copy of a third of the size."""
+    first, other = capped(*SHAPES["barrel of 0.25"]), capped(*SHAPES["frustum up to 0.5"])
+    small = Surface.from_polygons(first.vertices / 3, first.corner_vertices, first.face_offsets)
+    maps = [automatic_map(one, main="untiled", evenness=0) for one in (first, other)]
+    copied = Quality.joined([maps[0].quality.of_copy(1 / 3), maps[1].quality], [1.0, 1.0])
+    own = Quality.joined([Quality.of(small._native, maps[0].uv, 0), maps[1].quality], [1.0, 1.0])
+    assert copied.density_ratio == pytest.approx(own.density_ratio, rel=1e-9)
+    assert copied.capped_mean_angle == pytest.approx(own.capped_mean_angle, rel=1e-9)
+
+
 def test_faces_that_are_read_in_reverse_are_not_mirrored():
     surface = capped(*SHAPES["cylinder of 32"])
     faces = np.split(surface.corner_vertices, surface.face_offsets[1:-1])
