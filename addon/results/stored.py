@@ -30,12 +30,12 @@ def parsed(stored):
 
 def tilings(stored):
     """Of the parts that have one."""
-    return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
+    return tilings_of(parsed(stored))
 
 
-def chosen_tiles(stored):
-    """How many tiles all tilings have that a report tells of, a whole number; 0 without a tiling."""
-    return round(sum(tiling["tiles"] for tiling in tilings(stored)))
+def tilings_of(entry):
+    """Of the parts that have one, in the report of an object."""
+    return [part["tiling"] for part in entry.get("components", []) if "tiling" in part]
 
 
 def marks(stored):
