@@ -19,11 +19,10 @@ from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_m
 from .mixed_sizing import Divided, MixedSizing, divided
 from .progress import scaled
 from .side_by_side import side_by_side
-from .sizing import TRIES, Sizing, best_window, relative_size, window_around
+from .sizing import TRIES, Sizing, best_window, relative_size, usual_density, window_around
 from .surface import Surface
 from .tiling import Poles
 
-LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
 LEADING = 0.25  # of the area of the largest part, from which on a part may say the density of all
 TRYING = 0.9  # of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
@@ -105,14 +104,6 @@ def sized_maps(
 def _density(parts, tiles):
     area = sum(part.area for part in parts)
     return tiles / area if tiles and area > 0 else usual_density(parts)
-
-
-def usual_density(parts: Sequence[Surface]) -> float:
-    """Tiles per unit of area by default: 100, or 64 for each handle, over the largest part. 0 where none has area."""
-    largest = max(parts, key=lambda part: part.area, default=None)
-    if largest is None or not largest.area > 0:
-        return 0.0
-    return max(LEAST_TILES, TILES_PER_HANDLE * largest.genus) / largest.area
 
 
 def _alike(parts, mains, choices):
