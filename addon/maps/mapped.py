@@ -37,7 +37,7 @@ class MappedPart:
     @property
     def seams(self):
         """(#S, 2) vertices of the whole object: where the main map is cut."""
-        made, structure = self.map.tiling or self.map.islands, self.component.structure
+        made, structure = self.map.own, self.component.structure
         return self.vertices(made.seams) if made else structure.edges[structure.seams]
 
 
@@ -57,19 +57,13 @@ class MappedObject:
 
     @property
     def tiled(self):
-        """The parts whose main map is a tiling."""
-        return [part for part in self.parts if part.tiling]
+        """The parts whose main map is a tiling, or has tilings of pieces."""
+        return [part for part in self.parts if part.map and part.map.is_tiled]
 
     @property
     def part_maps(self):
         """The `holomorph.Map`s of the parts that have one."""
         return [part.map for part in self.done]
-
-    @property
-    def density(self):
-        """Tiles for an area on the surface, the median on the largest part that has a tiling; 0 without one."""
-        largest = max(self.tiled, key=lambda part: part.component.area, default=None)
-        return largest.map.density if largest else 0.0
 
     @property
     def unit_length(self):
@@ -108,19 +102,41 @@ class MappedObject:
 
 
 class Mapper:
-    """Makes the `MappedObject` of one solve after the other. Where their texels are to be equal, as many tiles for
-    their area are asked for as of the first tiling, and other maps have the density that it got."""
+    """Makes the `MappedObject` of one solve after the other. Where their texels are to be equal, a number of tiles is
+    over all of them: the one with the largest part is made with its share, and the others with the density of that."""
 
     def __init__(self, is_equal=True):
         self._is_equal = is_equal
-        self._density = self._per_length = 0.0  # tiles for an area, and UV units for a length
+        self._area = self._wanted = 0.0  # of all objects; tiles for an area that are asked for
+        self._density = self._per_length = 0.0  # tiles for an area, and UV units for a length, once one is made
+
+    def plan(self, solved):
+        """In which order to map: indices of `{index: solve.SolvedObject}`."""
+        if not self._is_equal:
+            return list(solved)
+        surfaces = [component.surface for one in solved.values() for component in one.done]
+        self._area = sum(surface.area for surface in surfaces)
+        self._wanted = native.load().sizing.usual_density(surfaces)
+        return sorted(solved, key=lambda index: -max((part.area for part in solved[index].done), default=0.0))
 
     def __call__(self, solved, options, progress=None):
-        made = mapped(solved, options, progress, self._density)
-        if self._is_equal and made.tiled and not self._density:
-            self._density = made.density
-            self._per_length = 1 / made.unit_length if made.unit_length > 0 else 0.0
+        if not self._is_equal:
+            return mapped(solved, options, progress)
+        made = mapped(solved, replace(options, tiling=self._shared(solved, options.tiling)), progress)
+        self._density = self._density or _middle_density(made) or self._asked(options.tiling)
+        if made.tiled and not self._per_length and made.unit_length > 0:
+            self._per_length = 1 / made.unit_length
         return made
+
+    def _shared(self, solved, wanted):
+        """The `options.TileOptions` for one of the objects."""
+        if self._density:
+            return replace(wanted, density=self._density, tiles=0.0)
+        share = sum(component.area for component in solved.done) / self._area if self._area else 1.0
+        return replace(wanted, tiles=share * wanted.tiles)
+
+    def _asked(self, wanted):
+        return wanted.tiles / self._area if wanted.tiles and self._area else self._wanted
 
     def equalised(self, results):
         """The same results, but that the maps of forms in them have one texel density."""
@@ -137,15 +153,18 @@ def _with_length(made, per_length):
     return replace(made, options=replace(made.options, per_length=per_length))
 
 
-def mapped(solved, options, progress=None, density=0.0):
-    """The `MappedObject` of a solve. What was made is kept with it: a second call is quick.
+def _middle_density(made):
+    """Tiles for an area, from which no tiling of an object is far; 0 without one."""
+    found = [part.map.density for part in made.tiled]
+    return math.sqrt(min(found) * max(found)) if found else 0.0
 
-    density : tiles for an area; 0 for the number that the options ask for
-    """
+
+def mapped(solved, options, progress=None):
+    """The `MappedObject` of a solve. What was made is kept with it: a second call is quick."""
     mains = tuple(_main(component, options) for component in solved.done)
-    asked = mains, options.main == TILING, options.tiling.made, density, options.amounts, options.turns
+    asked = mains, options.main == TILING, options.tiling.made, options.amounts, options.turns
     if asked not in solved.maps:
-        solved.keep_maps(asked, _parts(solved.done, mains, options, density, progress))
+        solved.keep_maps(asked, _parts(solved.done, mains, options, progress))
     made = iter(solved.maps[asked])
     parts = [MappedPart(one, skipped=one.reason) if one.structure is None else next(made) for one in solved.components]
     return MappedObject(solved, options, tuple(parts))
@@ -157,9 +176,9 @@ def _main(component, options):
     return MAINS.get(options.main, "") if is_plain or options.main != AUTOMATIC else ""
 
 
-def _parts(components, mains, options, density, progress):
+def _parts(components, mains, options, progress):
     """The `MappedPart`s; refusals are told. What no tiling fits gets another map, if what is chosen fits anywhere."""
-    found = _tilings([pair for pair in zip(components, mains) if pair[1]], options, density, progress)
+    found = _tilings([pair for pair in zip(components, mains) if pair[1]], options, progress)
     made = [next(found) if main else None for main in mains]
     reasons = [_refusal(one) for one in made]
     if options.main == TILING and options.tiling.is_chosen and all(reasons):
@@ -193,18 +212,15 @@ def _form_map(component, options, progress):
     )
 
 
-def _tilings(asked, options, density, progress):
+def _tilings(asked, options, progress):
     """An iterator over what `holomorph.automatic_maps` gives for pairs of a component and its main map."""
     wanted, components = options.tiling, [component for component, _ in asked]
-    if options.main == TILING:
-        tiles = density * sum(component.area for component in components) or wanted.tiles
-        amount = {"tiles": tiles or None}
-    else:
-        amount = {"density": density or None}
     made = native.load().automatic_maps(
         [component.surface for component in components],
         [component.structure for component in components],
         main=[main for _, main in asked],
+        tiles=None if wanted.density else wanted.tiles or None,
+        density=wanted.density or None,
         poles=wanted.poles,
         allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
         moves=wanted.moved,
@@ -214,6 +230,5 @@ def _tilings(asked, options, density, progress):
         turn=wanted.turn or None,
         progress=progress,
         **dials(wanted),
-        **amount,
     )
     return iter(made)

@@ -22,6 +22,7 @@ class TileOptions:
     """What is asked of `holomorph.Structure.tile` for one object."""
 
     tiles: float = 0.0  # of the texture over the whole object; 0 lets the library choose
+    density: float = 0.0  # tiles for an area, instead; 0 for their number
     poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
     lattice: str = "square"
     direction: object = "upright"  # or a vector in the frame of the solved polygons, or None

@@ -39,7 +39,7 @@ class _MapsOperator(OnMeshes, WorkOperator):
 
     def finish(self, step, work, time_has_passed):
         outcome = self._run.write(step, work, time_has_passed)
-        self.form_count = outcome.forms
+        self.form_count, self.tile_count = outcome.forms, outcome.tiles
         self.show(step.context, outcome, self.checker)
         return self.tell(outcome)
 

@@ -133,6 +133,7 @@ class SharedProperties:
     )
     seams: BoolProperty(name="Mark Seams", description=ABOUT["seams"], default=False)
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
+    tile_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def draw_options(self, layout, obj):
         for group in self.drawn:

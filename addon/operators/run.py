@@ -20,7 +20,8 @@ class Run:
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
-        return jobs.Job(self.tasks, progress, [partial(self._mapper, options=options) for options in self._options])
+        then = [partial(self._mapper, options=options) for options in self._options]
+        return jobs.Job(self.tasks, progress, then, self._mapper.plan)
 
     @property
     def objects(self):

@@ -37,12 +37,12 @@ BOUNDARIES = items(
     free="Borders of holes cut through the texture: more even",
 )
 ABOUT = {
-    "tiles": "Tiles of the texture over each object, about: more are smaller, and less is distorted. 0 chooses a "
-    "number that suits the shape",
+    "tiles": "Tiles of the texture over all objects, about: more are smaller, and less is distorted. 0 chooses a "
+    "number that suits the largest part",
     "poles": "Vertices around which the texture closes up: the more of them, the less squares differ in size between "
     "the body and ears or limbs",
     "pole_group": "A vertex group: poles are placed only where its weight is above 0.5; empty for anywhere",
-    "equal": "Several objects get the same texels per metre: Tiles is for the active one. Off: for each",
+    "equal": "Several objects get the same texels per metre: Tiles is for all of them together. Off: for each",
     "lattice": "How the texture repeats",
     "direction": "Where the rows of the texture run",
     "turn": "Rotates the texture on the surface, beside the direction, to about this angle: where it closes up",
@@ -95,17 +95,9 @@ class TileProperties(SharedProperties):
 
     def draw_options(self, layout, obj):
         draw_tiling(layout, obj)
-        chosen = chosen_tiles(obj) if self.tiles == 0 else 0
-        if chosen:
-            layout.label(text=f"Tiles: {chosen:,} were chosen")
+        if self.tiles == 0 and self.tile_count:
+            layout.label(text=f"Tiles: {self.tile_count:,} were chosen")
         super().draw_options(layout, obj)
-
-
-def chosen_tiles(obj):
-    """How many tiles an object or None has."""
-    from ..results import report, stored
-
-    return stored.chosen_tiles(obj.get(report.PROPERTY)) if obj is not None else 0
 
 
 def draw_tiling(layout, obj):

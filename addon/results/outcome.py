@@ -27,6 +27,11 @@ class Outcome:
     forms: int = 0
     looks: dict = field(default_factory=dict)  # `material.Look` of tilings (True) and of other maps, for all objects
 
+    @property
+    def tiles(self):
+        """How many tiles all tilings have, a whole number."""
+        return round(sum(tiling["tiles"] for entry in self.entries for tiling in stored.tilings_of(entry)))
+
     def refuse(self, name, sentence):
         self.problems.append(f"{name}: {sentence}")
         self.entries.append(report.refusal_report(name, sentence))

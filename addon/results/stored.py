@@ -29,13 +29,14 @@ def parsed(stored):
 
 
 def tilings(stored):
-    """Of the parts that have one."""
-    return [part["tiling"] for part in parsed(stored).get("components", []) if "tiling" in part]
+    """Of the parts that have one, and of pieces of parts."""
+    return tilings_of(parsed(stored))
 
 
-def chosen_tiles(stored):
-    """How many tiles all tilings have that a report tells of, a whole number; 0 without a tiling."""
-    return round(sum(tiling["tiles"] for tiling in tilings(stored)))
+def tilings_of(entry):
+    """Of the parts that have one, and of pieces of parts, in the report of an object."""
+    parts = entry.get("components", [])
+    return [tiling for part in parts for tiling in part.get("tilings", [part["tiling"]] if "tiling" in part else [])]
 
 
 def marks(stored):

@@ -73,35 +73,47 @@ def solved(task, ask):
 
 
 class Job(Work):
-    """Solves a list of `solve.Task` one after the other, and goes on with the solve of `tasks[i]` as the function
+    """Solves a list of `solve.Task` one after the other, and then goes on with the solve of `tasks[i]` as the function
     `then[i](solved, progress=...)` does, if there is one.
 
     `results[i]` is what that gives, or the `SolvedObject`; or the error that refused the mesh, one of
     `native.refusals`.
+
+    plan(solved) : the indices of `{i: SolvedObject}` in the order in which to go on; by default as they are
     """
 
-    SOLVE_SHARE = 0.3  # of the work on an object where something follows
+    SOLVE_SHARE = 0.3  # of the work where something follows
 
-    def __init__(self, tasks, progress=None, then=()):
+    def __init__(self, tasks, progress=None, then=(), plan=list):
         super().__init__(progress)
         self.results = [None] * len(tasks)
-        self._tasks, self._then = tasks, then
+        self._tasks, self._then, self._plan = tasks, then, plan
 
     def work(self):
-        refusals = native.refusals()
-        for index in range(len(self._tasks)):
-            if self._cancelled.is_set():
-                return
-            try:
-                self.results[index] = self._result(index)
-            except refusals as error:
-                self.results[index] = error
-
-    def _result(self, index):
-        share, count = self.SOLVE_SHARE if self._then else 1.0, len(self._tasks)
-        found = solved(self._tasks[index], self.part(index / count, (index + share) / count))
+        count, share = len(self._tasks), self.SOLVE_SHARE if self._then else 1.0
+        found = self._each(range(count), 0.0, share, lambda index, ask: solved(self._tasks[index], ask))
         if not self._then:
-            return found
-        result = self._then[index](found, progress=self.part((index + share) / count, (index + 1) / count))
+            for index, result in found.items():
+                self.results[index] = result
+            return
+        followed = self._each(self._plan(found), share, 1.0, lambda index, ask: self._follow(index, found[index], ask))
+        for index, result in followed.items():
+            self.results[index] = result
+
+    def _follow(self, index, found, ask):
+        result = self._then[index](found, progress=ask)
         cache.trim()
         return result
+
+    def _each(self, indices, begin, end, make):
+        """{index: what is made}, until the job is cancelled; refusals become results."""
+        refusals, indices, made = native.refusals(), list(indices), {}
+        for place, index in enumerate(indices):
+            if self._cancelled.is_set():
+                break
+            step = (end - begin) / len(indices)
+            try:
+                made[index] = make(index, self.part(begin + place * step, begin + (place + 1) * step))
+            except refusals as error:
+                self.results[index] = error
+        return made

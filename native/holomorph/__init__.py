@@ -36,6 +36,7 @@ from .islands import islands
 from .levels import LevelOfDetail
 from .log_map import log_map
 from .map import Map, form_map
+from .mixed import Mixed
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
 from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
@@ -76,6 +77,7 @@ __all__ = [
     "LevelOfDetail",
     "Map",
     "MemoryPlan",
+    "Mixed",
     "OutOfMemory",
     "ProgressiveMesh",
     "PlacedPoles",

@@ -2,7 +2,8 @@
 
 The weights were judged by eye on pictures of some thirty meshes beside Smart UV Project. Squares of 1 to 2 side by
 side, a density ratio of 4, are as bad as a mean shear of 1.7, as a seam nearly three times the size of the surface
-where it is smooth, or as four dozen poles. A seam along a hard edge, where the light breaks too, is hardly seen.
+where it is smooth, or as four dozen poles. A seam along a hard edge, where the light breaks too, is hardly seen. Rows
+of squares that turn on their way round a tube by 27 degrees in the mean, as on a lamp shade unrolled, are as bad, too.
 """
 
 import math
@@ -18,6 +19,7 @@ ROUNDING = 1e-6  # part of the map: less of an overlap is none
 SEAM = 0.5  # for a seam as long as the square root of the area, where it is smooth
 HARD_SEAM = 0.03  # and along hard edges
 POLE = 0.03
+TURN = 3.0  # for a radian by which rows of squares that could run round a tube turn away from that, in the mean
 
 
 def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams: float = 0.0) -> float:

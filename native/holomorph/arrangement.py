@@ -111,7 +111,7 @@ def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arran
     Beside a tiling all values are exact in single precision.
     """
     uv = np.zeros((corners, 2))
-    tiled, rest = [m for m in maps if m.tiling], [m for m in maps if not m.tiling]
+    tiled, rest = [m for m in maps if m.is_tiled], [m for m in maps if not m.is_tiled]
     if not tiled:
         square(rest, arrangement).write(uv)
         return uv
@@ -141,7 +141,7 @@ def arranged_form(
 def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> float:
     """The length on the surface of a UV unit of `arranged` maps, where the density is the median one; 0 for maps
     without area."""
-    tiled = [m for m in maps if m.tiling]
+    tiled = [m for m in maps if m.is_tiled]
     if tiled:
         return _unit_of_tilings(tiled)
     wanted = square(maps, arrangement).per_length

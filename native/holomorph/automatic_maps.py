@@ -16,13 +16,14 @@ from .copies import Copy, copies
 from .given_vertices import on_part
 from .map import Map
 from .map_choice import EVENNESS, REFUSALS, SOLVING, Refusal, Undecided, first_map
+from .mixed_sizing import Divided, MixedSizing, divided
 from .progress import scaled
 from .side_by_side import side_by_side
-from .sizing import TRIES, Sizing, best_window, relative_size, window_around
+from .sizing import TRIES, Sizing, best_window, relative_size, usual_density, window_around
 from .surface import Surface
 from .tiling import Poles
 
-LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
+LEADING = 0.25  # of the area of the largest part, from which on a part may say the density of all
 TRYING = 0.9  # of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
@@ -89,7 +90,8 @@ def sized_maps(
     alike = _alike(parts, mains, choices)
     done = SOLVING if structures is None else 0.0
     made = _first_maps(parts, structures, mains, alike, choices, threads, scaled(progress, 0.0, done))
-    sizings = {k: Sizing(found, *choices[k]) for k, found in made.items() if isinstance(found, Undecided)}
+    kinds = {Undecided: Sizing, Divided: MixedSizing}
+    sizings = {k: kinds[type(found)](found, *choices[k]) for k, found in made.items() if type(found) in kinds}
     wanted = _density(parts, tiles) if density is None else density
     sized = _sized(parts, alike, sizings, wanted, _tries(tiles, density), threads, scaled(progress, done, 1.0))
     found = [sized[k] if k in sized else made[copy.first] for k, copy in enumerate(alike)]
@@ -102,14 +104,6 @@ def sized_maps(
 def _density(parts, tiles):
     area = sum(part.area for part in parts)
     return tiles / area if tiles and area > 0 else usual_density(parts)
-
-
-def usual_density(parts: Sequence[Surface]) -> float:
-    """Tiles per unit of area by default: 100, or 64 for each handle, over the largest part. 0 where none has area."""
-    largest = max(parts, key=lambda part: part.area, default=None)
-    if largest is None or not largest.area > 0:
-        return 0.0
-    return max(LEAST_TILES, TILES_PER_HANDLE * largest.genus) / largest.area
 
 
 def _alike(parts, mains, choices):
@@ -128,7 +122,9 @@ def _first_maps(parts, structures, mains, alike, choices, threads, progress):
     def work(i, count, step):
         k = firsts[i]
         try:
-            return first_map(parts[k], structures and structures[k], mains[k], choices[k][1]["evenness"], count, step)
+            evenness = choices[k][1]["evenness"]
+            found = first_map(parts[k], structures and structures[k], mains[k], evenness, count, step)
+            return divided(found, evenness, count, step) if mains[k] == "automatic" else found
         except REFUSALS as error:
             return error
 
@@ -144,13 +140,13 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
     if not sizings:
         return {}
     members = [k for k, copy in enumerate(alike) if copy.first in sizings]
-    largest, total = max(members, key=lambda k: parts[k].area), sum(parts[k].area for k in members) or 1.0
+    largest, total = _leader(parts, alike, sizings, members), sum(parts[k].area for k in members) or 1.0
     names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
     share, made = 0.0, {}
     if tries:
         share, sizing = parts[largest].area / total, sizings[alike[largest].first]
         leader = sizing.about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
-        if isinstance(leader, Map) and leader.tiling:
+        if isinstance(leader, Map) and leader.is_tiled:
             density = leader.quality.median_density / alike[largest].scale ** 2
         made[names[largest]] = leader
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
@@ -160,6 +156,15 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
             areas[names[k]] += parts[k].area
     made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))
     return {k: made[names[k]] for k in members}
+
+
+def _leader(parts, alike, sizings, members):
+    """The part that says the density of all: the largest, or, where pieces of that may have any density, the largest
+    other one, if it is no smaller than `LEADING` of it."""
+    largest = max(members, key=lambda k: parts[k].area)
+    whole = [k for k in members if isinstance(sizings[alike[k].first], Sizing)]
+    leader = max(whole, key=lambda k: parts[k].area, default=largest)
+    return leader if parts[leader].area >= LEADING * parts[largest].area else largest
 
 
 def _of_one_size(parts, sizings, wanted, areas, is_given, threads, progress):

@@ -5,6 +5,7 @@ import numpy as np
 from .cut_open import on_border, paths_to_border
 
 TIP = np.pi / 3  # radians that are missing around a vertex, or too many
+HIDING = np.pi / 3  # radians, from which on the bend hides a seam; where it is less, in proportion
 
 
 def is_hard(surface, degrees):
@@ -25,6 +26,11 @@ def bends(surface):
     return result
 
 
+def seen(bent):
+    """How far a seam is seen along edges with these `bends`: from 0 where they hide it to 1 across the smooth."""
+    return np.maximum(1 - bent / HIDING, 0)
+
+
 def cuts_to_tips(surface, is_seam):
     """(#E,) the shortest paths of the polygons' edges from the seams, a mask of edges, and from the boundary to the
     tips of the parts that they leave."""
@@ -33,10 +39,14 @@ def cuts_to_tips(surface, is_seam):
     return paths_to_border(surface, is_on_border, tips)
 
 
-def curvature(surface):
-    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians."""
+def curvature(surface, most=np.inf):
+    """The sum over the inner vertices of the angle that is missing around each, or too much, in radians.
+
+    most : vertices where it is more do not count, such as `TIP`
+    """
     no_seam = np.zeros(len(surface._native.edges), bool)
-    return float(np.abs(_defects(surface)[~on_border(surface, no_seam)]).sum())
+    missing = np.abs(_defects(surface)[~on_border(surface, no_seam)])
+    return float(missing[missing <= most].sum())
 
 
 def _face_normals(surface):

@@ -49,13 +49,7 @@ class Cuts:
 
     def across_overlaps(self, pieces, uv):
         """(#E,) edges between the parts of pieces that lie over themselves, each of which does not."""
-        parts = _native.parted(pieces._native, uv)
-        edges, _ = sides_of(pieces)
-        of_side = np.repeat(parts, np.diff(pieces.face_offsets))
-        low, high = np.full(len(pieces._native.edges), len(parts)), np.full(len(pieces._native.edges), -1)
-        np.minimum.at(low, edges, of_side)
-        np.maximum.at(high, edges, of_side)
-        return self._of(pieces, low < high)
+        return self._of(pieces, edges_between(pieces, _native.parted(pieces._native, uv)))
 
     def _of(self, pieces, cuts):
         """(#E,) the edges of the surface that are these of its pieces, a mask."""
@@ -82,6 +76,16 @@ def sides_of(surface):
     edges[corners[is_side]] = native.triangle_edges[is_side]
     following[corners[is_side]] = np.roll(corners, -1, axis=1)[is_side]
     return edges, following
+
+
+def edges_between(surface, names):
+    """(#E,) whether an edge lies between polygons of different names, (#F,) integers."""
+    edges, _ = sides_of(surface)
+    of_side = np.repeat(names, np.diff(surface.face_offsets))
+    low, high = np.full(len(surface._native.edges), np.max(names)), np.full(len(surface._native.edges), np.min(names))
+    np.minimum.at(low, edges, of_side)
+    np.maximum.at(high, edges, of_side)
+    return low < high
 
 
 def _stretch(flat):

@@ -9,7 +9,7 @@ from . import _native, arrays
 from .appearance import cost
 from .array_types import Integers, Progress, Reals
 from .checks import check_type
-from .hard_edges import bends, curvature
+from .hard_edges import bends, curvature, seen
 from .island_cuts import Cuts, corner_pieces, in_one_orientation
 from .layout import pack
 from .overlap import overlapping_part
@@ -20,7 +20,6 @@ from .value import Value, counted
 
 HARD = 60.0, 40.0, 30.0  # degrees between two faces, from which on a seam is expected, if need be
 SMOOTH = 35.0  # degrees: a part without sharper edges is a coarse mesh of something smooth
-HIDING = math.pi / 3  # radians, from which on the bend hides a seam; where it is less, in proportion
 FINE = 0.3  # cost of the squares, from which on no other angle is tried
 MARGIN = 0.02  # between islands, in sides of the square that they are packed into
 AXES = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))  # what is up on an island: the first that it shows
@@ -115,7 +114,7 @@ def one_island(surface, tiling):
     size = math.sqrt(tiling.quality.median_density)
     ends = surface.vertices[tiling.seams]
     soft = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() / math.sqrt(surface.area)
-    quality = tiling.quality.of_copy(size)
+    quality = tiling.quality.of_density(1.0)
     return Islands(arrays.frozen(tiling.uv / size), tiling.seams, 1, float(soft), 0.0, quality, tiling.evenness)
 
 
@@ -182,7 +181,7 @@ class _Layout:
         seams = cuts.mask & ~_is_continuous(cuts, uv, joints)
         native = self.surface._native
         ends, lengths = np.asarray(native.edges)[seams], np.asarray(native.edge_lengths)[seams]
-        soft = np.maximum(1 - self.bends[seams] / HIDING, 0)
+        soft = seen(self.bends[seams])
         visible = (float((lengths * part).sum()) / math.sqrt(self.surface.area) for part in (soft, 1 - soft))
         quality = self._quality(cuts, pieces, flat, uv)
         return Islands(arrays.frozen(uv), arrays.frozen(ends), count, *visible, quality, self.evenness), flat_uv
@@ -204,9 +203,7 @@ def _upright(pieces, uv):
     """The map with each piece turned about 0 so that the axis which it shows most of runs up."""
     z = uv @ [1, 1j]
     corners = z[pieces.triangle_corners]
-    across = 0.5j * (
-        np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
-    )  # times a height, summed: its gradient
+    across = 0.5j * (np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))  # times heights, summed: gradients
     at, count = pieces._native.face_component[pieces.triangle_faces], pieces._native.component_count
     points = pieces.vertices[pieces.triangles]
     sides = points[:, 1:] - points[:, :1]

@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import arrays
+from .appearance import cost
 from .array_types import Complexes, Integers, Progress, Reals
 from .automatic_structure import AnyStructure
 from .checks import checked_evenness
 from .evened_forms import evened_uv
 from .island_map import Islands
+from .mixed import Mixed
 from .pole_structure import PoleStructure
 from .quality import Quality
 from .surface import Surface
@@ -29,10 +31,11 @@ class Map(Value):
     structure : the conformal structure that the map is made of, or beside
     uv : (#C, 2) UVs. Those of a tiling may be multiplied and moved by integers only
     quality : `Quality`
-    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a tiling and for islands
+    coefficients : (n,) with which `structure.uv` gives the map; (0,) for a map of another kind
     why : why it is this map, in one sentence
     tiling : `Tiling`, None for other kinds
     islands : `Islands`, None for other kinds
+    mixed : `Mixed`, None for other kinds
     """
 
     surface: Surface
@@ -43,6 +46,7 @@ class Map(Value):
     why: str
     tiling: Tiling | None = None
     islands: Islands | None = None
+    mixed: Mixed | None = None
     _evenness: float = 0.0
 
     @property
@@ -56,10 +60,32 @@ class Map(Value):
         "disk", "rectangle", "triangle" : a disk with a straight or round boundary
         "flat" : in one piece, with a free boundary
         "islands" : in flat pieces
+        "mixed" : in pieces between hard edges, some of them tilings, the rest flat
         """
+        if self.mixed:
+            return "mixed"
         if self.islands:
             return "islands" if self.islands.count > 1 or len(self.islands.seams) else "flat"
         return "tiling" if self.tiling else self.structure.map_kind
+
+    @property
+    def own(self) -> Tiling | Islands | Mixed | None:
+        """What the map is where it is none of the forms of its structure."""
+        return self.tiling or self.islands or self.mixed
+
+    @property
+    def is_tiled(self) -> bool:
+        """Whether a texture breaks off when the UVs are moved by anything but whole tiles."""
+        return bool(self.tiling or self.mixed)
+
+    @property
+    def cost(self) -> float:
+        """What an eye minds, see `appearance.cost`."""
+        if self.islands or self.mixed:
+            return (self.islands or self.mixed).cost
+        lengths = self.structure._triangulation.edge_lengths
+        seams = 0.0 if self.tiling else lengths[self.structure.seams].sum() / math.sqrt(self.surface.area)
+        return cost(self.quality, len(self.poles), soft_seams=float(seams))
 
     @property
     def verdict(self) -> Verdict:
@@ -69,22 +95,20 @@ class Map(Value):
     @property
     def evenness(self) -> float:
         """From 0, conformal, to 1: how far squares of one size were preferred to angles."""
-        return (self.tiling or self.islands).evenness if self.tiling or self.islands else self._evenness
+        return self.own.evenness if self.own else self._evenness
 
     @cached_property
     def seams(self) -> Integers:
         """(#S, 2) vertices of the edges where the UVs jump."""
-        if self.tiling:
-            return self.tiling.seams
-        if self.islands:
-            return self.islands.seams
+        if self.own:
+            return self.own.seams
         return self._of_surface(self.structure._triangulation.edges[self.structure.seams])
 
     @cached_property
     def poles(self) -> Integers:
         """(k,) vertices around which the UVs change by a residue."""
-        if self.tiling:
-            return self.tiling.poles
+        if self.tiling or self.mixed:
+            return (self.tiling or self.mixed).poles
         is_log = not self.islands and isinstance(self.structure, PoleStructure)
         return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
 
@@ -109,6 +133,7 @@ class Map(Value):
             quality=quality,
             tiling=self.tiling and replace(self.tiling, quality=quality),
             islands=self.islands and replace(self.islands, quality=quality),
+            mixed=self.mixed and replace(self.mixed, quality=quality),
         )
 
     def _facts(self):

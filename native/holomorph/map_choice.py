@@ -138,7 +138,7 @@ class Undecided:
             return found
         one = one_island(self.surface, tiling)
         made = Map(self.surface, self.structure, one.uv, one.quality, np.empty(0), why, islands=one)
-        return made if one.cost < _cost(found) else found
+        return made if one.cost < found.cost else found
 
     def stretched(self, made, density, lattice):
         """The `Map` of the tiling of another one, stretched to a density; None where it cannot be, or another map looks
@@ -158,7 +158,7 @@ class Undecided:
 
 def _least_minded(flat, found):
     """The `Map` of flat islands, if there are any that look better than another `Map`; else that one."""
-    return _map_of(flat, found.surface, found.structure) if flat and flat.cost < _cost(found) else found
+    return _map_of(flat, found.surface, found.structure) if flat and flat.cost < found.cost else found
 
 
 def _whole(tiling):
@@ -166,14 +166,6 @@ def _whole(tiling):
     if lost < MOST_LOST:
         return tiling
     raise TopologyError(f"a tiling would lose {100 * lost:.2g} % of its area, the mesh is too coarse: subdivide it")
-
-
-def _cost(found):
-    if found.islands:
-        return found.islands.cost
-    lengths = found.structure._triangulation.edge_lengths
-    seams = 0.0 if found.tiling else lengths[found.structure.seams].sum() / math.sqrt(found.surface.area)
-    return cost(found.quality, len(found.poles), soft_seams=float(seams))
 
 
 def _drawback(tiling, balanced):

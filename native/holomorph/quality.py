@@ -49,6 +49,33 @@ class Quality(Value):
         parts = found.angle, found.area, found.flipped
         return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
 
+    @classmethod
+    def joined(cls, qualities: Sequence["Quality"], densities: ArrayLike) -> "Quality":
+        """That of several maps, each scaled until its median density is the one that is given, with the triangles of
+        one after those of the other.
+
+        densities : (n,); maps without area keep theirs
+        """
+        scaled = [each.of_density(density) for each, density in zip(qualities, densities)]
+        if len(scaled) == 1:
+            return scaled[0]
+        parts = [(each.angle, each.area, each.flipped, each._weights) for each in scaled]
+        angle, density, flipped, weights = map(np.concatenate, zip(*parts))
+        low, median, high = quantiles(density, weights, (LOW, 0.5, HIGH))
+        kept = np.isfinite(angle)
+        mean = float(np.average(angle[kept], weights=weights[kept])) if weights[kept].any() else np.inf
+        figures = mean, float(high / low) if low > 0 else np.inf, float(median)
+        shares = [each._weights.sum() for each in qualities]
+        long, unseen, overlapping = (
+            float(np.average([getattr(each, name) or 0.0 for each in qualities], weights=shares))
+            for name in ("long_part", "unseen_angle", "overlapping_part")
+        )
+        is_island = any(each.overlapping_part is not None for each in qualities)
+        of_triangles = map(arrays.frozen, (angle, density, flipped))
+        result = cls(*of_triangles, *figures, None, overlapping if is_island else None, unseen)
+        vars(result).update(long_part=long, _weights=weights)
+        return result
+
     def evened_from(self, before: "Quality", evenness: float) -> "Quality":
         """The same, of a map that evening made of one with the quality `before`."""
         added = self.capped_mean_angle - before.capped_mean_angle
@@ -56,8 +83,19 @@ class Quality(Value):
 
     def of_copy(self, scale: float) -> "Quality":
         """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
-        area = arrays.frozen(self.area / scale**2)
-        return replace(self, area=area, median_density=self.median_density / scale**2)
+        result = self._scaled(scale**-2)
+        vars(result)["_weights"] = self._weights * scale**2
+        return result
+
+    def of_density(self, density: float) -> "Quality":
+        """That of the map scaled until its median density is this one; of one without area its own."""
+        return self._scaled(density / self.median_density if self.median_density > 0 else 1.0)
+
+    def _scaled(self, factor):
+        area = arrays.frozen(self.area * factor)
+        result = replace(self, area=area, median_density=self.median_density * factor)
+        vars(result).update(long_part=self.long_part, _weights=self._weights)
+        return result
 
     def _facts(self):
         lost = [(self.flipped, "flipped"), (self.collapsed, "collapsed")]
@@ -116,18 +154,3 @@ class Quality(Value):
         a, b, c = self._sides.T
         areas = np.sqrt(np.maximum((c + (b + a)) * (a - (c - b)) * (a + (c - b)) * (c + (b - a)), 0.0)) / 4
         return areas if areas.any() else np.ones_like(areas)
-
-
-def joined(qualities: Sequence[Quality], densities: ArrayLike) -> tuple[float, float]:
-    """(`capped_mean_angle`, `density_ratio`) over all triangles of several maps.
-
-    densities : (n,) to which the maps are scaled: the median of each
-    """
-    if len(qualities) == 1:
-        return qualities[0].capped_mean_angle, qualities[0].density_ratio
-    weights = [quality._weights for quality in qualities]
-    angle = np.average([each.capped_mean_angle for each in qualities], weights=[each.sum() for each in weights])
-    scales = [to / each.median_density if each.median_density > 0 else 1.0 for each, to in zip(qualities, densities)]
-    density = np.concatenate([each.area * scale for each, scale in zip(qualities, scales)])
-    low, high = quantiles(density, np.concatenate(weights), (LOW, HIGH))
-    return float(angle), float(high / low) if low > 0 else np.inf

@@ -51,12 +51,14 @@ def component_report(
 
 
 def part_report(made: "Map") -> dict[str, Any]:
-    """The `component_report` of the part of a `Map`, with what kind of map it is, and of a tiling its poles and
-    certificates; vertices are those of the mesh as given."""
+    """The `component_report` of the part of a `Map`, with what kind of map it is, and of a tiling, or of the
+    tilings of its pieces, poles and certificates; vertices are those of the mesh as given."""
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
     main_map = map_report(made.coefficients, made.quality, made.verdict) | about
     entry = component_report(made.surface, made.structure, main_map)
     entry["forms"] = made.structure.form_count
+    if made.mixed:
+        entry["tilings"] = [_tiling_report(tiling, made.surface.vertex_index) for tiling in made.mixed.tilings]
     return entry | ({"tiling": _tiling_report(made.tiling, made.surface.vertex_index)} if made.tiling else {})
 
 

@@ -10,11 +10,15 @@ from .array_types import Progress
 from .map import Map
 from .map_choice import REFUSALS, Refusal, Undecided
 from .progress import scaled
+from .surface import Surface
 from .tiling import Poles
+from .tubes import is_tube
 
+LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
 SAME_SIZE = 0.045  # relative difference of a median density from the wanted one, until which other numbers are tried
 LIKE_SIZE = 1.095  # largest over smallest median density of tilings, for parts whose squares have one size
 TRIES = 4  # numbers of tiles, until the median density is the wanted one
+MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
 TOO_FEW = "whole tiles are too few on it for squares of the size of the other parts"
 
 Window: TypeAlias = tuple[float, float]  # least and largest median density, over the wanted one
@@ -38,7 +42,7 @@ class Sizing:
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
         """The map with the nearest density that so many numbers of tiles give, or how it is refused."""
         tilings, other = self.tried(density, tries, progress)
-        return self._moved(_nearest(tilings, density), tries, progress) if tilings else other
+        return self._moved(nearest(tilings, density), tries, progress) if tilings else other
 
     def tried(self, density: float, tries: int, progress: Progress | None) -> Tried:
         """With one number of tiles after the other, until the density is the wanted one."""
@@ -63,20 +67,44 @@ class Sizing:
         return Tried(tilings, None)
 
     def settled(self, tried: Tried, density: float, window: Window, progress: Progress | None) -> Map | Refusal:
-        """The tiling that was tried and is in the window, or stretched to the density; else the best other map. What is
-        asked for in so many words, such as poles that are chosen or moved, is made with another density, or refused."""
+        """The tiling that was tried and is in the window, or stretched to the density, or turned until it is in the
+        window; else the best other map. What is asked for in so many words, such as poles that are chosen or moved, is
+        made with another density, or refused."""
         tilings, other = tried
         if not tilings:
-            is_final = isinstance(other, Map) or self._is_strict
+            is_final = isinstance(other, Map) or self.is_strict
             return other if is_final else self.undecided.untiled(str(other))
         inside = [made for made in tilings if is_in(window, relative_size(made, density))]
-        made = self._moved(_nearest(inside or tilings, density), TRIES, progress)
+        made = self._moved(nearest(inside or tilings, density), TRIES, progress)
         if inside or not isinstance(made, Map) or made.tiling is None:
             return made
         stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
-        if stretched or self._is_strict:
+        if stretched or self.is_strict:
             return stretched or made
+        turned = self._turned(density, progress)
+        if turned and is_in(window, relative_size(turned, density)):
+            return turned
         return self.undecided.untiled(TOO_FEW, made.tiling)
+
+    def of_piece(self, density: float, near: float, progress: Progress | None) -> Map | None:
+        """The tiling of a piece of a part whose density is this one, relatively as near, or for which it is stretched;
+        None where there is none."""
+        surface = self.undecided.surface
+        tilings, _ = self.tried(density, 1 if is_tube(surface) else TRIES, progress)
+        made = nearest(tilings, density) if tilings else None
+        if made is None or abs(relative_size(made, density) - 1) <= near:
+            return made
+        stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
+        return stretched or (made if is_in(window_around(), relative_size(made, density)) else None)
+
+    def _turned(self, density, progress):
+        """A tiling whose rows may run less level: other numbers of tiles fit around a limb. None where it is none."""
+        options = {**self.options, "tiles": density * self.undecided.surface.area, "size_counts": True}
+        try:
+            made = self.undecided.tiled(self.poles, {**options, "max_turn": MOST_TURNED}, progress)
+        except REFUSALS:
+            return None
+        return made if made.tiling else None
 
     def _moved(self, made, tries, progress):
         """The map with poles moved after its rounding, or how that is refused."""
@@ -89,10 +117,19 @@ class Sizing:
             return error
 
     @property
-    def _is_strict(self):
+    def is_strict(self) -> bool:
+        """Whether more is asked of a tiling than its density."""
         is_chosen = not isinstance(self.poles, (str, numbers.Real)) or self.poles not in ("auto", 0)
         is_bound = any(self.options.get(name) is not None for name in ("max_added", "allowed"))
         return is_chosen or is_bound or bool(self.options.get("moves"))
+
+
+def usual_density(parts: Sequence[Surface]) -> float:
+    """Tiles per unit of area by default: 100, or 64 for each handle, over the largest part. 0 where none has area."""
+    largest = max(parts, key=lambda part: part.area, default=None)
+    if largest is None or not largest.area > 0:
+        return 0.0
+    return max(LEAST_TILES, TILES_PER_HANDLE * largest.genus) / largest.area
 
 
 def relative_size(made: Map, density: float) -> float:
@@ -124,5 +161,6 @@ def best_window(sizes: Sequence[Sequence[float]], weights: Sequence[float]) -> W
     return max(tried, key=held)
 
 
-def _nearest(tilings, density):
+def nearest(tilings: Sequence[Map], density: float) -> Map:
+    """The one whose median density is nearest."""
     return min(tilings, key=lambda made: abs(relative_size(made, density) - 1))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .quality import joined
+from .quality import Quality
 from .verdicts import SMALL_PART, Verdict, overall
 
 if TYPE_CHECKING:
@@ -18,6 +18,7 @@ WORDS = {
     "tiling": "seamless",
     "islands": "in islands",
     "flat": "flat",
+    "mixed": "partly seamless",
     "strip": "as a strip",
     "log": "around poles",
     "forms": "cut open",
@@ -56,21 +57,22 @@ def whole(maps: Sequence["Map"], parts: Sequence[dict[str, Any]], repairs: "Repa
         return None
     areas = np.array([made.surface.area for made in maps])
     sizes = _sizes(maps)
-    angle, ratio = joined([made.quality for made in maps], sizes)
+    quality = Quality.joined([made.quality for made in maps], sizes)
     unmapped = sum(part["faces"] for part in parts if not part["done"])
     faces = sum(part["faces"] for part in parts)
     seen = sizes[(areas >= SMALL_PART * areas.sum()) & (sizes > 0)]
     spread = float(seen.max() / seen.min()) if len(seen) else 1.0
     order = np.argsort(-areas, kind="stable")
     found = overall([maps[k].verdict for k in order], areas[order], sizes=spread, unmapped=unmapped / faces)
-    return Whole("; ".join(_words(maps, unmapped, repairs)), angle, ratio, spread, unmapped, found)
+    text = "; ".join(_words(maps, unmapped, repairs))
+    return Whole(text, quality.capped_mean_angle, quality.density_ratio, spread, unmapped, found)
 
 
 def _sizes(maps):
     """(n,) median densities as arranged: all but tilings are scaled to one."""
-    tiled = [made.density for made in maps if made.tiling]
+    tiled = [made.density for made in maps if made.is_tiled]
     unit = np.median(tiled) if tiled else 1.0
-    return np.array([made.density / unit if made.tiling and unit > 0 else float(made.density > 0) for made in maps])
+    return np.array([made.density / unit if made.is_tiled and unit > 0 else float(made.density > 0) for made in maps])
 
 
 def _words(maps, unmapped, repairs):

@@ -12,6 +12,7 @@ from conftest import ROOT
 from scenes import (
     limb_arrays,
     mesh_io,
+    mesh_object,
     sphere_arrays,
     torus,
     torus_arrays,
@@ -298,6 +299,17 @@ def test_the_main_map_and_the_tiling_of_the_command_line(tmp_path):
     done = headless(path, "--report", report, *options, "--boundary", "free")
     assert done.returncode == 0, done.stderr
     assert len(reported(report)["tiling"]["poles"]) == 6
+
+
+def test_tiles_are_over_all_objects_of_a_file(tmp_path):
+    for scale in (1.0, 2.0):
+        mesh_object(f"Limb {scale}", *limb_arrays()).scale = (scale, scale, scale)
+    blend, report = tmp_path / "limbs.blend", tmp_path / "report.json"
+    bpy.ops.wm.save_as_mainfile(filepath=str(blend), copy=True)
+    done = headless("--report", report, "--seamless", "--tiles", 300, blend=blend)
+    assert done.returncode == 0, done.stderr
+    tilings = [entry["components"][0]["tiling"] for entry in json.loads(report.read_text())["objects"]]
+    assert len(tilings) == 2 and sum(tiling["tiles"] for tiling in tilings) == pytest.approx(300, rel=0.1)
 
 
 @pytest.mark.parametrize(

@@ -95,6 +95,20 @@ def test_a_tube_becomes_seamless_without_poles():
         assert after[name] == pytest.approx(before[name], rel=1e-6)
 
 
+def test_a_can_has_whole_tiles_around_its_side_and_islands_at_its_ends():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=24, end_fill_type="NGON")
+    obj = bpy.context.object
+    assert press() == {"FINISHED"}
+    report = stored_report(obj)
+    (part,) = report["components"]
+    assert part["main_map"]["kind"] == "mixed" and [found["poles"] for found in part["tilings"]] == [[]]
+    assert report["whole"]["text"] == "partly seamless" and report["verdict"]["level"] == "good"
+    vertices, jumps = edge_jumps(obj)
+    heights = np.array([vertex.co.z for vertex in obj.data.vertices])[vertices]
+    side = jumps[heights[:, 0] != heights[:, 1]]  # upright edges
+    assert len(side) == 24 and np.array_equal(side, np.round(side)) and np.abs(side).max() >= 1
+
+
 def test_a_pipe_that_poles_make_no_more_even_has_none():
     open_example("pipe")
     obj = bpy.context.view_layer.objects.active

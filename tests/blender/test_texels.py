@@ -1,5 +1,7 @@
 """Texels per metre: the same on several objects, measured and set."""
 
+from functools import partial
+
 import bpy
 import numpy as np
 import pytest
@@ -22,6 +24,7 @@ from scenes import (
 )
 from test_faces import HALF, add_own_map, corners_of, leave, pick_faces
 
+LIKE = 1.1  # largest over smallest median density of parts whose squares have one size
 ROUNDED = 0.1  # relative: a tiling has whole numbers of tiles around, of 100 that are a few each
 MEASURED = 0.03  # relative: the library takes the median over triangles, not quads
 FLAT = 1e-3  # relative: quads of the library are two triangles, and float32
@@ -90,6 +93,55 @@ def test_tilings_of_several_objects_have_one_density():
     assert median(second) == pytest.approx(median(first), rel=ROUNDED)
     run(main="SEAMLESS", equal=False)
     assert median(second) < 0.7 * median(first)
+
+
+def limbs(*scales):
+    """Objects of these scales, the first one active."""
+    objects = [mesh_object(f"Limb {scale}", *limb_arrays()) for scale in scales]
+    for obj, scale in zip(objects, scales):
+        obj.scale = (scale, scale, scale)
+    select(*objects)
+    bpy.context.view_layer.update()
+    return objects
+
+
+def in_space(obj):
+    """Tiles for an area in space, the median."""
+    return (median(obj) / obj.scale[0]) ** 2
+
+
+def area_in_space(obj):
+    return obj.scale[0] ** 2 * sum(polygon.area for polygon in obj.data.polygons)
+
+
+@pytest.mark.parametrize("press", [partial(run, main="AUTOMATIC"), bpy.ops.uv.holomorphic_tile], ids=["button", "tile"])
+def test_the_default_is_that_of_the_largest_part_whichever_is_active(press):
+    (alone,) = limbs(2.0)
+    press()
+    wanted = in_space(alone)
+    objects = limbs(0.8, 2.0, 1.3)
+    press()
+    found = [in_space(obj) for obj in objects]
+    assert found[1] == pytest.approx(wanted, rel=FLAT) and max(found) <= LIKE * min(found)
+
+
+def test_tiles_are_over_all_objects():
+    objects = limbs(1.0, 2.0)
+    bpy.ops.uv.holomorphic_tile(tiles=300)
+    assert sum(in_space(obj) * area_in_space(obj) for obj in objects) == pytest.approx(300, rel=ROUNDED)
+    densities = [in_space(obj) for obj in objects]
+    assert max(densities) <= LIKE * min(densities)
+    bpy.ops.uv.holomorphic_tile(tiles=300, equal=False)
+    assert [in_space(obj) * area_in_space(obj) for obj in objects] == pytest.approx([300, 300], rel=ROUNDED)
+
+
+def test_poles_are_dragged_at_the_size_that_all_objects_have():
+    small, _ = limbs(1.0, 2.0)
+    bpy.ops.uv.holomorphic_tile(tiles=300)
+    before = median(small)
+    assert module("operators.drag_session").Session(small).mapped.tiled[0].map.density == pytest.approx(
+        before**2, rel=FLAT
+    )
 
 
 def test_a_plain_map_beside_a_tiling_has_its_density():

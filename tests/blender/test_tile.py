@@ -30,6 +30,7 @@ from scenes import (
     torus_arrays,
     two_parts,
     uv,
+    written,
 )
 
 stored_text = module("results.stored")
@@ -312,10 +313,10 @@ def test_report_and_panel_begin_with_words(calls):
 
 def test_the_number_of_tiles_that_was_chosen_is_told(calls):
     obj = torus()
-    tile(tiles=0)
-    (tiling,) = [part["tiling"] for part in stored_report(obj)["components"]]
-    assert stored_text.chosen_tiles(obj["holomorph_report"]) == round(tiling["tiles"]) > 0
-    assert stored_text.chosen_tiles("") == 0
+    outcome = written(obj, main="TILING")
+    (tiling,) = [part["tiling"] for part in outcome.entries[0]["components"]]
+    assert outcome.tiles == round(tiling["tiles"]) > 0
+    assert written(obj, main="BALANCED").tiles == 0
 
 
 @pytest.mark.parametrize("stored", ["", "{", "[]", "null", '{"components": []}', '{"components": [{"genus": 1}]}'])

@@ -242,7 +242,7 @@ def test_progress_is_reported_and_cancels():
         island_map(dome(0.9), evenness=0.5, progress=lambda *_: False)
 
 
-@pytest.mark.parametrize("name", UNFOLDED)
+@pytest.mark.parametrize("name", [name for name in UNFOLDED if name != "can"])  # which whole tiles lie around
 def test_such_parts_get_their_islands_from_the_one_function(name):
     surface = UNFOLDED[name][0]()
     made = holomorph.automatic_map(surface)

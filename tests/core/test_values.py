@@ -27,6 +27,7 @@ from holomorph import (
     triangle_map,
 )
 from solved import BOUNDED, CLOSED, FLAT, solved, surface_of
+from test_island_map import can
 
 LONGEST_REPR = 240
 OF_SURFACES = [
@@ -86,6 +87,8 @@ EXAMPLES = {
     "cut": lambda: cut_along(conformal_structure(surface_of(CLOSED["torus of quads"])), both_loops()),
     "Islands": lambda: holomorph.island_map(surface_of(families.cube())),
     "Map": lambda: automatic_map(surface_of(CLOSED["torus of quads"])),
+    "Mixed": lambda: automatic_map(can()).mixed,
+    "Map of pieces": lambda: automatic_map(can()),
     "RectangleMap": lambda: rectangle_map(Surface([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]])),
     "FreeBoundaryMap": lambda: free_boundary_map(disk()),
     "TriangleMap": lambda: triangle_map(Surface(np.eye(3), [[0, 1, 2]])),

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 namespace holomorph::mesh {
@@ -17,9 +18,9 @@ constexpr double kBadTriangle = 1e12;
 constexpr double kThin = 1e-10;
 // Added for a triangle with all corners on one boundary loop: more than any but a nearly degenerate shape costs.
 constexpr double kOnOneLoop = 1e8;
-// Less of a cost decides nothing, a hundredth of a degree: it would be the rounding that does, otherwise on each copy
-// of a polygon, where its corners lie on one circle.
-constexpr double kTie = 1e-3;
+// A difference of costs that rounding of the corners to single precision may make decides nothing: where the corners of
+// a polygon lie on one circle, it would be cut otherwise in each copy. Over the largest coordinate in shortest sides.
+constexpr double kTie = 32 * 0x1p-24, kMostTie = 1e-2;
 
 class Polygon {
  public:
@@ -30,9 +31,14 @@ class Polygon {
     Vector3d area = Vector3d::Zero();
     for (int i = 1; i + 1 < size(); ++i) area += points_[i].cross(points_[i + 1]);
     normal_ = area.normalized();
+    double largest = 0, shortest = points_.back().norm();
+    for (const auto& p : corners) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    for (int i = 1; i < size(); ++i) shortest = std::min(shortest, (points_[i] - points_[i - 1]).norm());
+    tie_ = std::min(kMostTie, kTie * largest / shortest);
   }
 
   int size() const { return static_cast<int>(points_.size()); }
+  double tie() const { return tie_; }
 
   double cost(int i, int j, int k) const {
     const Vector3d a = points_[j] - points_[i], b = points_[k] - points_[i];
@@ -55,6 +61,7 @@ class Polygon {
 
   std::vector<Vector3d> points_;
   Vector3d normal_;
+  double tie_ = 0;
   const std::vector<int>& loops_;
 };
 
@@ -67,7 +74,7 @@ Triangles optimal(const Polygon& polygon) {
     for (int i = 0, k = width; k < n; ++i, ++k) {
       for (int j = i + 1; j < k; ++j) {
         const double cost = best[i * n + j] + best[j * n + k] + polygon.cost(i, j, k);
-        if (j == i + 1 || cost < best[i * n + k] - kTie) best[i * n + k] = cost, middle[i * n + k] = j;
+        if (j == i + 1 || cost < best[i * n + k] - polygon.tie()) best[i * n + k] = cost, middle[i * n + k] = j;
       }
     }
   }

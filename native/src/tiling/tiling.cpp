@@ -50,6 +50,7 @@ RoundingOptions rounding_options(const Placement& placement, const TilingOptions
   RoundingOptions result;
   result.phase = options.turn;
   result.max_turn = options.max_turn;
+  result.steps = options.size_counts;
   if (options.direction) {
     const PoleBasis& basis = *placement.basis;
     result.phase = phase_along(*options.direction, uv::tangent_frames(basis.surface(), basis.samples()),

@@ -4,8 +4,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <set>
 
 #include "base/chunks.h"
 #include "tiling/poles/meromorphic_form.h"
@@ -17,6 +17,7 @@ constexpr double kChange = 0.2;                               // relative change
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
 constexpr int kPhases = 30, kScales = 7;
 constexpr std::size_t kWanted = 8;  // roundings at most
+constexpr int kSteps = 3;           // rounds, each from the best of the last
 constexpr int kNearPhases = 7;      // around a phase that is given
 constexpr double kScaleRange = 0.12;
 constexpr double kSame = 1e-9;      // relative distance of points of a lattice that are one
@@ -71,6 +72,53 @@ std::vector<double> phases_of(const RoundingProblem& p, const RoundingOptions& o
   return phases;
 }
 
+// The best of a list and of those with these integers.
+std::vector<Rounding> best_of(const RoundingProblem& p, const std::set<std::vector<std::int64_t>>& integers,
+                              std::vector<Rounding> list, Execution& execution) {
+  const std::size_t known = list.size();
+  for (const auto& z : integers)
+    list.push_back({Eigen::Map<const lattice::IntegerVector>(z.data(), std::ssize(z)), {}});
+  run_throwing(execution.workers(), static_cast<int>(integers.size()), [&](int i) {
+    Rounding& rounding = list[known + i];
+    rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
+    measure(p, rounding);
+  });
+  const double most = kUneven * p.target_ratio;
+  std::erase_if(list, [&](const Rounding& r) { return !(r.distortion < kNoMap && r.density_ratio < most); });
+  std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });
+  if (list.size() > kWanted) list.resize(kWanted);
+  return list;
+}
+
+// Integers that differ from those of a rounding by one of the steps, which are columns, are not known, and turn the
+// texture no further than is allowed or the others do.
+std::set<std::vector<std::int64_t>> a_step_away(const RoundingProblem& p, const RoundingOptions& options,
+                                                const std::vector<Rounding>& list, const lattice::IntegerMatrix& steps,
+                                                const std::set<std::vector<std::int64_t>>& known) {
+  const VectorXcd weights = mean_weights(p.target_density);
+  const Eigen::RowVectorXcd along = ((p.forms * p.target).adjoint() * weights.asDiagonal() * p.forms) * p.Z;
+  const Complex back = std::polar(1.0, -options.phase.value_or(0));
+  const auto turn = [&](const lattice::IntegerVector& z) {
+    return std::abs(std::arg(back * (along * z.cast<double>().cast<Complex>()).value()));
+  };
+  double most = std::numbers::pi;
+  if (options.phase && p.kind == uv::Coefficients::complex) {
+    most = options.max_turn;
+    for (const Rounding& rounding : list) most = std::max(most, turn(rounding.z));
+  }
+  std::set<std::vector<std::int64_t>> found;
+  for (const Rounding& rounding : list) {
+    for (Index j = 0; j < steps.cols(); ++j) {
+      for (const int sign : {1, -1}) {
+        const lattice::IntegerVector z = rounding.z + sign * steps.col(j);
+        if (turn(z) > most) continue;
+        if (std::vector<std::int64_t> own(z.begin(), z.end()); !known.contains(own)) found.insert(std::move(own));
+      }
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
@@ -111,35 +159,31 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
 }
 
 std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingOptions& options, Execution& execution) {
-  const ArrayXd& density = p.target_density;
-  const double scale = std::sqrt(p.median_density / median(density));
-  const VectorXcd weights = mean_weights(density);
+  const double scale = std::sqrt(p.median_density / median(p.target_density));
+  const VectorXcd weights = mean_weights(p.target_density);
   const std::vector<double> phases = phases_of(p, options);
-  std::map<std::vector<std::int64_t>, Rounding> found;
+  std::set<std::vector<std::int64_t>> found;
+  lattice::IntegerMatrix steps;
   for (std::size_t d = 0; d < std::size(kDefects); ++d) {
     execution.report(static_cast<double>(d) / std::size(kDefects));
     if (d > 0 && p.defects.cols() == 0) break;
     const MatrixXcd rows = measure_rows(p, weights, kDefects[d]);
     const lattice::ReducedBasis reduced = lattice::reduce(as_real(rows * p.Z));
+    if (options.steps && d == 0) steps = reduced.transform;
     std::vector<lattice::IntegerVector> nearest(phases.size() * kScales);
     run_throwing(execution.workers(), static_cast<int>(nearest.size()), [&](int i) {
       const double size = scale * (1 + kScaleRange * (2.0 * (i % kScales) / (kScales - 1) - 1));
       const VectorXcd y = p.target * std::polar(size, phases[i / kScales]);
       nearest[i] = lattice::nearest_plane(reduced, as_real(rows * y));
     });
-    for (const lattice::IntegerVector& z : nearest) found.try_emplace({z.begin(), z.end()}, Rounding{z, {}});
+    for (const lattice::IntegerVector& z : nearest) found.emplace(z.begin(), z.end());
   }
-  std::vector<Rounding> list;
-  for (auto& [key, rounding] : found) list.push_back(std::move(rounding));
-  run_throwing(execution.workers(), static_cast<int>(list.size()), [&](int i) {
-    Rounding& rounding = list[i];
-    rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
-    measure(p, rounding);
-  });
-  const double most = kUneven * p.target_ratio;
-  std::erase_if(list, [&](const Rounding& r) { return !(r.distortion < kNoMap && r.density_ratio < most); });
-  std::stable_sort(list.begin(), list.end(), [](const Rounding& a, const Rounding& b) { return a.rank < b.rank; });
-  if (list.size() > kWanted) list.resize(kWanted);
+  std::vector<Rounding> list = best_of(p, found, {}, execution);
+  for (int step = 0; step < kSteps && steps.size() > 0; ++step) {
+    const auto further = a_step_away(p, options, list, steps, found);
+    found.insert(further.begin(), further.end());
+    list = best_of(p, further, std::move(list), execution);
+  }
   return list;
 }
 

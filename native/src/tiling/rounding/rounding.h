@@ -47,6 +47,7 @@ MatrixXcd defect_metric(const RoundingProblem& problem);
 struct RoundingOptions {
   std::optional<double> phase;  ///< which the target is given, in radians; none: any
   double max_turn = 0;          ///< largest change of a given phase, in radians
+  bool steps = false;           ///< also those a short step away from the best are looked at: other sizes
 };
 
 struct Rounding {
@@ -61,7 +62,7 @@ struct Rounding {
 
 /// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere.
 /// @throws SolverError as lattice.h does
-/// Cost: a reduction for each of five weights, and some thousand nearest planes.
+/// Cost: a reduction for each of five weights, some thousand nearest planes, and 16 D more roundings with steps.
 std::vector<Rounding> roundings(const RoundingProblem& problem, const RoundingOptions& options, Execution& execution);
 
 /// What follows from y.
