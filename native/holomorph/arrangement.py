@@ -5,6 +5,8 @@ texture would break off at their seams. Other maps fill the UV square where ther
 right of the tilings.
 """
 
+from __future__ import annotations
+
 import cmath
 import math
 from collections.abc import Sequence

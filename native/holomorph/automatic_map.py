@@ -1,5 +1,7 @@
 """The map of one connected part, by the same steps as those of all parts of a mesh."""
 
+from __future__ import annotations
+
 from numpy.typing import ArrayLike
 
 from .array_types import Progress

@@ -1,5 +1,7 @@
 """The maps of all parts of a mesh: `automatic_map` for each, all with squares of one size."""
 
+from __future__ import annotations
+
 import math
 import numbers
 from collections.abc import Sequence

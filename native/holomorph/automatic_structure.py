@@ -1,5 +1,7 @@
 """Which structure a part gets, by what is chosen of it and by its topology."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import TypeAlias
 

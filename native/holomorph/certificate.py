@@ -1,5 +1,7 @@
 """What is proven of a result, and what was measured of it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, Decimal, localcontext
 from typing import Any

@@ -1,5 +1,7 @@
 """The conformal structure of a closed surface of genus >= 1, and everything that is read off it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

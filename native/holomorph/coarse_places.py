@@ -1,5 +1,7 @@
 """Places where the texture of a map is much coarser than elsewhere."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

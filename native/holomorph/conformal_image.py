@@ -1,5 +1,7 @@
 """The image of a surface on the unit sphere or in the unit disk."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from .array_types import Reals

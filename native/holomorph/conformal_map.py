@@ -1,5 +1,7 @@
 """The conformal map between two equivalent surfaces, by matching their forms."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from operator import itemgetter

@@ -1,5 +1,7 @@
 """Maps cut along chosen edges, such as marked seams."""
 
+from __future__ import annotations
+
 from dataclasses import replace
 from functools import partial
 from typing import TypeVar

@@ -1,5 +1,7 @@
 """Maps of disks to the plane, and which of them is taken without a choice."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from functools import partial
 

@@ -1,5 +1,7 @@
 """The islands into which seams cut a surface, each cut open until it can be flattened."""
 
+from __future__ import annotations
+
 from numpy.typing import ArrayLike
 
 from ._native import InvalidMesh, SolverError, TopologyError

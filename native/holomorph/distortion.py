@@ -4,6 +4,8 @@ Any UV map and any mesh will do: nothing is solved, and the mesh need not be a s
 triangles of surfaces.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol

@@ -1,5 +1,7 @@
 """Whether two surfaces are conformally equivalent (paper § 9, last sentence)."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """What the results have in common that have forms to combine."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 

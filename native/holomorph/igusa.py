@@ -1,5 +1,7 @@
 """Igusa's invariants of surfaces of genus 2, with intervals, from theta constants."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from itertools import combinations
 

@@ -1,5 +1,7 @@
 """The map of a part in islands: cut along hard edges, each piece flattened, pieces laid edge to edge as a paper net."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
 
@@ -85,8 +87,7 @@ def island_map(
     evenness : as in `Structure.tile`
     threads, progress : as in `conformal_structure`
 
-    Raises Cancelled.
-    """
+    Raises Cancelled."""
     check_type(surface, Surface)
     progress = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
     given, (surface, order) = surface, in_one_orientation(surface)

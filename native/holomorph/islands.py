@@ -1,5 +1,7 @@
 """The islands into which seams cut a surface."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

@@ -5,6 +5,8 @@ row is that of its first. Of a fixed set of widths the one that fits the smalles
 so that straight boundaries stay horizontal. Same sizes, same layout: ties go by index.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

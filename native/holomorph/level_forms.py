@@ -1,5 +1,7 @@
 """Loops and closed forms of the base of a progressive mesh, carried to its levels (paper section 9)."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
     from .progressive import ProgressiveMesh
 
 
-def lift_loops(mesh: "ProgressiveMesh", loops: Sequence[Integers], n_faces: int | None = None) -> list[Integers]:
+def lift_loops(mesh: ProgressiveMesh, loops: Sequence[Integers], n_faces: int | None = None) -> list[Integers]:
     """Closed loops of vertices of the base, lifted to ``level(n_faces)``, or to the original by default: where a
     split separates the two neighbours of a vertex on a loop, the new edge is inserted (paper section 9).
 
@@ -38,7 +40,7 @@ def lift_loops(mesh: "ProgressiveMesh", loops: Sequence[Integers], n_faces: int 
     return lifted
 
 
-def pull_back_forms(mesh: "ProgressiveMesh", forms: ArrayLike, n_faces: int | None = None) -> NDArray[Any]:
+def pull_back_forms(mesh: ProgressiveMesh, forms: ArrayLike, n_faces: int | None = None) -> NDArray[Any]:
     """Closed forms on the edges of the base, pulled back to those of ``level(n_faces)``, or of the original's
     triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s
     that it comes from (paper section 9, step 5b). The period over a lifted loop is that over the loop.

@@ -1,5 +1,7 @@
 """Levels of detail of a progressive mesh, with UV maps that do not move from level to level."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -48,7 +50,7 @@ class LevelOfDetail(Value):
 
 
 def levels_of_detail(
-    mesh: "ProgressiveMesh",
+    mesh: ProgressiveMesh,
     uv: ArrayLike,
     n_faces: Sequence[int],
     *,
@@ -109,7 +111,7 @@ def levels_of_detail(
     return tuple(levels)
 
 
-def level_corner_data(mesh: "ProgressiveMesh", n_faces: int) -> NDArray[Any] | None:
+def level_corner_data(mesh: ProgressiveMesh, n_faces: int) -> NDArray[Any] | None:
     """Rows of `corner_data` for the corners of ``level(n_faces)``, None if there are none: that of a corner of the
     original at the same vertex and on the same side of all edges across which the data jump; where the vertex has
     no corner on that side, that of the corner which the triangle had in the original."""

@@ -1,5 +1,7 @@
 """Differentials of the third kind: log maps, and on surfaces with handles the forms beside them."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from functools import partial
 

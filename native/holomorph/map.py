@@ -1,5 +1,7 @@
 """The UV map of one connected part, of whichever kind."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -123,7 +125,7 @@ class Map(Value):
         density = self.quality.median_density
         return 1 / math.sqrt(density) if density > 0 else 0.0
 
-    def of_copy(self, surface: Surface, structure: AnyStructure | None, scale: float) -> "Map":
+    def of_copy(self, surface: Surface, structure: AnyStructure | None, scale: float) -> Map:
         """The same map of a copy of the part, whose lengths are multiplied by `scale`."""
         quality = self.quality.of_copy(scale)
         return replace(

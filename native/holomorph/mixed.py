@@ -1,5 +1,7 @@
 """A map of a part in pieces that lie side by side, some with whole tiles, the rest in flat islands."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

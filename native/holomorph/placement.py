@@ -1,5 +1,7 @@
 """Where a UV map lies in the plane, and the map moved elsewhere."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Maps of disks to the plane: to the unit disk, to a rectangle, to a triangle, and with a free boundary."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any

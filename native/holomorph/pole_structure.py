@@ -1,5 +1,7 @@
 """Surfaces with poles: differentials with residues, log maps, the map to the sphere."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any

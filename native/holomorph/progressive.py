@@ -1,5 +1,7 @@
 """Progressive meshes: a small base mesh and a sequence of vertex splits that rebuilds the original exactly."""
 
+from __future__ import annotations
+
 import math
 import numbers
 import os
@@ -68,7 +70,7 @@ class ProgressiveMesh(Value):
         self._native = _native.ProgressiveMesh.make(surface._native, order, kind, data, progress)
 
     @classmethod
-    def load(cls, path: FilePath) -> "ProgressiveMesh":
+    def load(cls, path: FilePath) -> ProgressiveMesh:
         """Reads what `save` wrote.
 
         Raises

@@ -1,5 +1,7 @@
 """The distortion of UV maps."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -43,14 +45,14 @@ class Quality(Value):
     unseen_angle: float = 0.0
 
     @classmethod
-    def of(cls, triangulation: object, uv: Reals, threads: int) -> "Quality":
+    def of(cls, triangulation: object, uv: Reals, threads: int) -> Quality:
         """That of (#C, 2) UVs on a native surface."""
         found = _native.quality(triangulation, uv, threads)
         parts = found.angle, found.area, found.flipped
         return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
 
     @classmethod
-    def joined(cls, qualities: Sequence["Quality"], densities: ArrayLike) -> "Quality":
+    def joined(cls, qualities: Sequence[Quality], densities: ArrayLike) -> Quality:
         """That of several maps, each scaled until its median density is the one that is given, with the triangles of
         one after those of the other.
 
@@ -76,18 +78,18 @@ class Quality(Value):
         vars(result).update(long_part=long, _weights=weights)
         return result
 
-    def evened_from(self, before: "Quality", evenness: float) -> "Quality":
+    def evened_from(self, before: Quality, evenness: float) -> Quality:
         """The same, of a map that evening made of one with the quality `before`."""
         added = self.capped_mean_angle - before.capped_mean_angle
         return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
 
-    def of_copy(self, scale: float) -> "Quality":
+    def of_copy(self, scale: float) -> Quality:
         """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
         result = self._scaled(scale**-2)
         vars(result)["_weights"] = self._weights * scale**2
         return result
 
-    def of_density(self, density: float) -> "Quality":
+    def of_density(self, density: float) -> Quality:
         """That of the map scaled until its median density is this one; of one without area its own."""
         return self._scaled(density / self.median_density if self.median_density > 0 else 1.0)
 

@@ -1,5 +1,7 @@
 """What was wrong with a mesh, and handled or left out."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """What was found out about surfaces, structures and maps, as plain data, ready for JSON."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +24,7 @@ LISTED = 20  # elements of a repair that a report names
 
 
 def component_report(
-    surface: "Surface", structure: "AnyStructure", main_map: dict[str, Any] | None = None
+    surface: Surface, structure: AnyStructure, main_map: dict[str, Any] | None = None
 ) -> dict[str, Any]:
     """What is known about the connected `surface` and its `structure`.
 
@@ -50,7 +52,7 @@ def component_report(
     )
 
 
-def part_report(made: "Map") -> dict[str, Any]:
+def part_report(made: Map) -> dict[str, Any]:
     """The `component_report` of the part of a `Map`, with what kind of map it is, and of a tiling, or of the
     tilings of its pieces, poles and certificates; vertices are those of the mesh as given."""
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
@@ -79,17 +81,17 @@ def _tiling_report(made, vertex_index):
     )
 
 
-def skipped_report(surface: "Surface", reason: object) -> dict[str, Any]:
+def skipped_report(surface: Surface, reason: object) -> dict[str, Any]:
     """Why the connected `surface` was not done."""
     return {"done": False, **_topology(surface), "reason": str(reason)}
 
 
-def refused_report(refused: "Refused") -> dict[str, Any]:
+def refused_report(refused: Refused) -> dict[str, Any]:
     """Faces that were left out of a surface, a `Refused`."""
     return {"done": False, "faces": len(refused.faces), "reason": refused.reason}
 
 
-def map_report(coefficients: ArrayLike, quality: "Quality", found: Verdict | None = None) -> dict[str, Any]:
+def map_report(coefficients: ArrayLike, quality: Quality, found: Verdict | None = None) -> dict[str, Any]:
     """A UV map: its coefficients, its `Quality` and the `Verdict` on it, by default that of the quality."""
     return plain(
         {
@@ -106,7 +108,7 @@ def map_report(coefficients: ArrayLike, quality: "Quality", found: Verdict | Non
     )
 
 
-def whole_report(maps: Sequence["Map"], parts: Sequence[dict[str, Any]], repairs: "Repairs") -> dict[str, Any]:
+def whole_report(maps: Sequence[Map], parts: Sequence[dict[str, Any]], repairs: Repairs) -> dict[str, Any]:
     """`verdict` and `whole` of a mesh, as `whole.whole` takes what it is made of; both are None without a map."""
     found = whole(maps, parts, repairs)
     if found is None:
@@ -115,7 +117,7 @@ def whole_report(maps: Sequence["Map"], parts: Sequence[dict[str, Any]], repairs
     return plain({"verdict": vars(found.verdict), "whole": figures})
 
 
-def repairs_report(repairs: "Repairs") -> dict[str, Any]:
+def repairs_report(repairs: Repairs) -> dict[str, Any]:
     """`Repairs`, with the number and the first of the elements of each kind."""
     arrays = {name: value for name, value in vars(repairs).items() if isinstance(value, np.ndarray)}
     return plain(

@@ -1,5 +1,7 @@
 """What the results of all kinds of surfaces have in common."""
 
+from __future__ import annotations
+
 import numbers
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
@@ -60,7 +62,7 @@ class Structure(Value):
     def _native(self):
         return self._solution.native
 
-    def computed_by(self, compute: Callable[[], "Structure"]) -> Self:
+    def computed_by(self, compute: Callable[[], Structure]) -> Self:
         """Itself, after noting the call that computes it, for pickles."""
         self._solution.compute = compute
         return self
@@ -136,11 +138,8 @@ class Structure(Value):
         allowed, surface : as in `tiler`
         moves : {index of a pole in the tiling: vertex} that it is moved to after the rounding, see `Tiler.move_poles`
 
-        Raises
-        ------
-        TopologyError
-            poles that do not fit; fewer tiles than the surface needs (names how many are enough); more added distortion
-            than `max_added` (names what can be had). Poles are kept: a call with other tiles is quick
+        Raises TopologyError for poles that do not fit, for fewer tiles than the surface needs (names how many are
+        enough), and for more added distortion than `max_added` (names what can be had). Poles are kept.
         """
         evenness = checked_evenness(evenness)
         tiles = tiles if density is None else self._tiles_of(density, tiles)

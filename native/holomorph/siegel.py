@@ -1,5 +1,7 @@
 """Period matrices reduced by Sp(2g, Z): tidy to print, not unique for genus >= 2."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

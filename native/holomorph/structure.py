@@ -1,5 +1,7 @@
 """conformal_structure: forms and invariants of a surface that has holomorphic forms."""
 
+from __future__ import annotations
+
 from functools import partial
 
 from . import _native

@@ -1,5 +1,7 @@
 """Surfaces: validated, consistently oriented polygon meshes, or intrinsic triangulations."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from functools import cached_property
 
@@ -46,7 +48,7 @@ class Surface(Value):
     @classmethod
     def from_polygons(
         cls, vertices: ArrayLike, corner_vertices: ArrayLike, face_offsets: ArrayLike, strict: bool = True
-    ) -> "Surface":
+    ) -> Surface:
         """Mixed polygons: polygon f has the vertices ``corner_vertices[face_offsets[f]:face_offsets[f + 1]]``.
 
         Parameters
@@ -60,7 +62,7 @@ class Surface(Value):
     @classmethod
     def from_edge_lengths(
         cls, faces: ArrayLike, edge_lengths: ArrayLike, face_edges: ArrayLike | None = None
-    ) -> "Surface":
+    ) -> Surface:
         """An intrinsic surface: triangles and edge lengths alone, without positions.
 
         Parameters
@@ -73,7 +75,7 @@ class Surface(Value):
         return cls._of(checked_mesh.of_edge_lengths(faces, edge_lengths, face_edges))
 
     @classmethod
-    def read(cls, path: FilePath, strict: bool = False, weld: bool = False) -> "Surface":
+    def read(cls, path: FilePath, strict: bool = False, weld: bool = False) -> Surface:
         """OBJ, OFF, PLY or STL; polygons are kept, in double precision.
 
         Parameters
@@ -96,14 +98,9 @@ class Surface(Value):
         texture : lies on the surface and repeats, in GLB alone: a PNG or JPEG file, which is embedded as it is, or
             "checker" for one that suits the map
 
-        Raises
-        ------
-        ValueError
-            if the path ends with neither .obj, .ply nor .glb, or `uv` or `texture` does not fit; nothing is written
-        OSError
-            if the image cannot be read, or the file not written
-        InvalidMesh
-            if the surface is intrinsic
+        What was there stays where anything fails. Raises ValueError if the path ends with neither .obj, .ply nor .glb,
+        or `uv` or `texture` does not fit; OSError if the image cannot be read, or the file not written; InvalidMesh if
+        the surface is intrinsic.
         """
         formats.write(self, path, uv, texture)
 
@@ -187,7 +184,7 @@ class Surface(Value):
     surfaces."""
 
     @property
-    def components(self) -> tuple["Surface", ...]:
+    def components(self) -> tuple[Surface, ...]:
         """Tuple of the connected components, ordered by their first face, without isolated vertices."""
         if self._native.component_count == 1 and not len(self._native.isolated_vertices):
             return (self,)  # not kept: a reference to itself would keep it until garbage collection

@@ -1,5 +1,7 @@
 """The symmetries of a surface, as far as its periods tell."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

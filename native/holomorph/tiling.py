@@ -1,5 +1,7 @@
 """Making tilings: poles are placed, and tilings with them made, evened and changed."""
 
+from __future__ import annotations
+
 import weakref
 from collections.abc import Mapping
 

@@ -1,5 +1,7 @@
 """Seamless tilings: UV maps whose jumps all are translations of the texture, of even density."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from .array_types import Complexes, Integers, Reals

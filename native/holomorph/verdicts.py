@@ -1,5 +1,7 @@
 """What a UV map is good for, in words: one judgement for the package, its command and Blender."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -60,7 +62,7 @@ class Verdict:
         return self.sentence + (f": {self.advice}" if self.advice else "")
 
 
-def verdict(quality: "Quality", poles: int | None = None, added_distortion: float = 1.0) -> Verdict:
+def verdict(quality: Quality, poles: int | None = None, added_distortion: float = 1.0) -> Verdict:
     """The `Verdict` on a map with this `Quality`.
 
     The worst counts: how uneven the density is, how far squares are sheared, which part of the surface is flipped or

@@ -1,5 +1,7 @@
 """The map of a whole mesh: of which kinds its parts are, its figures over all faces, and the verdict on it."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -46,7 +48,7 @@ class Whole:
     verdict: Verdict
 
 
-def whole(maps: Sequence["Map"], parts: Sequence[dict[str, Any]], repairs: "Repairs") -> Whole | None:
+def whole(maps: Sequence[Map], parts: Sequence[dict[str, Any]], repairs: Repairs) -> Whole | None:
     """The `Whole` of a mesh; None where no part has a map.
 
     maps : of the parts that have one

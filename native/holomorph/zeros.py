@@ -1,5 +1,7 @@
 """The zeros of holomorphic forms."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from .array_types import Integers, Reals

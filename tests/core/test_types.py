@@ -47,6 +47,12 @@ def test_every_public_function_is_annotated():
     assert not wrong
 
 
+def test_help_is_readable():
+    """Names of types stand there as in the source, not all that a name stands for."""
+    texts = {name: str(inspect.signature(function)) for name, function in functions()}
+    assert not [name for name, text in texts.items() if len(text) > 800 or "typing." in text]
+
+
 def test_cached_properties_are_looked_at():
     assert isinstance(vars(holomorph.Surface)["triangles"], cached_property)
     assert "Surface.triangles" in dict(functions())

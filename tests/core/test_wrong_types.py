@@ -19,7 +19,7 @@ def functions_of_surfaces():
         is_made_by_callers = inspect.isfunction(value) or value in (holomorph.Tiler, ProgressiveMesh)
         parameters = list(inspect.signature(value).parameters.values()) if is_made_by_callers else []
         needed = [each for each in parameters if each.default is each.empty and each.kind != each.VAR_KEYWORD]
-        if parameters and parameters[0].annotation is Surface and len(needed) == 1:
+        if parameters and parameters[0].annotation in (Surface, "Surface") and len(needed) == 1:
             yield name
 
 
