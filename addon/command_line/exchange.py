@@ -64,6 +64,22 @@ def read(path, up):
     up : "Y" or "Z", the axis of an OBJ file
     """
     before = set(bpy.data.objects)
+    _import(path, up)
+    layer = bpy.context.view_layer
+    layer.update()
+    made = [obj for obj in layer.objects if obj.type == "MESH" and obj not in before]
+    meshes = sorted((obj for obj in made if not gathering.is_helper(obj)), key=lambda obj: obj.name)
+    if not meshes:
+        raise ExchangeError(f"{path}: there is no mesh in it")
+    for mesh in {obj.data for obj in meshes} if path.suffix.lower() in GLTF else ():
+        joining.join(mesh)
+    for obj in layer.objects:
+        obj.select_set(obj in meshes)
+    layer.objects.active = meshes[0]
+    return meshes
+
+
+def _import(path, up):
     kind = path.suffix.lower()
     if kind in GLTF:
         with compatibility.old_numpy_names():
@@ -74,18 +90,6 @@ def read(path, up):
         _call(path, "read", bpy.ops.wm.obj_import, up_axis=up, forward_axis=compatibility.forward_axis(up))
     else:
         _call(path, "read", compatibility.fbx_importer())
-    layer = bpy.context.view_layer
-    layer.update()
-    made = [obj for obj in layer.objects if obj.type == "MESH" and obj not in before]
-    meshes = sorted((obj for obj in made if not gathering.is_helper(obj)), key=lambda obj: obj.name)
-    if not meshes:
-        raise ExchangeError(f"{path}: there is no mesh in it")
-    for mesh in {obj.data for obj in meshes} if kind in GLTF else ():
-        joining.join(mesh)
-    for obj in layer.objects:
-        obj.select_set(obj in meshes)
-    layer.objects.active = meshes[0]
-    return meshes
 
 
 def write(path, forms=False, texture=False):
@@ -137,19 +141,22 @@ def _prepare(objects, forms, texture):
     """
     bpy.data.batch_remove([obj for obj in objects if gathering.is_helper(obj)])
     meshes = [obj for obj in objects if obj.type == "MESH"]
-    for mesh in {obj.data for obj in meshes if obj.data.library is None}:
-        main = uv_maps.main_map(mesh)
-        for name in uv_maps.own_maps(mesh):
-            if not forms and name != main and name in mesh.uv_layers:
-                mesh.uv_layers.remove(mesh.uv_layers[name])
-        states.restore_properties(mesh, {})
+    own = {obj.data for obj in meshes if obj.data.library is None}
+    for mesh in () if forms else own:
+        _remove_forms(mesh)
     for obj in meshes:
         if texture:
             plain.show(obj)
         material.uncover(obj)
-    for obj in objects:
-        if obj.library is None:
-            states.restore_properties(obj, {})
+    for owner in (*own, *(obj for obj in objects if obj.library is None)):
+        states.restore_properties(owner, {})
+
+
+def _remove_forms(mesh):
+    main = uv_maps.main_map(mesh)
+    for name in uv_maps.own_maps(mesh):
+        if name != main and name in mesh.uv_layers:
+            mesh.uv_layers.remove(mesh.uv_layers[name])
 
 
 def _call(path, verb, operator, place=None, **options):

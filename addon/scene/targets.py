@@ -111,11 +111,9 @@ def _flags(mesh, name):
 def _target(obj, mask, asked):
     library = obj.library.filepath if obj.library else None
     target = Target(obj.name, library, None, mask=mask)
-    reason = gathering.why_fixed(obj) or ("all its faces are hidden" if mask is not None and not mask.any() else "")
+    reason = _why_refused(obj, mask, asked)
     if reason:
         return replace(target, refused=reason)
-    if asked.are_islands and asked.is_explicit:
-        return replace(target, refused="islands have no poles or corners: choose those or another main map")
     own = read(obj, mask)
     if asked.modifiers and obj.mode == "OBJECT":
         return _with_modifiers(replace(target, modifiers=True), obj, own, asked)
@@ -124,6 +122,15 @@ def _target(obj, mask, asked):
         sentence = f"all its faces come from its modifiers ({modifier}): press Map with Modifiers"
         return replace(target, refused=sentence)
     return replace(target, polygons=own, chosen=_chosen(obj, asked))
+
+
+def _why_refused(obj, mask, asked):
+    """One sentence, or ""."""
+    if mask is not None and not mask.any():
+        return gathering.why_fixed(obj) or "all its faces are hidden"
+    if asked.are_islands and asked.is_explicit:
+        return gathering.why_fixed(obj) or "islands have no poles or corners: choose those or another main map"
+    return gathering.why_fixed(obj)
 
 
 def _with_modifiers(target, obj, own, asked):

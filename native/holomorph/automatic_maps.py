@@ -152,12 +152,16 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
             density = leader.quality.median_density / alike[largest].scale ** 2
         made[names[largest]] = leader
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
-    areas = dict.fromkeys(wanted, 0.0)
-    for k in members:
-        if names[k] in wanted:
-            areas[names[k]] += parts[k].area
-    made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))
+    made |= _of_one_size(parts, sizings, wanted, _areas(parts, names), not tries, threads, scaled(progress, share, 1.0))
     return {k: made[names[k]] for k in members}
+
+
+def _areas(parts, names):
+    """{name: area of the parts that have it}."""
+    areas = dict.fromkeys(names.values(), 0.0)
+    for k, name in names.items():
+        areas[name] += parts[k].area
+    return areas
 
 
 def _leader(parts, alike, sizings, members):

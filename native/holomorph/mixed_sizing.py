@@ -50,16 +50,23 @@ def divided(
     flat = found.islands if isinstance(found, Map) else found.flat
     if not _may_be_divided(found, flat):
         return found
-    bent, surface, divisions, known = bends(found.surface), found.surface, [], None
-    for degrees in (angle for angle in HARD if angle > SMOOTH):
-        names = names_of_pieces(surface, bent > math.radians(degrees))
-        if names.max() == names.min() or np.array_equal(names, known):
-            continue
-        known, pieces = names, smooth_pieces(surface, flat, names, threads or 0)
+    divisions = []
+    for names in _names(found.surface):
+        pieces = smooth_pieces(found.surface, flat, names, threads or 0)
         pairs = [(piece, _undecided(piece, evenness, threads, progress)) for piece in pieces]
         solved = tuple((piece, undecided) for piece, undecided in pairs if undecided)
         divisions += [Division(names, solved)] if solved else []
     return Divided(found, tuple(divisions), evenness, threads) if divisions else found
+
+
+def _names(surface):
+    """Yields the names of the pieces between hard edges, by each angle that gives others and more than one."""
+    bent, known = bends(surface), None
+    for degrees in (angle for angle in HARD if angle > SMOOTH):
+        names = names_of_pieces(surface, bent > math.radians(degrees))
+        if names.max() != names.min() and not np.array_equal(names, known):
+            known = names
+            yield names
 
 
 def _may_be_divided(found, flat):

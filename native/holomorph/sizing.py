@@ -76,8 +76,10 @@ class Sizing:
             return other if is_final else self.undecided.untiled(str(other))
         inside = [made for made in tilings if is_in(window, relative_size(made, density))]
         made = self._moved(nearest(inside or tilings, density), TRIES, progress)
-        if inside or not isinstance(made, Map) or made.tiling is None:
-            return made
+        is_done = inside or not isinstance(made, Map) or made.tiling is None
+        return made if is_done else self._fitted(made, density, window, progress)
+
+    def _fitted(self, made, density, window, progress):
         stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
         if stretched or self.is_strict:
             return stretched or made
