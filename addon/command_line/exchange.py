@@ -140,23 +140,22 @@ def _prepare(objects, forms, texture):
     wanted, the maps of forms; and what an importer made for its own use, which exporters of other formats do not know.
     """
     bpy.data.batch_remove([obj for obj in objects if gathering.is_helper(obj)])
-    meshes = [obj for obj in objects if obj.type == "MESH"]
-    own = {obj.data for obj in meshes if obj.data.library is None}
-    for mesh in () if forms else own:
-        _remove_forms(mesh)
-    for obj in meshes:
+    with_meshes = [obj for obj in objects if obj.type == "MESH"]
+    for obj in with_meshes:
         if texture:
             plain.show(obj)
         material.uncover(obj)
-    for owner in (*own, *(obj for obj in objects if obj.library is None)):
-        states.restore_properties(owner, {})
+    for owner in {*objects, *(obj.data for obj in with_meshes)}:
+        if owner.library is None:
+            _clean(owner, forms)
 
 
-def _remove_forms(mesh):
-    main = uv_maps.main_map(mesh)
-    for name in uv_maps.own_maps(mesh):
-        if name != main and name in mesh.uv_layers:
-            mesh.uv_layers.remove(mesh.uv_layers[name])
+def _clean(owner, forms):
+    if not forms and isinstance(owner, bpy.types.Mesh):
+        main, layers = uv_maps.main_map(owner), owner.uv_layers
+        for name in [name for name in uv_maps.own_maps(owner) if name != main and name in layers]:
+            layers.remove(layers[name])
+    states.restore_properties(owner, {})
 
 
 def _call(path, verb, operator, place=None, **options):

@@ -142,17 +142,17 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
     if not sizings:
         return {}
     members = [k for k, copy in enumerate(alike) if copy.first in sizings]
-    largest, total = _leader(parts, alike, sizings, members), sum(parts[k].area for k in members) or 1.0
     names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
+    areas, largest = _areas(parts, names), _leader(parts, alike, sizings, members)
     share, made = 0.0, {}
     if tries:
-        share, sizing = parts[largest].area / total, sizings[alike[largest].first]
+        share, sizing = parts[largest].area / (sum(areas.values()) or 1.0), sizings[alike[largest].first]
         leader = sizing.about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
         if isinstance(leader, Map) and leader.is_tiled:
             density = leader.quality.median_density / alike[largest].scale ** 2
         made[names[largest]] = leader
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
-    made |= _of_one_size(parts, sizings, wanted, _areas(parts, names), not tries, threads, scaled(progress, share, 1.0))
+    made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))
     return {k: made[names[k]] for k in members}
 
 
