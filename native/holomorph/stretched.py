@@ -33,5 +33,12 @@ def stretched(tiling: Tiling, density: float, lattice: str | ArrayLike) -> Tilin
     across = np.array([-line.imag, line.real])
     shift = ((factor - 1) / abs(line) ** 2) * (tiling.uv @ across)[:, None] * across
     uv = arrays.frozen(tiling.uv + on_grid(shift))
-    quality = replace(Quality.of(tiling.quality._triangulation, uv, 1), unseen_angle=tiling.quality.unseen_angle)
-    return replace(tiling, uv=uv, tiles=factor * tiling.tiles, quality=quality)
+    return replace(tiling, uv=uv, tiles=factor * tiling.tiles, quality=_scaled(tiling.quality, uv, factor))
+
+
+def _scaled(before, uv, factor):
+    """The `Quality` where all areas are multiplied. Their quantiles are, too: measured again, rounding might take
+    another of two triangles between which the median is."""
+    area, median = arrays.frozen(factor * before.area), factor * before.median_density
+    same = {"density_ratio": before.density_ratio, "unseen_angle": before.unseen_angle}
+    return replace(Quality.of(before._triangulation, uv, 1), area=area, median_density=median, **same)
