@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/watch.h"
 #include "tiling/poles/pole_candidates.h"
 #include "tiling/poles/pole_objective.h"
 
@@ -36,6 +37,8 @@ class PoleSearch {
     Complex residue;
   };
 
+  PoleObjective::Tick watch();
+  void refit(MeromorphicForm& form);
   bool is_fixed(int vertex) const;
   void sweep_to_the_end(MeromorphicForm& form);
   bool relocate(MeromorphicForm& form);
@@ -53,6 +56,7 @@ class PoleSearch {
   PoleCandidates candidates_;
   int every_;
   PoleObjective objective_;
+  Watch watch_;
 };
 
 }  // namespace holomorph::tiling
