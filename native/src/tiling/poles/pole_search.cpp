@@ -47,6 +47,7 @@ PoleSearch::PoleSearch(GreensFunctions& greens, const PlaceOptions& options, int
       candidates_(basis_, options),
       every_(every),
       objective_(greens, options.kind, every),
+      scores_(greens, every * kThinning),
       watch_(execution, kUsualValues) {}
 
 MeromorphicForm PoleSearch::begin() {
@@ -121,8 +122,19 @@ bool PoleSearch::is_fixed(int vertex) const {
   return std::find(options_.fixed.begin(), options_.fixed.end(), vertex) != options_.fixed.end();
 }
 
+// Until every pole has stayed where it is beside the others as they are.
 void PoleSearch::sweep_to_the_end(MeromorphicForm& form) {
-  for (int i = 0; i < kSweeps && sweep(form); ++i) {
+  const Index count = form.residues.size();
+  Index unmoved = 0;
+  for (int i = 0; i < kSweeps; ++i) {
+    bool moved = false;
+    for (Index j = 0; j < count && unmoved < count; ++j) {
+      const bool better = !is_fixed(form.poles[j]) && exchange(form, j);
+      moved |= better;
+      unmoved = better ? 0 : unmoved + 1;
+    }
+    if (!moved) return;
+    refit(form);
   }
 }
 
@@ -152,17 +164,18 @@ bool PoleSearch::exchange(MeromorphicForm& form, Index i) {
   if (candidates.empty()) return false;
   const Index k = form.residues.size();
   objective_.prepare(candidates, k, execution_);
-  const MatrixXcd green = greens_.at(candidates, every_ * kThinning);
-  const VectorXcd A = objective_.samples_of(form);
-  const VectorXcd without = thinned(A) - form.residues[i] * greens_.at({form.poles[i]}, every_ * kThinning).col(0);
+  scores_.prepare(candidates);
+  const VectorXcd A = objective_.samples_of(form), now = thinned(A);
+  scores_.set_rest(now - form.residues[i] * greens_.at({form.poles[i]}, every_ * kThinning).col(0),
+                   median(now.cwiseAbs2().array()));
   objective_.prepare(form.poles, k, execution_);
   const MatrixXcd metric = objective_.jacobian_metric(A.cwiseAbs2().array(), k);
   std::vector<std::pair<double, int>> scores(candidates.size());
   run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
     std::vector<int> vertices = form.poles;
     vertices[i] = candidates[j];
-    const ArrayXd density = (without + form.residues[i] * green.col(j)).cwiseAbs2().array();
-    scores[j] = {unevenness(density) + objective_.jacobian_term(vertices, form.residues, metric), candidates[j]};
+    scores[j] = {scores_(candidates[j], form.residues[i]) + objective_.jacobian_term(vertices, form.residues, metric),
+                 candidates[j]};
   });
   std::sort(scores.begin(), scores.end());
   std::vector<MeromorphicForm> tried;
@@ -215,8 +228,9 @@ MeromorphicForm PoleSearch::joined(const MeromorphicForm& form, const Trial& tri
 std::vector<PoleSearch::Trial> PoleSearch::trials_everywhere(const MeromorphicForm& form) {
   const std::vector<int> candidates = candidates_.everywhere(form.poles);
   greens_.solve_at(candidates, execution_);
-  const MatrixXcd green = greens_.at(candidates, every_ * kThinning);
+  scores_.prepare(candidates);
   const VectorXcd A = thinned(objective_.samples_of(form));
+  scores_.set_rest(A, median(A.cwiseAbs2().array()));
   const double scale = std::sqrt(A.cwiseAbs2().mean() * basis_.area());
   const int phases = options_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
   std::vector<Trial> trials;
@@ -228,8 +242,7 @@ std::vector<PoleSearch::Trial> PoleSearch::trials_everywhere(const MeromorphicFo
   }
   const int each = static_cast<int>(std::size(kTrialSizes)) * phases;
   run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int i) {
-    for (int j = i * each; j < (i + 1) * each; ++j)
-      trials[j].value = unevenness((A + trials[j].residue * green.col(i)).cwiseAbs2().array());
+    for (int j = i * each; j < (i + 1) * each; ++j) trials[j].value = scores_(trials[j].vertex, trials[j].residue);
   });
   std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.value < b.value; });
   return trials;

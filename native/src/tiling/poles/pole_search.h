@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/watch.h"
+#include "tiling/poles/candidate_scores.h"
 #include "tiling/poles/pole_candidates.h"
 #include "tiling/poles/pole_objective.h"
 
@@ -56,6 +57,7 @@ class PoleSearch {
   PoleCandidates candidates_;
   int every_;
   PoleObjective objective_;
+  CandidateScores scores_;
   Watch watch_;
 };
 
