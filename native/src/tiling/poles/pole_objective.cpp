@@ -13,6 +13,8 @@ constexpr double kEnough = 0.4;   // singular values that are enough
 constexpr double kLeastSquare = 6.25e-9;
 constexpr int kSteps = 25;      // at most, for the minimiser
 constexpr int kManyForms = 20;  // from so many on
+// Of many forms, all coefficients are fitted seldom: these are steps times forms, as the cost of one grows with them.
+constexpr int kStepsTimesForms = 6400, kMostSteps = 100;
 
 PoleObjective::PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every)
     : greens_(greens),
@@ -39,22 +41,24 @@ void PoleObjective::optimise(MeromorphicForm& form, const std::vector<double>& f
   if (!has_many_forms()) return fit(form, floors, tick);
   const VectorXcd c = form.coefficients;
   form.coefficients = VectorXcd::Ones(1);
-  descend(theta_ * c, form, floors, tick);
+  descend(theta_ * c, form, floors, kSteps, tick);
   form.coefficients = form.coefficients[0] * c;
 }
 
 void PoleObjective::fit(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const {
-  descend(theta_, form, floors, tick);
+  const auto forms = static_cast<int>(theta_.cols());
+  const int steps = has_many_forms() ? std::clamp(kStepsTimesForms / forms, kSteps, kMostSteps) : kSteps;
+  descend(theta_, form, floors, steps, tick);
 }
 
-void PoleObjective::descend(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors,
+void PoleObjective::descend(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors, int steps,
                             const Tick& tick) const {
   const uv::SampledParts parts{columns(forms, form.poles), {}};
   VectorXd x = uv::as_unknowns(unknowns(form), kind_);
   ArrayXd density;
   for (const double floor : floors) {
     density = (parts.M * unknowns(form)).cwiseAbs2().array();
-    uv::descend(parts, kind_, x, {floor * median(density) / density.mean()}, kSteps, tick);
+    uv::descend(parts, kind_, x, {floor * median(density) / density.mean()}, steps, tick);
     set(uv::as_complex(x, kind_), form);
   }
   density = (parts.M * unknowns(form)).cwiseAbs2().array();

@@ -41,7 +41,7 @@ class PoleObjective {
  private:
   bool has_jacobian(Index poles) const;
   MatrixXcd columns(const MatrixXcd& forms, const std::vector<int>& vertices) const;
-  void descend(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors,
+  void descend(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors, int steps,
                const Tick& tick) const;
   VectorXcd unknowns(const MeromorphicForm& form) const;
   void set(const VectorXcd& x, MeromorphicForm& form) const;
