@@ -29,12 +29,6 @@ void rotate(MeromorphicForm& form) {
   std::rotate(form.residues.begin(), form.residues.begin() + 1, form.residues.end());
 }
 
-std::vector<int> vertices_of(const std::vector<MeromorphicForm>& list) {
-  std::vector<int> all;
-  for (const MeromorphicForm& form : list) all.insert(all.end(), form.poles.begin(), form.poles.end());
-  return all;
-}
-
 }  // namespace
 
 int least_count(const PoleBasis& basis) { return basis.form_count() > 0 ? 0 : basis.closed() ? 2 : 1; }
@@ -64,7 +58,7 @@ MeromorphicForm PoleSearch::begin() {
                                                                        basis_.holomorphic(), options_.kind, execution_);
   }
   objective_.prepare(form.poles, k, execution_);
-  objective_.fit(form, kFromAfar, watch());
+  objective_.fit(form, kFromAfar, tick_);
   return form;
 }
 
@@ -109,13 +103,9 @@ MeromorphicForm PoleSearch::pruned(MeromorphicForm form) {
   return ratio(other) < ratio(form) ? other : form;
 }
 
-PoleObjective::Tick PoleSearch::watch() {
-  return [this] { watch_(0); };
-}
-
 // The coefficients of many forms, which stay behind while places are compared.
 void PoleSearch::refit(MeromorphicForm& form) {
-  if (objective_.has_many_forms()) objective_.fit(form, kFromNear, watch());
+  if (objective_.has_many_forms()) objective_.fit(form, kFromNear, tick_);
 }
 
 bool PoleSearch::is_fixed(int vertex) const {
@@ -146,7 +136,7 @@ bool PoleSearch::relocate(MeromorphicForm& form) {
     rotate(form);  // each becomes the last one once
     if (is_fixed(form.poles.back())) continue;
     MeromorphicForm other = without_last(form);
-    objective_.optimise(other, kFromNear, watch());
+    objective_.optimise(other, kFromNear, tick_);
     if (!add_one(other)) continue;
     exchange(other, count - 1);
     if (other.objective > form.objective * (1 - kGain)) continue;
@@ -198,7 +188,9 @@ bool PoleSearch::add_one(MeromorphicForm& form) {
     if (!known) tried.push_back(joined(form, trial));
   }
   if (tried.empty()) return false;
-  objective_.prepare(vertices_of(tried), tried.front().residues.size(), execution_);
+  std::vector<int> vertices = form.poles;
+  for (const MeromorphicForm& each : tried) vertices.push_back(each.poles.back());
+  objective_.prepare(vertices, tried.front().residues.size(), execution_);
   form = best_optimised(std::move(tried), kWithTrial);
   return true;
 }
@@ -251,9 +243,7 @@ std::vector<PoleSearch::Trial> PoleSearch::trials_everywhere(const MeromorphicFo
 MeromorphicForm PoleSearch::best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors) {
   run_long_tasks(execution_.workers(), static_cast<int>(list.size()),
                  [&](int thread, int i) { objective_.optimise(list[i], floors, [&] { watch_(thread); }); });
-  return *std::min_element(list.begin(), list.end(), [](const MeromorphicForm& a, const MeromorphicForm& b) {
-    return a.objective < b.objective;
-  });
+  return *std::ranges::min_element(list, {}, &MeromorphicForm::objective);
 }
 
 }  // namespace holomorph::tiling

@@ -38,7 +38,6 @@ class PoleSearch {
     Complex residue;
   };
 
-  PoleObjective::Tick watch();
   void refit(MeromorphicForm& form);
   bool is_fixed(int vertex) const;
   void sweep_to_the_end(MeromorphicForm& form);
@@ -59,6 +58,7 @@ class PoleSearch {
   PoleObjective objective_;
   CandidateScores scores_;
   Watch watch_;
+  const PoleObjective::Tick tick_ = [this] { watch_(0); };  // on the calling thread
 };
 
 }  // namespace holomorph::tiling
