@@ -51,7 +51,7 @@ from .surface import Surface
 from .symmetries import Automorphisms, automorphisms
 from .theta_constants import Hyperelliptic, hyperelliptic
 from .tiling import Tiler, place_poles
-from .tilings import PlacedPoles, Tiling
+from .tilings import PlacedPoles, Rounding, Tiling
 from .verdicts import UNEVEN, Verdict, overall, verdict
 from .zeros import Zeros
 
@@ -88,6 +88,7 @@ __all__ = [
     "Refused",
     "Repairs",
     "Residuals",
+    "Rounding",
     "SOLVERS",
     "SiegelReduction",
     "SolverError",

@@ -16,7 +16,7 @@ from .direction import along
 from .quality import Quality
 from .surface import Surface
 from .tiling_options import Poles, asked_poles, generators, is_straight, own_allowed, own_poles
-from .tilings import PlacedPoles, Tiling
+from .tilings import PlacedPoles, Rounding, Tiling
 from .value import counted
 
 
@@ -174,6 +174,7 @@ class Tiler:
             added_distortion=made.distortion(),
             beltrami_rms=made.beltrami_rms(),
             optimal_density_ratio=self.poles.density_ratio,
+            rounding=Rounding(*made.rounding()),
             tiles=made.tiles(),
             quality=self._quality(made, evenness),
             seams=self._of_surface(triangulation.edges[made.seams()]),

@@ -10,6 +10,26 @@ from .value import Value, counted
 from .verdicts import Verdict, verdict
 
 
+@dataclass(frozen=True, repr=False)
+class Rounding(Value):
+    """How the whole numbers of a tiling were found.
+
+    integers : how many there are, for periods and residues
+    blocks : 1 where their lattice was reduced as a whole; else so many parts of it, one by one: a whole took too long
+    steps : of the reductions
+    excess : how much further from the map without rounding one is than in a lattice of orthogonal vectors, which would
+        be 1: root mean square over geometric mean of the reduced basis's orthogonal lengths
+    """
+
+    integers: int
+    blocks: int
+    steps: int
+    excess: float
+
+    def _facts(self):
+        return [counted(self.integers, "integer"), counted(self.blocks, "block"), f"excess {self.excess:.4g}"]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Tiling(Value):
     """Result of `tile`. All arrays are read-only.
@@ -25,6 +45,7 @@ class Tiling(Value):
     added_distortion : mean s1 / s2 over the area that the rounding to integers alone would give; 1 where it costs none
     beltrami_rms : root mean square of the Beltrami coefficient of the rounding
     optimal_density_ratio : 95 % over 5 % quantile of the density that these poles allow without integers
+    rounding : `Rounding`
     tiles : the number of tiles that was aimed at: area times median density
     quality : `Quality` on the triangles of the surface, diagonals flipped away from the poles
     seams : (#S, 2) vertices of the edges where the UVs jump
@@ -39,6 +60,7 @@ class Tiling(Value):
     added_distortion: float
     beltrami_rms: float
     optimal_density_ratio: float
+    rounding: Rounding
     tiles: float
     quality: Quality
     seams: Integers

@@ -101,6 +101,7 @@ EXAMPLES = {
     "Quality": lambda: example("ConformalStructure").quality(example("ConformalStructure").uv([1, 0])),
     "Verdict": lambda: example("Quality").verdict,
     "Tiling": tiling,
+    "Rounding": lambda: example("Tiling").rounding,
     "PlacedPoles": lambda: holomorph.place_poles(ball(), 4),
     "Zeros": lambda: example("ConformalStructure").zeros([1, 0]),
     "Equivalence": lambda: holomorph.conformally_equivalent(example("level"), surface_of(CLOSED["torus of quads"])),

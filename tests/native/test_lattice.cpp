@@ -121,7 +121,7 @@ TEST_P(EveryLattice, TheBasisIsReduced) {
 
 TEST_P(EveryLattice, TheFactorisationIsThatOfTheBasis) {
   const ReducedBasis reduced = reduce(GetParam().basis());
-  const auto& [basis, transform, Q, R] = reduced;
+  const auto& [basis, transform, Q, R, steps, blocks] = reduced;
   const Index n = basis.cols();
   EXPECT_LE((Q.transpose() * Q - MatrixXd::Identity(n, n)).cwiseAbs().maxCoeff(), kRounding);
   EXPECT_TRUE(R.isUpperTriangular(0));

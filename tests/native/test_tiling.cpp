@@ -14,6 +14,7 @@
 #include "tiling/greens/jacobian.h"
 #include "tiling/inversion/abel_jacobi.h"
 #include "tiling/maps/seamless_maps.h"
+#include "tiling/poles/candidate_scores.h"
 #include "tiling/poles/meromorphic_form.h"
 #include "tiling/rounding/rounding.h"
 
@@ -60,6 +61,24 @@ TEST(GreensFunctions, AreKeptAndHaveDifferencesForAClosedSurface) {
   EXPECT_EQ(all.rows(), (static_cast<Eigen::Index>(basis->samples().size()) + 2) / 3);
   ASSERT_EQ(forms.cols(), 2);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(forms.col(i), all.col(i) - all.col(2));
+}
+
+TEST(CandidateScores, AreNearTheVarianceOfTheLogarithm) {
+  Execution execution(1);
+  GreensFunctions greens(std::make_shared<const PoleBasis>(wavy_torus(30, 20), structure::Options{}, execution));
+  const std::vector<int> vertices = {5, 300, 470};
+  greens.solve_at(vertices, execution);
+  for (const double scale : {1e-20, 1.0, 1e20}) {  // single precision is relative to the rest
+    const Eigen::VectorXcd rest = scale * greens.basis().holomorphic().M.col(0)(Eigen::seq(0, Eigen::last, 3));
+    CandidateScores scores(greens, 3);
+    scores.prepare(vertices);
+    scores.set_rest(rest, median(rest.cwiseAbs2().array()));
+    for (const int v : vertices) {
+      const std::complex<double> residue = std::polar(3.0 * scale, 0.7 * v);
+      const double exact = unevenness((rest + residue * greens.at({v}, 3).col(0)).cwiseAbs2().array());
+      EXPECT_NEAR(scores(v, residue), exact, 2e-3 * exact) << v;
+    }
+  }
 }
 
 TEST(AbelJacobi, ForetellsTheHarmonicPartOfEveryPole) {

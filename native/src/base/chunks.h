@@ -18,22 +18,31 @@ inline int chunk_count(int rows) { return (rows + kChunk - 1) / kChunk; }
 /// task(chunk), or task(thread, chunk), for each of `chunks` chunks, in parallel, where it may throw: what the first of
 /// them threw is thrown when all are done.
 template <class Task>
-void run_throwing(Workers& workers, int chunks, const Task& task) {
+void run_throwing(Workers& workers, int chunks, const Task& task, int too_few = Workers::kTooFew) {
   std::vector<std::exception_ptr> failures(chunks);
-  workers.run(chunks, [&](int thread, int chunk) {
-    try {
-      if constexpr (std::is_invocable_v<Task, int, int>) {
-        task(thread, chunk);
-      } else {
-        task(chunk);
-      }
-    } catch (...) {
-      failures[chunk] = std::current_exception();
-    }
-  });
+  workers.run(
+      chunks,
+      [&](int thread, int chunk) {
+        try {
+          if constexpr (std::is_invocable_v<Task, int, int>) {
+            task(thread, chunk);
+          } else {
+            task(chunk);
+          }
+        } catch (...) {
+          failures[chunk] = std::current_exception();
+        }
+      },
+      too_few);
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }
+}
+
+/// The same for few tasks that are long: each of them is worth a thread.
+template <class Task>
+void run_long_tasks(Workers& workers, int count, const Task& task) {
+  run_throwing(workers, count, task, 1);
 }
 
 /// body(row) for every row, in parallel. @pre body does not throw

@@ -13,6 +13,8 @@ namespace holomorph {
 /// chunks that another has begun, so that a thread which comes late costs nothing.
 class Workers {
  public:
+  static constexpr int kTooFew = 2;  ///< chunks: less work than waking a thread
+
   /// @param threads the calling one included; 0: one for each processor. They are made when the first loop is long
   /// enough to be shared; fewer where the system has no more.
   explicit Workers(int threads = 0);
@@ -37,7 +39,6 @@ class Workers {
   }
 
  private:
-  static constexpr int kTooFew = 2;  // chunks: less work than waking a thread
   struct Call {
     void (*function)(const void*, int, int) = nullptr;
     const void* task = nullptr;

@@ -58,6 +58,11 @@ void bind_tiling(py::module_& m) {
   py::class_<Tiling>(m, "Tiling")
       .def("uv", [](const Tiling& t) { return copy(t.uv); })
       .def("tiles", [](const Tiling& t) { return t.conformal->form.problem->tiles; })
+      .def("rounding",
+           [](const Tiling& t) {
+             const tiling::RoundingRecord& r = t.conformal->form.record;
+             return std::tuple{r.integers, r.blocks, r.steps, r.excess};
+           })
       .def("lattice",
            [](const Tiling& t) {
              const auto& lattice = t.conformal->form.problem->lattice;

@@ -62,7 +62,8 @@ void check_independence(const MatrixXd& B) {
 // the first `known_` columns follow every step, by Givens rotations.
 class Reduction {
  public:
-  Reduction(const MatrixXd& B, double delta) : delta_(delta), n_(B.cols()) {
+  Reduction(const MatrixXd& B, double delta, const std::function<void()>& tick)
+      : delta_(delta), tick_(tick), n_(B.cols()) {
     std::vector<Index> order(n_);  // ascending by length: far fewer exchanges
     std::iota(order.begin(), order.end(), 0);
     const VectorXd length = B.colwise().norm();
@@ -80,7 +81,7 @@ class Reduction {
       if (sweeps == kMostSweeps)
         throw SolverError("the reduction of a lattice of rank " + std::to_string(n_) + " stalls");
     }
-    return {columns_.high, transform_.cast<std::int64_t>(), Q_, R_};
+    return {columns_.high, transform_.cast<std::int64_t>(), Q_, R_, steps_};
   }
 
  private:
@@ -88,7 +89,8 @@ class Reduction {
   bool sweep() {
     bool changed = false;
     factorise(0);
-    for (Index k = 0; k < n_;) {
+    for (Index k = 0; k < n_; ++steps_) {
+      if (tick_) tick_();
       if (k == known_) project(k);
       changed |= size_reduce(k);
       if (k == known_) append(k);
@@ -176,7 +178,9 @@ class Reduction {
 
   double delta_,
       expected_drift_ = 0;  // the error of Q R that must be expected: none from a factorisation to the next exchange
+  const std::function<void()>& tick_;
   Index n_, known_ = 0;
+  std::int64_t steps_ = 0;
   DoubleDoubleColumns columns_;
   MatrixXd transform_;  // integral
   MatrixXd Q_, R_;
@@ -204,10 +208,10 @@ IntegerVector original_integers(const ReducedBasis& reduced, const VectorXd& c) 
 
 }  // namespace
 
-ReducedBasis reduce(const MatrixXd& B, double delta) {
+ReducedBasis reduce(const MatrixXd& B, double delta, const std::function<void()>& tick) {
   assert(delta > 0.25 && delta < 1);
   check_independence(B);
-  return Reduction(B, delta).run();
+  return Reduction(B, delta, tick).run();
 }
 
 IntegerVector nearest_plane(const ReducedBasis& reduced, const VectorXd& target) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 
 namespace holomorph::lattice {
 
@@ -16,6 +17,8 @@ struct ReducedBasis {
   IntegerMatrix transform;  ///< n x n, its determinant 1 or -1
   Eigen::MatrixXd Q;        ///< m x n: basis = Q R, Q^T Q = 1
   Eigen::MatrixXd R;        ///< n x n: upper triangular, its diagonal positive
+  std::int64_t steps = 0;   ///< columns that were compared with the one before
+  int blocks = 1;           ///< that were reduced one by one; 1: the whole
 };
 
 /// LLL reduction in floating-point arithmetic (Schnorr & Euchner 1994, doi:10.1007/BF01581144): |R_jk| <= R_jj / 2 for
@@ -26,8 +29,9 @@ struct ReducedBasis {
 /// @throw SolverError a column is not finite, or depends linearly on the others to rounding: it is as near to their
 /// span as 4 n epsilon of its length
 /// @throw Error the transform has integers beyond 2^53, where doubles are no longer exact
+/// @param tick called for each step, O(m n); it may throw
 /// Cost: O(m n^2), and besides O(m n) for each exchange of two columns.
-ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99);
+ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99, const std::function<void()>& tick = {});
 
 /// Integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2, so that
 /// |target - B z|^2 is at most the sum of R_jj^2 / 4, besides the target's squared distance from the span of B.

@@ -14,7 +14,7 @@ Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& form
   if (structure.topology.families.poles > 0) return Eigen::VectorXcd::Unit(basis.cols(), 0);
   const auto samples = basis.cols() > 1 ? forms.samples(execution) : uv::FormSamples();
   const auto kind = structure.topology.type.closed() ? uv::Coefficients::complex : uv::Coefficients::real;
-  Eigen::VectorXcd c = uv::balanced_coefficients(*structure.surface, samples, basis, kind, execution.workers());
+  Eigen::VectorXcd c = uv::balanced_coefficients(*structure.surface, samples, basis, kind, execution);
   c /= std::sqrt(uv_area(structure, basis * c));
   return c;
 }

@@ -4,14 +4,19 @@
 #include <cmath>
 #include <string>
 
-#include "base/chunks.h"
 #include "base/errors.h"
+#include "base/watch.h"
 
 namespace holomorph::tiling {
 namespace {
 
 constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};  // how far poles may go, in square roots of the area: each is tried
 constexpr double kFollowing = 0.1;                  // likewise, those that follow one that is moved
+// Poles are not moved for more handles, of whose periods so few can mend little; and for fewer roundings where poles
+// times handles are more than this.
+constexpr int kMostHandles = 40;
+constexpr std::size_t kMuch = 600;
+constexpr double kUsualSteps = 3000;
 constexpr std::ptrdiff_t kWeighed = 3;  // roundings for each, whose density is found with the poles where they are
 
 bool better(const Candidate& a, const Candidate& b) { return a.rounding.rank < b.rounding.rank; }
@@ -28,6 +33,12 @@ std::vector<Candidate> best_of_each_way(const std::vector<Candidate>& candidates
   return kept;
 }
 
+// For how many of so many roundings poles are moved.
+std::size_t movable(std::size_t roundings, const LiftedPoles& poles, const PoleBasis& basis) {
+  const std::size_t work = poles.vertices.size() * static_cast<std::size_t>(basis.form_count());
+  return work <= kMuch ? roundings : std::max<std::size_t>(1, roundings * kMuch / work);
+}
+
 // Residues of all poles from the free ones; closed, the last one is minus their sum.
 VectorXcd all_residues(bool closed, std::size_t poles, const VectorXcd& free) {
   VectorXcd all(static_cast<Index>(poles));
@@ -37,7 +48,7 @@ VectorXcd all_residues(bool closed, std::size_t poles, const VectorXcd& free) {
 }
 
 // Upper R with |R t| the root mean square of the Beltrami coefficient.
-MatrixXcd beltrami_metric(const RoundingProblem& problem) { return defect_metric(problem) / std::sqrt(problem.tiles); }
+MatrixXcd beltrami_metric(const RoundingProblem& problem) { return problem.defect_metric / std::sqrt(problem.tiles); }
 
 // Splits the periods, `besides` and those of the residues, into the holomorphic and the antiholomorphic part.
 void set_periods(const VectorXcd& besides, const Jacobian& jacobian, Candidate& c) {
@@ -85,7 +96,8 @@ void follow_by_inversion(const Placement& placement, const RoundingProblem& prob
     if (moved[i]) part = nearest_representative(inversion.abel_jacobi.at(c.poles.vertices[i]), part);
   }
   const bool stay = placement.options.is_chosen();
-  const MoveOptions options{placement.options.allowed, kFollowing, stay ? std::vector<char>(moved.size(), 1) : moved};
+  const MoveOptions options{placement.options.allowed, kFollowing, stay ? std::vector<char>(moved.size(), 1) : moved,
+                            [] {}};
   c.poles = inversion.moved(std::move(c.poles), periods, c.residues, beltrami_metric(problem), options);
   set_periods(periods, inversion.jacobian, c);
 }
@@ -126,11 +138,14 @@ Candidate best_candidate(const Placement& placement, const RoundingProblem& prob
                          const LiftedPoles& lifted, Execution& execution) {
   const PoleBasis& basis = *placement.basis;
   const JacobiInversion* inversion = placement.inversion.get();
-  const bool moves = inversion && !placement.options.is_chosen() && problem.residues.rows() > 0;
+  const bool moves =
+      inversion && !placement.options.is_chosen() && problem.residues.rows() > 0 && basis.form_count() <= kMostHandles;
   const MatrixXcd metric = moves ? beltrami_metric(problem) : MatrixXcd();
   const int ways = moves ? static_cast<int>(std::size(kMoves)) : 1;
-  std::vector<Candidate> candidates(list.size() * ways);
-  run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int i) {
+  std::vector<Candidate> candidates((moves ? movable(list.size(), lifted, basis) : list.size()) * ways);
+  Watch watch(execution, kUsualSteps);
+  run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
+    watch(thread);
     Candidate& c = candidates[i];
     const Rounding& rounded = list[i / ways];
     const VectorXcd z = rounded.z.cast<double>().cast<Complex>(), periods = problem.periods * z;
@@ -138,7 +153,8 @@ Candidate best_candidate(const Placement& placement, const RoundingProblem& prob
          rounded.y.head(basis.form_count())};
     if (!inversion) return;
     if (const double farthest = kMoves[i % ways]; moves && farthest > 0)
-      c.poles = inversion->moved(lifted, periods, c.residues, metric, {placement.options.allowed, farthest, {}});
+      c.poles = inversion->moved(lifted, periods, c.residues, metric,
+                                 {placement.options.allowed, farthest, {}, [&] { watch(thread); }});
     set_periods(periods, inversion->jacobian, c);
     measure(problem, c.rounding);
   });

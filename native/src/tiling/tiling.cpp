@@ -25,12 +25,12 @@ std::string text(double number) {
 }
 
 // Names the fewest tiles for which there is a rounding.
-[[noreturn]] void refuse(RoundingProblem problem, const RoundingOptions& options, Execution& execution) {
+[[noreturn]] void refuse(RoundingProblem& problem, const RoundingSearch& search) {
   const std::string asked = text(problem.tiles);
   do {
     problem.tiles *= kMoreTiles;
     problem.median_density *= kMoreTiles;
-  } while (problem.tiles < kMostTiles && roundings(problem, options, execution).empty());
+  } while (problem.tiles < kMostTiles && search.best().empty());
   throw TopologyError("with " + asked + " tiles no seamless map of this surface is even; " + text(problem.tiles) +
                       " are enough");
 }
@@ -70,7 +70,7 @@ ConformalTiling conformal_tiling(const Placement& placement, RoundedForm form, E
   const Rounding& rounding = form.candidate.rounding;
   result.distortion = rounding.distortion;
   if (const Index defects = problem.defects.cols(); defects > 0)
-    result.beltrami_rms = (defect_metric(problem) * rounding.y.tail(defects)).norm() / std::sqrt(problem.tiles);
+    result.beltrami_rms = (problem.defect_metric * rounding.y.tail(defects)).norm() / std::sqrt(problem.tiles);
   const VectorXcd residues = Eigen::Map<const VectorXcd>(result.residues.data(), std::ssize(result.residues));
   const auto maps = maps_at(placement, result.poles, execution);
   result.seamless = maps->form(form.candidate.X, residues, problem.lattice);
@@ -119,8 +119,9 @@ Tiling tile(const Placement& placement, const TilingOptions& options, Execution&
   const PoleBasis& basis = *placement.basis;
   const JacobiInversion* inversion = placement.inversion.get();
   const LiftedPoles lifted = lifted_poles(placement, execution);
-  RoundingProblem problem = rounding_problem(placement.form, placement.greens, placement.kind, options.lattice,
-                                             parts_of(lifted, basis), inversion ? &inversion->jacobian : nullptr);
+  RoundingProblem problem =
+      rounding_problem(placement.form, placement.greens, placement.kind, options.lattice, parts_of(lifted, basis),
+                       inversion ? &inversion->jacobian : nullptr, execution);
   const double usual = std::max(kLeastTiles, kTilesPerHandle * basis.structure().topology.type.genus);
   problem.tiles = options.tiles > 0 ? options.tiles : usual;
   problem.median_density = problem.tiles / basis.area();
@@ -129,12 +130,12 @@ Tiling tile(const Placement& placement, const TilingOptions& options, Execution&
     problem.repairable =
         kReach * kReach * basis.area() * inversion->reach(placement.form.poles, placement.form.residues);
   }
-  const RoundingOptions rounding = rounding_options(placement, options);
-  const std::vector<Rounding> list = roundings(problem, rounding, execution);
-  if (list.empty()) refuse(std::move(problem), rounding, execution);
+  const RoundingSearch search(problem, rounding_options(placement, options), execution);
+  const std::vector<Rounding> list = search.best();
+  if (list.empty()) refuse(problem, search);
   Candidate best = best_candidate(placement, problem, list, lifted, execution);
   execution.stage("poles at their places", 0.4, 0.6);
-  RoundedForm form{std::make_shared<const RoundingProblem>(std::move(problem)), std::move(best)};
+  RoundedForm form{std::make_shared<const RoundingProblem>(std::move(problem)), std::move(best), search.record()};
   auto conformal = std::make_shared<const ConformalTiling>(conformal_tiling(placement, std::move(form), execution));
   return with_evenness(std::move(conformal), options.evenness, 0.6, execution);
 }

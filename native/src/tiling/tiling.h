@@ -24,6 +24,7 @@ struct TilingOptions {
 struct RoundedForm {
   std::shared_ptr<const RoundingProblem> problem;
   Candidate candidate;
+  RoundingRecord record;
 };
 
 /// The conformal map whose jumps all are points of the lattice.

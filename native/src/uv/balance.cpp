@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "base/chunks.h"
+#include "base/watch.h"
 #include "uv/vector_fields.h"
 
 namespace holomorph::uv {
@@ -22,8 +22,10 @@ using Eigen::VectorXd;
 // The floor under the density is lowered step by step, first from fixed starts on every kThinning-th sample, then from
 // the best of their ends on all samples.
 constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSteps = 100;
-// From this many forms on, the number of starts falls in inverse proportion, as the cost of each grows faster.
-constexpr int kManyForms = 64;
+// From this many forms on, the numbers of starts and of steps fall in inverse proportion, as the cost of each grows
+// faster.
+constexpr int kManyForms = 64, kFewestSteps = 20;
+constexpr double kUsualValues = 1000;  // of the objective, in all descents
 // Against the logarithm of the 95 % over 5 % quantile: the mean of s1 / s2, cut off, and a price of flipped triangles.
 constexpr double kMostSheared = 20, kFlipped = 20;
 constexpr double kSame = 1e-3;  // relative difference of the ends of two descents that are one
@@ -62,10 +64,11 @@ double judgement(const SampledParts& parts, const VectorXcd& c) {
 }
 
 // The best of the ends of the descents with each floor, the first from x.
-Candidate finished(const SampledParts& parts, Coefficients kind, VectorXd x) {
+Candidate finished(const SampledParts& parts, Coefficients kind, VectorXd x, int steps,
+                   const std::function<void()>& tick) {
   Candidate best{INFINITY, {}};
   for (const double floor : kFineFloors) {
-    descend(parts, kind, x, {floor}, kFineSteps);
+    descend(parts, kind, x, {floor}, steps, tick);
     const double value = judgement(parts, as_complex(x, kind));
     if (value < best.value) best = {value, x};
   }
@@ -90,7 +93,7 @@ std::vector<Candidate> starts(const MatrixXcd& M, const MatrixXcd& fields, Coeff
 }  // namespace
 
 VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& triangles, const SampledParts& given,
-                          Coefficients kind, Workers& workers) {
+                          Coefficients kind, Execution& execution) {
   const MatrixXcd basis = orthonormal(given.M, kind);
   const SampledParts parts{given.M * basis, given.N.rows() > 0 ? MatrixXcd(given.N * basis) : MatrixXcd()};
   const auto every = Eigen::seq(0, Eigen::last, kThinning);
@@ -103,8 +106,9 @@ VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& 
   const MatrixXcd fields = surface.intrinsic() ? MatrixXcd() : even_fields(surface, triangles, count);
   std::vector<Candidate> candidates = starts(parts.M, fields, kind, count);
   // Descents are independent, so the result does not depend on the number of threads.
-  run_throwing(workers, static_cast<int>(candidates.size()), [&](int i) {
-    descend(thinned, kind, candidates[i].x, kRoughFloors, kRoughSteps);
+  Watch watch(execution, kUsualValues);
+  run_throwing(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
+    descend(thinned, kind, candidates[i].x, kRoughFloors, kRoughSteps, [&] { watch(thread); });
     candidates[i].value = judgement(thinned, as_complex(candidates[i].x, kind));
   });
   std::stable_sort(candidates.begin(), candidates.end(), lower);
@@ -113,15 +117,17 @@ VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& 
   };
   candidates.erase(std::unique(candidates.begin(), candidates.end(), same), candidates.end());
   if (const auto most = static_cast<std::size_t>(fewer(kKept, 1)); candidates.size() > most) candidates.resize(most);
-  run_throwing(workers, static_cast<int>(candidates.size()),
-               [&](int i) { candidates[i] = finished(parts, kind, std::move(candidates[i].x)); });
+  const int steps = fewer(kFineSteps, kFewestSteps);
+  run_long_tasks(execution.workers(), static_cast<int>(candidates.size()), [&](int thread, int i) {
+    candidates[i] = finished(parts, kind, std::move(candidates[i].x), steps, [&] { watch(thread); });
+  });
   return basis * as_complex(std::min_element(candidates.begin(), candidates.end(), lower)->x, kind);
 }
 
 VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis,
-                                Coefficients kind, Workers& workers) {
+                                Coefficients kind, Execution& execution) {
   if (basis.cols() == 1) return VectorXcd::Ones(1);
-  VectorXcd c = lowest_variance(surface, samples.triangles, sampled_parts(surface, samples, basis), kind, workers);
+  VectorXcd c = lowest_variance(surface, samples.triangles, sampled_parts(surface, samples, basis), kind, execution);
   Eigen::Index largest;
   c.cwiseAbs().maxCoeff(&largest);
   const Complex phase = std::conj(c[largest]) / std::abs(c[largest]);

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "base/workers.h"
+#include "base/execution.h"
 #include "mesh/surface.h"
 #include "uv/log_variance.h"
 
@@ -17,13 +17,13 @@ namespace holomorph::uv {
 /// @param basis #forms x g, the theta_j in the forms
 /// @param kind real on bounded surfaces, so that boundaries remain straight
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples,
-                                       const Eigen::MatrixXcd& basis, Coefficients kind, Workers& workers);
+                                       const Eigen::MatrixXcd& basis, Coefficients kind, Execution& execution);
 
 /// The search for them on the samples alone, without the shortcut for one form and the choice of the phase. It depends
 /// on the space of the forms, not on their basis; of the ends of the descents the one is taken whose map is even
 /// (95 % over 5 % quantile of the density), little sheared and not flipped.
 /// @param triangles where the samples are
 Eigen::VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& triangles,
-                                 const SampledParts& parts, Coefficients kind, Workers& workers);
+                                 const SampledParts& parts, Coefficients kind, Execution& execution);
 
 }  // namespace holomorph::uv

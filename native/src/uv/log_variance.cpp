@@ -179,12 +179,17 @@ double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
 }
 
 double descend(const SampledParts& parts, Coefficients kind, VectorXd& x, const std::vector<double>& floors,
-               int most_steps) {
+               int most_steps, const std::function<void()>& tick) {
   double variance = INFINITY;
   LogVariance objective(parts, kind);
   for (const double floor : floors) {
     objective.set_floor(floor);
-    variance = minimise(objective, x, most_steps);
+    variance = minimise(
+        [&](const VectorXd& at, VectorXd& gradient) {
+          tick();
+          return objective(at, gradient);
+        },
+        x, most_steps);
     x.normalize();  // the variance does not depend on the scale
   }
   return variance;

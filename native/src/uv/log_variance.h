@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "forms/closed_forms.h"
@@ -58,7 +59,8 @@ class LogVariance {
 inline constexpr double kDensityFloor = 1e-4;
 
 /// Minimises with one floor after the other, from `x`, whose scale is free. @return the last variance
+/// @param tick called for each value of the objective; it may throw
 double descend(const SampledParts& parts, Coefficients kind, Eigen::VectorXd& x, const std::vector<double>& floors,
-               int most_steps);
+               int most_steps, const std::function<void()>& tick);
 
 }  // namespace holomorph::uv

@@ -12,14 +12,14 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr int kSteps = 40;           // at most, in Newton's method
-constexpr double kDone = 1e-8;       // rms |mu| that is nothing
-constexpr double kStride = 0.03;     // longest step, in square roots of the area
-constexpr double kShortest = 1e-9;   // step that is nothing, likewise
-constexpr double kDamping = 1e-6;    // relative
-constexpr double kGain = 1e-9;       // relative, of the squared defect: less is no gain
-constexpr int kRounds = 12;          // at most, that exchange pairs
-constexpr std::size_t kAround = 36;  // vertices around a pole that are exchanged
+constexpr int kSteps = 40;                          // at most, in Newton's method
+constexpr double kDone = 1e-8;                      // rms |mu| that is nothing
+constexpr double kStride = 0.03;                    // longest step, in square roots of the area
+constexpr double kShortest = 1e-9;                  // step that is nothing, likewise
+constexpr double kDamping = 1e-6;                   // relative
+constexpr double kGain = 1e-9;                      // relative, of the squared defect: less is no gain
+constexpr std::size_t kRounds = 12, kPairs = 2400;  // at most, that exchange pairs; and pairs in all rounds
+constexpr std::size_t kAround = 36;                 // vertices around a pole that are exchanged
 
 // The poles while they move. One that has gone to a vertex is held there.
 class Moving {
@@ -98,8 +98,8 @@ class Moving {
     for (std::size_t i = 0; i < held_.size(); ++i) {
       if (!held_[i]) free.push_back(i);
     }
-    if (free.empty()) return;
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kSteps && !free.empty(); ++step) {
+      options_.tick();
       const VectorXcd e = defect();
       if (e.norm() < kDone) return;
       const Index g = e.size();
@@ -133,9 +133,7 @@ class Moving {
     for (const auto& [triangle, part] : steps) poles_.parts[i] -= (on_triangle(triangle).derivative * part).real();
   }
 
-  std::vector<int> corners_around(int vertex) const {
-    return mesh::corners_around(basis_.surface(), basis_.half_edges(), vertex);
-  }
+  auto corners_around(int v) const { return mesh::corners_around(basis_.surface(), basis_.half_edges(), v); }
 
   // The corners around the settled poles but two, ascending.
   std::vector<int> corners_but(std::size_t i, std::size_t j) const {
@@ -183,12 +181,14 @@ class Moving {
 
   void exchange_pairs() {
     std::vector<std::vector<Neighbour>> near(held_.size());
-    for (int round = 0; round < kRounds; ++round) {
+    const std::size_t pairs = near.size() * near.size() / 2 + 1;
+    for (std::size_t round = 0; round < std::clamp<std::size_t>(kPairs / pairs, 1, kRounds); ++round) {
       for (std::size_t i = 0; i < near.size(); ++i) {
         if (near[i].empty() || near[i].front().vertex != poles_.vertices[i]) near[i] = around(i);
       }
       bool better = false;
       for (std::size_t i = 0; i < near.size(); ++i) {
+        options_.tick();
         for (std::size_t j = i + 1; j < near.size(); ++j) better |= exchange(i, j, near);
       }
       if (!better) return;

@@ -1,6 +1,7 @@
 // Jacobi inversion: moves the poles of a form until it is holomorphic although its periods are integers.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "tiling/greens/jacobian.h"
@@ -15,9 +16,10 @@ struct LiftedPoles {
 };
 
 struct MoveOptions {
-  std::vector<char> allowed;  ///< #V, empty: anywhere
-  double farthest = 0.12;     ///< how far a pole may go, in square roots of the area
-  std::vector<char> held;     ///< #poles: those that stay at their vertices; empty: none
+  std::vector<char> allowed;   ///< #V, empty: anywhere
+  double farthest = 0.12;      ///< how far a pole may go, in square roots of the area
+  std::vector<char> held;      ///< #poles: those that stay at their vertices; empty: none
+  std::function<void()> tick;  ///< called for each step; it may throw
 };
 
 /// What poles of a closed surface with handles are moved by.

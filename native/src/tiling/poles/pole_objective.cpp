@@ -11,7 +11,10 @@ constexpr double kWeight = 0.06;  // of the Jacobian beside the variance
 constexpr double kEnough = 0.4;   // singular values that are enough
 // Least square of a singular value, relative to that: the term stays finite where no pole moves some part of t.
 constexpr double kLeastSquare = 6.25e-9;
-constexpr int kSteps = 25;  // at most, for the minimiser
+constexpr int kSteps = 25;      // at most, for the minimiser
+constexpr int kManyForms = 20;  // from so many on
+// Of many forms, all coefficients are fitted seldom: these are steps times forms, as the cost of one grows with them.
+constexpr int kStepsTimesForms = 6400, kMostSteps = 100;
 
 PoleObjective::PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every)
     : greens_(greens),
@@ -21,35 +24,57 @@ PoleObjective::PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int
   if (greens.basis().has_jacobian()) jacobian_.emplace(greens.basis());
 }
 
-void PoleObjective::prepare(const std::vector<int>& vertices, Execution& execution) {
+void PoleObjective::prepare(const std::vector<int>& vertices, Index poles, Execution& execution) {
   greens_.solve_at(vertices, execution);
-  if (!jacobian_) return;
+  if (!has_jacobian(poles)) return;
   std::vector<int> missing = vertices;
   std::erase_if(missing, [&](int v) { return tau_.contains(v); });
   const MatrixXcd tau = jacobian_->tau(jacobian_->triangles_at(missing));
   for (std::size_t i = 0; i < missing.size(); ++i) tau_.emplace(missing[i], tau.col(static_cast<Index>(i)));
 }
 
-void PoleObjective::optimise(MeromorphicForm& form, const std::vector<double>& floors) const {
-  const uv::SampledParts parts{columns(form.poles), {}};
+bool PoleObjective::has_many_forms() const { return theta_.cols() >= kManyForms; }
+
+bool PoleObjective::has_jacobian(Index poles) const { return jacobian_ && poles >= theta_.cols(); }
+
+void PoleObjective::optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const {
+  if (!has_many_forms()) return fit(form, floors, tick);
+  const VectorXcd c = form.coefficients;
+  form.coefficients = VectorXcd::Ones(1);
+  descend(theta_ * c, form, floors, kSteps, tick);
+  form.coefficients = form.coefficients[0] * c;
+}
+
+void PoleObjective::fit(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const {
+  const auto forms = static_cast<int>(theta_.cols());
+  const int steps = has_many_forms() ? std::clamp(kStepsTimesForms / forms, kSteps, kMostSteps) : kSteps;
+  descend(theta_, form, floors, steps, tick);
+}
+
+void PoleObjective::descend(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors, int steps,
+                            const Tick& tick) const {
+  const uv::SampledParts parts{columns(forms, form.poles), {}};
   VectorXd x = uv::as_unknowns(unknowns(form), kind_);
   ArrayXd density;
   for (const double floor : floors) {
     density = (parts.M * unknowns(form)).cwiseAbs2().array();
-    uv::descend(parts, kind_, x, {floor * median(density) / density.mean()}, kSteps);
+    uv::descend(parts, kind_, x, {floor * median(density) / density.mean()}, steps, tick);
     set(uv::as_complex(x, kind_), form);
   }
   density = (parts.M * unknowns(form)).cwiseAbs2().array();
-  form.objective = unevenness(density) + jacobian_term(form.poles, form.residues, jacobian_metric(density));
+  const MatrixXcd metric = jacobian_metric(density, form.residues.size());
+  form.objective = unevenness(density) + jacobian_term(form.poles, form.residues, metric);
 }
 
-VectorXcd PoleObjective::samples_of(const MeromorphicForm& form) const { return columns(form.poles) * unknowns(form); }
+VectorXcd PoleObjective::samples_of(const MeromorphicForm& form) const {
+  return columns(theta_, form.poles) * unknowns(form);
+}
 
-// theta_j and the forms of the poles.
-MatrixXcd PoleObjective::columns(const std::vector<int>& vertices) const {
+// Of `forms`, which stand for the theta_j, and of the poles.
+MatrixXcd PoleObjective::columns(const MatrixXcd& forms, const std::vector<int>& vertices) const {
   const MatrixXcd poles = greens_.pole_forms(vertices, every_);
-  MatrixXcd all(theta_.rows(), theta_.cols() + poles.cols());
-  all << theta_, poles;
+  MatrixXcd all(theta_.rows(), forms.cols() + poles.cols());
+  all << forms, poles;
   return all;
 }
 
@@ -67,8 +92,8 @@ void PoleObjective::set(const VectorXcd& x, MeromorphicForm& form) const {
   if (form.residues.size() > free) form.residues[free] = -x.tail(free).sum();
 }
 
-MatrixXcd PoleObjective::jacobian_metric(const ArrayXd& density) const {
-  if (!jacobian_) return {};
+MatrixXcd PoleObjective::jacobian_metric(const ArrayXd& density, Index poles) const {
+  if (!has_jacobian(poles)) return {};
   const Eigen::LLT<MatrixXcd> metric(weighted_gram(theta_, density));
   return MatrixXcd(metric.matrixU()) * std::sqrt(greens_.basis().area());
 }
@@ -77,7 +102,7 @@ MatrixXcd PoleObjective::jacobian_metric(const ArrayXd& density) const {
 double PoleObjective::jacobian_term(const std::vector<int>& vertices, const VectorXcd& residues,
                                     const MatrixXcd& metric) const {
   const auto g = static_cast<Index>(greens_.basis().form_count());
-  if (!jacobian_ || residues.size() < g) return 0;
+  if (!has_jacobian(residues.size())) return 0;
   MatrixXcd rows(g, residues.size());
   for (Index i = 0; i < residues.size(); ++i) rows.col(i) = residues[i] * tau_.at(vertices[i]);
   const MatrixXcd V = metric * rows;

@@ -1,6 +1,7 @@
 // What poles are judged by: how even the density of the best form with them is, and what moving them can repair.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -12,26 +13,36 @@ namespace holomorph::tiling {
 
 class PoleObjective {
  public:
+  using Tick = std::function<void()>;
+
   /// The Green's functions outlive this. @param every of the samples every so many-th is used
   PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1);
 
-  /// Solves for the Green's functions of these vertices, which the methods below look up. @throws SolverError,
-  /// Cancelled
-  void prepare(const std::vector<int>& vertices, Execution& execution);
+  /// Solves for the Green's functions of these vertices, which the methods below look up.
+  /// @param poles how many a form has that is judged. @throws SolverError, Cancelled
+  void prepare(const std::vector<int>& vertices, Index poles, Execution& execution);
 
+  /// Of many forms the coefficients keep their ratios in `optimise`, as each costs as much as a pole; `fit` does not.
+  bool has_many_forms() const;
   /// The best form with these poles, from the coefficients given, and its objective; for each of the floors of the
   /// density in turn. @pre `prepare` was called for the poles, here and below
-  void optimise(MeromorphicForm& form, const std::vector<double>& floors) const;
+  /// @param tick called every few milliseconds; it may throw
+  void optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
+  /// The same, with all coefficients free.
+  void fit(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
 
   /// A on the samples used.
   VectorXcd samples_of(const MeromorphicForm& form) const;
-  /// The metric of a density with which the Jacobian is measured.
-  MatrixXcd jacobian_metric(const ArrayXd& density) const;
+  /// The metric of a density with which the Jacobian of so many poles is measured; empty where it does not count.
+  MatrixXcd jacobian_metric(const ArrayXd& density, Index poles) const;
   /// What the Jacobian adds to the variance of the density.
   double jacobian_term(const std::vector<int>& vertices, const VectorXcd& residues, const MatrixXcd& metric) const;
 
  private:
-  MatrixXcd columns(const std::vector<int>& vertices) const;
+  bool has_jacobian(Index poles) const;
+  MatrixXcd columns(const MatrixXcd& forms, const std::vector<int>& vertices) const;
+  void descend(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors, int steps,
+               const Tick& tick) const;
   VectorXcd unknowns(const MeromorphicForm& form) const;
   void set(const VectorXcd& x, MeromorphicForm& form) const;
 

@@ -18,6 +18,7 @@ constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 16};
 constexpr double kEvened = 2.85, kHopefulEvened = 1.5 * kEvened;  // spread of the evened density
+constexpr double kUsualValues = 30;                               // of the objective, in the last descent
 constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
@@ -85,8 +86,9 @@ MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& option
 
 MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, MeromorphicForm start, Execution& execution) {
   PoleObjective objective(greens, kind);
-  objective.prepare(start.poles, execution);
-  objective.optimise(start, {uv::kDensityFloor});
+  objective.prepare(start.poles, start.residues.size(), execution);
+  Watch watch(execution, kUsualValues);
+  objective.fit(start, {uv::kDensityFloor}, [&] { watch(0); });
   return start;
 }
 

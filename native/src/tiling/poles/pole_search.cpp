@@ -13,8 +13,9 @@ namespace {
 constexpr int kThinning = 3;             // a third of the samples tells what is worth a trial
 constexpr int kTried = 4, kRefined = 2;  // candidates that are optimised when a pole is added, and when one moves
 constexpr int kRounds = 3, kSweeps = 5;
-constexpr int kSpare = 4;       // so many more poles are placed, and taken away again
-constexpr double kGain = 1e-3;  // less is no gain
+constexpr int kSpare = 4;              // so many more poles are placed, and taken away again
+constexpr double kGain = 1e-3;         // less is no gain
+constexpr double kUsualValues = 3000;  // of the objective, in a search
 // Residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
@@ -28,12 +29,6 @@ void rotate(MeromorphicForm& form) {
   std::rotate(form.residues.begin(), form.residues.begin() + 1, form.residues.end());
 }
 
-std::vector<int> vertices_of(const std::vector<MeromorphicForm>& list) {
-  std::vector<int> all;
-  for (const MeromorphicForm& form : list) all.insert(all.end(), form.poles.begin(), form.poles.end());
-  return all;
-}
-
 }  // namespace
 
 int least_count(const PoleBasis& basis) { return basis.form_count() > 0 ? 0 : basis.closed() ? 2 : 1; }
@@ -45,7 +40,9 @@ PoleSearch::PoleSearch(GreensFunctions& greens, const PlaceOptions& options, int
       execution_(execution),
       candidates_(basis_, options),
       every_(every),
-      objective_(greens, options.kind, every) {}
+      objective_(greens, options.kind, every),
+      scores_(greens, every * kThinning),
+      watch_(execution, kUsualValues) {}
 
 MeromorphicForm PoleSearch::begin() {
   MeromorphicForm form;
@@ -56,29 +53,29 @@ MeromorphicForm PoleSearch::begin() {
   if (basis_.closed() && k > 0) form.residues[k - 1] = -static_cast<double>(k - 1);
   form.coefficients = VectorXcd::Zero(basis_.form_count());
   if (basis_.form_count() > 0 && k == 0) {
-    form.coefficients = basis_.form_count() == 1
-                            ? VectorXcd::Ones(1)
-                            : uv::lowest_variance(basis_.surface(), basis_.samples(), basis_.holomorphic(),
-                                                  options_.kind, execution_.workers());
+    form.coefficients = basis_.form_count() == 1 ? VectorXcd::Ones(1)
+                                                 : uv::lowest_variance(basis_.surface(), basis_.samples(),
+                                                                       basis_.holomorphic(), options_.kind, execution_);
   }
-  objective_.prepare(form.poles, execution_);
-  objective_.optimise(form, kFromAfar);
+  objective_.prepare(form.poles, k, execution_);
+  objective_.fit(form, kFromAfar, tick_);
   return form;
 }
 
 bool PoleSearch::add(MeromorphicForm& form, int count) {
   while (static_cast<int>(form.poles.size()) < count && add_one(form)) {
   }
+  refit(form);
   return static_cast<int>(form.poles.size()) >= count;
 }
 
 bool PoleSearch::sweep(MeromorphicForm& form) {
   bool moved = false;
   for (Index i = 0; i < form.residues.size(); ++i) {
-    execution_.report(static_cast<double>(i) / static_cast<double>(form.residues.size()));
     if (is_fixed(form.poles[i])) continue;
     moved |= exchange(form, i);
   }
+  if (moved) refit(form);
   return moved;
 }
 
@@ -106,12 +103,29 @@ MeromorphicForm PoleSearch::pruned(MeromorphicForm form) {
   return ratio(other) < ratio(form) ? other : form;
 }
 
+// The coefficients of many forms, which stay behind while places are compared.
+void PoleSearch::refit(MeromorphicForm& form) {
+  if (objective_.has_many_forms()) objective_.fit(form, kFromNear, tick_);
+}
+
 bool PoleSearch::is_fixed(int vertex) const {
   return std::find(options_.fixed.begin(), options_.fixed.end(), vertex) != options_.fixed.end();
 }
 
+// Until every pole has stayed where it is beside the others as they are.
 void PoleSearch::sweep_to_the_end(MeromorphicForm& form) {
-  for (int i = 0; i < kSweeps && sweep(form); ++i) execution_.report(static_cast<double>(i) / kSweeps);
+  const Index count = form.residues.size();
+  Index unmoved = 0;
+  for (int i = 0; i < kSweeps; ++i) {
+    bool moved = false;
+    for (Index j = 0; j < count && unmoved < count; ++j) {
+      const bool better = !is_fixed(form.poles[j]) && exchange(form, j);
+      moved |= better;
+      unmoved = better ? 0 : unmoved + 1;
+    }
+    if (!moved) return;
+    refit(form);
+  }
 }
 
 // Takes each pole away and adds one where it does best, with a residue of its own. @return whether that was better
@@ -119,11 +133,10 @@ bool PoleSearch::relocate(MeromorphicForm& form) {
   const auto count = static_cast<Index>(form.poles.size());
   bool moved = false;
   for (Index i = 0; i < count && count > least_count(basis_); ++i) {
-    execution_.report(static_cast<double>(i) / static_cast<double>(count));
     rotate(form);  // each becomes the last one once
     if (is_fixed(form.poles.back())) continue;
     MeromorphicForm other = without_last(form);
-    objective_.optimise(other, kFromNear);
+    objective_.optimise(other, kFromNear, tick_);
     if (!add_one(other)) continue;
     exchange(other, count - 1);
     if (other.objective > form.objective * (1 - kGain)) continue;
@@ -139,18 +152,20 @@ bool PoleSearch::exchange(MeromorphicForm& form, Index i) {
   others.erase(others.begin() + i);
   const std::vector<int> candidates = candidates_.for_move(form.poles[i], others);
   if (candidates.empty()) return false;
-  objective_.prepare(candidates, execution_);
-  const MatrixXcd green = greens_.at(candidates, every_ * kThinning);
-  const VectorXcd A = objective_.samples_of(form);
-  const VectorXcd without = thinned(A) - form.residues[i] * greens_.at({form.poles[i]}, every_ * kThinning).col(0);
-  objective_.prepare(form.poles, execution_);
-  const MatrixXcd metric = objective_.jacobian_metric(A.cwiseAbs2().array());
+  const Index k = form.residues.size();
+  objective_.prepare(candidates, k, execution_);
+  scores_.prepare(candidates);
+  const VectorXcd A = objective_.samples_of(form), now = thinned(A);
+  scores_.set_rest(now - form.residues[i] * greens_.at({form.poles[i]}, every_ * kThinning).col(0),
+                   median(now.cwiseAbs2().array()));
+  objective_.prepare(form.poles, k, execution_);
+  const MatrixXcd metric = objective_.jacobian_metric(A.cwiseAbs2().array(), k);
   std::vector<std::pair<double, int>> scores(candidates.size());
   run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
     std::vector<int> vertices = form.poles;
     vertices[i] = candidates[j];
-    const ArrayXd density = (without + form.residues[i] * green.col(j)).cwiseAbs2().array();
-    scores[j] = {unevenness(density) + objective_.jacobian_term(vertices, form.residues, metric), candidates[j]};
+    scores[j] = {scores_(candidates[j], form.residues[i]) + objective_.jacobian_term(vertices, form.residues, metric),
+                 candidates[j]};
   });
   std::sort(scores.begin(), scores.end());
   std::vector<MeromorphicForm> tried;
@@ -173,7 +188,9 @@ bool PoleSearch::add_one(MeromorphicForm& form) {
     if (!known) tried.push_back(joined(form, trial));
   }
   if (tried.empty()) return false;
-  objective_.prepare(vertices_of(tried), execution_);
+  std::vector<int> vertices = form.poles;
+  for (const MeromorphicForm& each : tried) vertices.push_back(each.poles.back());
+  objective_.prepare(vertices, tried.front().residues.size(), execution_);
   form = best_optimised(std::move(tried), kWithTrial);
   return true;
 }
@@ -203,8 +220,9 @@ MeromorphicForm PoleSearch::joined(const MeromorphicForm& form, const Trial& tri
 std::vector<PoleSearch::Trial> PoleSearch::trials_everywhere(const MeromorphicForm& form) {
   const std::vector<int> candidates = candidates_.everywhere(form.poles);
   greens_.solve_at(candidates, execution_);
-  const MatrixXcd green = greens_.at(candidates, every_ * kThinning);
+  scores_.prepare(candidates);
   const VectorXcd A = thinned(objective_.samples_of(form));
+  scores_.set_rest(A, median(A.cwiseAbs2().array()));
   const double scale = std::sqrt(A.cwiseAbs2().mean() * basis_.area());
   const int phases = options_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
   std::vector<Trial> trials;
@@ -216,19 +234,16 @@ std::vector<PoleSearch::Trial> PoleSearch::trials_everywhere(const MeromorphicFo
   }
   const int each = static_cast<int>(std::size(kTrialSizes)) * phases;
   run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int i) {
-    for (int j = i * each; j < (i + 1) * each; ++j)
-      trials[j].value = unevenness((A + trials[j].residue * green.col(i)).cwiseAbs2().array());
+    for (int j = i * each; j < (i + 1) * each; ++j) trials[j].value = scores_(trials[j].vertex, trials[j].residue);
   });
   std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.value < b.value; });
   return trials;
 }
 
 MeromorphicForm PoleSearch::best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors) {
-  run_throwing(execution_.workers(), static_cast<int>(list.size()),
-               [&](int i) { objective_.optimise(list[i], floors); });
-  return *std::min_element(list.begin(), list.end(), [](const MeromorphicForm& a, const MeromorphicForm& b) {
-    return a.objective < b.objective;
-  });
+  run_long_tasks(execution_.workers(), static_cast<int>(list.size()),
+                 [&](int thread, int i) { objective_.optimise(list[i], floors, [&] { watch_(thread); }); });
+  return *std::ranges::min_element(list, {}, &MeromorphicForm::objective);
 }
 
 }  // namespace holomorph::tiling

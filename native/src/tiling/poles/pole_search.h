@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "base/watch.h"
+#include "tiling/poles/candidate_scores.h"
 #include "tiling/poles/pole_candidates.h"
 #include "tiling/poles/pole_objective.h"
 
@@ -36,6 +38,7 @@ class PoleSearch {
     Complex residue;
   };
 
+  void refit(MeromorphicForm& form);
   bool is_fixed(int vertex) const;
   void sweep_to_the_end(MeromorphicForm& form);
   bool relocate(MeromorphicForm& form);
@@ -53,6 +56,9 @@ class PoleSearch {
   PoleCandidates candidates_;
   int every_;
   PoleObjective objective_;
+  CandidateScores scores_;
+  Watch watch_;
+  const PoleObjective::Tick tick_ = [this] { watch_(0); };  // on the calling thread
 };
 
 }  // namespace holomorph::tiling

@@ -1,27 +1,29 @@
 #include "tiling/rounding/rounding.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
 
-#include "base/chunks.h"
+#include "base/watch.h"
+#include "lattice/blocks.h"
 #include "tiling/poles/meromorphic_form.h"
 
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kChange = 0.2;                               // relative change of the form that costs 1
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
 constexpr int kPhases = 30, kScales = 7;
 constexpr std::size_t kWanted = 8;  // roundings at most
 constexpr int kSteps = 3;           // rounds, each from the best of the last
 constexpr int kNearPhases = 7;      // around a phase that is given
+// Beyond so many integers reducing their lattice as a whole takes more than a few seconds, and grows with the fourth
+// power. Then it is reduced by blocks, for fewer prices of defects, and fewer phases and scales are tried.
+constexpr Index kWhole = 160;
+constexpr double kDefectsByBlocks[] = {0.1, 0.01};
+constexpr int kPhasesByBlocks = 8, kScalesByBlocks = 3;
+constexpr double kUsualSteps = 10000, kUsualTargets = 1000;  // of a reduction; of what is rounded
 constexpr double kScaleRange = 0.12;
-constexpr double kSame = 1e-9;      // relative distance of points of a lattice that are one
-constexpr double kRegular = 1e-12;  // of the largest diagonal entry: keeps a Gram matrix definite in spite of rounding
 constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1;  // terms and bounds for the rank
 // Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
 // mean than the next, or so much less even than the target, is none.
@@ -34,51 +36,18 @@ MatrixXd as_real(const MatrixXcd& rows) {
   return result;
 }
 
-// Upper R with R^H R = H.
-MatrixXcd root(MatrixXcd H) {
-  if (H.rows() == 0) return H;
-  H += kRegular * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
-  return Eigen::LLT<MatrixXcd>(H).matrixU();
-}
-
-// 1 / |theta_0|^2, for means over the samples.
-VectorXcd mean_weights(const ArrayXd& density) {
-  const ArrayXd floored = density + uv::kDensityFloor * density.mean();
-  return (1 / (floored * static_cast<double>(density.size()))).matrix().cast<Complex>();
-}
-
-// Rows that measure y near the target: its change, and its defects at a price of `defect`.
-MatrixXcd measure_rows(const RoundingProblem& p, const VectorXcd& weights, double defect) {
-  const Index all = p.forms.cols(), l = p.defects.cols();
-  MatrixXcd rows = MatrixXcd::Zero(all + l, all);
-  rows.topRows(all) = root(p.forms.adjoint() * weights.asDiagonal() * p.forms) / kChange;
-  if (l == 0) return rows;
-  const MatrixXcd metric = defect_metric(p);
-  MatrixXcd covariance = defect * defect * (metric.adjoint() * metric).inverse();
-  if (p.repairable.size() > 0) covariance += p.repairable;
-  rows.bottomRightCorner(l, l) = root(covariance.inverse());
-  return rows;
-}
-
-// The rotations of the texture that are tried.
-std::vector<double> phases_of(const RoundingProblem& p, const RoundingOptions& options) {
-  if (p.kind == uv::Coefficients::real)
-    return {options.phase && std::cos(*options.phase) < 0 ? std::numbers::pi
-                                                          : 0};  // u runs along boundaries either way
-  std::vector<double> phases;
-  for (int i = 0; !options.phase && i < kPhases; ++i) phases.push_back(p.lattice.symmetry() * i / kPhases);
-  for (int i = 0; options.phase && i < kNearPhases; ++i)
-    phases.push_back(*options.phase + options.max_turn * (2.0 * i / (kNearPhases - 1) - 1));
-  return phases;
+double excess(const ArrayXd& lengths) {
+  return lengths.size() == 0 ? 1 : std::sqrt(lengths.square().mean()) / std::exp(lengths.log().mean());
 }
 
 // The best of a list and of those with these integers.
 std::vector<Rounding> best_of(const RoundingProblem& p, const std::set<std::vector<std::int64_t>>& integers,
-                              std::vector<Rounding> list, Execution& execution) {
+                              std::vector<Rounding> list, Execution& execution, Watch& watch) {
   const std::size_t known = list.size();
   for (const auto& z : integers)
     list.push_back({Eigen::Map<const lattice::IntegerVector>(z.data(), std::ssize(z)), {}});
-  run_throwing(execution.workers(), static_cast<int>(integers.size()), [&](int i) {
+  run_throwing(execution.workers(), static_cast<int>(integers.size()), [&](int thread, int i) {
+    watch(thread);
     Rounding& rounding = list[known + i];
     rounding.y = p.Z * rounding.z.cast<double>().cast<Complex>();
     measure(p, rounding);
@@ -121,30 +90,6 @@ std::set<std::vector<std::int64_t>> a_step_away(const RoundingProblem& p, const 
 
 }  // namespace
 
-Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
-  Eigen::Matrix2d A;
-  A << a.real(), b.real(), a.imag(), b.imag();
-  return A.inverse() * Eigen::Vector2d(z.real(), z.imag());
-}
-
-Complex TextureLattice::nearest(Complex z) const {
-  const Eigen::Vector2d c = coordinates(z);
-  return point(std::round(c[0]), std::round(c[1]));
-}
-
-MatrixXcd defect_metric(const RoundingProblem& p) {
-  return root(p.defects.adjoint() * mean_weights(p.target_density).asDiagonal() * p.defects);
-}
-
-double TextureLattice::symmetry() const {
-  for (const int part : {3, 2}) {
-    const Complex turn = std::polar(1.0, std::numbers::pi / part);
-    const auto is_kept = [&](Complex z) { return std::abs(turn * z - nearest(turn * z)) < kSame * std::abs(z); };
-    if (is_kept(a) && is_kept(b)) return std::numbers::pi / part;
-  }
-  return std::numbers::pi;
-}
-
 void measure(const RoundingProblem& p, Rounding& rounding) {
   const ArrayXd density = (p.forms * rounding.y).cwiseAbs2().array();
   rounding.density_ratio = density_ratio(density);
@@ -158,31 +103,75 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
                   p.size_weight * std::abs(std::log(median(density) / p.median_density));
 }
 
-std::vector<Rounding> roundings(const RoundingProblem& p, const RoundingOptions& options, Execution& execution) {
-  const double scale = std::sqrt(p.median_density / median(p.target_density));
-  const VectorXcd weights = mean_weights(p.target_density);
-  const std::vector<double> phases = phases_of(p, options);
-  std::set<std::vector<std::int64_t>> found;
-  lattice::IntegerMatrix steps;
-  for (std::size_t d = 0; d < std::size(kDefects); ++d) {
-    execution.report(static_cast<double>(d) / std::size(kDefects));
-    if (d > 0 && p.defects.cols() == 0) break;
-    const MatrixXcd rows = measure_rows(p, weights, kDefects[d]);
-    const lattice::ReducedBasis reduced = lattice::reduce(as_real(rows * p.Z));
-    if (options.steps && d == 0) steps = reduced.transform;
-    std::vector<lattice::IntegerVector> nearest(phases.size() * kScales);
-    run_throwing(execution.workers(), static_cast<int>(nearest.size()), [&](int i) {
-      const double size = scale * (1 + kScaleRange * (2.0 * (i % kScales) / (kScales - 1) - 1));
-      const VectorXcd y = p.target * std::polar(size, phases[i / kScales]);
-      nearest[i] = lattice::nearest_plane(reduced, as_real(rows * y));
-    });
-    for (const lattice::IntegerVector& z : nearest) found.emplace(z.begin(), z.end());
+RoundingSearch::RoundingSearch(const RoundingProblem& problem, const RoundingOptions& options, Execution& execution)
+    : problem_(problem), options_(options), execution_(execution) {
+  std::vector<double> prices(std::begin(kDefects), std::end(kDefects));
+  if (!is_whole()) prices.assign(std::begin(kDefectsByBlocks), std::end(kDefectsByBlocks));
+  if (problem.defects.cols() == 0) prices.resize(1);
+  record_.integers = static_cast<int>(problem.Z.cols());
+  const RoundingMetric metric(problem, execution);
+  for (const double price : prices) weighted_.push_back(weighted(metric.rows(price)));
+}
+
+bool RoundingSearch::is_whole() const { return problem_.Z.cols() <= kWhole; }
+
+// The rotations of the texture that are tried.
+std::vector<double> RoundingSearch::phases() const {
+  if (problem_.kind == uv::Coefficients::real)
+    return {options_.phase && std::cos(*options_.phase) < 0 ? std::numbers::pi
+                                                            : 0};  // u runs along boundaries either way
+  std::vector<double> phases;
+  const int count = is_whole() ? kPhases : kPhasesByBlocks;
+  for (int i = 0; !options_.phase && i < count; ++i) phases.push_back(problem_.lattice.symmetry() * i / count);
+  for (int i = 0; options_.phase && i < kNearPhases; ++i)
+    phases.push_back(*options_.phase + options_.max_turn * (2.0 * i / (kNearPhases - 1) - 1));
+  return phases;
+}
+
+RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
+  const VectorXcd& target = problem_.target;
+  const MatrixXd B = as_real(product(rows, problem_.Z, execution_));
+  Weighted result{rows, MatrixXd(B.rows(), 2), {}};
+  Watch watch(execution_, kUsualSteps);
+  if (is_whole()) {
+    result.reduced = lattice::reduce(B, 0.99, [&] { watch(0); });
+  } else {
+    result.points << as_real(rows * target), as_real(rows * (Complex(0, 1) * target));
+    result.reduced = lattice::reduce_by_blocks(B, result.points, execution_);
   }
-  std::vector<Rounding> list = best_of(p, found, {}, execution);
-  for (int step = 0; step < kSteps && steps.size() > 0; ++step) {
-    const auto further = a_step_away(p, options, list, steps, found);
+  record_.blocks = result.reduced.blocks;
+  record_.steps += result.reduced.steps;
+  record_.excess = std::max(record_.excess, excess(result.reduced.R.diagonal().array()));
+  return result;
+}
+
+lattice::IntegerVector RoundingSearch::nearest(const Weighted& weighted, Complex by) const {
+  const VectorXcd y = problem_.target * by;
+  return lattice::nearest_plane(weighted.reduced,
+                                is_whole() ? VectorXd(as_real(weighted.rows * y))
+                                           : VectorXd(weighted.points * Eigen::Vector2d(by.real(), by.imag())));
+}
+
+std::vector<Rounding> RoundingSearch::best() const {
+  const double scale = std::sqrt(problem_.median_density / median(problem_.target_density));
+  const std::vector<double> turns = phases();
+  const int scales = is_whole() ? kScales : kScalesByBlocks;
+  Watch watch(execution_, kUsualTargets);
+  std::set<std::vector<std::int64_t>> found;
+  for (const Weighted& each : weighted_) {
+    std::vector<lattice::IntegerVector> list(turns.size() * scales);
+    run_throwing(execution_.workers(), static_cast<int>(list.size()), [&](int thread, int i) {
+      watch(thread);
+      const double size = scale * (1 + kScaleRange * (2.0 * (i % scales) / (scales - 1) - 1));
+      list[i] = nearest(each, std::polar(size, turns[i / scales]));
+    });
+    for (const lattice::IntegerVector& z : list) found.emplace(z.begin(), z.end());
+  }
+  std::vector<Rounding> list = best_of(problem_, found, {}, execution_, watch);
+  for (int step = 0; step < kSteps && options_.steps && is_whole(); ++step) {
+    const auto further = a_step_away(problem_, options_, list, weighted_.front().reduced.transform, found);
     found.insert(further.begin(), further.end());
-    list = best_of(p, further, std::move(list), execution);
+    list = best_of(problem_, further, std::move(list), execution_, watch);
   }
   return list;
 }

@@ -6,43 +6,9 @@
 
 #include "base/execution.h"
 #include "lattice/reduction.h"
-#include "tiling/notation.h"
-#include "uv/log_variance.h"
+#include "tiling/rounding/rounding_metric.h"
 
 namespace holomorph::tiling {
-
-/// The translations of the texture that leave it as it is: all integer combinations of two complex numbers.
-struct TextureLattice {
-  Complex a = 1, b = {0, 1};
-
-  Complex point(double m, double n) const { return m * a + n * b; }
-  /// Coordinates (m, n), integers at the lattice's points.
-  Eigen::Vector2d coordinates(Complex z) const;
-  Complex nearest(Complex z) const;
-  /// The least turn that takes it to itself, in radians: pi / 2, pi / 3 or, of most lattices, pi.
-  double symmetry() const;
-};
-
-/// Forms in coordinates y = (c_j, r_i, t_l): A = forms y on the samples, and B = defects t, what keeps the form from
-/// being conformal. With D integers z for the periods and residues, y = Z z.
-struct RoundingProblem {
-  uv::Coefficients kind;
-  MatrixXcd forms;              ///< #samples x (n + k + l)
-  MatrixXcd defects;            ///< #samples x l
-  MatrixXcd periods, residues;  ///< #loops x D, k x D: what the integers stand for
-  MatrixXcd Z;                  ///< (n + k + l) x D
-  VectorXcd target;             ///< n + k + l: the form as it would be without rounding, t = 0
-  ArrayXd target_density;       ///< |forms target|^2
-  double target_ratio = 1;      ///< 95 % over 5 % quantile of it
-  TextureLattice lattice;       ///< which periods and residues are rounded to
-  MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
-  double tiles = 1;             ///< over the surface at its median density, which are wanted
-  double size_weight = 0.05;    ///< how much the median density counts in the rank of a rounding
-  double median_density = 1;    ///< the same number over the area
-};
-
-/// Upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target, floored.
-MatrixXcd defect_metric(const RoundingProblem& problem);
 
 struct RoundingOptions {
   std::optional<double> phase;  ///< which the target is given, in radians; none: any
@@ -60,10 +26,47 @@ struct Rounding {
   double rank = 0;
 };
 
-/// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere.
-/// @throws SolverError as lattice.h does
-/// Cost: a reduction for each of five weights, some thousand nearest planes, and 16 D more roundings with steps.
-std::vector<Rounding> roundings(const RoundingProblem& problem, const RoundingOptions& options, Execution& execution);
+/// How integers were found.
+struct RoundingRecord {
+  int integers = 0;        ///< for periods and residues
+  int blocks = 1;          ///< 1: their lattice was reduced as a whole; else so many parts of it, one by one
+  std::int64_t steps = 0;  ///< of the reductions
+  /// Root mean square of the basis's lengths, each orthogonal to those before it, over their geometric mean: how much
+  /// further from the target a rounding is than in a lattice of the same volume with an orthogonal basis.
+  double excess = 1;
+};
+
+/// Searches for the best roundings. Of many integers, the lattice is reduced by blocks, for fewer weights, and fewer
+/// targets are rounded.
+class RoundingSearch {
+ public:
+  /// @pre the problem outlives this; its number of tiles may change. @throws SolverError as lattice.h does; Cancelled
+  /// Cost: a reduction for each of five weights.
+  RoundingSearch(const RoundingProblem& problem, const RoundingOptions& options, Execution& execution);
+
+  /// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere. The same errors.
+  /// Cost: some thousand nearest planes, and 16 D more roundings with steps.
+  std::vector<Rounding> best() const;
+  const RoundingRecord& record() const { return record_; }
+
+ private:
+  struct Weighted {
+    MatrixXcd rows;
+    MatrixXd points;  // the target and a quarter turn of it, in the coordinates of the reduced basis
+    lattice::ReducedBasis reduced;
+  };
+
+  bool is_whole() const;
+  std::vector<double> phases() const;
+  Weighted weighted(const MatrixXcd& rows);
+  lattice::IntegerVector nearest(const Weighted& weighted, Complex by) const;
+
+  const RoundingProblem& problem_;
+  RoundingOptions options_;
+  Execution& execution_;
+  std::vector<Weighted> weighted_;
+  RoundingRecord record_;
+};
 
 /// What follows from y.
 void measure(const RoundingProblem& problem, Rounding& rounding);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "tiling/rounding/rounding_metric.h"
+
 namespace holomorph::tiling {
 namespace {
 
@@ -40,7 +42,8 @@ MatrixXcd handle_forms(const PoleBasis& basis, const Sizes& size) {
 }  // namespace
 
 RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFunctions& greens, uv::Coefficients kind,
-                                 const TextureLattice& lattice, const MatrixXd& parts, const Jacobian* jacobian) {
+                                 const TextureLattice& lattice, const MatrixXd& parts, const Jacobian* jacobian,
+                                 Execution& execution) {
   const PoleBasis& basis = greens.basis();
   const bool real = kind == uv::Coefficients::real, closed = basis.closed();
   const auto& topology = basis.structure().topology;
@@ -64,7 +67,7 @@ RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFuncti
     p.forms << basis.holomorphic().M, at_poles, basis.holomorphic().N.conjugate();
     p.defects = basis.holomorphic().M.conjugate();
     if (jacobian) {
-      const MatrixXcd split = jacobian->split() * X;
+      const MatrixXcd split = product(jacobian->split(), X, execution);
       p.Z.topRows(size.n) = split.topRows(size.n);
       p.Z.bottomRows(size.l) = split.bottomRows(size.l);
     }
@@ -81,6 +84,7 @@ RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFuncti
   }
   p.target_density = (p.forms * p.target).cwiseAbs2().array();
   p.target_ratio = density_ratio(p.target_density);
+  p.defect_metric = defect_metric(p.defects, p.target_density, execution);
   return p;
 }
 

@@ -15,8 +15,9 @@ namespace holomorph::tiling {
 ///   which are free, have least energy.
 /// @param parts #loops x k: C_i; closed: against the last pole, whose residue is the rest
 /// @param greens with those of the poles
-/// @param jacobian of a closed surface with handles, else null
+/// @param jacobian of a closed surface with handles, else null. @throws Cancelled
 RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFunctions& greens, uv::Coefficients kind,
-                                 const TextureLattice& lattice, const MatrixXd& parts, const Jacobian* jacobian);
+                                 const TextureLattice& lattice, const MatrixXd& parts, const Jacobian* jacobian,
+                                 Execution& execution);
 
 }  // namespace holomorph::tiling

@@ -1,0 +1,85 @@
+#include "tiling/rounding/rounding_metric.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "base/chunks.h"
+
+namespace holomorph::tiling {
+namespace {
+
+constexpr double kChange = 0.2;     // relative change of the form that costs 1
+constexpr double kRegular = 1e-12;  // of the largest diagonal entry: keeps a Gram matrix definite in spite of rounding
+constexpr Index kManyColumns = 192, kColumns = 32;  // from so many on, products are made so many columns at a time
+
+// Upper R with R^H R = H.
+MatrixXcd root(MatrixXcd H) {
+  if (H.rows() == 0) return H;
+  H += kRegular * H.diagonal().real().maxCoeff() * MatrixXcd::Identity(H.rows(), H.cols());
+  return Eigen::LLT<MatrixXcd>(H).matrixU();
+}
+
+// task(begin, size) for columns.
+template <class Task>
+void for_columns(Index count, Execution& execution, const Task& task) {
+  const auto blocks = static_cast<int>((count + kColumns - 1) / kColumns);
+  constexpr int kAtATime = 8;
+  for (int first = 0; first < blocks; first += kAtATime) {
+    execution.report(0);
+    run_long_tasks(execution.workers(), std::min(kAtATime, blocks - first), [&](int i) {
+      const Index begin = (first + i) * kColumns;
+      task(begin, std::min(kColumns, count - begin));
+    });
+  }
+}
+
+// forms^H weights forms; of many columns its lower half alone.
+MatrixXcd gram(const MatrixXcd& forms, const VectorXcd& weights, Execution& execution) {
+  const Index count = forms.cols();
+  if (count < kManyColumns) return forms.adjoint() * weights.asDiagonal() * forms;
+  MatrixXcd H = MatrixXcd::Zero(count, count);
+  for_columns(count, execution, [&](Index begin, Index size) {
+    const MatrixXcd weighted = weights.asDiagonal() * forms.middleCols(begin, size);
+    H.block(begin, begin, count - begin, size).noalias() = forms.rightCols(count - begin).adjoint() * weighted;
+  });
+  return H;
+}
+
+}  // namespace
+
+VectorXcd mean_weights(const ArrayXd& density) {
+  const ArrayXd floored = density + uv::kDensityFloor * density.mean();
+  return (1 / (floored * static_cast<double>(density.size()))).matrix().cast<Complex>();
+}
+
+MatrixXcd defect_metric(const MatrixXcd& defects, const ArrayXd& target_density, Execution& execution) {
+  return root(gram(defects, mean_weights(target_density), execution));
+}
+
+RoundingMetric::RoundingMetric(const RoundingProblem& problem, Execution& execution)
+    : problem_(problem),
+      of_change_(root(gram(problem.forms, mean_weights(problem.target_density), execution)) / kChange) {}
+
+MatrixXcd RoundingMetric::rows(double defect) const {
+  const Index all = problem_.forms.cols(), l = problem_.defects.cols();
+  MatrixXcd rows = MatrixXcd::Zero(all + l, all);
+  rows.topRows(all) = of_change_;
+  if (l == 0) return rows;
+  const MatrixXcd& metric = problem_.defect_metric;
+  MatrixXcd covariance = defect * defect * (metric.adjoint() * metric).inverse();
+  if (problem_.repairable.size() > 0) covariance += problem_.repairable;
+  rows.bottomRightCorner(l, l) = root(covariance.inverse());
+  return rows;
+}
+
+MatrixXcd product(const MatrixXcd& A, const MatrixXcd& B, Execution& execution) {
+  if (B.cols() < kManyColumns) return A * B;
+  MatrixXcd result(A.rows(), B.cols());
+  for_columns(B.cols(), execution, [&](Index begin, Index size) {
+    result.middleCols(begin, size).noalias() = A * B.middleCols(begin, size);
+  });
+  return result;
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,31 @@
+#include "tiling/rounding/texture_lattice.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+namespace holomorph::tiling {
+
+constexpr double kSame = 1e-9;  // relative distance of points of a lattice that are one
+
+Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
+  Eigen::Matrix2d A;
+  A << a.real(), b.real(), a.imag(), b.imag();
+  return A.inverse() * Eigen::Vector2d(z.real(), z.imag());
+}
+
+Complex TextureLattice::nearest(Complex z) const {
+  const Eigen::Vector2d c = coordinates(z);
+  return point(std::round(c[0]), std::round(c[1]));
+}
+
+double TextureLattice::symmetry() const {
+  for (const int part : {3, 2}) {
+    const Complex turn = std::polar(1.0, std::numbers::pi / part);
+    const auto is_kept = [&](Complex z) { return std::abs(turn * z - nearest(turn * z)) < kSame * std::abs(z); };
+    if (is_kept(a) && is_kept(b)) return std::numbers::pi / part;
+  }
+  return std::numbers::pi;
+}
+
+}  // namespace holomorph::tiling

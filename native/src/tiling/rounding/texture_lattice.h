@@ -1,0 +1,20 @@
+// The lattice that jumps of a tiling are points of.
+#pragma once
+
+#include "tiling/notation.h"
+
+namespace holomorph::tiling {
+
+/// The translations of the texture that leave it as it is: all integer combinations of two complex numbers.
+struct TextureLattice {
+  Complex a = 1, b = {0, 1};
+
+  Complex point(double m, double n) const { return m * a + n * b; }
+  /// Coordinates (m, n), integers at the lattice's points.
+  Eigen::Vector2d coordinates(Complex z) const;
+  Complex nearest(Complex z) const;
+  /// The least turn that takes it to itself, in radians: pi / 2, pi / 3 or, of most lattices, pi.
+  double symmetry() const;
+};
+
+}  // namespace holomorph::tiling
