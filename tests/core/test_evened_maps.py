@@ -90,7 +90,8 @@ def test_no_more_area_is_flipped(name):
 @pytest.mark.parametrize(
     ("power", "jitter", "seed", "evenness"),
     [(2, jitter, seed, evenness) for jitter in (0.2, 0.4) for seed in range(3) for evenness in (0.25, 0.5, 1)]
-    + [(3, 0.2, 2, 1), (4, 0.4, 1, 0.5)],  # these need triangles that keep their shape
+    + [(3, 0.2, 2, 1), (4, 0.4, 1, 0.5)]  # these need triangles that keep their shape
+    + [(3, 0.2, 1, 1), (4, 0.2, 0, 0.5), (4, 0.4, 18, 1)],  # and these that size counts less
 )
 def test_no_more_area_is_flipped_where_a_map_branches(power, jitter, seed, evenness):
     """Powers of z from a point that is no vertex: where it is 0, they flip triangles."""
@@ -102,6 +103,16 @@ def test_no_more_area_is_flipped_where_a_map_branches(power, jitter, seed, evenn
     even = evened(native, uv, evenness)
     assert Quality.of(native, even, 1).flipped_part <= Quality.of(native, uv, 1).flipped_part
     assert ratio(native, even) < ratio(native, uv)
+    assert np.array_equal(even, evened(native, uv, evenness, threads=3))
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("jitter", [0.5, 0.6])
+def test_no_more_area_is_flipped_where_triangles_are_thin(jitter, seed):
+    native, uv = of_structure(families.torus(140, 72, shape="triangles", jitter=jitter, seed=seed))
+    parts = [Quality.of(native, evened(native, uv, evenness), 1).flipped_part for evenness in (0, 0.25, 0.5, 0.75, 1)]
+    assert parts[0] > 0
+    assert max(parts) == parts[0]
 
 
 @pytest.mark.parametrize("evenness", [0.1, 0.5, 1])

@@ -19,6 +19,7 @@ constexpr int kMostSteps = 40;
 constexpr double kWhole = 0.9;  // part of the work that comes before flipped triangles are turned back
 // Around them: those that may move, and the inner ones that keep the shape of the map before, where else they flip.
 constexpr StrainEnergy::Rings kRings[] = {{2, 0}, {4, 0}, {8, 0}, {16, 0}, {4, 2}, {8, 4}, {16, 8}, {32, 16}};
+constexpr int kTries = 5;  // each with half the weight of size, where the one before flips more than the map did
 constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
 
 // The weight of size in the energy. Where strain is small, minimising takes the power 1 - lambda of every density, and
@@ -128,8 +129,13 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
   return least_flipped;
 }
 
-Function least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
-               const std::string& solver_name, Execution& execution) {
+struct Found {
+  Function delta;
+  bool flips_more;  // than the map before
+};
+
+Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
+            const std::string& solver_name, Execution& execution) {
   const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
   const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
   Solvers solvers(half_edges, method, kept);
@@ -150,7 +156,7 @@ Function least(const mesh::Surface& surface, const StrainEnergy& energy, const K
   double flipped = descent.value().flipped;
   for (std::size_t k = 0; k < std::size(kRings) && flipped > most_flipped; ++k)
     flipped = turn_back(energy, kept, lambda, most_flipped, kRings[k], delta, execution);
-  return delta;
+  return {std::move(delta), flipped > most_flipped};
 }
 
 }  // namespace
@@ -162,9 +168,14 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
   uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
   if (evenness == 0) return result;
   const StrainEnergy energy(surface, uv, kept.poles, execution.workers());
-  const Function delta = least(surface, energy, kept, lambda_of(evenness), solver, execution);
-  for_rows(execution.workers(), surface.vertex_count,
-           [&](int v) { result.row(v) << delta[v].real(), delta[v].imag(); });
+  double lambda = lambda_of(evenness);
+  for (int k = 0; k < kTries; ++k, lambda /= 2) {
+    const Found found = least(surface, energy, kept, lambda, solver, execution);
+    if (found.flips_more) continue;
+    for_rows(execution.workers(), surface.vertex_count,
+             [&](int v) { result.row(v) << found.delta[v].real(), found.delta[v].imag(); });
+    break;
+  }
   return result;
 }
 

@@ -23,7 +23,8 @@ inline constexpr double kUsualEvenness = 0.5;
 double power_of_density(double evenness);
 
 /// #V x 2, what is to be added at the vertices for the least StrainEnergy. Triangles that it flips are turned back
-/// until no more area is flipped than was, as far as moving what is around them does that.
+/// until no more area is flipped than was. Where moving what is around them does not do that, size counts half as much,
+/// again and again, and at last nothing is added.
 ///
 /// The method: steps of gradient descent with the Laplacian that is most like the second derivatives, made anew while
 /// the energy falls quickly, then limited-memory BFGS with the last of them.
