@@ -69,11 +69,11 @@ TEST(LatticeBlocks, DoNotDependOnThreads) {
 
 TEST(LatticeBlocks, CanBeCancelled) {
   int calls = 0;
-  Execution execution(2, [&](double, const std::string&) { return ++calls < 2; });
+  Execution execution(2, [&](double, const std::string&) { return ++calls < 1; });
   MatrixXd points(kRank, 0);
   const MatrixXd B = random_integers(kRank, kRank, 1000000, 3).cast<double>();
   EXPECT_THROW(reduce_by_blocks(B, points, execution), Cancelled);
-  EXPECT_EQ(calls, 2);
+  EXPECT_EQ(calls, 1);
 }
 
 }  // namespace
