@@ -58,9 +58,9 @@ def test_the_same_bits_at_any_number_of_threads():
     assert all(np.array_equal(made[0].uv, other.uv) for other in made[1:])
 
 
-@pytest.mark.parametrize(("stage", "times"), [("search for poles", 20), ("rounding", 3)])
+@pytest.mark.parametrize(("stage", "times"), [("search for poles", 5), ("rounding", 1)])
 def test_cancelled_within_a_stage(stage, times):
-    """Progress is asked many times in it, and each time may be the last."""
+    """Any time that progress is asked may be the last: how often that is depends on the clock."""
     given = surface(block(6, 7))
     calls = []
 
