@@ -66,7 +66,7 @@ void print_paper(const System& system, const multiresolution::PaperLevels& level
   const auto start = timed(seconds, [&] { return multiresolution::paper_estimation(levels, options, silent); });
   std::cout << "{\"levels_seconds\": " << seconds << ", \"levels\": [";
   const char* separator = "";
-  for (const auto& level : start.solver.levels) {
+  for (const auto& level : start.levels) {
     std::cout << separator << '[' << level.faces << ", " << level.iterations << ']';
     separator = ", ";
   }

@@ -35,8 +35,8 @@ def conformal_structure(
     boundary : how forms of a surface with boundary are found: "natural" on the surface itself, "double_cover" on its
         double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy
     solver : "direct", a sparse Cholesky factorisation; "multigrid", in linear time and memory; "auto" chooses, the
-        result's `solver` says what and why; "paper", its multiresolution algorithm (§ 9) for closed surfaces, slower,
-        on the surface's own triangles, its edges not flipped
+        result's `solver` says what and why; "paper", its multiresolution algorithm (§ 9), slower, on the surface's own
+        triangles, its edges not flipped, and with any `boundary` on the double of each level
     threads : number of threads, None for one per core; the result has the same bits for any number
     memory_limit : bytes that may be in use at once, without the surface itself; None refuses nothing. Where the forms
         of a closed surface do not fit (None: in 2 GB), they are solved for in blocks, and `uv` solves for each map
@@ -84,10 +84,9 @@ def _check_topology(component):
 
 
 def _native_structure(component, boundary, solver, threads, memory_limit, progress):
-    is_bounded = component.boundary_count > 0
-    if solver == "paper" and not is_bounded:
+    if solver == "paper":
         return _native.paper_structure(component._native, threads, memory_limit, progress)
-    is_double = is_bounded and boundary == "double_cover"
+    is_double = component.boundary_count > 0 and boundary == "double_cover"
     return _native.conformal_structure(component._native, is_double, solver, threads, memory_limit, progress)
 
 
