@@ -3,6 +3,7 @@
 import math
 import numbers
 import os
+from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import Any
 
@@ -13,7 +14,7 @@ from . import _native, arrays, checked_file, level_forms, levels
 from ._native import InvalidMesh
 from .array_types import FilePath, Integers, Progress
 from .bounded import BoundedStructure
-from .checks import check_memory_limit, check_options, check_type
+from .checks import check_memory_limit, check_options, check_thresholds, check_type
 from .closed import ConformalStructure
 from .origin import Origin
 from .results import result
@@ -183,6 +184,7 @@ class ProgressiveMesh(Value):
         n_faces: int,
         *,
         solver: str = "auto",
+        thresholds: Sequence[float] | None = None,
         threads: int | None = None,
         memory_limit: float | None = None,
         progress: Progress | None = None,
@@ -200,14 +202,16 @@ class ProgressiveMesh(Value):
         ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary
             Its `surface` is ``level(n_faces)``.
         """
-        again = partial(self.conformal_structure, n_faces, solver=solver, threads=threads, memory_limit=memory_limit)
+        options = {"solver": solver, "thresholds": thresholds, "threads": threads, "memory_limit": memory_limit}
+        again = partial(self.conformal_structure, n_faces, **options)
         threads, memory_limit = check_options(solver, threads), check_memory_limit(memory_limit)
+        thresholds = check_thresholds(thresholds, solver)
         kind = BoundedStructure if self.base.boundary_count else ConformalStructure
         splits = self._split_count(n_faces)
         surface = self._level(splits)
         level = self._native, splits, surface._native
         if solver == "paper":
-            native = _native.paper_structure_of_level(*level, threads, memory_limit, progress)
+            native = _native.paper_structure_of_level(*level, thresholds, threads, memory_limit, progress)
         else:
             native = _native.conformal_structure_of_level(*level, solver, threads, memory_limit, progress)
         return result(kind, surface, surface, native, threads).computed_by(again)

@@ -142,6 +142,44 @@ def iterations_from_zero(structure):
     return gradient_steps(both, np.tile(weights, 2), b, scaled=True)
 
 
+@large_mesh
+def test_thresholds(name):
+    """None of them: conjugate gradients from zero, of the same forms. M0 is always among the others."""
+    forms, mesh = solved(name).natural_forms, surface(name)
+    base, last = len(ProgressiveMesh(mesh).base.triangles), len(mesh.triangles)
+    from_zero = conformal_structure(mesh, solver="paper", thresholds=[])
+    assert [level[0] for level in from_zero.solver.levels] == [last]
+    assert from_zero.solver.iterations > solved(name).solver.iterations
+    with_two = conformal_structure(mesh, solver="paper", thresholds=[2000, 10**9, 1000, 1])
+    faces = [level[0] for level in with_two.solver.levels]
+    assert faces[0] == base and faces[-1] == last
+    assert len(faces) == 4 and all(0 <= n - found < 2 for n, found in zip((1000, 2000), faces[1:3], strict=True))
+    for other in (from_zero, with_two):
+        assert np.abs(other.natural_forms - forms).max() < 1e-6 * np.abs(forms).max()
+        assert np.abs(other.dirichlet_forms - solved(name).dirichlet_forms).max() < 1e-6
+    level = ProgressiveMesh(mesh).conformal_structure(10**9, solver="paper", thresholds=[1000])
+    assert len(level.solver.levels) == 3
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"solver": "direct", "thresholds": []}, "thresholds are those of the paper's solver, and solver is 'direct'"),
+        ({"solver": "paper", "thresholds": [0]}, "a threshold is 0; a positive number is needed"),
+        ({"solver": "paper", "thresholds": ["all"]}, "a threshold is 'all'; a positive number is needed"),
+    ],
+)
+def test_thresholds_that_do_not_fit(options, message):
+    mesh = surface("tube")
+    for compute in (lambda: conformal_structure(mesh, **options), lambda: level_of(mesh, options)):
+        with pytest.raises(ValueError, match=message):
+            compute()
+
+
+def level_of(mesh, options):
+    return ProgressiveMesh(mesh).conformal_structure(10**9, **options)
+
+
 # ---- levels of a progressive mesh ------------------------------------------------------------------------------------
 
 

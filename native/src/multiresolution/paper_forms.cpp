@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <numeric>
+#include <set>
 #include <sstream>
 
 #include "base/errors.h"
@@ -57,9 +58,17 @@ void add_collapsed_into_loops(const PaperLevels& levels, Eigen::MatrixXd& X) {
   }
 }
 
+std::vector<int> asked_for(const PaperLevels& levels, const std::vector<std::int64_t>& thresholds) {
+  std::set<int> splits;
+  for (const std::int64_t faces : thresholds) splits.insert({0, progressive::split_count(*levels.mesh, faces)});
+  splits.erase(splits.lower_bound(levels.splits), splits.end());
+  return {splits.begin(), splits.end()};
+}
+
 }  // namespace
 
 std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options) {
+  if (options.thresholds) return asked_for(levels, *options.thresholds);
   const double base = faces(levels, 0);
   std::vector<int> splits;
   for (double count = faces(levels, levels.splits) / options.ratio;
@@ -92,7 +101,7 @@ PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& 
     row = std::move(system.row);
   }
   result.functions = prolonged(X, row, own, static_cast<Eigen::Index>(own.size()), levels.base_classes.form_count);
-  if (!levels.closed()) add_collapsed_into_loops(levels, result.functions);
+  if (!levels.closed() && !coarse.empty()) add_collapsed_into_loops(levels, result.functions);
   return result;
 }
 

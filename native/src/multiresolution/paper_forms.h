@@ -13,6 +13,8 @@
 // collapsed into: eta remains an integer class, and f(v_t) = f(v_s).
 #pragma once
 
+#include <optional>
+
 #include "base/execution.h"
 #include "multiresolution/paper_levels.h"
 #include "solver/conjugate_gradients.h"
@@ -22,6 +24,9 @@
 namespace holomorph::multiresolution {
 
 struct PaperOptions {
+  /// Numbers of faces of the thresholds in any order, M0 besides; none of them: begins at zero, without levels.
+  /// By default every `ratio` in faces from `least_faces` on.
+  std::optional<std::vector<std::int64_t>> thresholds;
   double ratio = 4;                     ///< faces of a threshold over those of the one before
   std::int64_t least_faces = 500;       ///< fewest faces of a threshold above M0
   double level_residual = 1e-4;         ///< relative, goal on M0 and at the thresholds

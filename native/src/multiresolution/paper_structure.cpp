@@ -1,13 +1,12 @@
 #include "multiresolution/paper_structure.h"
 
-#include "multiresolution/paper_forms.h"
 #include "structure/conformal_structure.h"
 #include "structure/guarantee.h"
 
 namespace holomorph::multiresolution {
 
 structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
-                                     Execution& execution, std::optional<PaperLevels> levels) {
+                                     Execution& execution, PaperOptions how, std::optional<PaperLevels> levels) {
   // All forms are refined together, level by level, in about the memory of multigrid.
   const structure::Options sizes{"multigrid", options.memory_limit, structure::Boundary::double_cover};
   auto result = structure::planned_structure(std::move(surface), sizes, structure::Keeping::all);
@@ -26,7 +25,7 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   record.mollification = input.mollification;
   const PaperSolver* paper = nullptr;
   const auto make = [&](solver::Laplacian&& L) {
-    auto made = std::make_unique<PaperSolver>(*levels, std::move(L), PaperOptions());
+    auto made = std::make_unique<PaperSolver>(*levels, std::move(L), how);
     paper = made.get();
     return made;
   };

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/execution.h"
-#include "multiresolution/paper_levels.h"
+#include "multiresolution/paper_forms.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 
@@ -17,6 +17,7 @@ namespace holomorph::multiresolution {
 /// @pre connected, no isolated vertices
 /// @throws TopologyError for a sphere or a disk; InvalidMesh for an intrinsic surface; SolverError; Cancelled
 structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
-                                     Execution& execution, std::optional<PaperLevels> levels = {});
+                                     Execution& execution, PaperOptions how = {},
+                                     std::optional<PaperLevels> levels = {});
 
 }  // namespace holomorph::multiresolution
