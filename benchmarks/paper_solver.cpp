@@ -1,6 +1,6 @@
 // paper_solver MESH: the paper's multiresolution algorithm against conjugate gradients begun at zero, on the same
-// linear system: one connected closed surface, as many right-hand sides as it has classes. Prints one line of JSON:
-// seconds of processor time, and iterations, to each relative residual. To be run with one thread.
+// linear system: one connected surface, with boundary its double, as many right-hand sides as it has classes. Prints
+// one line of JSON: seconds of processor time, and iterations, to each relative residual. To be run with one thread.
 #include <ctime>
 #include <iostream>
 
@@ -11,6 +11,8 @@
 #include "mesh/make_surface.h"
 #include "multiresolution/paper_forms.h"
 #include "progressive/simplify.h"
+#include "structure/double_cover.h"
+#include "structure/topology.h"
 #include "topology/fundamental_domain.h"
 
 namespace {
@@ -35,6 +37,25 @@ struct System {
   solver::Laplacian L;
   Eigen::MatrixXd B;
 };
+
+System system_of(const mesh::HalfEdges& half_edges, const Array<double>& weights,
+                 const topology::IntegerForms& classes) {
+  Execution silent;
+  return {forms::laplacian(half_edges, weights, silent),
+          forms::codifferentials(half_edges, weights, classes, silent.workers())};
+}
+
+System system_of(const mesh::Surface& surface, const mesh::Discretisation& discretisation,
+                 const multiresolution::PaperLevels& levels) {
+  Execution silent;
+  const auto& half_edges = discretisation.half_edges;
+  const auto topology = structure::find_topology(surface, half_edges, silent, levels.bases);
+  const auto classes = structure::classes_on(topology, half_edges, {});
+  if (levels.closed()) return system_of(half_edges, discretisation.weights, classes);
+  const auto both = structure::doubled(discretisation, silent);
+  return system_of(both.cover.half_edges, both.weights,
+                   structure::extended(half_edges, both.cover, classes, topology.families.natural));
+}
 
 // Conjugate gradients from `start` to each residual; prints [iterations, seconds], [] from the first one not reached.
 void print_run(const System& system, const Eigen::MatrixXd& start, solver::Scaling scaling) {
@@ -66,7 +87,7 @@ void print_paper(const System& system, const multiresolution::PaperLevels& level
   const auto start = timed(seconds, [&] { return multiresolution::paper_estimation(levels, options, silent); });
   std::cout << "{\"levels_seconds\": " << seconds << ", \"levels\": [";
   const char* separator = "";
-  for (const auto& level : start.solver.levels) {
+  for (const auto& level : start.levels) {
     std::cout << separator << '[' << level.faces << ", " << level.iterations << ']';
     separator = ", ";
   }
@@ -81,20 +102,17 @@ int main(int count, char** arguments) {
   if (count != 2) return 2;
   Execution silent;
   const auto surface = mesh::component(mesh::make_surface(mesh::read(arguments[1]), silent), 0, silent).surface;
-  const auto triangulation =
-      mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, silent), silent.workers());
-  const mesh::HalfEdges& half_edges = triangulation.half_edges;
-  const auto weights = mesh::cotangent_weights(triangulation, silent);
+  const auto discretisation = mesh::on_input(surface, mesh::half_edges(surface, silent), silent);
+  const mesh::HalfEdges& half_edges = discretisation.half_edges;
   double collapsing = 0, levels_made = 0, homology = 0;
   timed(homology, [&] {
     const auto domain = topology::fundamental_domain(surface, half_edges, silent);
     topology::homology_basis(half_edges, domain);
-    return topology::cohomology_basis(half_edges, domain);
+    return topology::natural_classes(half_edges, domain);
   });
   timed(collapsing, [&] { return progressive::progressive_mesh(surface, progressive::Order::quadric, silent); });
   const auto levels = timed(levels_made, [&] { return multiresolution::paper_levels(surface, silent); });
-  const System system{forms::laplacian(half_edges, weights, silent),
-                      forms::codifferentials(half_edges, weights, levels.bases.classes, silent.workers())};
+  const System system = system_of(surface, discretisation, levels);
   std::cout << "{\"faces\": " << surface.triangles.size() << ", \"right_hand_sides\": " << system.B.cols()
             << ", \"homology_of_surface\": " << homology << ", \"progressive_mesh\": " << collapsing
             << ", \"homology_of_base\": " << levels_made - collapsing << ", \"plain\": ";

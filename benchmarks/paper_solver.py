@@ -3,8 +3,8 @@
 
 The paper's multiresolution algorithm (section 9) against conjugate gradients begun at zero, on the same linear system
 with the same code: the mesh files named, and surfaces of about N faces by marching tetrahedra (genus 2, irregular) and
-bumpy tori. One thread, processor time. Work is counted in iterations on the surface, those of a level by its part of
-the surface's faces.
+bumpy tori. Of a mesh with boundary the system is that of its double. One thread, processor time. Work is counted in
+iterations on the surface, those of a level by its part of the surface's faces.
 
 Prints how many times faster the paper's solver (with L scaled to a diagonal of ones, as the library has it; and without
 scaling) is than plain conjugate gradients and than scaled ones, to relative residuals of 1e-4 to 1e-10: in work; in

@@ -36,7 +36,7 @@ SOLVER_TEXTS = {
     "auto": ("Automatic", "By size and number of forms"),
     "direct": ("Direct", "Sparse Cholesky factorisation"),
     "multigrid": ("Multigrid", "Linear time and memory"),
-    "paper": ("Paper", "The published multiresolution method, on closed parts with handles: for comparison"),
+    "paper": ("Paper", "The published multiresolution method, on parts with handles or several boundaries"),
 }
 MAIN_MAPS = items(
     AUTOMATIC="Seamless on each part where that is no less even; balanced where something else is chosen for a part, "

@@ -57,8 +57,11 @@ def attempts(part, choices):
     """Keywords for a connected part, the most wanted first; the later ones leave out implicit choices. Vertices are
     those of the whole mesh."""
     if choices.are_islands:
-        base = _with_fitting_method(part, {"solver": choices.solver, "boundary": "natural"})
-        return [base | {"boundary": "free"}, base]
+        free, base = (
+            _with_fitting_method(part, {"solver": choices.solver, "boundary": boundary})
+            for boundary in ("free", "natural")
+        )
+        return [free | {"boundary": "free"}, base]
     base = {"solver": choices.solver, "boundary": choices.boundary}
     selection = _selection(part, choices)
     seams = choices.seams
@@ -75,14 +78,14 @@ def attempts(part, choices):
 
 
 def _with_fitting_method(part, keywords):
-    """The double is for the forms of surfaces with boundary, the paper's solver for closed parts with handles: other
+    """The double is for the forms of surfaces with boundary, the paper's solver for all parts that have forms: other
     parts of a mesh are solved as usual."""
-    is_chosen = not keywords.keys().isdisjoint({"poles", "corners"})
+    is_chosen = keywords["boundary"] == "free" or not keywords.keys().isdisjoint({"poles", "corners"})
     is_open = part.boundary_count > 0
     has_forms = not is_chosen and 2 * part.genus + part.boundary_count - is_open > 0
     if not (is_open and has_forms):
         keywords = keywords | {"boundary": "natural"}
-    if keywords["solver"] == "paper" and (is_open or not has_forms):
+    if keywords["solver"] == "paper" and not has_forms:
         keywords = keywords | {"solver": "auto"}
     return keywords
 

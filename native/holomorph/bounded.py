@@ -44,7 +44,7 @@ class BoundedStructure(CertifiedStructure):
     @cached_property
     def boundary_loops(self) -> tuple[Integers, ...]:
         """Tuple of b integer arrays of vertices, the hole on the left. Loop 0 is the longest; the others follow by
-        their lowest vertex, at which each loop starts."""
+        their lowest vertex, at which each loop starts. Levels of a progressive mesh have the order of its base."""
         return tuple(self._of_surface(loop) for loop in self._native.boundary_loops())
 
     @cached_property

@@ -33,6 +33,15 @@ def check_memory_limit(memory_limit):
     return int(memory_limit)
 
 
+def check_thresholds(thresholds, solver):
+    """Numbers of faces as integers, None for those that the paper's solver takes. @throws ValueError"""
+    if thresholds is None:
+        return None
+    if solver != "paper":
+        raise ValueError(f"thresholds are those of the paper's solver, and solver is {solver!r}")
+    return [int(min(real_number(faces, "a threshold", positive=True), 2**62)) for faces in thresholds]
+
+
 def check_bounds(width, most_faces):
     """(relative width, number of triangles), None where no width is asked for. @throws ValueError"""
     if width is None:

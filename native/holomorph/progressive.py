@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import numbers
 import os
+from collections.abc import Sequence
 from functools import cached_property, partial
 from typing import Any
 
@@ -12,9 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native, arrays, checked_file, level_forms, levels
-from ._native import InvalidMesh, TopologyError
+from ._native import InvalidMesh
 from .array_types import FilePath, Integers, Progress
-from .checks import check_memory_limit, check_options, check_type
+from .bounded import BoundedStructure
+from .checks import check_memory_limit, check_options, check_thresholds, check_type
 from .closed import ConformalStructure
 from .origin import Origin
 from .results import result
@@ -184,35 +186,37 @@ class ProgressiveMesh(Value):
         n_faces: int,
         *,
         solver: str = "auto",
+        thresholds: Sequence[float] | None = None,
         threads: int | None = None,
         memory_limit: float | None = None,
         progress: Progress | None = None,
-    ) -> ConformalStructure:
+    ) -> ConformalStructure | BoundedStructure:
         """The conformal structure of ``level(n_faces)``, with the same homology classes at every level (paper section
         9): the loops of the base are lifted through the splits, and the classes dual to them pulled back. The
-        intersection matrix and the canonical basis are equal at all levels, so period matrices and forms can be
-        compared, and textures stay in place from level to level.
+        intersection matrix and the canonical basis, with boundary the pairing, are equal at all levels, so period
+        matrices and forms can be compared, and textures stay in place from level to level. Boundary loops have the
+        order of the base's at every level.
 
         Parameters and errors are those of `holomorph.conformal_structure`.
 
         Returns
         -------
-        ConformalStructure
+        ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary
             Its `surface` is ``level(n_faces)``.
         """
-        again = partial(self.conformal_structure, n_faces, solver=solver, threads=threads, memory_limit=memory_limit)
+        options = {"solver": solver, "thresholds": thresholds, "threads": threads, "memory_limit": memory_limit}
+        again = partial(self.conformal_structure, n_faces, **options)
         threads, memory_limit = check_options(solver, threads), check_memory_limit(memory_limit)
-        if self.base.genus == 0 or self.base.boundary_count:
-            found = self.base._topology.text()
-            raise TopologyError(f"the surface has {found}; a closed surface of genus 1 or more is needed")
+        thresholds = check_thresholds(thresholds, solver)
+        kind = BoundedStructure if self.base.boundary_count else ConformalStructure
         splits = self._split_count(n_faces)
         surface = self._level(splits)
         level = self._native, splits, surface._native
         if solver == "paper":
-            native = _native.paper_structure_of_level(*level, threads, memory_limit, progress)
+            native = _native.paper_structure_of_level(*level, thresholds, threads, memory_limit, progress)
         else:
             native = _native.conformal_structure_of_level(*level, solver, threads, memory_limit, progress)
-        return result(ConformalStructure, surface, surface, native, threads).computed_by(again)
+        return result(kind, surface, surface, native, threads).computed_by(again)
 
     def vertex_map(self, n_faces: int) -> Integers:
         """(#V,) vertex of ``level(n_faces)`` that each vertex of the original was collapsed into; -1 for isolated ones.

@@ -13,7 +13,8 @@ class SolverReport(Value):
     were refined, among thin triangles, their largest relative error in energy.
 
     levels : (faces, iterations, seconds) of the paper's solver on each level of the progressive mesh, the base mesh
-        first and the surface last, where the seconds of a level include making its linear system; () for other solvers
+        first and the surface last, where the seconds of a level include making its linear system, with boundary that of
+        its double; () for other solvers
     """
 
     name: str

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 from . import _native
 from ._native import SolverError, TopologyError
 from .array_types import Progress
 from .bounded import BoundedStructure
-from .checks import check_bounds, check_memory_limit, check_options, only_component
+from .checks import check_bounds, check_memory_limit, check_options, check_thresholds, only_component
 from .closed import ConformalStructure
 from .narrow_bounds import narrow
 from .results import result
@@ -22,6 +23,7 @@ def conformal_structure(
     *,
     boundary: str = "natural",
     solver: str = "auto",
+    thresholds: Sequence[float] | None = None,
     threads: int | None = None,
     memory_limit: float | None = None,
     bounds: float | None = None,
@@ -37,8 +39,11 @@ def conformal_structure(
     boundary : how forms of a surface with boundary are found: "natural" on the surface itself, "double_cover" on its
         double, at twice the size, as the paper does (§ 8); the forms are the same to solver accuracy
     solver : "direct", a sparse Cholesky factorisation; "multigrid", in linear time and memory; "auto" chooses, the
-        result's `solver` says what and why; "paper", its multiresolution algorithm (§ 9) for closed surfaces, slower,
-        on the surface's own triangles, its edges not flipped
+        result's `solver` says what and why; "paper", its multiresolution algorithm (§ 9), slower, on the surface's own
+        triangles, its edges not flipped, and with any `boundary` on the double of each level
+    thresholds : numbers of faces at which the paper's solver refines the forms on its way from the base mesh to the
+        surface; None for one at every factor of four in faces from about 500 on. With none of them, [], its conjugate
+        gradients begin at zero on the surface itself: what the paper compares with
     threads : number of threads, None for one per core; the result has the same bits for any number
     memory_limit : bytes that may be in use at once, without the surface itself; None refuses nothing. Where the forms
         of a closed surface do not fit (None: in 2 GB), they are solved for in blocks, and `uv` solves for each map
@@ -68,10 +73,11 @@ def conformal_structure(
     limit, component = check_memory_limit(memory_limit), only_component(surface)
     _check_topology(component)
     options = solver, count, limit, progress
-    native = _native_structure(component, boundary, *options)
+    native = _native_structure(component, boundary, check_thresholds(thresholds, solver), *options)
     kind = BoundedStructure if component.boundary_count else ConformalStructure
     more = {} if narrowing is None else {"refinement": _narrowed(native, narrowing, *options)}
-    again = {"boundary": boundary, "solver": solver, "threads": threads, "memory_limit": memory_limit}
+    again = {"boundary": boundary, "solver": solver, "thresholds": thresholds}
+    again |= {"threads": threads, "memory_limit": memory_limit}
     made = result(kind, surface, component, native, count, **more)
     return made.computed_by(partial(conformal_structure, surface, bounds=bounds, most_faces=most_faces, **again))
 
@@ -85,11 +91,10 @@ def _check_topology(component):
         raise TopologyError(f"a disk has no holomorphic forms; {maps} give maps of it")
 
 
-def _native_structure(component, boundary, solver, threads, memory_limit, progress):
-    is_bounded = component.boundary_count > 0
-    if solver == "paper" and not is_bounded:
-        return _native.paper_structure(component._native, threads, memory_limit, progress)
-    is_double = is_bounded and boundary == "double_cover"
+def _native_structure(component, boundary, thresholds, solver, threads, memory_limit, progress):
+    if solver == "paper":
+        return _native.paper_structure(component._native, thresholds, threads, memory_limit, progress)
+    is_double = component.boundary_count > 0 and boundary == "double_cover"
     return _native.conformal_structure(component._native, is_double, solver, threads, memory_limit, progress)
 
 

@@ -70,7 +70,9 @@ def test_methods_are_taken_where_they_fit():
     chosen = choices.Choices(boundary="double_cover", solver="paper")
     found = [choices.attempts(part, chosen)[0] for part in (ring, torus_part, sphere)]
     assert [k["boundary"] for k in found] == ["double_cover", "natural", "natural"]
-    assert [k["solver"] for k in found] == ["auto", "paper", "auto"]
+    assert [k["solver"] for k in found] == ["paper", "paper", "auto"]
+    free, natural = choices.attempts(ring, choices.Choices(boundary=choices.ISLANDS, solver="paper"))
+    assert (free["boundary"], free["solver"], natural["solver"]) == ("free", "auto", "paper")
     with_poles = choices.Choices(choices.POLES, (3, 150), solver="paper")
     assert choices.attempts(torus_part, with_poles)[0]["solver"] == "auto"
 

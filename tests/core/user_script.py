@@ -49,7 +49,7 @@ def compared(a: holomorph.Surface, b: holomorph.Surface) -> str:
     assert_type(found.matrix, Integers | None)
     mesh = holomorph.ProgressiveMesh(a)
     assert_type(mesh.level(500), holomorph.Surface)
-    assert_type(mesh.conformal_structure(500), holomorph.ConformalStructure)
+    assert_type(mesh.conformal_structure(500), holomorph.ConformalStructure | holomorph.BoundedStructure)
     tiler = holomorph.Tiler(a, 4, boundary="free")
     assert_type(tiler.tile(16, lattice=[[1, 0], [0, 1]]).quality.density_ratio, float)
     assert_type(holomorph.place_poles(a, 3).vertices, Integers)

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
@@ -53,9 +54,12 @@ Pointer with_poles(const SurfacePointer& surface, const std::vector<int>& vertic
   });
 }
 
-Pointer paper(const SurfacePointer& surface, int threads, std::int64_t memory_limit, const py::object& progress) {
+using Thresholds = std::optional<std::vector<std::int64_t>>;
+
+Pointer paper(const SurfacePointer& surface, const Thresholds& thresholds, int threads, std::int64_t memory_limit,
+              const py::object& progress) {
   return make({"auto", memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
-    return multiresolution::paper_structure(surface, options, execution);
+    return multiresolution::paper_structure(surface, options, execution, {thresholds});
   });
 }
 
@@ -68,10 +72,11 @@ Pointer conformal_of_level(const progressive::ProgressiveMesh& mesh, int splits,
   });
 }
 
-Pointer paper_of_level(const progressive::ProgressiveMesh& mesh, int splits, const SurfacePointer& surface, int threads,
-                       std::int64_t memory_limit, const py::object& progress) {
+Pointer paper_of_level(const progressive::ProgressiveMesh& mesh, int splits, const SurfacePointer& surface,
+                       const Thresholds& thresholds, int threads, std::int64_t memory_limit,
+                       const py::object& progress) {
   return make({"auto", memory_limit}, threads, progress, [&](const Options& options, Execution& execution) {
-    return multiresolution::paper_structure(surface, options, execution,
+    return multiresolution::paper_structure(surface, options, execution, {thresholds},
                                             multiresolution::paper_levels(mesh, splits, *surface));
   });
 }
@@ -215,12 +220,12 @@ void bind_structure(py::module_& m) {
         py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
   m.def("pole_structure", &with_poles, py::arg("surface"), py::arg("poles"), py::arg("residues"), py::arg("labels"),
         py::arg("solver"), py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
-  m.def("paper_structure", &paper, py::arg("surface"), py::arg("threads"), py::arg("memory_limit"),
-        py::arg("progress"));
+  m.def("paper_structure", &paper, py::arg("surface"), py::arg("thresholds"), py::arg("threads"),
+        py::arg("memory_limit"), py::arg("progress"));
   m.def("conformal_structure_of_level", &conformal_of_level, py::arg("mesh"), py::arg("splits"), py::arg("surface"),
         py::arg("solver"), py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
   m.def("paper_structure_of_level", &paper_of_level, py::arg("mesh"), py::arg("splits"), py::arg("surface"),
-        py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
+        py::arg("thresholds"), py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));
 }
 
 }  // namespace holomorph::bindings

@@ -40,6 +40,15 @@ BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& half_edges
   return result;
 }
 
+BoundaryLoops renumbered(const BoundaryLoops& boundary, const std::vector<int>& number) {
+  BoundaryLoops result;
+  result.loops.resize(boundary.loops.size());
+  for (int k = 0; k < boundary.count(); ++k) result.loops[number[k]] = boundary.loops[k];
+  result.loop_of_vertex = boundary.loop_of_vertex;
+  for (int& loop : result.loop_of_vertex) loop = loop < 0 ? -1 : number[loop];
+  return result;
+}
+
 std::vector<int> boundary_vertices(const HalfEdges& half_edges) {
   std::vector<int> vertices;
   for (int v = 0; v < static_cast<int>(half_edges.n_vertices()); ++v) {

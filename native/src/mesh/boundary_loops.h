@@ -19,6 +19,9 @@ struct BoundaryLoops {
 
 BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& half_edges);
 
+/// The same loops in another order. @param number #loops the new number of each
+BoundaryLoops renumbered(const BoundaryLoops& boundary, const std::vector<int>& number);
+
 /// The vertices of all loops, ascending; those of any triangulation of the surface.
 std::vector<int> boundary_vertices(const HalfEdges& half_edges);
 std::vector<int> boundary_vertices(const BoundaryLoops& boundary);

@@ -2,7 +2,10 @@
 
 #include <chrono>
 #include <numeric>
+#include <set>
 #include <sstream>
+
+#include "base/errors.h"
 
 namespace holomorph::multiresolution {
 namespace {
@@ -11,110 +14,139 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-class PaperSolve {
- public:
-  PaperSolve(const PaperLevels& levels, const PaperOptions& options, Execution& execution)
-      : levels_(levels), options_(options), execution_(execution), work_(faces(levels.splits)) {
-    for (const int k : thresholds(levels, options)) work_ += faces(k);
-  }
+double faces(const PaperLevels& levels, int splits) {
+  return static_cast<double>(progressive::triangle_count(*levels.mesh, splits));
+}
 
-  // Steps 4 and 5.
-  Eigen::MatrixXd estimate() {
-    std::vector<int> row(levels_.place.size()), own(row.size());
-    std::iota(own.begin(), own.end(), 0);
-    Eigen::MatrixXd X;
-    for (const int k : thresholds(levels_, options_)) {
-      const auto start = Clock::now();
-      LevelSystem system = level_system(levels_, k);
-      X = prolonged(X, row, system.row_of_vertex, system.B.rows(), system.B.cols());
-      improve(system.L, system.B, X, options_.level_residual, k, start);
-      row = std::move(system.row_of_vertex);
+// Part of the work that conjugate gradients on M are taken for: its part of the faces of all levels.
+double last_part(const PaperLevels& levels, const PaperOptions& options) {
+  double work = faces(levels, levels.splits);
+  for (const int k : thresholds(levels, options)) work += faces(levels, k);
+  return faces(levels, levels.splits) / work;
+}
+
+structure::LevelReport level_report(const PaperLevels& levels, int splits, const solver::GradientReport& report,
+                                    Clock::time_point start) {
+  return {static_cast<std::int64_t>(faces(levels, splits)), report.iterations, seconds_since(start)};
+}
+
+// Step 5(b) for all splits between two levels; on M0 nothing is known yet.
+Eigen::MatrixXd prolonged(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
+                          Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns);
+  for (Eigen::Index c = 0; c < X.cols(); ++c) {
+    for (std::size_t v = 0; v < from.size(); ++v) result(to[v], c) = X(from[v], c);
+  }
+  return result;
+}
+
+// The loops' harmonic measures belong to d(1 on loop k) on the surface. What the levels have is its pull-back from M0,
+// which is 1 at all vertices that were collapsed into the loop: functions that are 0 along the boundary take the
+// difference, with the other sign in the second copy.
+void add_collapsed_into_loops(const PaperLevels& levels, Eigen::MatrixXd& X) {
+  const Eigen::Index first = X.cols() - levels.bases.boundary.count();  // loop k >= 1 is column first + k
+  const std::vector<int> to_base = progressive::vertex_map(*levels.mesh, 0);
+  auto second = static_cast<Eigen::Index>(levels.place.size());
+  for (std::size_t v = 0; v < levels.place.size(); ++v) {
+    if (levels.on_boundary(static_cast<int>(v))) continue;
+    const int loop = levels.base_loop_of_vertex[to_base[levels.place[v]]];
+    if (loop > 0) {
+      X(static_cast<Eigen::Index>(v), first + loop) += 1;
+      X(second, first + loop) -= 1;
     }
-    return prolonged(X, row, own, static_cast<Eigen::Index>(own.size()), levels_.base_classes.form_count);
+    ++second;
   }
+}
 
-  // Step 6.
-  solver::GradientReport improve_surface(const solver::Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X) {
-    const auto start = Clock::now();
-    const auto last = improve(L, B, X, options_.residual, levels_.splits, start);
-    if (!last.converged) fail(last, B.rows());
-    return last;
-  }
-
-  structure::SolverReport report(const solver::GradientReport& last) const {
-    const std::string name = options_.scaling == solver::Scaling::none ? "plain" : "scaled";
-    return {"paper: " + name + " conjugate gradients, " + std::to_string(reports_.size()) + " levels", "asked for",
-            last.iterations, last.residual, reports_};
-  }
-
- private:
-  double faces(int splits) const { return static_cast<double>(levels_.mesh->base.triangles.size()) + 2.0 * splits; }
-
-  // Step 5(b) for all splits between two levels; on M0 nothing is known yet.
-  static Eigen::MatrixXd prolonged(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
-                                   Eigen::Index rows, Eigen::Index columns) {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rows, columns);
-    for (Eigen::Index c = 0; c < X.cols(); ++c) {
-      for (std::size_t v = 0; v < from.size(); ++v) result(to[v], c) = X(from[v], c);
-    }
-    return result;
-  }
-
-  solver::GradientReport improve(const solver::Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
-                                 double residual, int splits, Clock::time_point start) {
-    solver::GradientOptions options;
-    options.scaling = options_.scaling;
-    options.residual = residual;
-    const double part = faces(splits) / work_;
-    execution_.part(done_, done_ + part);
-    const auto report = solver::conjugate_gradients(L, B, X, options, execution_);
-    done_ += part;
-    reports_.push_back({static_cast<std::int64_t>(faces(splits)), report.iterations, seconds_since(start)});
-    return report;
-  }
-
-  [[noreturn]] void fail(const solver::GradientReport& last, Eigen::Index unknowns) const {
-    std::ostringstream message;
-    message << "the paper's solver reached a relative residual of " << last.residual << " instead of "
-            << options_.residual << " after " << last.iterations << " iterations, on a system of " << unknowns
-            << " unknowns; take one of auto, direct, multigrid";
-    throw SolverError(message.str());
-  }
-
-  const PaperLevels& levels_;
-  const PaperOptions& options_;
-  Execution& execution_;
-  std::vector<structure::LevelReport> reports_;
-  double work_ = 0;  // in faces of all levels
-  double done_ = 0;  // part of it
-};
+std::vector<int> asked_for(const PaperLevels& levels, const std::vector<std::int64_t>& thresholds) {
+  std::set<int> splits;
+  for (const std::int64_t faces : thresholds) splits.insert({0, progressive::split_count(*levels.mesh, faces)});
+  splits.erase(splits.lower_bound(levels.splits), splits.end());
+  return {splits.begin(), splits.end()};
+}
 
 }  // namespace
 
 std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options) {
-  const auto base = static_cast<double>(levels.mesh->base.triangles.size());
+  if (options.thresholds) return asked_for(levels, *options.thresholds);
+  const double base = faces(levels, 0);
   std::vector<int> splits;
-  for (double faces = (base + 2.0 * levels.splits) / options.ratio;
-       faces >= static_cast<double>(options.least_faces) && faces > base; faces /= options.ratio) {
-    splits.push_back(static_cast<int>((faces - base) / 2));
+  for (double count = faces(levels, levels.splits) / options.ratio;
+       count >= static_cast<double>(options.least_faces) && count > base; count /= options.ratio) {
+    splits.push_back(progressive::split_count(*levels.mesh, static_cast<std::int64_t>(count)));
   }
   if (levels.splits > 0) splits.push_back(0);
   return {splits.rbegin(), splits.rend()};
 }
 
-PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution) {
-  PaperSolve solve(levels, options, execution);
-  PaperForms result{solve.estimate(), {}};
-  result.solver = solve.report({});
+PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution) {
+  const std::vector<int> coarse = thresholds(levels, options);
+  double work = 0, done = 0;
+  for (const int k : coarse) work += faces(levels, k);
+  PaperEstimation result;
+  std::vector<int> row, own(static_cast<std::size_t>(row_count(levels)));
+  std::iota(own.begin(), own.end(), 0);
+  Eigen::MatrixXd X;
+  solver::GradientOptions gradients;
+  gradients.scaling = options.scaling;
+  gradients.residual = options.level_residual;
+  for (const int k : coarse) {
+    const auto start = Clock::now();
+    LevelSystem system = level_system(levels, k);
+    X = prolonged(X, row, system.row, system.B.rows(), system.B.cols());
+    execution.part(done, done + faces(levels, k) / work);
+    const auto report = solver::conjugate_gradients(system.L, system.B, X, gradients, execution);
+    done += faces(levels, k) / work;
+    result.levels.push_back(level_report(levels, k, report, start));
+    row = std::move(system.row);
+  }
+  result.functions = prolonged(X, row, own, static_cast<Eigen::Index>(own.size()), levels.base_classes.form_count);
+  if (!levels.closed() && !coarse.empty()) add_collapsed_into_loops(levels, result.functions);
   return result;
 }
 
-PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
-                       const PaperOptions& options, Execution& execution) {
-  PaperSolve solve(levels, options, execution);
-  Eigen::MatrixXd X = solve.estimate();
-  auto report = solve.report(solve.improve_surface(laplacian, B, X));
-  return {X, std::move(report)};
+PaperSolver::PaperSolver(const PaperLevels& levels, solver::Laplacian&& L, const PaperOptions& options)
+    : levels_(levels), L_(std::move(L)), options_(options) {}
+
+solver::Solution PaperSolver::solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>&,
+                                    Execution& execution) {
+  return reports_.empty() ? improved(B, execution) : correction(B, execution);
+}
+
+std::string PaperSolver::name() const {
+  const std::string name = options_.scaling == solver::Scaling::none ? "plain" : "scaled";
+  return "paper: " + name + " conjugate gradients, " + std::to_string(reports_.size()) + " levels";
+}
+
+solver::Solution PaperSolver::improved(const Eigen::MatrixXd& B, Execution& execution) {
+  const double before = 1 - last_part(levels_, options_);
+  execution.part(0, before);
+  auto estimation = [&] {
+    const Execution::Within within(execution);
+    return paper_estimation(levels_, options_, execution);
+  }();
+  execution.part(before, 1);
+  const auto start = Clock::now();
+  const solver::GradientOptions gradients{options_.scaling, options_.residual};
+  const auto last = solver::conjugate_gradients(L_, B, estimation.functions, gradients, execution);
+  reports_ = std::move(estimation.levels);
+  reports_.push_back(level_report(levels_, levels_.splits, last, start));
+  iterations_ = last.iterations;
+  residual_ = last.residual;
+  if (last.converged) return std::move(estimation.functions);
+  std::ostringstream message;
+  message << "the paper's solver reached a relative residual of " << last.residual << " instead of "
+          << options_.residual << " after " << last.iterations << " iterations, on a system of " << B.rows()
+          << " unknowns; take one of auto, direct, multigrid";
+  throw SolverError(message.str());
+}
+
+solver::Solution PaperSolver::correction(const Eigen::MatrixXd& B, Execution& execution) const {
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
+  const auto report = solver::conjugate_gradients(L_, B, X, {}, execution);
+  if (report.converged) return X;
+  throw SolverError("conjugate gradients do not refine the harmonic forms, on a system of " + std::to_string(B.rows()) +
+                    " unknowns; take one of auto, direct, multigrid");
 }
 
 }  // namespace holomorph::multiresolution

@@ -13,14 +13,20 @@
 // collapsed into: eta remains an integer class, and f(v_t) = f(v_s).
 #pragma once
 
+#include <optional>
+
 #include "base/execution.h"
 #include "multiresolution/paper_levels.h"
 #include "solver/conjugate_gradients.h"
+#include "solver/laplace_solver.h"
 #include "structure/solver_report.h"
 
 namespace holomorph::multiresolution {
 
 struct PaperOptions {
+  /// Numbers of faces of the thresholds in any order, M0 besides; none of them: begins at zero, without levels.
+  /// By default every `ratio` in faces from `least_faces` on.
+  std::optional<std::vector<std::int64_t>> thresholds;
   double ratio = 4;                     ///< faces of a threshold over those of the one before
   std::int64_t least_faces = 500;       ///< fewest faces of a threshold above M0
   double level_residual = 1e-4;         ///< relative, goal on M0 and at the thresholds
@@ -31,19 +37,36 @@ struct PaperOptions {
 /// Numbers of splits of M0 and of the thresholds, ascending, without that of M.
 std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options);
 
-struct PaperForms {
-  forms::RowMajorMatrix functions;  ///< #V x #forms
-  structure::SolverReport solver;
+struct PaperEstimation {
+  Eigen::MatrixXd functions;  ///< #rows x #forms, see row_count
+  std::vector<structure::LevelReport> levels;
 };
 
-/// Steps 4 and 5: the initial guess on M; its report has all levels but M. A threshold's residual need not be small:
+/// Steps 4 and 5: the initial guess on M, and all levels but M. A threshold's residual need not be small:
 /// simplification changes the solution by some thousandths from one level to the next.
-PaperForms paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
+PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
 
-/// Steps 4 to 6: functions f of the harmonic forms eta + df, eta the classes of `levels.bases`.
-/// @param laplacian,B of the surface, in its own numbering: L f = B
-/// @throws SolverError if the residual is not reached; Cancelled
-PaperForms paper_forms(const PaperLevels& levels, const solver::Laplacian& laplacian, const Eigen::MatrixXd& B,
-                       const PaperOptions& options, Execution& execution);
+/// Steps 4 to 6 as a solver: the first right-hand sides are those of all harmonic forms, in the order of
+/// `PaperLevels::base_classes`, and begin with the estimation. Those of corrections begin at zero.
+/// @pre `levels` outlives this
+class PaperSolver final : public solver::LaplaceSolver {
+ public:
+  /// @param L of the surface, or of its double, in its own numbering
+  PaperSolver(const PaperLevels& levels, solver::Laplacian&& L, const PaperOptions& options);
+
+  solver::Solution solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>&,
+                         Execution& execution) override;
+  std::string name() const override;
+  const std::vector<structure::LevelReport>& levels() const { return reports_; }
+
+ private:
+  solver::Solution improved(const Eigen::MatrixXd& B, Execution& execution);
+  solver::Solution correction(const Eigen::MatrixXd& B, Execution& execution) const;
+
+  const PaperLevels& levels_;
+  solver::Laplacian L_;
+  PaperOptions options_;
+  std::vector<structure::LevelReport> reports_;
+};
 
 }  // namespace holomorph::multiresolution

@@ -30,7 +30,97 @@ std::array<double, 3> side_weights(const std::array<std::array<double, 3>, 3>& c
   return {mesh::cotangent(a, b, c, area) / 2, mesh::cotangent(b, c, a, area) / 2, mesh::cotangent(c, a, b, area) / 2};
 }
 
+void set_base(const topology::BaseBases& base, PaperLevels& levels) {
+  levels.base_classes = topology::concatenated(base.classes, base.relative);
+  levels.base_loop_of_vertex = base.boundary.loop_of_vertex;
+}
+
+// The rows of a level's vertices, and with boundary those in the second copy of its double.
+struct Rows {
+  std::vector<std::vector<int>> copies;
+  int count = 0;
+};
+
+Rows rows_of(const PaperLevels& levels, int vertices) {
+  Rows result;
+  for (int copy = 0; copy < (levels.closed() ? 1 : 2); ++copy) {
+    std::vector<int> rows(static_cast<std::size_t>(vertices));
+    for (std::size_t v = 0; v < levels.place.size(); ++v) {
+      const int p = levels.place[v];
+      if (p >= vertices) continue;
+      const bool is_shared = copy > 0 && levels.on_boundary(static_cast<int>(v));
+      rows[p] = is_shared ? result.copies[0][p] : result.count++;
+    }
+    result.copies.push_back(std::move(rows));
+  }
+  return result;
+}
+
+// The row of the level for each row of the surface. @param to_level as progressive::vertex_map
+std::vector<int> row_of_row(const PaperLevels& levels, const std::vector<std::vector<int>>& copies,
+                            const std::vector<int>& to_level) {
+  std::vector<int> result;
+  result.reserve(static_cast<std::size_t>(row_count(levels)));
+  for (const auto& rows : copies) {
+    for (std::size_t v = 0; v < levels.place.size(); ++v) {
+      const bool is_shared = result.size() >= levels.place.size() && levels.on_boundary(static_cast<int>(v));
+      if (!is_shared) result.push_back(rows[to_level[levels.place[v]]]);
+    }
+  }
+  return result;
+}
+
+// The part of one copy of a triangle's side in L and B.
+class Assembly {
+ public:
+  Assembly(const PaperLevels& levels, int rows, std::size_t triangles)
+      : levels_(levels),
+        to_base_(progressive::vertex_map(*levels.mesh, 0)),
+        B_(Eigen::MatrixXd::Zero(rows, levels.base_classes.form_count)) {
+    entries_.reserve(12 * triangles);
+  }
+
+  // A side from a to b with the weight, whose vertices have these rows.
+  void add(int a, int b, double weight, int tail, int head, bool is_second) {
+    entries_.insert(entries_.end(),
+                    {{tail, tail, weight}, {tail, head, -weight}, {head, head, weight}, {head, tail, -weight}});
+    a = to_base_[a], b = to_base_[b];
+    if (a == b) return;
+    const int edge = mesh::edge_between(levels_.mesh->base.edges, a, b);
+    for (const auto& [form, value] : levels_.base_classes.rows[edge]) {
+      const bool is_negative = is_second && form >= levels_.bases.classes.form_count;
+      const double flux = weight * ((a < b) == is_negative ? -value : value);
+      B_(head, form) -= flux;
+      B_(tail, form) += flux;
+    }
+  }
+
+  LevelSystem system() {
+    const auto n = B_.rows();
+    solver::Laplacian::Matrix L(n, n);
+    L.setFromTriplets(entries_.begin(), entries_.end());
+    return {{{L.outerIndexPtr(), L.outerIndexPtr() + n + 1},
+             {L.innerIndexPtr(), L.innerIndexPtr() + L.nonZeros()},
+             {L.valuePtr(), L.valuePtr() + L.nonZeros()}},
+            std::move(B_),
+            {}};
+  }
+
+ private:
+  const PaperLevels& levels_;
+  std::vector<int> to_base_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::MatrixXd B_;
+};
+
 }  // namespace
+
+Eigen::Index row_count(const PaperLevels& levels) {
+  const auto n = static_cast<Eigen::Index>(levels.place.size());
+  if (levels.closed()) return n;
+  const auto& loop = levels.bases.boundary.loop_of_vertex;
+  return n + std::count(loop.begin(), loop.end(), -1);
+}
 
 PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
   if (surface.intrinsic()) {
@@ -57,12 +147,16 @@ PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
     for (int& v : levels.triangles.back()) v = levels.place[v];
   }
 
-  topology::BaseBases base = topology::base_bases(mesh.base);
-  levels.base_classes = std::move(base.classes);
+  levels.bases.boundary = mesh::boundary_loops(surface, mesh::half_edges(surface, execution));
+  std::vector<int> loop_of_vertex;
+  for (int p = 0; p < mesh.base_vertex_count(); ++p)
+    loop_of_vertex.push_back(levels.bases.boundary.loop_of_vertex[mesh.vertex_index[p]]);
+  const topology::BaseBases base = topology::base_bases(mesh.base, loop_of_vertex);
+  set_base(base, levels);
   const std::vector<int> to_base = progressive::vertex_map(mesh, 0);
   std::vector<int> map(levels.place.size());
   for (std::size_t v = 0; v < map.size(); ++v) map[v] = to_base[levels.place[v]];
-  levels.bases.classes = topology::pull_back_classes(mesh.base, levels.base_classes, triangulation, map);
+  levels.bases.classes = topology::pull_back_classes(mesh.base, base.classes, triangulation, map);
   auto loops = topology::lift_loops(mesh, levels.splits, base.loops);
   for (auto& loop : loops) {
     for (int& v : loop) v = mesh.vertex_index[v];
@@ -79,53 +173,33 @@ PaperLevels paper_levels(const ProgressiveMesh& mesh, int splits, const mesh::Su
   levels.place.resize(static_cast<std::size_t>(level.vertex_count));
   std::iota(levels.place.begin(), levels.place.end(), 0);
   levels.triangles.assign(level.triangles.begin(), level.triangles.end());
-  levels.base_classes = topology::base_bases(mesh.base).classes;
-  levels.bases = topology::lifted_bases(mesh, splits, level);
+  const topology::BaseBases base = topology::base_bases(mesh.base);
+  set_base(base, levels);
+  levels.bases = topology::lifted_bases(mesh, splits, level, base);
   return levels;
 }
 
 LevelSystem level_system(const PaperLevels& levels, int splits) {
   const ProgressiveMesh& mesh = *levels.mesh;
-  const int n = mesh.base_vertex_count() + splits;
-  const std::size_t triangle_count = mesh.base.triangles.size() + 2 * static_cast<std::size_t>(splits);
-  const std::vector<int> to_level = progressive::vertex_map(mesh, splits), to_base = progressive::vertex_map(mesh, 0);
-  LevelSystem system;
-  system.faces = static_cast<std::int64_t>(triangle_count);
+  const auto triangle_count = static_cast<std::size_t>(progressive::triangle_count(mesh, splits));
+  const std::vector<int> to_level = progressive::vertex_map(mesh, splits);
+  const auto [copies, count] = rows_of(levels, mesh.base_vertex_count() + splits);
 
-  std::vector<int> row(static_cast<std::size_t>(n));
-  int next = 0;
-  for (const int p : levels.place) {
-    if (p < n) row[p] = next++;
-  }
-  for (const int p : levels.place) system.row_of_vertex.push_back(row[to_level[p]]);
-
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(12 * triangle_count);
-  system.B = Eigen::MatrixXd::Zero(n, levels.base_classes.form_count);
+  Assembly assembly(levels, count, triangle_count * copies.size());
   for (std::size_t t = 0; t < triangle_count; ++t) {
     mesh::Triple v = levels.triangles[t];
     for (int& corner : v) corner = to_level[corner];
     const auto weights = side_weights({mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]});
-    for (int i = 0; i < 3; ++i) {
-      const double weight = weights[i];
-      const int tail = row[v[i]], head = row[v[(i + 1) % 3]];
-      entries.insert(entries.end(),
-                     {{tail, tail, weight}, {tail, head, -weight}, {head, head, weight}, {head, tail, -weight}});
-      const int a = to_base[v[i]], b = to_base[v[(i + 1) % 3]];
-      if (a == b) continue;
-      const int edge = mesh::edge_between(mesh.base.edges, a, b);
-      for (const auto& [form, value] : levels.base_classes.rows[edge]) {
-        const double flux = weight * (a < b ? value : -value);
-        system.B(head, form) -= flux;
-        system.B(tail, form) += flux;
+    for (std::size_t copy = 0; copy < copies.size(); ++copy) {
+      const auto& rows = copies[copy];
+      for (int i = 0; i < 3; ++i) {
+        const int a = v[i], b = v[(i + 1) % 3];
+        assembly.add(a, b, weights[i], rows[a], rows[b], copy > 0);
       }
     }
   }
-  solver::Laplacian::Matrix L(n, n);
-  L.setFromTriplets(entries.begin(), entries.end());
-  system.L = {{L.outerIndexPtr(), L.outerIndexPtr() + n + 1},
-              {L.innerIndexPtr(), L.innerIndexPtr() + L.nonZeros()},
-              {L.valuePtr(), L.valuePtr() + L.nonZeros()}};
+  LevelSystem system = assembly.system();
+  system.row = row_of_row(levels, copies, to_level);
   return system;
 }
 

@@ -1,4 +1,6 @@
-// The surface and the levels of its progressive mesh as linear systems (paper § 9, steps 1 to 3 and 5).
+// The surface and the levels of its progressive mesh as linear systems (paper § 9, steps 1 to 3 and 5). Those of a
+// surface with boundary are on the doubles of the levels (§ 8), with the symmetric extensions of the natural classes
+// and the antisymmetric ones of the others.
 #pragma once
 
 #include <memory>
@@ -13,29 +15,36 @@ namespace holomorph::multiresolution {
 /// A surface as the finest level of a progressive mesh, with the bases of its base mesh M0.
 struct PaperLevels {
   std::shared_ptr<const progressive::ProgressiveMesh> mesh;
-  int splits = 0;                       ///< from M0 to the surface
-  std::vector<int> place;               ///< #V of the surface, in the numbering of the progressive mesh
-  std::vector<mesh::Triple> triangles;  ///< #T in that numbering and order
-  topology::IntegerForms base_classes;  ///< on the edges of M0
-  topology::DualBases bases;            ///< on the surface's half-edges
+  int splits = 0;                        ///< from M0 to the surface
+  std::vector<int> place;                ///< #V of the surface, in the numbering of the progressive mesh
+  std::vector<mesh::Triple> triangles;   ///< #T in that numbering and order
+  topology::IntegerForms base_classes;   ///< on the edges of M0: the natural ones, with boundary then the relative ones
+  std::vector<int> base_loop_of_vertex;  ///< #V of M0 its boundary loop, -1 in the interior
+  topology::DualBases bases;             ///< on the surface's half-edges
+
+  bool closed() const { return bases.boundary.count() == 0; }
+  bool on_boundary(int v) const { return bases.boundary.loop_of_vertex[v] >= 0; }
 };
+
+/// Rows of the surface's system: #V, with boundary those of the double, the inner vertices of the second copy behind
+/// the vertices of the surface as in mesh::double_cover.
+Eigen::Index row_count(const PaperLevels& levels);
 
 /// Steps 1 to 3: the progressive mesh in the order of quadric errors, homology and cohomology bases of M0, loops lifted
 /// to the surface and classes pulled back (step 5b), which is exact.
-/// @pre connected, closed, genus at least 1, no isolated vertices
+/// @pre connected, with harmonic forms, no isolated vertices
 /// @throws InvalidMesh for an intrinsic surface, and where no triangulation of the polygons is without double edges
 PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution);
 
 /// The same for a level of a given progressive mesh, which outlives the result.
 PaperLevels paper_levels(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
 
-/// L f = B on the level with this many splits. Rows are in the order of the vertices of the surface, which keeps
-/// neighbours near in memory.
+/// L f = B on the level with this many splits, or on its double. Rows are in the order of those of the surface, which
+/// keeps neighbours near in memory.
 struct LevelSystem {
   solver::Laplacian L;
-  Eigen::MatrixXd B;               ///< -d* eta, as forms::codifferentials
-  std::vector<int> row_of_vertex;  ///< #V of the surface: row of the vertex that it was collapsed into
-  std::int64_t faces = 0;
+  Eigen::MatrixXd B;     ///< -d* eta, as forms::codifferentials
+  std::vector<int> row;  ///< #rows of the surface: row of the vertex that each one's vertex was collapsed into
 };
 
 /// Weights from the positions; triangles thinner than about 1 : 100 count as that thin: they would cost iterations,

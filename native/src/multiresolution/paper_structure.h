@@ -1,11 +1,11 @@
-// The paper's multiresolution algorithm as a whole (§ 9): the conformal structure of a closed surface by the levels of
-// a progressive mesh.
+// The paper's multiresolution algorithm as a whole (§ 9): the conformal structure of a surface by the levels of a
+// progressive mesh; with boundary by the doubles of the levels (§ 8).
 #pragma once
 
 #include <optional>
 
 #include "base/execution.h"
-#include "multiresolution/paper_levels.h"
+#include "multiresolution/paper_forms.h"
 #include "structure/options.h"
 #include "structure/structure.h"
 
@@ -15,8 +15,9 @@ namespace holomorph::multiresolution {
 /// flipped: all results belong to the surface's own triangulation.
 /// @param levels of a given progressive mesh; by default it is made here
 /// @pre connected, no isolated vertices
-/// @throws TopologyError for genus 0 or a boundary; InvalidMesh for an intrinsic surface; SolverError; Cancelled
+/// @throws TopologyError for a sphere or a disk; InvalidMesh for an intrinsic surface; SolverError; Cancelled
 structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
-                                     Execution& execution, std::optional<PaperLevels> levels = {});
+                                     Execution& execution, PaperOptions how = {},
+                                     std::optional<PaperLevels> levels = {});
 
 }  // namespace holomorph::multiresolution

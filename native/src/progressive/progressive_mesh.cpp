@@ -16,11 +16,23 @@ mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, co
   return polygons;
 }
 
+namespace {
+
+int triangles_of(const Split& split) { return (split.v_l >= 0) + (split.v_r >= 0); }
+
+}  // namespace
+
+std::int64_t triangle_count(const ProgressiveMesh& mesh, int splits) {
+  auto triangles = static_cast<std::int64_t>(mesh.base.triangles.size());
+  for (int k = 0; k < splits; ++k) triangles += triangles_of(mesh.splits[k]);
+  return triangles;
+}
+
 int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count) {
   auto triangles = static_cast<std::int64_t>(mesh.base.triangles.size());
   int splits = 0;
   for (const Split& split : mesh.splits) {
-    triangles += (split.v_l >= 0) + (split.v_r >= 0);
+    triangles += triangles_of(split);
     if (triangles > triangle_count) break;
     ++splits;
   }

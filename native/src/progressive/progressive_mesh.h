@@ -44,6 +44,9 @@ struct ProgressiveMesh {
 /// Triangles as a polygon mesh.
 mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, const std::vector<Triple>& triangles);
 
+/// Number of triangles of the level with this many splits.
+std::int64_t triangle_count(const ProgressiveMesh& mesh, int splits);
+
 /// Number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
 int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count);
 

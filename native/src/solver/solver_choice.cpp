@@ -31,7 +31,7 @@ Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Inde
   if (name == "multigrid") return {Method::multigrid, "asked for"};
   if (name == "paper") {
     throw TopologyError(
-        "the paper's solver is for closed surfaces of genus 1 or more; one of auto, direct, multigrid is needed here");
+        "the paper's solver is for the forms of handles and boundaries; one of auto, direct, multigrid is needed here");
   }
   if (name != "auto") throw Error("there is no solver '" + name + "'; one of auto, direct, multigrid is needed");
   const auto n = static_cast<double>(unknowns);

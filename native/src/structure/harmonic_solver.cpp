@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "forms/codifferential.h"
+#include "forms/laplacian.h"
 #include "mesh/boundary_loops.h"
 
 namespace holomorph::structure {
@@ -39,6 +40,14 @@ HarmonicSolver::HarmonicSolver(const mesh::Discretisation& discretisation, Memor
       plan_(std::move(plan)),
       double_(doubled_where(boundary, discretisation, execution)),
       systems_(half_edges(), weights(), fixed_vertices(double_.get(), discretisation), plan_.choice, execution) {}
+
+HarmonicSolver::HarmonicSolver(const mesh::Discretisation& discretisation, MemoryPlan plan, Boundary boundary,
+                               const MakeSolver& make, Execution& execution)
+    : discretisation_(discretisation),
+      plan_(std::move(plan)),
+      double_(doubled_where(boundary, discretisation, execution)),
+      systems_(half_edges(), weights(), fixed_vertices(double_.get(), discretisation), plan_.choice,
+               make(forms::laplacian(half_edges(), weights(), execution)), execution.workers()) {}
 
 HarmonicSolver::HarmonicSolver(const mesh::Discretisation& discretisation, int right_hand_sides, const Options& options,
                                Execution& execution)

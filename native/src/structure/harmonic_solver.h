@@ -25,6 +25,11 @@ class HarmonicSolver {
   /// @pre the discretisation outlives this. @throws SolverError, Cancelled
   HarmonicSolver(const mesh::Discretisation& discretisation, MemoryPlan plan, Boundary boundary, Execution& execution);
 
+  using MakeSolver = std::function<std::unique_ptr<solver::LaplaceSolver>(solver::Laplacian&&)>;
+  /// With the solver that `make` gives for the Laplacian of the surface, or of its double.
+  HarmonicSolver(const mesh::Discretisation& discretisation, MemoryPlan plan, Boundary boundary, const MakeSolver& make,
+                 Execution& execution);
+
   /// Plans memory for this many right-hand sides, all of them kept.
   HarmonicSolver(const mesh::Discretisation& discretisation, int right_hand_sides, const Options& options,
                  Execution& execution);

@@ -14,17 +14,11 @@ using topology::FundamentalDomain;
 using topology::IntegerForms;
 
 // First the handles, then the boundary loops 1 .. b-1 with the hole on the left.
-auto all_loops(const mesh::HalfEdges& half_edges, const FundamentalDomain& domain) {
-  auto loops = topology::homology_basis(half_edges, domain);
-  if (domain.boundary.count() > 1)
-    loops.insert(loops.end(), domain.boundary.loops.begin() + 1, domain.boundary.loops.end());
-  return loops;
-}
-
-IntegerForms natural_classes(const mesh::HalfEdges& half_edges, const FundamentalDomain& domain) {
-  auto classes = topology::cohomology_basis(half_edges, domain);
-  if (domain.boundary.count() > 1) topology::add_paths_between_loops(half_edges, domain, classes);
-  return classes;
+void set_loops(topology::DualBases& bases, Topology& result) {
+  result.boundary = std::move(bases.boundary);
+  result.homology_basis = std::move(bases.loops);
+  const auto& loops = result.boundary.loops;
+  if (loops.size() > 1) result.homology_basis.insert(result.homology_basis.end(), loops.begin() + 1, loops.end());
 }
 
 void set_pairing(const mesh::HalfEdges& half_edges, const IntegerForms& natural, Topology& result,
@@ -34,8 +28,7 @@ void set_pairing(const mesh::HalfEdges& half_edges, const IntegerForms& natural,
     if (result.type.genus > 0) result.canonical = topology::canonical_basis(result.pairing);
     return;
   }
-  auto relative = topology::first_forms(natural, 2 * result.type.genus, 2 * result.type.genus);
-  topology::add_loop_indicators(half_edges, result.boundary, relative);
+  const auto relative = topology::relative_classes(half_edges, result.boundary, natural);
   result.pairing = topology::pairing(half_edges, natural, relative);
   [[maybe_unused]] const auto handles = 2 * result.type.genus,
                               loops = static_cast<int>(result.pairing.rows()) - handles;
@@ -75,15 +68,16 @@ Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half
   execution.part(0.8, 1);
   Topology result;
   result.type = mesh::topological_type(surface);
-  result.boundary = domain.boundary;
-  result.homology_basis = given ? std::move(given->loops) : all_loops(half_edges, domain);
-  auto natural = given ? std::move(given->classes) : natural_classes(half_edges, domain);
+  if (!given)
+    given = {topology::homology_basis(half_edges, domain), topology::natural_classes(half_edges, domain),
+             domain.boundary};
+  set_loops(*given, result);
   std::vector<int> poles;
   for (const mesh::Star& star : stars) poles.push_back(star.vertex);
   result.seams = topology::cut_graph(half_edges, domain, poles);
   add_spokes(half_edges, stars, result.seams);
-  set_pairing(half_edges, natural, result, execution);
-  result.classes = all_classes(half_edges, domain, std::move(natural), stars, result);
+  set_pairing(half_edges, given->classes, result, execution);
+  result.classes = all_classes(half_edges, domain, std::move(given->classes), stars, result);
   result.sheets = uv::corner_sheets(surface, half_edges, domain, result.classes, execution);
   return result;
 }
@@ -94,10 +88,7 @@ IntegerForms classes_on(const Topology& topology, const mesh::HalfEdges& half_ed
   auto natural = topology::first_forms(topology.classes, families.natural, families.natural);
   topology::pull_back(flips, natural);
   if (families.dirichlet == 0) return natural;
-  const int handles = 2 * topology.type.genus;
-  auto relative = topology::first_forms(natural, handles, handles);
-  topology::add_loop_indicators(half_edges, topology.boundary, relative);
-  return topology::concatenated(natural, relative);
+  return topology::concatenated(natural, topology::relative_classes(half_edges, topology.boundary, natural));
 }
 
 void add_loop_indicators(const Topology& topology, Eigen::Ref<forms::RowMajorMatrix> functions) {

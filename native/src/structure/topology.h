@@ -38,7 +38,7 @@ struct Topology {
 };
 
 /// Fundamental domain, homology basis, dual classes, pairing and cut.
-/// @param given lifted loops and pulled-back dual classes of a progressive mesh's base, for a closed surface
+/// @param given lifted loops and pulled-back dual classes of a progressive mesh's base
 /// @param stars of poles
 /// @pre connected, no isolated vertices
 /// @throws Cancelled. Cost: near-linear; see topology::fundamental_domain

@@ -93,6 +93,20 @@ void add_loop_indicators(const HalfEdges& half_edges, const mesh::BoundaryLoops&
   }
 }
 
+IntegerForms natural_classes(const HalfEdges& half_edges, const FundamentalDomain& domain) {
+  auto classes = cohomology_basis(half_edges, domain);
+  if (domain.boundary.count() > 1) add_paths_between_loops(half_edges, domain, classes);
+  return classes;
+}
+
+IntegerForms relative_classes(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary,
+                              const IntegerForms& natural) {
+  const int handles = natural.form_count - (boundary.count() - 1);
+  auto relative = first_forms(natural, handles, handles);
+  add_loop_indicators(half_edges, boundary, relative);
+  return relative;
+}
+
 IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b) {
   IntegerMatrix twice = IntegerMatrix::Zero(a.form_count, b.form_count);
   for (int f = 0; f < static_cast<int>(half_edges.n_faces()); ++f) {

@@ -29,6 +29,14 @@ void add_paths_between_loops(const HalfEdges& half_edges, const FundamentalDomai
 /// same vertices.
 void add_loop_indicators(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary, IntegerForms& forms);
 
+/// A basis of H^1(M), dual to the loops zeta, then to the boundary loops 1 .. b-1.
+IntegerForms natural_classes(const HalfEdges& half_edges, const FundamentalDomain& domain);
+
+/// A basis of H^1(M, dM): the natural classes of the handles, which are zero along the boundary, then the loop
+/// indicators. @param boundary of the surface, with at least one loop. @param natural as above
+IntegerForms relative_classes(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary,
+                              const IntegerForms& natural);
+
 /// W_ij = int a_i ^ b_j of closed integer forms, b zero along the boundary: it depends on the classes only, and is an
 /// integer.
 IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b);

@@ -75,6 +75,32 @@ class LiftedLoops {
   std::vector<int> starts_;  // one entry of each loop
 };
 
+// The numbers that the vertices' loops are to have, for the loops of a boundary.
+std::vector<int> loop_numbers(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary,
+                              const std::vector<int>& loop_of_vertex) {
+  std::vector<int> number;
+  for (const auto& loop : boundary.loops) number.push_back(loop_of_vertex[mesh::from_vertex(half_edges, loop[0])]);
+  return number;
+}
+
+void renumber(const HalfEdges& half_edges, const std::vector<int>& loop_of_vertex, FundamentalDomain& domain) {
+  const auto number = loop_numbers(half_edges, domain.boundary, loop_of_vertex);
+  domain.boundary = mesh::renumbered(domain.boundary, number);
+  const auto gaps = domain.gaps;
+  for (std::size_t k = 0; k < gaps.size(); ++k) domain.gaps[number[k]] = gaps[k];
+}
+
+// The loops of a level as the base has numbered them.
+mesh::BoundaryLoops boundary_in_order(const mesh::Surface& level, const std::vector<int>& map,
+                                      const mesh::BoundaryLoops& base) {
+  Execution silent;
+  const HalfEdges half_edges = mesh::half_edges(level, silent);
+  const auto boundary = mesh::boundary_loops(level, half_edges);
+  std::vector<int> loop_of_vertex;
+  for (const int v : map) loop_of_vertex.push_back(base.loop_of_vertex[v]);
+  return mesh::renumbered(boundary, loop_numbers(half_edges, boundary, loop_of_vertex));
+}
+
 }  // namespace
 
 std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map) {
@@ -122,11 +148,13 @@ std::vector<std::vector<int>> lift_loops(const progressive::ProgressiveMesh& mes
   return lifted.vertices();
 }
 
-BaseBases base_bases(const mesh::Surface& base) {
+BaseBases base_bases(const mesh::Surface& base, const std::vector<int>& loop_of_vertex) {
   Execution silent;
   const HalfEdges half_edges = mesh::half_edges(base, silent);
-  const FundamentalDomain domain = fundamental_domain(base, half_edges, silent);
-  BaseBases result{{}, cohomology_basis(half_edges, domain)};
+  FundamentalDomain domain = fundamental_domain(base, half_edges, silent);
+  if (!loop_of_vertex.empty()) renumber(half_edges, loop_of_vertex, domain);
+  BaseBases result{{}, natural_classes(half_edges, domain), {}, domain.boundary};
+  if (domain.boundary.count() > 0) result.relative = relative_classes(half_edges, domain.boundary, result.classes);
   for (const auto& loop : homology_basis(half_edges, domain)) {
     result.loops.emplace_back();
     for (const auto h : loop) result.loops.back().push_back(mesh::from_vertex(half_edges, h));
@@ -135,10 +163,15 @@ BaseBases base_bases(const mesh::Surface& base) {
 }
 
 DualBases lifted_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level) {
-  const BaseBases base = base_bases(mesh.base);
+  return lifted_bases(mesh, splits, level, base_bases(mesh.base));
+}
+
+DualBases lifted_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level,
+                       const BaseBases& base) {
   std::vector<int> map = progressive::vertex_map(mesh, 0);
   map.resize(static_cast<std::size_t>(level.vertex_count));
   DualBases bases;
+  bases.boundary = boundary_in_order(level, map, base.boundary);
   bases.classes = pull_back_classes(mesh.base, base.classes, level, map);
   for (const auto& loop : lift_loops(mesh, splits, base.loops)) {
     bases.loops.emplace_back();

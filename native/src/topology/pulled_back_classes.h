@@ -28,24 +28,32 @@ std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface&
 std::vector<std::vector<int>> lift_loops(const progressive::ProgressiveMesh& mesh, int splits,
                                          const std::vector<std::vector<int>>& loops);
 
-/// A homology basis as loops of vertices, and the integer classes dual to it.
+/// The handles' loops as loops of vertices; the integer classes dual to them and to the boundary loops 1 .. b-1.
 struct BaseBases {
   std::vector<std::vector<int>> loops;
   IntegerForms classes;
+  IntegerForms relative;         ///< relative_classes; none of a closed mesh
+  mesh::BoundaryLoops boundary;  ///< none of a closed mesh
 };
 
-/// Homology and cohomology bases of a base mesh (paper § 9, steps 2 and 3). @pre connected, closed, genus at least 1
-BaseBases base_bases(const mesh::Surface& base);
+/// Homology and cohomology bases of a base mesh (paper § 9, steps 2 and 3).
+/// @param loop_of_vertex #V the number that each vertex's boundary loop is to have, -1 in the interior; by default
+/// loops are numbered as boundary_loops does. @pre connected, with harmonic forms
+BaseBases base_bases(const mesh::Surface& base, const std::vector<int>& loop_of_vertex = {});
 
-/// A homology basis and the integer classes dual to it: eta_i(zeta_j) = delta_ij exactly.
+/// A homology basis and the integer classes dual to it, eta_i(zeta_j) = delta_ij exactly: `loops` of the handles, then
+/// the boundary loops 1 .. b-1.
 struct DualBases {
   std::vector<std::vector<HalfedgeHandle>> loops;
   IntegerForms classes;
+  mesh::BoundaryLoops boundary;  ///< in the order of the classes; none of a closed surface
 };
 
 /// The bases of the base mesh on the half-edges of the level with this many splits, loops lifted and classes pulled
 /// back. So all levels have the same classes, the same intersection matrix and the same canonical basis.
-/// @param level the surface of that level; @pre connected, closed, genus at least 1
+/// @param level the surface of that level; @pre connected, with harmonic forms
 DualBases lifted_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
+DualBases lifted_bases(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level,
+                       const BaseBases& base);
 
 }  // namespace holomorph::topology
