@@ -54,9 +54,7 @@ def conformal_structure(
     most_faces : number of triangles up to which `bounds` may refine
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
-    Returns
-    -------
-    ConformalStructure of a closed surface of genus >= 1, BoundedStructure of one with boundary
+    Returns a ConformalStructure of a closed surface of genus >= 1, a BoundedStructure of one with boundary
 
     Raises TopologyError for several components, and for spheres and disks, which have no forms; SolverError if neither
     a residual of 1e-10 nor, among thin triangles, an error of 1e-6 in energy is reached, or rounding leaves no digit of
