@@ -3,7 +3,6 @@
 import bpy
 import numpy as np
 import pytest
-from conftest import module
 from scenes import (
     edge_mismatch,
     everything,
@@ -214,4 +213,4 @@ def test_two_objects_of_one_mesh_each_with_its_modifiers():
     select(first, second)
     with_modifiers()
     assert {"Half Mapped", "Half.001 Mapped"} <= set(bpy.data.objects.keys())
-    assert module("compatibility").selected_objects(bpy.context)
+    assert list(bpy.context.view_layer.objects.selected)

@@ -1,5 +1,7 @@
 """What is the artist's stays: copies of our results, attributes with our names, objects that are out of sight."""
 
+from contextlib import contextmanager
+
 import bpy
 import pytest
 from conftest import module
@@ -224,14 +226,19 @@ def test_an_override_with_a_mesh_of_this_file_is_mapped(tmp_path):
     assert "Holomorphic" in bpy.data.objects["Linked", None].data.uv_layers
 
 
-def speak(language):
-    """The interface, and names of new data, in this language: until the factory settings are read."""
-    view = bpy.context.preferences.view
+@contextmanager
+def speaking(language):
+    """The interface, and names of new data, in this language. Factory settings alone leave messages in it."""
+    view, before = bpy.context.preferences.view, bpy.context.preferences.view.language
     try:
         view.language = language
     except TypeError:
         pytest.skip(f"this Blender has no {language}")
     view.use_translate_interface = view.use_translate_tooltips = view.use_translate_new_dataname = True
+    yield
+    view = bpy.context.preferences.view
+    view.use_translate_interface = view.use_translate_tooltips = view.use_translate_new_dataname = False
+    view.language = before
 
 
 def written():
@@ -249,8 +256,9 @@ def written():
 def test_a_translated_interface_changes_nothing_that_is_written(language):
     expected = list(written())
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    speak(language)
-    assert list(written()) == expected
-    names = [node.name for node in bpy.data.materials[-1].node_tree.nodes]
+    with speaking(language):
+        found = list(written())
+        names = [node.name for node in bpy.data.materials[-1].node_tree.nodes]
+    assert found == expected
     assert "Vector Math" not in names  # or the names of new data were not translated
     bpy.ops.wm.read_factory_settings(use_empty=True)

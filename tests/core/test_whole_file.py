@@ -56,7 +56,7 @@ WRITERS = {
     "mesh": "Surface.read(mesh).write(path)",
     "progressive mesh": "ProgressiveMesh(Surface.read(mesh)).save(path)",
 }
-# No file may be longer than 1,000 bytes, as on a full disk. In a process of its own: the limit holds for output as well.
+# No file may be longer than 1,000 bytes, as on a full disk. In a process of its own: the limit holds for output, too.
 LIMITED = """
 import resource, signal, sys
 from holomorph import ProgressiveMesh, Surface, whole_file
