@@ -76,5 +76,13 @@ TEST(LatticeBlocks, CanBeCancelled) {
   EXPECT_EQ(calls, 1);
 }
 
+// Another map is made of a surface whose tiling is refused so.
+TEST(LatticeBlocks, RefuseIntegersBeyondDoubles) {
+  Execution execution(1);
+  MatrixXd B = MatrixXd::Identity(2 * kBlock, 2 * kBlock), points(2 * kBlock, 0);
+  B.row(0).tail(2 * kBlock - 1).setConstant(1e20);
+  EXPECT_THROW(reduce_by_blocks(B, points, execution), SolverError);
+}
+
 }  // namespace
 }  // namespace holomorph::lattice

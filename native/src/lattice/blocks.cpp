@@ -106,7 +106,7 @@ class BlockReduction {
     points_->middleRows(b.begin, b.size).applyOnTheLeft(turn);
     transform_.middleCols(b.begin, b.size) *= U;
     if (!(transform_.middleCols(b.begin, b.size).cwiseAbs().maxCoeff() <= kLargest))
-      throw Error("the lattice needs integers beyond 2^53");
+      throw SolverError("the lattice needs integers beyond 2^53");
   }
 
   Execution& execution_;

@@ -31,7 +31,7 @@ class Enumeration {
     const Index after = R_.cols() - k - 1;
     const double centre = (y_[k] - R_.row(k).tail(after).dot(z_.tail(after))) / R_(k, k);
     const double radius = std::sqrt(left) / R_(k, k), last = std::floor(centre + radius);
-    if (!(std::abs(centre) + radius <= kLargestInteger)) throw Error("the lattice needs integers beyond 2^53");
+    if (!(std::abs(centre) + radius <= kLargestInteger)) throw SolverError("the lattice needs integers beyond 2^53");
     for (double z = std::ceil(centre - radius); z <= last && result_.is_complete; ++z) {
       if (++result_.steps > most_steps_) {
         result_.is_complete = false;

@@ -14,7 +14,7 @@ struct NearPoints {
 };
 
 /// All z with |target - B z|^2 <= squared_radius. Rounding is the caller's: some 1e-13 |target|^2.
-/// @param target m @throw Error the integers are beyond 2^53
+/// @param target m @throw SolverError the integers are beyond 2^53
 /// Cost: grows with the number of lattice points in the balls of all projections of the lattice.
 NearPoints near_points(const ReducedBasis& reduced, const Eigen::VectorXd& target, double squared_radius,
                        std::int64_t most_steps);

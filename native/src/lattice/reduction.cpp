@@ -28,7 +28,7 @@ constexpr double kDrift = 1e-12;
 constexpr double kSizeReduction = 1e-9;
 constexpr double kLargestInteger = 9007199254740992;  // 2^53: up to here doubles count without gaps
 
-[[noreturn]] void refuse_integers() { throw Error("the lattice needs integers beyond 2^53"); }
+[[noreturn]] void refuse_integers() { throw SolverError("the lattice needs integers beyond 2^53"); }
 
 // Babai's rounding, from the last coordinate to the first: integral x that bring y - R x into the box |y_j| <= R_jj
 // / 2. y becomes that difference; `noise` is its rounding error, below which nothing is done.

@@ -28,7 +28,7 @@ struct ReducedBasis {
 /// @param delta in (1/4, 1)
 /// @throw SolverError a column is not finite, or depends linearly on the others to rounding: it is as near to their
 /// span as 4 n epsilon of its length
-/// @throw Error the transform has integers beyond 2^53, where doubles are no longer exact
+/// @throw SolverError the transform has integers beyond 2^53, where doubles are no longer exact
 /// @param tick called for each step, O(m n); it may throw
 /// Cost: O(m n^2), and besides O(m n) for each exchange of two columns.
 ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99, const std::function<void()>& tick = {});
@@ -36,7 +36,7 @@ ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99, const std::fu
 /// Integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2, so that
 /// |target - B z|^2 is at most the sum of R_jj^2 / 4, besides the target's squared distance from the span of B.
 /// @param target m @return n integers, for the B that was reduced
-/// @throw SolverError the target is not finite @throw Error the integers are beyond 2^53
+/// @throw SolverError the target is not finite @throw SolverError the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);
 
 }  // namespace holomorph::lattice
