@@ -79,6 +79,7 @@ def test_the_same_sources_give_the_same_extension(dist, tmp_path):
     assert extension(tmp_path).read_bytes() == extension(dist).read_bytes()
 
 
+@pytest.mark.timeout(1300)  # it compiles everything
 @pytest.mark.parametrize("source", ["wheel", "checkout"])
 def test_pip_installs_the_package_without_blender(dist, tmp_path, source):
     venv.create(tmp_path / "venv", with_pip=True)
