@@ -302,3 +302,15 @@ def everything(obj):
         "materials": [(s.link, s.material) for s in obj.material_slots],
         "properties": sorted(obj.keys()) + sorted(mesh.keys()),
     }
+
+
+def linked(folder):
+    """The one object of this file, linked from a file in the folder into a new one."""
+    path = str(folder / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (source, target):
+        target.objects = source.objects
+    (obj,) = target.objects
+    bpy.context.scene.collection.objects.link(obj)
+    return obj

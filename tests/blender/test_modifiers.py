@@ -7,6 +7,7 @@ from scenes import (
     edge_mismatch,
     everything,
     grid_arrays,
+    linked,
     mesh_object,
     pick,
     run,
@@ -186,13 +187,7 @@ def test_seams_count_on_what_the_modifiers_make():
 
 def test_a_linked_mesh_is_refused_with_its_modifiers_too(tmp_path):
     half_grid()
-    path = str(tmp_path / "library.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    with bpy.data.libraries.load(path, link=True) as (source, target):
-        target.objects = source.objects
-    bpy.context.scene.collection.objects.link(target.objects[0])
-    select(target.objects[0])
+    select(linked(tmp_path))
     with pytest.raises(RuntimeError, match="make it local"):
         with_modifiers()
     assert len(bpy.data.objects) == 1

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 import bpy
 import pytest
 from conftest import module
-from scenes import everything, mesh_object, select, sphere_arrays, stored_report, torus
+from scenes import everything, linked, mesh_object, select, sphere_arrays, stored_report, torus
 from test_restore import duplicate
 
 results = {name: module(name).OF for name in ("results.stand_in", "results.empties", "levels.level_objects")}
@@ -195,13 +195,7 @@ def test_instances_are_told_how_to_become_meshes():
 def overridden(tmp_path):
     """A library override of an object in another file."""
     torus("Linked")
-    path = str(tmp_path / "library.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    with bpy.data.libraries.load(path, link=True) as (source, target):
-        target.objects = source.objects
-    bpy.context.scene.collection.objects.link(target.objects[0])
-    obj = target.objects[0].override_create(remap_local_usages=True)
+    obj = linked(tmp_path).override_create(remap_local_usages=True)
     select(obj)
     return obj
 

@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, mesh_object, pick, run, select, stored_report, torus, torus_arrays, uv, written
+from scenes import everything, linked, mesh_object, pick, run, select, stored_report, torus, torus_arrays, uv, written
 
 
 def fin():
@@ -187,13 +187,7 @@ def test_maps_of_an_earlier_run_survive_a_refusal():
 
 def test_a_linked_mesh_is_refused(tmp_path):
     torus("Linked")
-    path = str(tmp_path / "library.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    with bpy.data.libraries.load(path, link=True) as (source, target):
-        target.objects = source.objects
-    (obj,) = target.objects
-    bpy.context.scene.collection.objects.link(obj)
+    obj = linked(tmp_path)
     good = torus("Good")
     select(obj, good)
     assert run() == {"FINISHED"}

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kUsualSteps = 20000;  // of the reductions of all blocks
+constexpr double kUsualSteps = 20000;  // that reducing all blocks takes, for progress
 constexpr Index kPanel = 32, kChunkOfColumns = 128;
 constexpr double kLargest = 9007199254740992;  // 2^53
 

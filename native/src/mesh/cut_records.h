@@ -23,9 +23,9 @@ enum class CutReason {
 /// All cuts for one reason, by elements of the mesh as given; each list ascending.
 struct Cut {
   CutReason reason{};
-  std::vector<int> vertices;  ///< of kTouching
+  std::vector<int> vertices;  ///< at which it is kTouching
   std::vector<Pair> edges;    ///< ends, lower vertex first, of kManyFaces and kOneSided
-  std::vector<int> faces;     ///< of the other reasons
+  std::vector<int> faces;     ///< for the other reasons
 };
 
 /// The cuts that labels and joins of the part's corners make.

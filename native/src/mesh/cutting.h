@@ -22,8 +22,8 @@ struct CutSurface {
   std::vector<RefusedFaces> refused;  ///< faces that are left out, by reasons
 };
 
-/// As `make_surface`; but a mesh that this refuses is cut, by giving a vertex to each fan of faces. Left out are faces
-/// of less than three vertices, faces with coordinates that are not finite, and parts without area.
+/// As `make_surface`; but a mesh that this refuses is cut, by giving a vertex to each fan of faces. What is left out:
+/// faces with less than three vertices or with coordinates that are not finite, and parts without area.
 ///
 /// Where most sides of faces have no other beside them, sides that run between the same places in opposite directions
 /// are joined first, if that gives most of them a partner.
