@@ -21,7 +21,6 @@ from .automatic_structure import AnyStructure
 from .layout import pack, rows
 from .map import Map
 from .placement import Frame, frame, place
-from .quality import Quality
 from .surface import Surface
 
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
@@ -51,12 +50,12 @@ class Arrangement:
 class Square:
     """Maps packed into a square, each scaled until a UV unit is a unit of length where its density is the median one.
 
-    surfaces : (n,) connected parts; uvs : their maps, (#C, 2) each; qualities : of these
+    surfaces : (n,) connected parts; uvs : their maps, (#C, 2) each; densities : (n,) of these, medians by area
     """
 
     surfaces: Sequence[Surface]
     uvs: Sequence[Reals]
-    qualities: Sequence[Quality]
+    densities: Sequence[float]
     arrangement: Arrangement
 
     @cached_property
@@ -66,7 +65,7 @@ class Square:
     @cached_property
     def _scales(self):
         """0 for a map without area, such as one whose coefficients are 0: it shrinks to a point."""
-        return [_scale(*each) for each in zip(self.surfaces, self._frames, self.qualities)]
+        return [_scale(*each) for each in zip(self.surfaces, self._frames, self.densities)]
 
     @cached_property
     def _sizes(self):
@@ -104,7 +103,7 @@ class Square:
 
 def square(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> Square:
     """The `Square` of maps of parts, whatever they are."""
-    return Square([m.surface for m in maps], [m.uv for m in maps], [m.quality for m in maps], arrangement)
+    return Square([m.surface for m in maps], [m.uv for m in maps], [m.density for m in maps], arrangement)
 
 
 def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arrangement()) -> Reals:
@@ -129,14 +128,14 @@ def arranged_form(
 ) -> Reals:
     """(#C, 2) UVs of a mesh with so many polygon corners: the maps of one form, counted from 0, of parts with their
     structures; zeros at corners of parts that lack it."""
-    surfaces, uvs, qualities = [], [], []
+    surfaces, uvs, densities = [], [], []
     for surface, structure in parts:
         if form < structure.form_count:  # of their type: a complex factor would bend straight boundaries
             surfaces.append(surface)
             uvs.append(structure.uv(np.eye(structure.form_count, dtype=structure.coefficient_type)[form]))
-            qualities.append(structure.quality(uvs[-1]))
+            densities.append(structure.quality(uvs[-1]).median_density)
     uv = np.zeros((corners, 2))
-    Square(surfaces, uvs, qualities, arrangement).write(uv)
+    Square(surfaces, uvs, densities, arrangement).write(uv)
     return uv
 
 
@@ -165,14 +164,14 @@ def on_grid(uv: ArrayLike) -> Reals:
     return np.floor(np.asarray(uv) / step + 0.5) * step
 
 
-def _scale(surface, found, quality):
-    if quality.median_density > 0:
-        return quality.median_density**-0.5
+def _scale(surface, found, density):
+    if density > 0:
+        return density**-0.5
     return math.sqrt(surface.area / found.area) if found.area > 0 else 0.0
 
 
 def _unit_of_tilings(tiled):
-    density = np.median([m.quality.median_density for m in tiled])
+    density = np.median([m.density for m in tiled])
     return 1 / math.sqrt(density) if density > 0 else 0.0
 
 

@@ -149,7 +149,7 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
         share, sizing = parts[largest].area / (sum(areas.values()) or 1.0), sizings[alike[largest].first]
         leader = sizing.about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
         if isinstance(leader, Map) and leader.is_tiled:
-            density = leader.quality.median_density / alike[largest].scale ** 2
+            density = leader.density / alike[largest].scale ** 2
         made[names[largest]] = leader
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
     made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))

@@ -76,15 +76,20 @@ def measure(mesh: Polygons, uv: Reals) -> Distortion:
     return Distortion(octaves, angle, float(high / low) if low > 0 else np.inf, float(mean))
 
 
-def length_ratio(mesh: Polygons, uv: Reals) -> float:
-    """UV length for a length on the surface, where the density is the median one by area; 0 where there is no area."""
-    corners, polygon = fans(mesh.face_offsets)
-    count = len(mesh.face_offsets) - 1
-    points = mesh.vertices[mesh.corner_vertices[corners]], uv.astype(np.float64)[corners]
-    area, uv_area = (np.bincount(polygon, _metric(of_kind)[-1], count) for of_kind in points)
+def drawn_densities(mesh: Polygons, uv: Reals) -> tuple[float, float, float]:
+    """UV area per surface area: its 5 %, 50 % and 95 % quantile by area over the triangles that are drawn, `fans`; 0
+    where there is no area."""
+    corners, _ = fans(mesh.face_offsets)
+    area = _metric(mesh.vertices[mesh.corner_vertices[corners]])[-1]
+    uv_area = _metric(uv.astype(np.float64)[corners])[-1]
     has_area = area > 0
-    (median,) = quantiles(uv_area[has_area] / area[has_area], area[has_area], (0.5,))
-    return float(np.sqrt(median))
+    low, median, high = quantiles(uv_area[has_area] / area[has_area], area[has_area], (LOW, 0.5, HIGH))
+    return float(low), float(median), float(high)
+
+
+def length_ratio(mesh: Polygons, uv: Reals) -> float:
+    """UV length for a length on the surface, where the density is the median one; 0 where there is no area."""
+    return drawn_densities(mesh, uv)[1] ** 0.5
 
 
 def _metric(points):

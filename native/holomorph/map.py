@@ -14,6 +14,7 @@ from .appearance import cost
 from .array_types import Complexes, Integers, Progress, Reals
 from .automatic_structure import AnyStructure
 from .checks import checked_evenness
+from .distortion import drawn_densities
 from .evened_forms import evened_uv
 from .island_map import Islands
 from .mixed import Mixed
@@ -116,14 +117,26 @@ class Map(Value):
 
     @property
     def density(self) -> float:
-        """UV area per area of the surface, the median by that: tiles of a tiling."""
-        return self.quality.median_density
+        """UV area per area of the surface, the median by that over the triangles that are drawn: tiles of a tiling."""
+        return self._drawn[1]
+
+    @property
+    def drawn_ratio(self) -> float:
+        """95 % over 5 % quantile of UV area per area of the surface, over the triangles that are drawn."""
+        low, _, high = self._drawn
+        return high / low if low > 0 else math.inf
+
+    @cached_property
+    def _drawn(self):
+        """The quantiles of the density. An intrinsic surface is not drawn."""
+        if self.surface.vertices is not None:
+            return drawn_densities(self.surface, self.uv)
+        return 1.0, self.quality.median_density, self.quality.density_ratio
 
     @property
     def unit_length(self) -> float:
         """Length on the surface of a UV unit where the density is the median one; 0 for a map without area."""
-        density = self.quality.median_density
-        return 1 / math.sqrt(density) if density > 0 else 0.0
+        return 1 / math.sqrt(self.density) if self.density > 0 else 0.0
 
     def of_copy(self, surface: Surface, structure: AnyStructure | None, scale: float) -> Map:
         """The same map of a copy of the part, whose lengths are multiplied by `scale`."""

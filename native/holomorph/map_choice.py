@@ -31,6 +31,9 @@ MOST_LOST = 0.02  # and with what collapses, of a tiling that was asked for
 # as a pipe, is the balanced one, scaled until whole tiles fit around it.
 POLES = ("auto", 0)
 
+# The evened density ratio above which two more poles are tried, where that is quick.
+UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES = 3.0, 2, 16, 5000
+
 # What islands may cost (see `appearance`) to be taken at once: less than a tiling does with poles, or where none may be
 # needed, as around a ring, so little that squares hardly differ.
 GOOD, FLAT = 0.8, 0.3
@@ -109,13 +112,25 @@ class Undecided:
     evenness: float = 0.0
 
     def tiled(self, poles, options, progress):
-        """The `Map`, by `options` of `Structure.tile`."""
-        return _least_minded(self.flat, self._tiled_or_balanced(poles, options, progress))
+        """The `Map`, by `options` of `Structure.tile`. On few faces a density is less even than it was expected when
+        poles were placed: then more are tried."""
+        made = _least_minded(self.flat, self._tiled_or_balanced(poles, options, progress))
+        if not (made.tiling and _is_automatic(poles) and self._has_few_poles(made)):
+            return made
+        try:
+            more = self._tiled_or_balanced(len(made.poles) + MORE_POLES, options, scaled(progress, 1.0, 1.0))
+        except REFUSALS:
+            return made
+        return more if more.tiling and more.drawn_ratio < made.drawn_ratio else made
+
+    def _has_few_poles(self, made):
+        is_evened = made.evenness > 0 and len(self.surface.triangles) <= FEW_TRIANGLES
+        return is_evened and made.drawn_ratio > UNEVEN and 0 < len(made.poles) < MOST_POLES
 
     def _tiled_or_balanced(self, poles, options, progress):
         if self.balanced is None:
             return self._map(_whole(self._tiling(poles, options, progress)), "it was asked for")
-        tried = POLES if isinstance(poles, str) and poles == "auto" else (poles,)
+        tried = POLES if _is_automatic(poles) else (poles,)
         reasons = []
         for k, own in enumerate(tried):
             try:
@@ -143,7 +158,7 @@ class Undecided:
     def stretched(self, made, density, lattice):
         """The `Map` of the tiling of another one, stretched to a density; None where it cannot be, or another map looks
         better."""
-        tiling = stretched(made.tiling, density, lattice)
+        tiling = stretched(made.tiling, density / made.density, lattice)
         if tiling is None or self.balanced and _drawback(tiling, self.balanced.quality):
             return None
         found = self._map(tiling, made.why)
@@ -159,6 +174,10 @@ class Undecided:
 def _least_minded(flat, found):
     """The `Map` of flat islands, if there are any that look better than another `Map`; else that one."""
     return _map_of(flat, found.surface, found.structure) if flat and flat.cost < found.cost else found
+
+
+def _is_automatic(poles):
+    return isinstance(poles, str) and poles == "auto"
 
 
 def _whole(tiling):

@@ -25,6 +25,7 @@ from .tilings import Tiling
 from .value import Value, counted
 
 PLACING = 0.6  # of the work on a tiling, for finding the poles
+KEPT = 2  # tilings and their poles: more poles are tried where some are too few
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -157,16 +158,14 @@ class Structure(Value):
         return real_number(density, "density", positive=True) * self._component.area
 
     def _rounded(self, tiler, options, evenness, progress):
-        """What `Tiler.tile` gives; the last tiling is kept, and evened for another evenness."""
+        """What `Tiler.tile` gives; the last tilings are kept, and evened for another evenness."""
         key = tiler, *((name, _hashable(value)) for name, value in options.items())
         made = self._tilings.get(key)
         if made is None:
             made = tiler.tile(**options, evenness=evenness, progress=progress)
         elif made.evenness != evenness:
             made = tiler.even(made, evenness, progress=progress)
-        self._tilings.clear()
-        self._tilings[key] = made
-        return made
+        return _kept(self._tilings, key, made)
 
     @cached_property
     def _tilings(self):
@@ -182,7 +181,8 @@ class Structure(Value):
         surface: Surface | None = None,
         progress: Progress | None = None,
     ) -> Tiler:
-        """The `Tiler` of the surface; the last one is kept, with the poles that it placed, until others are asked for.
+        """The `Tiler` of the surface; the last ones are kept, with the poles that they placed, until others are asked
+        for.
 
         surface : the one whose vertices poles are named by, without its isolated vertices the same as was solved on;
             default: the latter
@@ -195,9 +195,7 @@ class Structure(Value):
         if tiler is None:
             options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened)}
             tiler = Tiler(surface, poles, **options, threads=self._threads, progress=progress)
-            self._tilers.clear()
-            self._tilers[key] = tiler
-        return tiler
+        return _kept(self._tilers, key, tiler)
 
     @cached_property
     def _tilers(self):
@@ -231,6 +229,15 @@ class Structure(Value):
     def _of_surface(self, vertices):
         """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
+
+
+def _kept(last, key, value):
+    """The value, the newest of `KEPT` in a dictionary. Threads may ask at once: what is gone is made again."""
+    last.pop(key, None)
+    last[key] = value
+    for oldest in list(last)[:-KEPT]:
+        last.pop(oldest, None)
+    return value
 
 
 def _hashable(value):

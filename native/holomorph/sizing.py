@@ -136,7 +136,7 @@ def usual_density(parts: Sequence[Surface]) -> float:
 
 def relative_size(made: Map, density: float) -> float:
     """The median density over the wanted one."""
-    return made.quality.median_density / density if density > 0 else 1.0
+    return made.density / density if density > 0 else 1.0
 
 
 def is_in(window: Window, size: float) -> bool:

@@ -15,14 +15,13 @@ MOST_STRETCHED = 1.35  # factor: whole tiles around a limb, from three on, are n
 ALONG = 1e-9  # sine of an angle that is rounding
 
 
-def stretched(tiling: Tiling, density: float, lattice: str | ArrayLike) -> Tiling | None:
-    """The tiling with this median density, stretched across its jumps where these all run along one line, as around a
-    limb with a pole at each end: no seam shows all the same. None where there are jumps both ways, or it would be
-    stretched by more than `MOST_STRETCHED`.
+def stretched(tiling: Tiling, factor: float, lattice: str | ArrayLike) -> Tiling | None:
+    """The tiling with so many times its density, stretched across its jumps where these all run along one line, as
+    around a limb with a pole at each end: no seam shows all the same. None where there are jumps both ways, or it would
+    be stretched by more than `MOST_STRETCHED`.
 
-    density : more than 0; lattice : of the tiling, as in `Structure.tile`
+    factor : more than 0; lattice : of the tiling, as in `Structure.tile`
     """
-    factor = density / tiling.quality.median_density
     jumps = np.concatenate([tiling.residues, tiling.periods @ np.array(generators(lattice))])
     if not len(jumps) or not 1 / MOST_STRETCHED <= factor <= MOST_STRETCHED:
         return None

@@ -5,7 +5,7 @@ import pytest
 from families import cylinder, geodesic_sphere, torus, united
 from holomorph import arrangement, automatic_maps, form_map
 from holomorph.arrangement import Arrangement, arranged, arranged_form, on_grid, square, unit_length
-from holomorph.quality import Quality
+from holomorph.distortion import drawn_densities
 from solved import surface_of
 
 PARTS = {
@@ -59,7 +59,7 @@ def test_maps_are_moved_and_scaled_alone(mesh):
 
 
 def test_all_maps_have_one_median_density(mesh):
-    found = [Quality.of(made.surface._native, np.ascontiguousarray(uv), 0).median_density for made, uv in laid(mesh)]
+    found = [drawn_densities(made.surface, uv)[1] for made, uv in laid(mesh)]
     tilings = [made for made, _ in laid(mesh) if made.tiling]
     assert max(found) <= (1.2 if len(tilings) > 1 else 1 + 1e-5) * min(found)  # whole tiles: a tenth either way
 
@@ -85,10 +85,10 @@ def test_a_unit_has_the_length_that_is_told(mesh):
     """Of the largest part, or in the median of the tilings."""
     parts = laid(mesh)
     told = unit_length([made for made, _ in parts], Arrangement(margin=MARGIN))
-    densities = [made.quality.median_density for made, _ in parts if made.tiling]
+    densities = [made.density for made, _ in parts if made.tiling]
     if not densities:
         largest, uv = max(parts, key=lambda pair: arrangement.diagonal(pair[0].surface))
-        densities = [largest.structure.quality(uv).median_density]
+        densities = [drawn_densities(largest.surface, uv)[1]]
     assert told == pytest.approx(np.median(densities) ** -0.5, rel=1e-6)
 
 

@@ -99,11 +99,12 @@ def test_a_part_alone_gets_the_map_that_it_gets_beside_others(name):
 def test_what_was_solved_is_taken():
     surface = surface_of(torus(24, 12))
     structure = holomorph.conformal_structure(surface)
-    made = [holomorph.automatic_map(surface, given, main="seamless") for given in (structure, None)]
+    options = {"main": "seamless", "poles": 4}
+    made = [holomorph.automatic_map(surface, given, **options) for given in (structure, None)]
     assert made[0].structure is structure and np.array_equal(made[0].uv, made[1].uv)
     stages = []
     holomorph.automatic_map(
-        surface, structure, main="seamless", tiles=40, progress=lambda _fraction, stage: stages.append(stage)
+        surface, structure, tiles=40, **options, progress=lambda _fraction, stage: stages.append(stage)
     )
     assert "search for poles" not in stages  # they were placed
 
