@@ -8,6 +8,7 @@ from ..maps import coarse
 from ..results import stored
 from . import lines
 
+REPAIR = "mesh.holomorphic_repair"
 EDITED = "Before the last edit:"
 ICONS = {"good": "CHECKMARK", "fair": "CHECKMARK", "poor": "ERROR", "unusable": "ERROR"}
 
@@ -24,7 +25,7 @@ def draw(layout, context, text, tile_operator, islands_operator, is_edited=False
     if whole:
         lines.draw(box, context, whole)
     if is_joined:
-        box.operator("mesh.remove_doubles", text="Merge by Distance")  # Blender greys it outside of Edit Mode
+        box.operator(REPAIR, text="Merge by Distance").kinds = {"WELD"}  # Blender's own is grey outside of Edit Mode
     if is_edited:
         lines.draw(box, context, EDITED, "INFO")
     lines.draw(box, context, found.sentence, "NONE" if is_edited else ICONS[found.level])

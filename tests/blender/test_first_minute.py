@@ -18,7 +18,7 @@ class Drawn:
     """A layout that notes what is drawn in it."""
 
     def __init__(self):
-        self.texts, self.buttons, self.icons = [], [], []
+        self.texts, self.buttons, self.icons, self.calls = [], [], [], []
 
     def label(self, text="", icon="NONE"):
         self.texts.append(text)
@@ -26,7 +26,8 @@ class Drawn:
 
     def operator(self, name, text="", icon="NONE"):
         self.buttons.append(text or name)
-        return type("Properties", (), {})()
+        self.calls.append((name, type("Properties", (), {})()))
+        return self.calls[-1][1]
 
     def box(self, **_options):
         return self
@@ -196,6 +197,10 @@ def test_vertices_that_were_joined_are_offered_to_be_merged():
     apart = [tuple(range(end - len(face), end)) for face, end in zip(faces, ends)]
     layout = drawn_after_run(mesh_object("Apart", np.array(vertices)[corners], apart))
     assert layout.buttons[0] == "Merge by Distance" and "vertices joined" in layout.texts[0]
+    name, properties = layout.calls[0]
+    group, operator = name.split(".")
+    assert getattr(getattr(bpy.ops, group), operator)(**vars(properties)) == {"FINISHED"}
+    assert len(bpy.context.object.data.vertices) == len(vertices)
 
 
 def drawn_after_run(obj):
