@@ -31,8 +31,9 @@ MOST_LOST = 0.02  # and with what collapses, of a tiling that was asked for
 # as a pipe, is the balanced one, scaled until whole tiles fit around it.
 POLES = ("auto", 0)
 
-# The evened density ratio above which two more poles are tried, where that is quick.
-UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES = 3.0, 2, 16, 5000
+# The evened density ratio above which two more poles are tried, where that is quick, and tiles are so many that their
+# rounding decides less than the poles.
+UNEVEN, MORE_POLES, MOST_POLES, FEW_TRIANGLES, MANY_TILES = 3.0, 2, 16, 5000, 60
 
 # What islands may cost (see `appearance`) to be taken at once: less than a tiling does with poles, or where none may be
 # needed, as around a ring, so little that squares hardly differ.
@@ -124,8 +125,9 @@ class Undecided:
         return more if more.tiling and more.drawn_ratio < made.drawn_ratio else made
 
     def _has_few_poles(self, made):
-        is_evened = made.evenness > 0 and len(self.surface.triangles) <= FEW_TRIANGLES
-        return is_evened and made.drawn_ratio > UNEVEN and 0 < len(made.poles) < MOST_POLES
+        is_evened = made.evenness > 0 and made.tiling.tiles >= MANY_TILES
+        is_quick = len(self.surface.triangles) <= FEW_TRIANGLES
+        return is_evened and is_quick and made.drawn_ratio > UNEVEN and 0 < len(made.poles) < MOST_POLES
 
     def _tiled_or_balanced(self, poles, options, progress):
         if self.balanced is None:
