@@ -1,6 +1,8 @@
 #include "solver/direct/foreign_threads.h"
 
+#include <cstdlib>
 #include <mutex>
+#include <new>
 
 #ifndef _WIN32
 #include <unistd.h>
@@ -10,6 +12,7 @@
 extern "C" {
 void openblas_set_num_threads(int);
 int openblas_get_num_threads(void);
+void dpotrf_(const char* triangle, const int* n, double* matrix, const int* stride, int* info);
 }
 #endif
 
@@ -19,13 +22,31 @@ namespace holomorph::solver {
 
 namespace {
 
+// OpenBLAS's workspace of a call, in bytes: 128 MiB and what malloc adds. It is kept for later calls.
+constexpr std::size_t kWorkspace = std::size_t{130} << 20;
+
 std::mutex mutex;
-int users = 0, before = 1;
+int users = 0, workspaces = 0, before = 1;
+
+// OpenBLAS asks for its workspace again and again, without end, where there is no memory: so it is asked for here
+// first. The first one is then taken at once, before anything else takes the memory.
+// @throws std::bad_alloc
+void take_workspace() {
+  void* const found = std::malloc(kWorkspace);
+  if (found == nullptr) throw std::bad_alloc();
+  std::free(found);
+  if (workspaces++ > 0) return;
+  const int n = 1;
+  int info = 0;
+  double one = 1;
+  dpotrf_("L", &n, &one, &n, &info);
+}
 
 }  // namespace
 
 OneBlasThread::OneBlasThread() {
   const std::lock_guard lock(mutex);
+  if (users == workspaces) take_workspace();
   if (users++ > 0) return;
   before = openblas_get_num_threads();
   openblas_set_num_threads(1);

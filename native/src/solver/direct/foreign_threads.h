@@ -9,6 +9,7 @@ namespace holomorph::solver {
 /// end of the last puts it back.
 class OneBlasThread {
  public:
+  /// @throws std::bad_alloc where BLAS would wait for memory for ever
   OneBlasThread();
   ~OneBlasThread();
   OneBlasThread(const OneBlasThread&) = delete;
