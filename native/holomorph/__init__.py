@@ -12,6 +12,7 @@ the other a; the period matrix is its integrals over the b. `*(p dx + q dy) = p 
 Method: Gu, Wang, Yau, Multiresolution Computation of Conformal Structures of Surfaces (2003).
 """
 
+from . import starting  # noqa: I001, F401 -- before NumPy is loaded
 from . import arrangement, distortion, layout, report
 from ._native import Cancelled, Error, InvalidMesh, OutOfMemory, SolverError, TopologyError, __version__
 from .automatic_map import automatic_map

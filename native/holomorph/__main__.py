@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -10,10 +11,16 @@ from .batch import mapping
 from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
 from .compare_command import compare
+from .console import ended, failed, tell
 from .map_choice import MAIN_MAPS
 from .report import repairs_report, whole_report
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
+
+
+def command():
+    """Ends this process, as the program that a user starts."""
+    sys.exit(ended(main))
 
 
 def main(arguments=None):
@@ -21,9 +28,9 @@ def main(arguments=None):
     options that cannot be, 3 with --strict if some component was not done or its map is not fit."""
     arguments = sys.argv[1:] if arguments is None else arguments
     if arguments[:1] == ["batch"]:
-        from .batch import command
+        from .batch.command import main as batch
 
-        return command.main(arguments[1:])
+        return batch(arguments[1:])
     if arguments[:1] == ["compare"]:
         return compare(arguments[1:])
     options = _parser().parse_args(arguments)
@@ -60,12 +67,6 @@ def _parser():
     return parser
 
 
-def failed(status, sentence):
-    """The exit status, after a sentence on the error stream."""
-    print(f"holomorph: {sentence}", file=sys.stderr)
-    return status
-
-
 def _check_output(path, texture):
     """Raises ValueError or OSError, before any work."""
     if path is None:
@@ -75,7 +76,7 @@ def _check_output(path, texture):
     name = formats.of_path(path)
     if texture is not None:
         formats.check_texture(name, texture)
-    folder = Path(path).resolve().parent
+    folder = Path(os.path.realpath(path)).parent
     if not folder.is_dir():
         raise ValueError(f"{path}: the folder {folder} does not exist")
 
@@ -107,7 +108,7 @@ def _write(report, options):
     if options.report:
         whole_file.write(options.report, text.encode() + b"\n")
     elif not options.output:
-        print(text)
+        tell(text + "\n")
 
 
 def _status(report, is_strict):
@@ -122,4 +123,4 @@ def _status(report, is_strict):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    command()

@@ -2,9 +2,9 @@
 
 import argparse
 import json
-import sys
 
 from . import Error, Surface, whole_file
+from .console import failed, tell
 from .equivalence import VERDICTS, conformally_equivalent
 from .plain_data import plain
 
@@ -28,9 +28,8 @@ def compare(arguments):
         if options.report:
             whole_file.write(options.report, json.dumps(plain(vars(made)), indent=1, allow_nan=False).encode() + b"\n")
     except (Error, OSError) as error:
-        print(f"holomorph: {error}", file=sys.stderr)
-        return 1
-    print(made.sentence)
+        return failed(1, error)
+    tell(made.sentence + "\n")
     return EXIT_CODES[made.verdict]
 
 

@@ -14,7 +14,7 @@ def write(path, *contents):
 
     Raises OSError that names the path."""
     with _naming(path):
-        place = Path(path).resolve()
+        place = _place(path)
         if place.exists() and not place.is_file():
             with open(place, "wb") as file:
                 file.writelines(contents)
@@ -37,7 +37,7 @@ def check_places(source, output, others, overwrite):
         true; others : paths of other files that are written, None for none
 
     Raises ValueError."""
-    read, new, *more = (None if path is None else Path(path).resolve() for path in (source, output, *others))
+    read, new, *more = (None if path is None else _place(path) for path in (source, output, *others))
     if new is not None and new == read and not overwrite:
         raise ValueError(f"{output} is the file that is read: --overwrite replaces it")
     taken = {read, new}
@@ -53,7 +53,7 @@ def folder_beside(path):
     path is. Without any, and after an error, what is there stays as it was.
 
     Raises OSError that names the path."""
-    place = Path(path).resolve()
+    place = _place(path)
     new = place.with_name(_hidden_name())
     with _naming(path):
         new.mkdir()
@@ -66,6 +66,11 @@ def folder_beside(path):
                 _move(made, target)
     finally:
         shutil.rmtree(new, ignore_errors=True)
+
+
+def _place(path):
+    """Where a link leads; to itself if it is circular."""
+    return Path(os.path.realpath(path))
 
 
 def _hidden_name():

@@ -1,12 +1,16 @@
 """The overview in a real browser: what it shows, its order, its filters."""
 
+import html
 import json
 import re
 import shutil
 import subprocess
+from urllib.parse import unquote
 
 import pytest
+from any_names import any_names
 from conftest import BALANCED, SECONDS, library, run
+from holomorph.console import shown
 
 BROWSERS = ("chromium-headless-shell", "chromium", "google-chrome")
 BROWSER = next((found for found in map(shutil.which, BROWSERS) if found), None)
@@ -37,6 +41,24 @@ addEventListener("load", () => {
   seen.done = names();
   seen.pictures = [...document.images].filter(image => image.complete && image.naturalWidth > 100).length;
   document.title = JSON.stringify(seen);
+});
+</script>
+"""
+
+# What the page shows of names, and whether any of them ran.
+ALL_SHOWN = """
+<script>
+const alerts = [];
+window.alert = text => alerts.push(text);
+addEventListener("load", () => {
+  const cells = [...document.querySelectorAll("#rows td.name")];
+  document.title = JSON.stringify({
+    names: cells.map(cell => cell.textContent),
+    elements: cells.flatMap(cell => [...cell.querySelectorAll("*")]).map(found => found.tagName),
+    links: cells.map(cell => cell.querySelector("a").getAttribute("href")),
+    scripts: document.scripts.length,
+    alerts: alerts.concat(document.title === "attacked" ? ["title"] : []),
+  });
 });
 </script>
 """
@@ -97,3 +119,18 @@ def test_it_is_drawn(page, tmp_path):
     orange = (colours[:, :, 0] > 120) & (colours[:, :, 0] > 1.6 * colours[:, :, 1]) & (colours[:, :, 2] < 90)
     rows = np.flatnonzero(orange[:, :140].any(axis=1))
     assert 1 + np.count_nonzero(np.diff(rows) > 20) == 4
+
+
+def test_no_name_is_more_than_text(tmp_path):
+    """Every name is shown, none becomes an element or runs; the links lead to the folders of the results."""
+    expected = any_names(tmp_path / "source")
+    (tmp_path / "recipe.toml").write_text(BALANCED)
+    run(tmp_path / "source", "--out", tmp_path / "out", "--recipe", tmp_path / "recipe.toml")
+    page = tmp_path / "out" / "index.html"
+    acted = page.with_name("acted.html")
+    acted.write_text(page.read_text(encoding="utf-8").replace("</html>", ALL_SHOWN + "</html>"), encoding="utf-8")
+    title = re.search(r"<title>(.*?)</title>", browse(acted, "--dump-dom"), re.DOTALL)[1]
+    seen = json.loads(html.unescape(title))
+    assert sorted(seen["names"]) == sorted(map(shown, expected))
+    assert seen["elements"] == ["A"] * len(expected) and seen["scripts"] == 3 and not seen["alerts"]
+    assert all((page.parent / unquote(link) / "record.json").is_file() for link in seen["links"])

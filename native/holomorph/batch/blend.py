@@ -29,12 +29,15 @@ class Opening:
     folder: Path
     work: Path
     blender: str
+    problem: str = ""  # why it cannot be read
 
     def run(self):
         """(record, files), as `task.Task.run`."""
         start = time.perf_counter()
         with TemporaryDirectory(dir=self.work) as folder:
             try:
+                if self.problem:
+                    raise InvalidMesh(self.problem)
                 _run(self.blender, self.path, "read", folder)
             except InvalidMesh as error:
                 return {"status": REFUSED, "message": str(error), "seconds": time.perf_counter() - start}, {}
@@ -69,7 +72,7 @@ def written(task, mesh):
 def _run(blender, scene, *arguments):
     """Runs the script in Blender. @throws InvalidMesh where it ends with an error"""
     options = ["--background", "--factory-startup", "--disable-autoexec", "--python-exit-code", "3"]
-    file = [] if scene is None else [str(Path(scene).resolve())]
+    file = [] if scene is None else [str(Path(scene).absolute())]
     opened = [path for path in file if path.lower().endswith(BLEND)]  # the script imports others
     command = [blender, *options, *opened, "--python", str(SCRIPT), "--", *map(str, [*file, *arguments])]
     run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")

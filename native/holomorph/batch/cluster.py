@@ -45,7 +45,7 @@ class Cluster:
         """Yields the record of each task as it is done, the largest first.
 
         Raises StorageError, and EngineError where the scheduler stays away."""
-        waiting = {task.name: task for task in sorted(tasks, key=lambda task: (-task.size, task.name))}
+        waiting = {task.key: task for task in sorted(tasks, key=lambda task: (-task.size, task.name))}
         try:
             while waiting:
                 try:
@@ -89,7 +89,7 @@ class Cluster:
                 self._check(futures)
                 continue
             yield self._record(task, future)
-            del waiting[task.name]
+            del waiting[task.key]
 
     def _check(self, futures):
         if self._client.status != "running" or any(future.status == "lost" for future in futures):

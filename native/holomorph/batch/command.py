@@ -5,28 +5,19 @@ import contextlib
 import importlib.util
 import os
 import re
-import signal
-import sys
 from functools import partial
 from pathlib import Path
 
+from ..console import failed, shown, tell
 from ..verdicts import LEVELS
 from . import blend, progress, recipe, sources, workers
 from .errors import EngineError, StorageError, UsageError
-from .journal import Journal, stored
+from .journal import Journal, stored, storing
 from .overview import Overview, counts
 from .plan import Plan
 from .status import DONE
 
-ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, INTERRUPTED = (
-    0,
-    1,
-    2,
-    3,
-    4,
-    5,
-    130,
-)  # exit codes; see docs/batch.md
+ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, MACHINE = range(7)  # exit codes; see docs/batch.md
 UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 DEFAULT_SECONDS = 1800.0
 UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
@@ -34,35 +25,20 @@ UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
 
 def main(arguments):
     """The exit code; a sentence on the error stream where it is not 0."""
-    _hear_signals()
     try:
-        options = _options(arguments)
-        return _run(options)
+        return _run(_options(arguments))
     except UsageError as error:
-        return _end(USAGE, str(error))
+        return failed(USAGE, error)
     except StorageError as error:
-        return _end(STORAGE, f"{error}; what is done stays done, and the same command goes on")
+        return failed(STORAGE, f"{error}; what is done stays done, and the same command goes on")
     except EngineError as error:
-        return _end(ENGINE, f"{error}; the same command goes on")
-    except KeyboardInterrupt:
-        return _end(INTERRUPTED, "interrupted; the same command goes on")
+        return failed(ENGINE, f"{error}; the same command goes on")
+    except (OSError, MemoryError) as error:
+        return failed(MACHINE, f"this machine refuses what the run needs: {_reason(error)}; the same command goes on")
 
 
-def _end(code, sentence):
-    print(f"holomorph: {sentence}", file=sys.stderr)
-    return code
-
-
-def _hear_signals():
-    """The first Ctrl-C, or the end that a scheduler sends, interrupts; what is done then is not interrupted again."""
-
-    def interrupt(_number, _frame):
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.SIG_IGN)
-        raise KeyboardInterrupt
-
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, interrupt)
+def _reason(error):
+    return getattr(error, "strerror", None) or str(error) or "there is not enough memory"
 
 
 def _options(arguments):
@@ -92,13 +68,11 @@ def _run(options):
     wanted = recipe.read(options.recipe) if options.recipe else recipe.Recipe()
     needs_blender = "blend" in wanted.output.formats or any(sources.is_scene(s.path) for s in found)
     program = blend.program(options.blender) if needs_blender else ""
-    if options.share:
-        number, count = options.share
-        found = found[number - 1 :: count]
-    journal = Journal(options.out.resolve(), "{}-of-{}".format(*options.share) if options.share else "")
+    number, count = options.share or (1, 1)
+    journal = Journal(os.path.realpath(options.out), "{}-of-{}".format(*options.share) if options.share else "")
     execute, limits = _engine(options)
     with journal.locked():
-        plan = Plan(found, journal, wanted, limits.threads, program)
+        plan = Plan(found, journal, wanted, limits.threads, program, slice(number - 1, None, count))
         try:
             _do(plan.openings, "file", execute, options.retry)
             records = _do(plan.tasks(), "asset", execute, options.retry)
@@ -111,13 +85,14 @@ def _run(options):
 def _exit_code(records, options):
     """Says how many assets there are of each status."""
     told = ", ".join(f"{count} {status}" for status, count in counts(records).items())
-    print(f"{len(records)} assets: {told or 'none'}; see {options.out / 'index.html'}")
+    with storing():
+        tell(f"{len(records)} assets: {told or 'none'}; see {shown(str(options.out / 'index.html'))}\n")
     if any(record["status"] != DONE for record in records) and not options.report_only:
         return SOME_FAILED
     unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
     if not (options.strict and unfit):
         return ALL_DONE
-    return _end(STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}")
+    return failed(STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}")
 
 
 def _engine(options):
@@ -138,18 +113,18 @@ def _engine(options):
 
 def _do(tasks, noun, execute, retries):
     """The records of all tasks, of which those that have none yet are done."""
-    records = {task.name: stored(task) for task in tasks}
+    records = {task.key: stored(task) for task in tasks}
     waiting = [
-        task for task in tasks if (record := records[task.name]) is None or (retries and record["status"] != DONE)
+        task for task in tasks if (record := records[task.key]) is None or (retries and record["status"] != DONE)
     ]
     if waiting:
         bar = progress.bar(len(waiting), noun)
         with contextlib.closing(bar), contextlib.closing(execute(waiting)) as results:
             for record in results:
-                records[record["name"]] = record
+                records[record["key"]] = record
                 bar.update()
                 if record["status"] != DONE:
-                    bar.write(f"{record['name']}: {record['status']}: {record['message']}", file=sys.stderr)
+                    bar.write(shown(f"{record['name']}: {record['status']}: {record['message']}"))
     return list(records.values())
 
 

@@ -11,7 +11,6 @@ import os
 import shutil
 import uuid
 from pathlib import Path
-from urllib.parse import quote
 
 from .errors import StorageError, UsageError
 
@@ -51,10 +50,6 @@ class Journal:
         with storing():
             self.work.mkdir(parents=True)
 
-    def asset_folder(self, name):
-        """Of the asset `name`, whose parts between slashes are folders."""
-        return self.folder.joinpath("assets", *(safe(part) for part in name.split("/")))
-
     def write(self, name, content):
         """Writes a file of the whole batch, whole or not at all. @throws StorageError"""
         with storing():
@@ -69,12 +64,7 @@ def storing():
     try:
         yield
     except OSError as error:
-        raise StorageError(f"{error.filename or 'the results'}: {error.strerror}") from error
-
-
-def safe(part):
-    """A name as one part of a path."""
-    return quote(part, safe=" !#$&'()+,;=@[]{}~") if part not in (".", "..") else quote(part).replace(".", "%2E")
+        raise StorageError(f"{os.fsdecode(error.filename or 'the results')}: {error.strerror}") from error
 
 
 def stored(task):

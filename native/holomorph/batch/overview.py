@@ -8,12 +8,14 @@ import json
 from pathlib import Path
 from urllib.parse import quote
 
+from ..console import shown
 from ..verdicts import LEVELS, Verdict
 from .journal import RECORD
 from .status import DONE
 
 TEMPLATE = Path(__file__).with_name("overview.html")
 PLACE = "/*ENTRIES*/"  # in the template
+FORMULAS = ("=", "+", "-", "@")  # their beginnings
 SHOWN = 3  # descriptions and reasons of an asset's parts
 ASSET_COLUMNS = ("name", "status", "message", "seconds", "part")
 
@@ -32,7 +34,7 @@ class Overview:
         self._journal.write("summary.csv", _as_csv(rows, columns))
         if importlib.util.find_spec("pyarrow") is not None:
             self._journal.write("summary.parquet", _as_parquet(rows, columns))
-        entries = json.dumps([self._entry(asset) for asset in self._assets], allow_nan=False).replace("</", "<\\/")
+        entries = json.dumps([self._entry(asset) for asset in self._assets], allow_nan=False).replace("<", "\\u003c")
         self._journal.write("index.html", TEMPLATE.read_text(encoding="utf-8").replace(PLACE, entries).encode())
 
     def _entry(self, asset):
@@ -42,9 +44,9 @@ class Overview:
         reasons = [part["reason"] for part in report.get("components", []) if not part["done"]]
         whole, picture = report.get("whole") or {}, task.folder / "picture.png"
         return {
-            "name": task.name,
+            "name": shown(task.name),
             "status": record["status"],
-            "message": record["message"] or "; ".join(filter(None, [*_words(report), _brief(reasons)])),
+            "message": shown(record["message"] or "; ".join(filter(None, [*_words(report), _brief(reasons)]))),
             "seconds": record["seconds"],
             "faces": report.get("faces"),
             "parts": len(report.get("components", [])),
@@ -94,7 +96,8 @@ def _data_address(picture):
 def _rows(asset):
     """A row for each part of an asset, one where it has none."""
     task, record, report = asset
-    common = {"name": task.name, **{name: record[name] for name in ("status", "message", "seconds")}}
+    told = {"name": shown(task.name), "status": record["status"], "message": shown(record["message"])}
+    common = told | {"seconds": record["seconds"]}
     timings = record.get("timings", [])
     rows = [
         common | {"part": number} | _flat(part | {"timings": timings[number] if number < len(timings) else None})
@@ -123,8 +126,13 @@ def _as_csv(rows, columns):
     text = io.StringIO()
     writer = csv.DictWriter(text, columns, restval="")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows({name: _harmless(value) for name, value in row.items()} for row in rows)
     return text.getvalue().encode()
+
+
+def _harmless(value):
+    """A text that a spreadsheet would take for a formula has a ' before it, as one would type it there."""
+    return f"'{value}" if isinstance(value, str) and value.startswith(FORMULAS) else value
 
 
 def _as_parquet(rows, columns):

@@ -1,22 +1,26 @@
 """From sources to tasks: what there is to do in an output folder."""
 
 import hashlib
+from functools import partial
 
-from . import blend, sources
-from .journal import safe
+from . import blend, places, sources
 from .task import Task, key
+
+ASSETS, SCENES = "assets", ".blend"  # folders of the results: of assets, and of what Blender read of scenes
+of_source = partial(places.of_source, kinds=(*sources.MESHES, *sources.SCENES))
 
 
 class Plan:
-    """The tasks of a batch. `openings` come first: they read scenes, whose objects are then assets, too."""
+    """The tasks of a batch. `openings` come first: they read scenes, whose objects are then assets, too.
 
-    def __init__(self, found, journal, recipe, threads, blender):
+    found : all sources, which tell each other's folders apart; share : those of this run
+    """
+
+    def __init__(self, found, journal, recipe, threads, blender, share=slice(None)):
         self._journal, self._recipe, self._threads, self._blender = journal, recipe, threads, blender
-        digests = {source: _digest(source.path) for source in found}
-        scenes = [source for source in found if sources.is_scene(source.path)]
-        meshes = [source for source in found if source not in scenes]
-        self.openings = [self._opening(source, digests[source]) for source in scenes]
-        self._meshes = [self._task(source.name, source.path, source.size, digests[source]) for source in meshes]
+        self._places = places.told_apart([source.name for source in found], of_source)
+        self.openings = [self._opening(source) for source in found[share] if sources.is_scene(source.path)]
+        self._meshes = [self._mesh(source) for source in found[share] if not sources.is_scene(source.path)]
 
     def tasks(self):
         """Those of the mesh files, and of the objects of the scenes that were read."""
@@ -27,33 +31,55 @@ class Plan:
         """The scenes that were not read: each is an asset in itself, which is not done."""
         return [opening for opening in self.openings if not (opening.folder / blend.OBJECTS).exists()]
 
-    def _opening(self, source, digest):
-        folder, work = self._journal.folder / ".blend" / safe(source.name), self._journal.work
-        return blend.Opening(source.name, digest, source.path.resolve(), source.size, folder, work, self._blender)
+    def _opening(self, source):
+        problem, digest = _examined(source)
+        return blend.Opening(
+            source.name,
+            digest,
+            source.path.absolute(),
+            source.size,
+            self._journal.folder / SCENES / self._places[source.name],
+            self._journal.work,
+            self._blender,
+            problem,
+        )
+
+    def _mesh(self, source):
+        problem, digest = _examined(source)
+        place = self._places[source.name]
+        return self._task(source.name, place, source.path, source.size, digest, problem=problem)
 
     def _objects(self, opening):
-        return [
-            self._task(
-                f"{opening.name}/{name.replace('/', '%2F')}", path, corners, opening.key, (str(opening.path), name)
-            )
-            for name, path, corners in opening.objects()
-        ]
+        found = list(opening.objects())
+        folders = places.told_apart([name for name, *_ in found], places.part)
+        for name, path, corners in found:
+            shown = name.replace("%", "%25").replace("/", "%2F")
+            place = f"{self._places[opening.name]}/{folders[name]}"
+            scene = str(opening.path), name
+            yield self._task(f"{opening.name}/{shown}", place, path, corners, opening.key, scene=scene)
 
-    def _task(self, name, path, size, digest, scene=None):
+    def _task(self, name, place, path, size, digest, **more):
         return Task(
             name=name,
             key=key(digest, name, self._recipe),
-            path=path.resolve(),
+            path=path.absolute(),
             size=size,
-            folder=self._journal.asset_folder(name),
+            folder=self._journal.folder / ASSETS / place,
             work=self._journal.work,
             recipe=self._recipe,
-            scene=scene,
             blender=self._blender,
             threads=self._threads,
+            **more,
         )
 
 
-def _digest(path):
-    with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
+def _examined(source):
+    """(why it cannot be read, or empty; a hash of its bytes, or of that)."""
+    problem = source.problem
+    if not problem:
+        try:
+            with open(source.path, "rb") as file:
+                return "", hashlib.file_digest(file, "sha256").hexdigest()
+        except OSError as error:
+            problem = sources.cannot_be_read("file", error)
+    return problem, hashlib.sha256(problem.encode()).hexdigest()

@@ -4,16 +4,22 @@ import importlib.util
 import sys
 import time
 
+from ..console import say
+
 EVERY = 10.0  # seconds between lines
 
 
 def bar(total, noun):
-    """With `update()`, one more of `total` is done, `write(line, file)` beside it, and `close()`."""
-    if importlib.util.find_spec("tqdm") is None or not sys.stderr.isatty():
+    """With `update()`, one more of `total` is done, `write(line)` beside it, and `close()`."""
+    if importlib.util.find_spec("tqdm") is None or sys.stderr is None or not sys.stderr.isatty():
         return Lines(total, noun)
     import tqdm
 
-    return tqdm.tqdm(total=total, unit=noun, smoothing=0.05)
+    class Bar(tqdm.tqdm):
+        def write(self, line):
+            super().write(line, file=sys.stderr)
+
+    return Bar(total=total, unit=noun, smoothing=0.05)
 
 
 class Lines:
@@ -26,10 +32,10 @@ class Lines:
         self._done += 1
         if time.monotonic() - self._said > EVERY:
             self._said = time.monotonic()
-            sys.stderr.write(f"holomorph: {self._done} of {self._total} {self._noun}s\n")
+            say(f"holomorph: {self._done} of {self._total} {self._noun}s")
 
-    def write(self, line, file):
-        file.write(line + "\n")
+    def write(self, line):
+        say(line)
 
     def close(self):
         pass

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import ProgressiveMesh, Surface, __version__, formats, textures
-from .._native import Error
+from .._native import Error, InvalidMesh
 from ..conformal_image import conformal_image
 from ..report import repairs_report, whole_report
 from . import blend, mapping, picture
@@ -21,7 +21,8 @@ from .status import DONE, REFUSED
 class Task:
     """An asset to be mapped.
 
-    path : a mesh file, or the arrays of an object (.npz, see `blend`); scene : the scene's file and the object's name
+    path : a mesh file, or the arrays of an object (.npz, see `blend`); scene : the scene's file and the object's name;
+    problem : why the file cannot be read, or empty
     key : of the results, see `key`; folder : where they will be; work : where they are written first
     """
 
@@ -35,6 +36,7 @@ class Task:
     scene: tuple | None = None
     blender: str = ""
     threads: int = 1
+    problem: str = ""
 
     def run(self):
         """(record, files): what the journal notes, and the bytes of each file. Raises MemoryError, OSError"""
@@ -65,6 +67,8 @@ def key(digest, name, recipe):
 
 def _mapped(task):
     """The report, the files, and the timings of each part, which are no result: they differ from run to run."""
+    if task.problem:
+        raise InvalidMesh(task.problem)
     surface, seams = _read(task.path)
     recipe = task.recipe
     parts = mapping.map_parts(surface, recipe, seams, task.threads)

@@ -15,21 +15,25 @@ import numpy as np
 
 from .. import Surface, conformal_structure
 from .errors import StorageError
-from .journal import publish
+from .journal import publish, storing
 from .status import MEMORY
 
 
 def main():
     connection, lifeline, memory = Connection(int(sys.argv[1])), int(sys.argv[2]), int(sys.argv[3])
     threading.Thread(target=_end_with_parent, args=[lifeline], daemon=True).start()
-    _warm_up()
-    _limit(memory)
+    done = _done
+    try:
+        _warm_up()
+        _limit(memory)
+    except MemoryError:
+        done = _without_memory
     while True:
         try:
             task = connection.recv()
         except EOFError:
             return
-        answer = _done(task)
+        answer = done(task)
         connection.send(answer)
         if isinstance(answer, dict) and answer["status"] == MEMORY:
             return  # another process begins with memory that is whole
@@ -38,18 +42,21 @@ def main():
 def _done(task):
     """The record of a task whose results are written, or that lacks memory, or a StorageError."""
     try:
-        return publish(task, *task.run())
+        with storing():
+            return publish(task, *task.run())
     except MemoryError:
-        return {"status": MEMORY}
+        return _without_memory(task)
     except StorageError as error:
         return error
-    except OSError as error:
-        return StorageError(str(error))
+
+
+def _without_memory(_task):
+    return {"status": MEMORY}
 
 
 def _warm_up():
     """OpenBLAS takes 128 MB for itself at its first use, of which it touches little, and waits without end where it
-    does not get them: before the limit it does. There are two of them, NumPy's and CHOLMOD's."""
+    does not get them: before the limit it does. There are two of them, NumPy's and CHOLMOD's. @throws MemoryError"""
     grid = np.arange(9).reshape(3, 3)
     shifted = [np.roll(grid, shift, (0, 1)) for shift in ((0, 0), (1, 0), (1, 1), (0, 1))]
     faces = np.stack(shifted, axis=-1).reshape(-1, 4)

@@ -1,6 +1,7 @@
 """Processes that work on assets, and what becomes of an asset when its process fails."""
 
 import contextlib
+import errno
 import os
 import signal
 import subprocess
@@ -83,20 +84,24 @@ class Worker:
             return self._connection
 
     def _start(self):
-        self._connection, other = Pipe()
-        lifeline, self._lifeline = os.pipe()
-        arguments = [str(other.fileno()), str(lifeline), str(self._limits.memory)]
-        threads = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": str(self._limits.threads)}
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "holomorph.batch.worker", *arguments],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            pass_fds=(other.fileno(), lifeline),
-            start_new_session=True,  # Ctrl-C is for the process that has the terminal
-            env=os.environ | threads,
-        )
-        other.close()
-        os.close(lifeline)
+        with contextlib.ExitStack() as ours, contextlib.ExitStack() as theirs:
+            self._connection, other = Pipe()
+            ours.callback(self._connection.close)
+            theirs.callback(other.close)
+            lifeline, self._lifeline = os.pipe()
+            ours.callback(os.close, self._lifeline)
+            theirs.callback(os.close, lifeline)
+            arguments = [str(other.fileno()), str(lifeline), str(self._limits.memory)]
+            threads = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": str(self._limits.threads)}
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", "holomorph.batch.worker", *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                pass_fds=(other.fileno(), lifeline),
+                start_new_session=True,  # Ctrl-C is for the process that has the terminal
+                env=os.environ | threads,
+            )
+            ours.pop_all()  # are closed with the process
 
     def _renew(self):
         """Ends the process, and tells how it ended; the next task starts another."""
@@ -123,6 +128,14 @@ def machine_memory():
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
+def _begun(threads, work, order):
+    """The futures. @throws OSError where no thread can be started, as where there are no more processes"""
+    try:
+        return [threads.submit(work, task) for task in order]
+    except RuntimeError as error:
+        raise OSError(errno.EAGAIN, str(error)) from error
+
+
 def run(tasks, limits, count):
     """Yields the record of each task as it is done, the largest first, by `count` processes. @throws StorageError"""
     workers = [Worker(limits) for _ in range(count)]
@@ -138,7 +151,7 @@ def run(tasks, limits, count):
     order = sorted(tasks, key=lambda task: (-task.size, task.name))
     with ThreadPoolExecutor(count) as threads:
         try:
-            waiting = [threads.submit(work, task) for task in order]
+            waiting = _begun(threads, work, order)
             for done in as_completed(waiting):
                 yield done.result()
         finally:
