@@ -1,8 +1,10 @@
 // What Python holds of a structure.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <utility>
 
 #include "bindings/arrays.h"
@@ -17,16 +19,23 @@ struct Structure {
   int threads = 0;
   structure::Structure value;
   std::mutex mutex;
+  std::atomic<std::thread::id> user;          ///< of the forms
   std::unique_ptr<structure::UvForms> forms;  ///< none of a structure that was cut
   std::shared_ptr<Structure> uncut;           ///< where this was cut: the one whose forms it shares
 
-  /// `use(forms, execution)` without the interpreter's lock, one call at a time.
+  /// `use(forms, execution)` without the interpreter's lock, one call at a time. A call from within the progress
+  /// function of another, on the same thread, would wait for itself: it gets forms of its own.
   template <class Use>
   void with_forms(Use use, Execution::Callback progress = interruptible()) {
     Structure& owner = uncut ? *uncut : *this;
     Execution execution(threads, std::move(progress));  // it goes with the lock held: it owns Python's function
     const py::gil_scoped_release unlocked;
+    if (owner.user == std::this_thread::get_id())
+      return use(*structure::uv_forms(owner.value, owner.options), execution);
     const std::lock_guard<std::mutex> one_at_a_time(owner.mutex);
+    owner.user = std::this_thread::get_id();
+    const std::unique_ptr<Structure, void (*)(Structure*)> end(&owner,
+                                                               [](Structure* used) { used->user = std::thread::id(); });
     use(*owner.forms, execution);
   }
 };
