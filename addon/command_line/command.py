@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The headless command: makes maps and levels of detail, writes files and the report."""
 
+import importlib
+import signal
 import sys
 import time
 from pathlib import Path
@@ -17,7 +19,7 @@ from ..writing import transaction
 from . import exchange, sources, studio
 from .options import UsageError, parse
 
-EXIT_REFUSED, EXIT_STRICT = 1, 3
+EXIT_REFUSED, EXIT_STRICT, EXIT_INTERRUPTED = 1, 3, 130
 
 
 class NotFit(Exception):
@@ -26,18 +28,28 @@ class NotFit(Exception):
 
 def main(arguments):
     """Ends the process with another status than 0 where the job is not done."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # Blender's own waits for a second Ctrl-C
     try:
         for sentence in process(parse(arguments)):
-            print(f"Holomorph: {sentence}", file=sys.stderr)
+            print(f"Holomorph: {_shown(sentence)}", file=sys.stderr)
     except (UsageError, OSError, RuntimeError) as error:
         # RuntimeError is how Blender's own operators report a file that cannot be written.
         _fail(EXIT_REFUSED, error)
     except NotFit as error:
         _fail(EXIT_STRICT, error)
+    except KeyboardInterrupt:
+        _fail(EXIT_INTERRUPTED, "interrupted; what is written is whole")
+
+
+def _shown(sentence):
+    """Without what a terminal acts on, such as in names."""
+    if native.problem():
+        return sentence
+    return importlib.import_module(f"{native.load().__name__}.console").shown(sentence)
 
 
 def _fail(status, error):
-    print(f"Holomorph: {native.sentence(error)}", file=sys.stderr)
+    print(f"Holomorph: {_shown(native.sentence(error))}", file=sys.stderr)
     sys.stderr.flush()
     sys.exit(status)
 
@@ -62,7 +74,8 @@ def process(options):
     _write_report(options, content)  # last: what it tells of is in the files
     if not outcome.done:
         raise UsageError("no maps were made: " + "; ".join(outcome.problems))
-    print(f"Holomorph: maps written to {', '.join(outcome.done)} in {content['seconds']:.2f} s")
+    told = f"maps written to {', '.join(outcome.done)} in {content['seconds']:.2f} s"
+    print(f"Holomorph: {_shown(told)}", flush=True)
     if options.strict:
         _check_strictly(outcome.entries)
     return outcome.problems + outcome.notes
@@ -112,8 +125,7 @@ def _write_files(options, objects):
     """The scene, with its own materials in a format of exchange, and a picture of the objects."""
     is_blend = options.output is not None and options.output.suffix.lower() == ".blend"
     if is_blend:
-        path = str(options.output.resolve())
-        bpy.ops.wm.save_as_mainfile(filepath=path, check_existing=False, compress=True)
+        _save(options.output)
     own = set(bpy.data.objects)
     if options.render is not None:
         with native.load().whole_file.folder_beside(options.render) as folder:
@@ -127,6 +139,15 @@ def _write_files(options, objects):
             exchange.write(options.output, options.export_forms, options.export_texture)
         except exchange.ExchangeError as error:
             raise UsageError(str(error)) from error
+
+
+def _save(path):
+    """As a copy that is moved: in between, Blender's own way leaves no file of the name."""
+    with native.load().whole_file.file_beside(path) as place:
+        try:
+            bpy.ops.wm.save_as_mainfile(filepath=str(place), check_existing=False, compress=True, copy=True)
+        except RuntimeError as error:
+            raise UsageError(f"{path}: Blender cannot write it: {error}") from error
 
 
 def _check_strictly(entries):

@@ -167,7 +167,7 @@ def _call(path, verb, operator, place=None, **options):
     known = operator.get_rna_type().properties.keys()
     options = {name: value for name, value in options.items() if name in known}  # some are new in later versions
     try:
-        operator(filepath=str((place or path).resolve()), **options)
+        operator(filepath=str((place or path).absolute()), **options)
     except RuntimeError as error:
         lines = [line.strip() for line in str(error).splitlines() if line.strip()]
         told = [line for line in lines if not line.startswith(("Location:", "File "))]

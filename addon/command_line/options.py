@@ -6,6 +6,7 @@ They have the names and the values of the operators' properties, for `operators.
 
 import argparse
 import math
+import os
 from pathlib import Path
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
@@ -33,7 +34,7 @@ class Parser(argparse.ArgumentParser):
 def parse(arguments):
     """The options. @throws UsageError"""
     parser = Parser(
-        prog="blender -b [file.blend] --python-exit-code 1 --python headless.py --",
+        prog="blender -b --disable-autoexec [file.blend] --python-exit-code 1 --python headless.py --",
         description="Conformal UV maps for the surfaces in a mesh file or a .blend file.",
     )
     parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY, STL, glTF, FBX or USD; else the .blend")
@@ -148,8 +149,9 @@ def _check_suffixes(options):
 
 def _check_folders(*files):
     for path in files:
-        if path is not None and not path.resolve().parent.is_dir():
-            raise UsageError(f"{path}: the folder {path.resolve().parent} does not exist")
+        folder = path and Path(os.path.realpath(path)).parent
+        if folder and not folder.is_dir():
+            raise UsageError(f"{path}: the folder {folder} does not exist")
 
 
 def _check_values(options):

@@ -48,6 +48,22 @@ def check_places(source, output, others, overwrite):
 
 
 @contextlib.contextmanager
+def file_beside(path):
+    """The path of a new file of the same kind in the same folder, which in the end is moved to where the path is; after
+    an error, what is there stays as it was.
+
+    Raises OSError that names the path."""
+    place = _place(path)
+    new = place.with_name(_hidden_name() + Path(path).suffix)
+    try:
+        yield new
+        with _naming(path):
+            _move(new, place)
+    finally:
+        new.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
 def folder_beside(path):
     """A new folder, in which the path's name and files beside it are written: in the end all are moved to where the
     path is. Without any, and after an error, what is there stays as it was.

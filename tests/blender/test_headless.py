@@ -2,8 +2,10 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
+import time
 
 import bpy
 import numpy as np
@@ -40,8 +42,8 @@ needs_program = pytest.mark.skipif(not BLENDER, reason="needs a Blender program:
 
 def headless(*arguments, blend="", seconds=SECONDS):
     if BLENDER:
-        command = [BLENDER, "-b", *([str(blend)] if blend else []), "--factory-startup", "--python-exit-code", "1"]
-        command += ["--python", SCRIPT]
+        command = [BLENDER, "-b", "--disable-autoexec", *([str(blend)] if blend else []), "--factory-startup"]
+        command += ["--python-exit-code", "1", "--python", SCRIPT]
     else:
         command = [sys.executable, "-c", AS_MODULE, str(blend), SCRIPT]
     command += ["--", *map(str, arguments)]
@@ -355,3 +357,53 @@ def test_islands_of_a_blend_file(tmp_path):
     (entry,) = json.loads(report.read_text())["objects"][0]["components"]
     assert (entry["genus"], entry["boundary_count"]) == (0, 1)
     assert entry["description"].startswith("free boundary")
+
+
+@needs_program
+def test_a_script_in_the_file_does_not_run(tmp_path):
+    """With --disable-autoexec, as the documentation has it; with --enable-autoexec it does."""
+    torus("Ring")
+    script, mark = bpy.data.texts.new("script.py"), tmp_path / "ran"
+    script.write(f"open({str(mark)!r}, 'w')")
+    script.use_module = True
+    blend = tmp_path / "file.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(blend), check_existing=False)
+    assert headless("--report", tmp_path / "report.json", blend=blend).returncode == 0
+    assert not mark.exists()
+    subprocess.run([BLENDER, "-b", "--factory-startup", "--enable-autoexec", str(blend)], check=True)
+    assert mark.exists()
+
+
+def test_a_link_is_of_the_kind_that_its_own_name_says(torus_file, tmp_path):
+    """The file that is read, and the one that is replaced, where the link stays."""
+    read, replaced = tmp_path / "blob", tmp_path / "other blob"
+    torus_file.rename(read)
+    torus_file.symlink_to(read)
+    replaced.write_bytes(b"old")
+    output = tmp_path / "out.blend"
+    output.symlink_to(replaced)
+    done = headless(torus_file, "--output", output, "--report", tmp_path / "report.json")
+    assert done.returncode == 0, done.stderr
+    assert output.is_symlink() and replaced.read_bytes() != b"old"
+    with bpy.data.libraries.load(str(output)) as (there, _):
+        assert there.objects == ["ring"]
+    assert not list(tmp_path.glob(".*")) and not list(tmp_path.glob("*.blend1"))
+
+
+@needs_program
+def test_interrupted(torus_file, tmp_path):
+    """While it waits for who reads its report: Ctrl-C ends it, not a second one."""
+    output, report = tmp_path / "out.blend", tmp_path / "report.json"
+    os.mkfifo(report)
+    command = [BLENDER, "-b", "--factory-startup", "--python-exit-code", "1", "--python", SCRIPT, "--", torus_file]
+    command += ["--output", output, "--report", report]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        while not output.exists():
+            assert process.poll() is None
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=SECONDS)
+    assert process.returncode == 130, said
+    assert "Holomorph: interrupted; what is written is whole" in said.splitlines()
+    with bpy.data.libraries.load(str(output)) as (there, _):
+        assert there.objects == ["ring"]
