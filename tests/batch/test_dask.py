@@ -1,11 +1,13 @@
 """The same tasks on a Dask cluster: a scheduler and workers as processes of their own."""
 
 import os
+import shutil
 import signal
 import socket
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 from conftest import (
@@ -32,11 +34,11 @@ def free_port():
 
 
 class Cluster:
-    """A scheduler at a port, and workers of one thread each."""
+    """A scheduler at a port, and workers of one thread each. options : of both, such as their certificates"""
 
-    def __init__(self, folder, marks=None):
+    def __init__(self, folder, marks=None, protocol="tcp", options=()):
         self._folder, self._environment, self._port, self._processes = folder, environment(marks), free_port(), []
-        self.address = f"tcp://127.0.0.1:{self._port}"
+        self.address, self._options = f"{protocol}://127.0.0.1:{self._port}", options
 
     def start(self, workers):
         options = ["--host", "127.0.0.1", "--port", str(self._port), "--no-dashboard"]
@@ -49,7 +51,7 @@ class Cluster:
 
     def _start(self, program, *arguments):
         process = subprocess.Popen(
-            [sys.executable, "-m", f"distributed.cli.{program}", *arguments],
+            [sys.executable, "-m", f"distributed.cli.{program}", *arguments, *self._options],
             cwd=self._folder,
             env=self._environment,
             stdout=subprocess.DEVNULL,
@@ -121,3 +123,30 @@ def test_no_scheduler(meshes, tmp_path):
     assert result.returncode == 2
     assert result.stderr.splitlines()[-1].startswith("holomorph: --dask: no scheduler answers at tcp://127.0.0.1:1")
     assert not (tmp_path / "out").exists()
+
+
+@pytest.fixture
+def secured(tmp_path):
+    """A cluster that only those reach who have a certificate, made as the documentation says."""
+    page = (Path(__file__).parents[2] / "docs" / "batch.md").read_text(encoding="utf-8")
+    for line in page.splitlines():
+        if line.startswith("openssl "):
+            subprocess.run(line.split(), cwd=tmp_path, check=True, capture_output=True)
+    options = ["--tls-ca-file", "ca.pem", "--tls-cert", "cert.pem", "--tls-key", "key.pem"]
+    made = Cluster(tmp_path, protocol="tls", options=options)
+    made.start(1)
+    yield made
+    made.stop()
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="no openssl")
+def test_tls(secured, meshes, undisturbed, recipe, tmp_path):
+    """With the certificate, by the variables that the documentation names, it works; without it does not."""
+    arguments = ("--out", tmp_path / "out", "--recipe", recipe, "--dask", secured.address)
+    refused = run(meshes, *arguments)
+    assert refused.returncode == 2 and "no scheduler answers" in refused.stderr.splitlines()[-1]
+    names = {"CA_FILE": "ca.pem", "CLIENT__CERT": "cert.pem", "CLIENT__KEY": "key.pem"}
+    found = {f"DASK_DISTRIBUTED__COMM__TLS__{name}": str(tmp_path / file) for name, file in names.items()}
+    done = subprocess.run(command(meshes, *arguments), env=os.environ | found, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert outputs(tmp_path / "out") == undisturbed

@@ -38,7 +38,7 @@ class Cluster:
         self._address, self._limits = address, limits
         try:
             self._client = self._connected()
-        except (*GONE, ValueError) as error:
+        except (*GONE, ValueError, TypeError) as error:  # the last at a tls:// address without a certificate
             raise UsageError(f"--dask: no scheduler answers at {address}: {error}") from error
 
     def run(self, tasks):
