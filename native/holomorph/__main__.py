@@ -1,6 +1,5 @@
 """python -m holomorph MESHFILE --output out.glb --report report.json; ... batch SOURCE... --out DIR; ... compare A B"""
 
-import argparse
 import json
 import os
 import sys
@@ -11,7 +10,7 @@ from .batch import mapping
 from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options
 from .compare_command import compare
-from .console import ended, failed, tell
+from .console import Parser, ended, failed, tell
 from .map_choice import MAIN_MAPS
 from .report import repairs_report, whole_report
 
@@ -47,7 +46,7 @@ def main(arguments=None):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="python -m holomorph",
         description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help. "
         "Two surfaces are compared by: holomorph compare --help",

@@ -1,10 +1,9 @@
 """python -m holomorph compare A B"""
 
-import argparse
 import json
 
 from . import Error, Surface, whole_file
-from .console import failed, tell
+from .console import Parser, failed, tell
 from .equivalence import VERDICTS, conformally_equivalent
 from .plain_data import plain
 
@@ -15,7 +14,7 @@ EXIT_CODES = dict(zip(VERDICTS, (0, 3, 4, 5), strict=True))
 def compare(arguments):
     """Prints one sentence about two mesh files; the exit code is that of the verdict."""
     codes = ", ".join(f"{code} {verdict}" for verdict, code in EXIT_CODES.items())
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="python -m holomorph compare",
         description="Whether there is a conformal map between two surfaces.",
         epilog=f"Exit code: {codes}; 1 where a file cannot be compared.",

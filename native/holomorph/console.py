@@ -1,5 +1,6 @@
 """How the commands talk and end: no name garbles a terminal, and what each may meet ends it in one sentence."""
 
+import argparse
 import contextlib
 import errno
 import os
@@ -56,6 +57,20 @@ def failed(status, problem):
     return status
 
 
+class Parser(argparse.ArgumentParser):
+    """One that ends as the commands do where an output is closed or full."""
+
+    def error(self, message):
+        self.print_usage(sys.stderr)
+        self.exit(2, f"{self.prog}: error: {shown(message)}\n")
+
+    def _print_message(self, message, file=None):
+        if file is None or file is sys.stderr:
+            say(message, end="")
+        else:
+            tell(message)
+
+
 def ended(run, refused=1):
     """The exit status of a process that runs a function: `refused` where the system does not give it what it needs."""
     _open_standard_files()
@@ -66,7 +81,7 @@ def ended(run, refused=1):
         return status
     except KeyboardInterrupt:
         return failed(INTERRUPTED, "interrupted; what is written is whole, and the same command does the rest")
-    except (OSError, MemoryError) as error:
+    except (OSError, MemoryError, ImportError) as error:  # the last of a library that finds no memory
         _ignore_signals()
         return failed(refused, str(error) and error or "there is not enough memory")
 

@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 
-LEAST_MEMORY = 2**28  # bytes of address space that Python, NumPy and the native core take before any work
+LEAST_MEMORY = 320 * 2**20  # bytes of address space that Python, NumPy and the native core take before any work
 ROOM = 2**32  # bytes: with less, a library's workspace for each thread would take a large part
 
 
@@ -26,7 +26,7 @@ def prepare():
     if limit < LEAST_MEMORY:
         _end(1, f"the limit of memory (ulimit -v) is {limit >> 20} MB, and {LEAST_MEMORY >> 20} MB are the least")
     if limit < ROOM:
-        for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
+        for name in ("OPENBLAS_NUM_THREADS", "OMP_THREAD_LIMIT"):
             os.environ.setdefault(name, "1")
 
 

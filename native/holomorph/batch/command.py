@@ -1,6 +1,5 @@
 """holomorph batch SOURCE... --out DIR: the command line, and the run from its options to its end."""
 
-import argparse
 import contextlib
 import importlib.util
 import os
@@ -8,7 +7,7 @@ import re
 from functools import partial
 from pathlib import Path
 
-from ..console import failed, shown, tell
+from ..console import Parser, failed, shown, tell
 from ..verdicts import LEVELS
 from . import blend, progress, recipe, sources, workers
 from .errors import EngineError, StorageError, UsageError
@@ -33,7 +32,7 @@ def main(arguments):
         return failed(STORAGE, f"{error}; what is done stays done, and the same command goes on")
     except EngineError as error:
         return failed(ENGINE, f"{error}; the same command goes on")
-    except (OSError, MemoryError) as error:
+    except (OSError, MemoryError, ImportError) as error:  # the last of a library that finds no memory
         return failed(MACHINE, f"this machine refuses what the run needs: {_reason(error)}; the same command goes on")
 
 
@@ -42,7 +41,7 @@ def _reason(error):
 
 
 def _options(arguments):
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="holomorph batch", description="Maps a library of meshes; a second run does only what is missing."
     )
     parser.add_argument("source", nargs="+", help=sources.KINDS)
