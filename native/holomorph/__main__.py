@@ -96,9 +96,9 @@ def mapped(options):
         "repairs": repairs_report(surface.repairs),
         "components": reports,
     }
-    _write(report, options)
     if options.output and report["verdict"]:
         surface.write(options.output, mapping.main_uv(surface, parts, recipe.maps), options.texture)
+    _write(report, options)  # last: what it tells of is in the file
     return report
 
 

@@ -4,7 +4,6 @@ import os
 import stat
 import subprocess
 import sys
-import time
 from contextlib import nullcontext
 
 import families
@@ -83,19 +82,6 @@ def test_what_does_not_fit_leaves_the_old_file(name, old, tmp_path_factory):
 def test_a_folder_that_is_missing_is_named(tmp_path):
     with pytest.raises(FileNotFoundError, match="none/file.obj"):
         whole_file.write(tmp_path / "none" / "file.obj", NEW)
-
-
-def test_a_process_that_is_killed_leaves_the_old_file_or_the_new_one(old):
-    """At any time: the later ones find it done."""
-    new = f"b'n' * {len(NEW)}"
-    command = f"from holomorph import whole_file\nprint(flush=True)\nwhole_file.write({str(old)!r}, {new})"
-    for delay in (0, 1e-4, 3e-4, 1e-3, 3e-3, 0.1):
-        old.write_bytes(OLD)
-        with subprocess.Popen([sys.executable, "-c", command], stdout=subprocess.PIPE) as process:
-            process.stdout.readline()
-            time.sleep(delay)
-            process.kill()
-        assert old.read_bytes() in (OLD, NEW)
 
 
 def test_several_files_are_moved_together(old):

@@ -5,6 +5,7 @@ DIR/assets/NAME/record.json, report.json, picture.png, ...     DIR/.work/ : what
 """
 
 import contextlib
+import ctypes
 import fcntl
 import json
 import os
@@ -15,6 +16,7 @@ from pathlib import Path
 from .errors import StorageError, UsageError
 
 RECORD = "record.json"
+HERE, EXCHANGE = -100, 2  # AT_FDCWD, RENAME_EXCHANGE of Linux
 
 
 class Journal:
@@ -79,7 +81,8 @@ def stored(task):
 
 def publish(task, record, files):
     """Writes a task's results beside their place, then moves them there in one step, and returns what is noted. Older
-    ones are moved away first. @throws StorageError"""
+    ones stay until then, but where a file system cannot exchange folders: there they are moved away first.
+    @throws StorageError"""
     new = task.work / uuid.uuid4().hex
     noted = {"name": task.name, "key": task.key, **record, "files": {name: len(files[name]) for name in sorted(files)}}
     with storing():
@@ -89,9 +92,17 @@ def publish(task, record, files):
                 (new / name).write_bytes(content)
             (new / RECORD).write_text(json.dumps(noted, indent=1) + "\n", encoding="utf-8")
             task.folder.parent.mkdir(parents=True, exist_ok=True)
-            if task.folder.exists():
-                os.replace(task.folder, task.work / uuid.uuid4().hex)
-            os.replace(new, task.folder)
+            if not _exchanged(new, task.folder):
+                if task.folder.exists():
+                    os.replace(task.folder, task.work / uuid.uuid4().hex)
+                os.replace(new, task.folder)
         finally:
             shutil.rmtree(new, ignore_errors=True)
     return noted
+
+
+def _exchanged(new, old):
+    """Whether two folders got each other's names, in one step. Not where one is missing, or the file system cannot."""
+    rename = getattr(ctypes.CDLL(None), "renameat2", None)
+    names = os.fsencode(new), os.fsencode(old)
+    return rename is not None and rename(HERE, names[0], HERE, names[1], EXCHANGE) == 0

@@ -3,6 +3,7 @@
 import contextlib
 import errno
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -124,8 +125,10 @@ class Worker:
 
 
 def machine_memory():
-    """Bytes."""
-    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    """Bytes: of the machine, or what a process may have of it."""
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    whole = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    return whole if limit == resource.RLIM_INFINITY else min(whole, limit)
 
 
 def _begun(threads, work, order):
