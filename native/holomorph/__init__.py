@@ -30,6 +30,7 @@ from .disk import disk_map, free_boundary_map, rectangle_map, triangle_map
 from .disk_islands import disk_islands
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
+from .fundamental_domain import FundamentalDomain
 from .igusa import IgusaInvariants, igusa_invariants
 from .island_map import Islands, island_map
 from .islands import islands
@@ -70,6 +71,7 @@ __all__ = [
     "Error",
     "Frame",
     "FreeBoundaryMap",
+    "FundamentalDomain",
     "Hyperelliptic",
     "IgusaInvariants",
     "Islands",
