@@ -31,6 +31,7 @@ from .disk_islands import disk_islands
 from .double import double_cover
 from .equivalence import Equivalence, conformally_equivalent
 from .fundamental_domain import FundamentalDomain
+from .holes import punch_holes
 from .igusa import IgusaInvariants, igusa_invariants
 from .island_map import Islands, island_map
 from .islands import islands
@@ -132,6 +133,7 @@ __all__ = [
     "overall",
     "place",
     "place_poles",
+    "punch_holes",
     "rectangle_map",
     "report",
     "siegel_reduction",
