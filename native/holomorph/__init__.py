@@ -28,7 +28,7 @@ from .conformal_map import ConformalMap, conformal_map
 from .cut import cut_along
 from .disk import disk_map, free_boundary_map, rectangle_map, triangle_map
 from .disk_islands import disk_islands
-from .double import double_cover
+from .double import double_cover, symmetrised
 from .equivalence import Equivalence, conformally_equivalent
 from .fundamental_domain import FundamentalDomain
 from .holes import punch_holes
@@ -137,6 +137,7 @@ __all__ = [
     "rectangle_map",
     "report",
     "siegel_reduction",
+    "symmetrised",
     "triangle_map",
     "verdict",
 ]
