@@ -166,6 +166,8 @@ class CertifiedStructure(FormStructure):
         """(n, #E) int32, n = 2g, with boundary 2g + b - 1: closed forms with integer values, form i with the integral
         delta_ij over loop j of `homology_basis`, exactly (paper § 5, Eq. 1 and 2). Form i counts the crossings of a
         loop of triangles, or of a path of triangles between two boundary loops."""
+        count, edges = self._native.families().natural, len(self.edges)
+        self._native.require_memory(f"the {count} integer classes on {edges} edges", 4 * count * edges)
         return self._native.integer_classes()
 
     @property
