@@ -56,7 +56,7 @@ class ConformalStructure(CertifiedStructure):
 
     @cached_property
     def paper_period_matrix(self) -> Complexes:
-        """(2g, 2g) complex P, the integral of h_j + i *h_j over zeta_i (paper Eq. 13): 1 + i S. As the star here is
+        """(2g, 2g) complex P, the integral of `h_j + i *h_j` over zeta_i (paper Eq. 13): 1 + i S. As the star here is
         closed, it does not depend on how the loops run, and S^2 = -1 to rounding. The columns span the g holomorphic
         forms' periods, of which `period_matrix` has the normalised part."""
         return arrays.frozen(np.eye(len(self.gram_matrix)) + 1j * self._native.star().T)
