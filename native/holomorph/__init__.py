@@ -29,8 +29,10 @@ from .conformal_map import ConformalMap, conformal_map
 from .cut import cut_along
 from .disk import disk_map, free_boundary_map, rectangle_map, triangle_map
 from .disk_islands import disk_islands
-from .double import double_cover
+from .double import double_cover, symmetrised
 from .equivalence import Equivalence, conformally_equivalent
+from .fundamental_domain import FundamentalDomain
+from .holes import punch_holes
 from .igusa import IgusaInvariants, igusa_invariants
 from .island_map import Islands, island_map
 from .islands import islands
@@ -71,6 +73,7 @@ __all__ = [
     "Error",
     "Frame",
     "FreeBoundaryMap",
+    "FundamentalDomain",
     "Hyperelliptic",
     "IgusaInvariants",
     "Islands",
@@ -131,9 +134,11 @@ __all__ = [
     "overall",
     "place",
     "place_poles",
+    "punch_holes",
     "rectangle_map",
     "report",
     "siegel_reduction",
+    "symmetrised",
     "triangle_map",
     "verdict",
 ]

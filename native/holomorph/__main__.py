@@ -1,5 +1,6 @@
 """python -m holomorph MESHFILE --output out.glb --report report.json; ... batch SOURCE... --out DIR; ... compare A B"""
 
+import argparse
 import json
 import os
 import sys
@@ -8,7 +9,7 @@ from pathlib import Path
 from . import Error, Surface, Verdict, __version__, formats, whole_file
 from .batch import mapping
 from .batch.recipe import Maps, Recipe
-from .checks import SOLVERS, check_options
+from .checks import SOLVERS, check_options, check_thresholds
 from .compare_command import compare
 from .console import Parser, ended, failed, tell
 from .map_choice import MAIN_MAPS
@@ -60,10 +61,20 @@ def _parser():
     text = "with --output default automatic: a seamless tiling where that is no less even; else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
+    text = "of --solver paper: numbers of faces, such as 1000,5000, at which forms are refined on the way, or none"
+    parser.add_argument("--thresholds", type=_thresholds, metavar="FACES", help=text)
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
     parser.add_argument("--strict", action="store_true", help="end with 3 unless every map is good or fair")
     parser.add_argument("--version", action="version", version=__version__)
     return parser
+
+
+def _thresholds(text):
+    """The numbers of faces, [] for "none"."""
+    try:
+        return [] if text == "none" else [int(number) for number in text.split(",")]
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is no list of numbers of faces such as 1000,5000") from error
 
 
 def _check_output(path, texture):
@@ -83,9 +94,10 @@ def _check_output(path, texture):
 def mapped(options):
     """The report of all components of the mesh file, as plain data; it and the mesh are written as the options say."""
     check_options(options.solver, options.threads)
+    check_thresholds(options.thresholds, options.solver)
     surface = Surface.read(options.mesh)
     main = options.main or ("automatic" if options.output else "balanced")
-    recipe = Recipe(Maps(main=main, solver=options.solver))
+    recipe = Recipe(Maps(main=main, solver=options.solver, thresholds=options.thresholds))
     parts = mapping.map_parts(surface, recipe, threads=options.threads)
     reports = [part.report for part in parts] + mapping.refused_reports(surface)
     report = {

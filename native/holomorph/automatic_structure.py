@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from .array_types import Complexes, Integers, Progress
 from .arrays import integer
 from .bounded import BoundedStructure
-from .checks import only_component
+from .checks import check_thresholds, only_component
 from .closed import ConformalStructure
 from .cut import cut_along
 from .disk import default_disk_map, disk_map, free_boundary_map, rectangle_map
@@ -36,6 +36,7 @@ def automatic_structure(
     boundary: str = "natural",
     cuts: ArrayLike | None = None,
     solver: str = "auto",
+    thresholds: Sequence[float] | None = None,
     threads: int | None = None,
     memory_limit: float | None = None,
     progress: Progress | None = None,
@@ -50,11 +51,12 @@ def automatic_structure(
     poles, residues : `disk_map` of a disk with one pole and without residues; else `log_map` with these
     boundary : "natural", "double_cover" as in `conformal_structure`, or "free" for `free_boundary_map`
     cuts : (#S, 2) vertices of edges, of `cut_along`
-    solver, threads, memory_limit, progress : as in `conformal_structure`
+    solver, thresholds, threads, memory_limit, progress : as in `conformal_structure`
 
     Of corners, poles and boundary the first that is given counts; an empty list is none. Raises what these functions
     raise.
     """
+    check_thresholds(thresholds, solver)
     options = {"solver": solver, "threads": threads, "progress": progress}
     if corners is not None and len(corners):
         made = rectangle_map(surface, around_boundary(surface, integer(corners, "corners")), **options)
@@ -63,7 +65,7 @@ def automatic_structure(
     elif boundary == "free":
         made = free_boundary_map(surface, **options)
     else:
-        made = _by_topology(surface, boundary, memory_limit, options)
+        made = _by_topology(surface, boundary, thresholds, memory_limit, options)
     return made if cuts is None else cut_along(made, cuts)
 
 
@@ -75,11 +77,12 @@ def _with_poles(surface, poles, residues, memory_limit, options):
     return log_map(surface, poles, residues, memory_limit=memory_limit, **options)
 
 
-def _by_topology(surface, boundary, memory_limit, options):
+def _by_topology(surface, boundary, thresholds, memory_limit, options):
     component = only_component(surface)
     topology = component.genus, component.boundary_count
     if topology == (0, 1) and boundary == "natural":
         return default_disk_map(surface, **options)
     if topology == (0, 0) and boundary in BOUNDARIES:
         return log_map(surface, memory_limit=memory_limit, **options)
-    return conformal_structure(surface, boundary=boundary, memory_limit=memory_limit, **options)
+    more = {"boundary": boundary, "thresholds": thresholds, "memory_limit": memory_limit}
+    return conformal_structure(surface, **more, **options)

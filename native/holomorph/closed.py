@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .array_types import Integers, Reals
+from . import arrays
+from .array_types import Complexes, Integers, Reals
 from .form_structure import CertifiedStructure
 from .plain_data import plain
 from .solver_report import ClosedResiduals
@@ -52,6 +53,13 @@ class ConformalStructure(CertifiedStructure):
     def gram_matrix(self) -> Reals:
         """(2g, 2g) L2 products of `harmonic_forms`, on the intrinsic triangulation."""
         return self._native.gram_matrices()[0]
+
+    @cached_property
+    def paper_period_matrix(self) -> Complexes:
+        """(2g, 2g) complex P, the integral of `h_j + i *h_j` over zeta_i (paper Eq. 13): 1 + i S. As the star here is
+        closed, it does not depend on how the loops run, and S^2 = -1 to rounding. The columns span the g holomorphic
+        forms' periods, of which `period_matrix` has the normalised part."""
+        return arrays.frozen(np.eye(len(self.gram_matrix)) + 1j * self._native.star().T)
 
     def uv_of(self, n: ArrayLike, m: ArrayLike) -> Reals:
         """(#C, 2) with u = sum_j n_j h_j and v = sum_j m_j h_j, n and m of length 2g: seams jump by integers

@@ -1,9 +1,13 @@
 """The double cover of a surface with boundary (paper § 8)."""
 
+from __future__ import annotations
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import arrays
 from ._native import TopologyError
+from .array_types import Reals
 from .checks import check_type
 from .surface import Surface
 
@@ -54,6 +58,54 @@ def double_cover(surface: Surface) -> Surface:
     both[dual_vertex] = np.arange(len(dual_vertex))
     double.dual_vertex = arrays.frozen(both)
     return double
+
+
+def symmetrised(double: Surface, forms: ArrayLike) -> Reals:
+    """The symmetric parts of forms on a double (paper Eq. 12): half the sum of the values on each edge and on its dual,
+    which is the edge over it in the other copy, from the dual of its first vertex to that of the second.
+
+    Those of harmonic forms are harmonic on the surface itself, whose edges are the first of the double's, with nothing
+    fixed along its boundary; what is left, `forms` minus these, is zero there.
+
+    Parameters
+    ----------
+    double : result of `double_cover`
+    forms : (..., #E) reals on its edges, for the direction from the lower to the higher vertex
+
+    Returns
+    -------
+    (..., #E) reals
+
+    Raises
+    ------
+    TopologyError
+        if `double` is no double cover.
+    ValueError
+        if `forms` has another number of values.
+    """
+    check_type(double, Surface, "double")
+    if double.dual_vertex is None:
+        raise TopologyError("the surface is no double_cover, whose edges have duals")
+    forms, count = arrays.numbers(forms, "forms"), len(double._native.edges)
+    if forms.ndim == 0 or forms.shape[-1] != count:
+        raise ValueError(f"forms has the shape {forms.shape}; (..., {count}) is needed")
+    dual_edge, sign = _dual_edges(double._native)
+    return arrays.frozen((forms + sign * forms[..., dual_edge]) / 2)
+
+
+def _dual_edges(native):
+    """(#E,) the edge over each, and 1 or -1 as its direction is that of the dual vertices or not. A side of a triangle
+    lies over that of the triangle over it, in reverse."""
+    triangles, sides = native.triangles, native.triangle_edges
+    start, end = triangles, np.roll(triangles, -1, axis=1)
+    is_first = np.zeros(sides.size, dtype=bool)
+    is_first[np.unique(sides, return_index=True)[1]] = True
+    along = np.where((start < end) | ((start == end) & is_first.reshape(sides.shape)), 1, -1)
+    (below, over), (along_below, along_over) = np.split(sides, 2), np.split(along, 2)
+    dual_edge, sign = np.empty(len(native.edges), np.int64), np.empty(len(native.edges), np.int64)
+    for one, other in ((below, over[:, ::-1]), (over[:, ::-1], below)):
+        dual_edge[one], sign[one] = other, -along_below * along_over[:, ::-1]
+    return dual_edge, sign
 
 
 def _second_copy(shared):

@@ -12,9 +12,11 @@ from . import _native, arrays
 from .array_types import Bounds, Complexes, Integers, Progress, Reals
 from .certificate import Certificate, certificate
 from .checks import checked_coefficients
+from .fundamental_domain import FundamentalDomain, domain_and_tree
 from .narrow_bounds import Refinement
 from .results import Structure
 from .solver_report import MemoryPlan, SolverReport
+from .vectors import vectors
 from .zeros import Zeros
 
 
@@ -96,6 +98,25 @@ class FormStructure(Structure):
         values[:1, self._native.spokes()] = np.nan
         return arrays.frozen(values)
 
+    @cached_property
+    def edge_weights(self) -> Reals:
+        """(#E,) the weights k = (cot a + cot b) / 2 (paper Eq. 3) on the triangles of `edges`, on which forms and UVs
+        are harmonic. Negative where the edge is not Delaunay; invariants come from the intrinsic triangulation, where
+        inner edges are."""
+        return _native.edge_weights(self._triangulation)
+
+    def vectors(self, form: ArrayLike) -> Reals | Complexes:
+        """(#T, 3) one closed form, (#E,) real or complex, as a vector of each triangle of the triangulation: in its
+        plane, with the form's values as products with its sides (paper Eq. 9). NaN in triangles without area.
+
+        The star turns the vectors by a right angle. Raises InvalidMesh for an intrinsic surface."""
+        form = np.asarray(form)
+        if np.iscomplexobj(form):
+            form = self._checked_form(form.real) + 1j * self._checked_form(form.imag)
+        else:
+            form = self._checked_form(form)
+        return vectors(self._triangulation, form)
+
     def uv(self, coefficients: ArrayLike) -> Reals:
         """(#C, 2) UVs of the differential sum_j c_j theta_j, one coefficient c_j for each: complex, real on surfaces
         with boundary and without poles. No solve: one small product; where the forms were not kept (`memory`), a
@@ -139,6 +160,30 @@ class CertifiedStructure(FormStructure):
     """
 
     refinement: Refinement | None = None
+
+    @cached_property
+    def integer_classes(self) -> Integers:
+        """(n, #E) int32, n = 2g, with boundary 2g + b - 1: closed forms with integer values, form i with the integral
+        delta_ij over loop j of `homology_basis`, exactly (paper § 5, Eq. 1 and 2). Form i counts the crossings of a
+        loop of triangles, or of a path of triangles between two boundary loops."""
+        count, edges = self._native.families().natural, len(self.edges)
+        self._native.require_memory(f"the {count} integer classes on {edges} edges", 4 * count * edges)
+        return self._native.integer_classes()
+
+    @property
+    def fundamental_domain(self) -> FundamentalDomain:
+        """`FundamentalDomain` D of the surface (paper § 4.1). Cost: near-linear."""
+        return self._domain_and_tree[0]
+
+    @property
+    def spanning_tree(self) -> Integers:
+        """(#V - 1,) edges of the spanning tree T of the graph G (paper § 4.2) and of G's dangling branches: all
+        vertices. Each joins a vertex to the root, an end of the first edge, or to those of the edges before."""
+        return self._domain_and_tree[1]
+
+    @cached_property
+    def _domain_and_tree(self):
+        return domain_and_tree(self._native, self.edges)
 
     @cached_property
     def certificate(self) -> Certificate:

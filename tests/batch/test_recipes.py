@@ -86,6 +86,14 @@ def test_a_map_that_is_chosen_is_balanced(torus):
         assert part.map.tiling is not None
 
 
+def test_thresholds_of_the_papers_solver(torus):
+    for thresholds in ([], [200], None):
+        maps = {"solver": "paper"} | ({} if thresholds is None else {"thresholds": thresholds})
+        (part,), _ = mapped(torus, maps=maps)
+        made = holomorph.conformal_structure(torus, solver="paper", thresholds=thresholds)
+        assert [level[:2] for level in part.structure.solver.levels] == [level[:2] for level in made.solver.levels]
+
+
 def test_direction_of_the_rows(torus):
     """The axis of this torus is Y: with rows along it, u runs where v runs with upright ones by another axis."""
     ways = {"upright": "upright", "none": None, (0.0, 0.0, 1.0): (0.0, 0.0, 1.0)}

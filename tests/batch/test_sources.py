@@ -14,6 +14,8 @@ RECIPES = {
     "[maps]\nmain = 'best'": "maps.main is 'best'; one of automatic, seamless, untiled, balanced is needed",
     "[maps]\nforms = -1": "maps.forms is -1; a whole number from 0 on is needed",
     "[maps]\nforms = true": "maps.forms is True; a whole number from 0 on is needed",
+    "[maps]\nsolver = 'paper'\nthresholds = [0]": "maps.thresholds is [0]; a list of numbers of faces is needed",
+    "[maps]\nthresholds = [1000]": "maps.thresholds are those of maps.solver",
     "[maps]\nrectangle_corners = [1, 2, 3]": "a list of four vertices is needed",
     "[maps]\npoles = [1]\nrectangle_corners = [1, 2, 3, 4]": "exclude each other",
     "[maps]\npoles = [1, 2]\nresidues = [1]": "not as many entries",

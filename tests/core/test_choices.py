@@ -57,6 +57,14 @@ def test_the_first_choice_counts():
     )
 
 
+def test_thresholds():
+    tube = surface_of(cylinder(24, 20))
+    chosen = {"solver": "paper", "thresholds": [200]}
+    assert len(automatic_structure(tube, **chosen).solver.levels) == 3
+    with pytest.raises(ValueError, match="thresholds are those of the paper's solver"):
+        automatic_structure(SHEET, thresholds=[200])
+
+
 def test_empty_choices_are_none():
     for surface in (SHEET, surface_of(torus(10, 6))):
         chosen = automatic_structure(surface, poles=[], corners=[], cuts=np.empty((0, 2), int))

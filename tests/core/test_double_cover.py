@@ -4,7 +4,7 @@ import families
 import numpy as np
 import pytest
 from equivalence import distance
-from holomorph import Surface, TopologyError, conformal_structure, double_cover
+from holomorph import Surface, TopologyError, conformal_structure, double_cover, symmetrised
 from solved import BOUNDED, BOUNDED_FLAT, solved_bounded, surface_of
 from test_read import REAL, real_file
 
@@ -58,6 +58,53 @@ def test_closed_structure_of_the_double(name):
     structure = solved_bounded(name)
     double = conformal_structure(double_cover(structure.surface))
     assert distance(structure.period_matrix, double.period_matrix) < 1e-3 * size(structure.period_matrix)
+
+
+# ---- duality ---------------------------------------------------------------------------------------
+
+
+def combined(forms, basis):
+    """`forms` less the combinations of `basis` that come nearest, over the forms."""
+    change = np.linalg.lstsq(basis.T, forms.T, rcond=None)[0].T
+    return size(forms - change @ basis) / size(forms)
+
+
+@everywhere
+def test_symmetric_parts_are_the_natural_forms(name):
+    """Eq. 12: of all harmonic forms of the double; the antisymmetric parts are the Dirichlet forms."""
+    structure = solved_bounded(name)
+    double = double_cover(structure.surface)
+    forms = conformal_structure(double).harmonic_forms
+    symmetric = symmetrised(double, forms)
+    assert (symmetrised(double, symmetric) == symmetric).all()  # Eq. 11
+    assert size(symmetrised(double, forms - symmetric)) < SAME * size(forms)
+    n, edges = len(structure.pairing), len(structure.edges)
+    assert np.linalg.matrix_rank(symmetric, tol=1e-6 * size(symmetric)) == n
+    assert combined(symmetric[:, :edges], structure.natural_forms) < 1e-4
+    assert combined((forms - symmetric)[:, :edges], structure.dirichlet_forms) < 1e-4
+
+
+def test_symmetric_part_of_an_exact_form():
+    """df becomes d of (f(v) + f(v*)) / 2."""
+    double = double_cover(solved_bounded("torus with chords").surface)
+    edges, dual = double._native.edges, double.dual_vertex
+    f = np.random.default_rng(0).normal(size=len(dual))
+
+    def d(values):
+        return values[edges[:, 1]] - values[edges[:, 0]]
+
+    assert size(symmetrised(double, d(f)) - d((f + f[dual]) / 2)) < 1e-12
+
+
+def test_symmetrised_refuses_other_surfaces_and_forms():
+    surface = surface_of(families.cylinder(8, 2))
+    with pytest.raises(TopologyError, match="no double_cover"):
+        symmetrised(surface, np.zeros(len(surface._native.edges)))
+    with pytest.raises(TypeError, match="double is of type list"):
+        symmetrised([], [0.0])
+    for forms in (np.zeros(3), 1.0):
+        with pytest.raises(ValueError, match="forms has the shape"):
+            symmetrised(double_cover(surface), forms)
 
 
 # ---- forms by way of the double ------------------------------------------------------------------

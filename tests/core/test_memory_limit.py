@@ -155,13 +155,15 @@ def test_the_direct_solver_gives_way_unless_asked_for():
 
 
 def test_all_forms_are_refused_before_they_are_made():
-    surface = surface_of(families.block_with_holes(100, refine=3))
+    surface = surface_of(families.block_with_holes(150, refine=3))
     structure = conformal_structure(surface, memory_limit=least_limit_of(surface))
-    with pytest.raises(SolverError, match=r"200 harmonic forms on \d+ edges would take \d+ bytes"):
+    with pytest.raises(SolverError, match=r"300 harmonic forms on \d+ edges would take \d+ bytes"):
         _ = structure.harmonic_forms
-    with pytest.raises(SolverError, match=r"100 holomorphic forms on \d+ edges would take \d+ bytes"):
+    with pytest.raises(SolverError, match=r"300 integer classes on \d+ edges would take \d+ bytes"):
+        _ = structure.integer_classes
+    with pytest.raises(SolverError, match=r"150 holomorphic forms on \d+ edges would take \d+ bytes"):
         _ = structure.holomorphic_forms
-    uv = structure.uv(np.eye(100)[7])
+    uv = structure.uv(np.eye(150)[7])
     assert np.isfinite(uv).all()
     assert np.ptp(uv, axis=0).min() > 0
 

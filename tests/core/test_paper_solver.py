@@ -252,6 +252,27 @@ def test_command_reports_the_levels(tmp_path):
     ]
 
 
+@pytest.mark.parametrize(("text", "thresholds"), [("none", []), ("200", [200]), ("400,200", [200, 400])])
+def test_thresholds_of_the_command(tmp_path, text, thresholds):
+    path = write_obj(tmp_path / "torus.obj", MESHES["torus of triangles"])
+    (part,) = json.loads(run(path, "--solver", "paper", "--thresholds", text).stdout)["components"]
+    again = conformal_structure(surface("torus of triangles"), solver="paper", thresholds=thresholds)
+    assert [level[:2] for level in part["solver"]["levels"]] == [list(level[:2]) for level in again.solver.levels]
+
+
+@pytest.mark.parametrize(
+    ("options", "status", "message"),
+    [
+        (("--thresholds", "200"), 1, "thresholds are those of the paper's solver, and solver is 'auto'"),
+        (("--solver", "paper", "--thresholds", "0"), 1, "a threshold is 0; a positive number is needed"),
+        (("--solver", "paper", "--thresholds", "few"), 2, "'few' is no list of numbers of faces such as 1000,5000"),
+    ],
+)
+def test_thresholds_that_the_command_refuses(tmp_path, options, status, message):
+    result = run(write_obj(tmp_path / "torus.obj", MESHES["torus of triangles"]), *options)
+    assert result.returncode == status and message in result.stderr
+
+
 # ---- levels of a progressive mesh ------------------------------------------------------------------------------------
 
 

@@ -97,6 +97,7 @@ EXAMPLES = {
     "Refinement": lambda: example("narrow bounds").refinement,
     "Residuals": lambda: example("PoleStructure").residuals,
     "SolverReport": lambda: conformal_structure(surface_of(CLOSED["torus of quads"]), solver="paper").solver,
+    "FundamentalDomain": lambda: example("ConformalStructure").fundamental_domain,
     "MemoryPlan": lambda: example("ConformalStructure").memory,
     "Quality": lambda: example("ConformalStructure").quality(example("ConformalStructure").uv([1, 0])),
     "Verdict": lambda: example("Quality").verdict,

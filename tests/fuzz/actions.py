@@ -3,7 +3,15 @@
 import holomorph
 import numpy as np
 import oracle
-from holomorph import DiskMap, PoleStructure, ProgressiveMesh, Tiler, TopologyError
+from holomorph import (
+    BoundedStructure,
+    ConformalStructure,
+    DiskMap,
+    PoleStructure,
+    ProgressiveMesh,
+    Tiler,
+    TopologyError,
+)
 
 
 def first_map(structure, _):
@@ -88,6 +96,21 @@ def double(structure, _):
     oracle.check_invariants(holomorph.conformal_structure(doubled, threads=1))
 
 
+def paper(structure, _):
+    """All triangles are in D, around which the boundary is closed; a hole is one boundary loop more."""
+    if not isinstance(structure, (ConformalStructure, BoundedStructure)):
+        return
+    domain, classes = structure.fundamental_domain, structure.integer_classes
+    count = len(structure._component.triangles)
+    assert (np.sort(domain.faces) == np.arange(count)).all(), "D has not each triangle once"
+    assert (domain.boundary[:, 1] == np.roll(domain.boundary[:, 0], -1)).all(), "the boundary of D is not closed"
+    oracle.check_finite("weights", structure.edge_weights)
+    assert structure.vectors(classes[0]).shape == (count, 3)
+    surface = structure._component
+    punched = holomorph.punch_holes(surface, [len(surface.vertices) // 2])
+    assert (punched.genus, punched.boundary_count) == (surface.genus, surface.boundary_count + 1)
+
+
 ACTIONS = {
     "map": first_map,
     "balanced": balanced,
@@ -98,6 +121,7 @@ ACTIONS = {
     "level structure": level_structure,
     "report": report,
     "double": double,
+    "paper": paper,
 }
 # How often each is taken: the slow ones seldom.
 SHARES = {
@@ -110,6 +134,7 @@ SHARES = {
     "level structure": 0.05,
     "report": 0.02,
     "double": 0.05,
+    "paper": 0.1,
 }
 
 

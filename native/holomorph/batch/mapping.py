@@ -82,7 +82,8 @@ def _check_chosen(surface, maps):
 
 def _solve(part, maps, cut_edges, threads):
     chosen = _choices(part.surface, maps, cut_edges if maps.cut_at_seams else None)
-    options = {"solver": maps.solver, "threads": threads, "memory_limit": maps.memory_limit}
+    options = {"solver": maps.solver, "thresholds": maps.thresholds}
+    options |= {"threads": threads, "memory_limit": maps.memory_limit}
     part.structure = automatic_structure(part.surface, **chosen, **options)
     part.is_chosen = maps.solver == "paper" or any(len(value) for value in chosen.values())
 

@@ -71,6 +71,9 @@ class Maps:
     forms: int = _count(0)  # maps of single forms, at most
     boundary: str = _one_of(BOUNDARIES, "natural")
     solver: str = _one_of(SOLVERS, "auto")
+    thresholds: tuple | None = _option(
+        None, "a list of numbers of faces", lambda v: _is_list(v, _is_count) and 0 not in v
+    )
     poles: tuple = _vertices("a list of vertices")
     residues: tuple = _option((), "a list of numbers or of pairs [real, imaginary]", lambda v: _is_list(v, _is_complex))
     rectangle_corners: tuple = _vertices("a list of four vertices", lambda size: size == 4)
@@ -200,6 +203,8 @@ def _check_names(given, known, noun):
 def _check_together(recipe):
     if recipe.maps.poles and recipe.maps.rectangle_corners:
         raise UsageError("maps.poles and maps.rectangle_corners exclude each other")
+    if recipe.maps.thresholds is not None and recipe.maps.solver != "paper":
+        raise UsageError('maps.thresholds are those of maps.solver = "paper"')
     if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.poles):
         raise UsageError("maps.residues has not as many entries as maps.poles")
     if recipe.output.texture is not None and not set(formats.TEXTURED) & set(recipe.output.formats):

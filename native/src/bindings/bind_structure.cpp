@@ -150,16 +150,6 @@ Pointer cut_along(const Pointer& s, const std::vector<int>& edges, const std::ve
   return made;
 }
 
-py::list loops_of_vertices(const mesh::EdgeEnds& ends, const std::vector<std::vector<mesh::HalfedgeHandle>>& loops) {
-  py::list result;
-  for (const auto& loop : loops) {
-    std::vector<int> vertices;
-    for (const auto h : loop) vertices.push_back(mesh::from_vertex(ends, h));
-    result.append(copy(vertices));
-  }
-  return result;
-}
-
 void bind_actions(py::class_<Structure, Pointer>& type) {
   type.def("prepare_uv", &prepare_uv)
       .def("uv_solver", &uv_solver)
@@ -178,14 +168,6 @@ void bind_values(py::class_<Structure, Pointer>& type) {
   type.def("surface", [](const Structure& s) { return std::const_pointer_cast<mesh::Surface>(s.value.surface); })
       .def("families", [](const Structure& s) { return s.value.topology.families; })
       .def("differentials", [](const Structure& s) { return copy(s.value.differentials); })
-      .def("homology_basis",
-           [](const Structure& s) { return loops_of_vertices(*s.value.surface, s.value.topology.homology_basis); })
-      .def("boundary_loops",
-           [](const Structure& s) { return loops_of_vertices(*s.value.surface, s.value.topology.boundary.loops); })
-      .def("pairing", [](const Structure& s) { return copy(s.value.topology.pairing); })
-      .def("intersection_matrix", [](const Structure& s) { return copy(s.value.topology.canonical.intersection); })
-      .def("canonical_basis", [](const Structure& s) { return copy(s.value.topology.canonical.cycles); })
-      .def("seams", [](const Structure& s) { return copy(s.value.topology.seams); })
       .def("poles",
            [](const Structure& s) { return copy(s.value.poles ? s.value.poles->chosen.vertices : std::vector<int>()); })
       .def("residues",
@@ -215,6 +197,7 @@ void bind_structure(py::module_& m) {
   py::class_<Structure, Pointer> type(m, "Structure");
   bind_actions(type);
   bind_values(type);
+  bind_topology(type);
   bind_invariants(type);
   m.def("conformal_structure", &conformal, py::arg("surface"), py::arg("over_double"), py::arg("solver"),
         py::arg("threads"), py::arg("memory_limit"), py::arg("progress"));

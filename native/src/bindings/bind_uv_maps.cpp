@@ -71,14 +71,23 @@ py::array evened(const mesh::Surface& surface, const Contiguous<double>& uv, std
   return give_matrix(std::move(result));
 }
 
+// The surface's own triangles, those without area mollified.
+mesh::IntrinsicTriangulation own_triangles(const mesh::Surface& surface, Execution& execution) {
+  return mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+}
+
 // The star of a form on the edges of any surface.
 py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
   if (form.size() != static_cast<py::ssize_t>(surface.edges.size()))
     throw py::value_error("a form has one value for each edge");
   Execution execution;
-  const auto triangulation =
-      mesh::intrinsic_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
-  return copy(forms::averaged_star(triangulation, values(form)));
+  return copy(forms::averaged_star(own_triangles(surface, execution), values(form)));
+}
+
+// (#E,) on the surface's own triangles.
+py::array edge_weights(const mesh::Surface& surface) {
+  Execution execution;
+  return give(mesh::cotangent_weights(own_triangles(surface, execution), execution));
 }
 
 }  // namespace
@@ -115,6 +124,7 @@ void bind_uv_maps(py::module_& m) {
   m.def("harmonic_map", &harmonic_map, py::arg("surface"), py::arg("corner_values"), py::arg("solver"),
         py::arg("threads"), py::arg("progress"));
   m.def("averaged_star", &averaged_star, py::arg("surface"), py::arg("form"));
+  m.def("edge_weights", &edge_weights, py::arg("surface"));
 }
 
 }  // namespace holomorph::bindings

@@ -41,6 +41,9 @@ struct Structure {
 };
 using StructurePointer = std::shared_ptr<Structure>;
 
+/// Loops, classes and the fundamental domain, in integers.
+void bind_topology(py::class_<Structure, StructurePointer>& type);
+
 /// Gram matrices and what follows from them.
 void bind_invariants(py::class_<Structure, StructurePointer>& type);
 

@@ -5,6 +5,7 @@ namespace holomorph::forms {
 using mesh::edge_of;
 using mesh::HalfedgeHandle;
 using mesh::next;
+using mesh::opposite;
 using mesh::sign;
 
 std::vector<double> averaged_star(const mesh::IntrinsicTriangulation& triangulation, const std::vector<double>& form) {
@@ -20,7 +21,8 @@ std::vector<double> averaged_star(const mesh::IntrinsicTriangulation& triangulat
       const double at_end = triangulation.cotangents[from_apex.idx()];
       const double to_start = sign(from_apex) * form[edge_of(from_apex)],
                    to_end = -sign(to_apex) * form[edge_of(to_apex)];
-      star[edge_of(h)] += 0.5 * sign(h) * (at_end * to_start + at_start * to_end);
+      const double share = half_edges.is_boundary(opposite(h)) ? 1.0 : 0.5;
+      star[edge_of(h)] += share * sign(h) * (at_end * to_start + at_start * to_end);
     }
   }
   return star;

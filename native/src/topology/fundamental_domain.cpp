@@ -12,6 +12,7 @@ namespace {
 
 using mesh::edge_of;
 using mesh::face_of;
+using mesh::next;
 using mesh::opposite;
 using mesh::to_vertex;
 
@@ -158,6 +159,28 @@ FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdg
   const auto distance = grow_shortest_paths(surface, half_edges, stars, root, domain, execution);
   DualTree(surface, half_edges, distance, domain).grow(stars, execution);
   return domain;
+}
+
+std::vector<HalfedgeHandle> domain_boundary(const HalfEdges& half_edges, const FundamentalDomain& domain) {
+  // The side of D that comes first around the tail of h.
+  const auto outside = [&](HalfedgeHandle h) {
+    while (domain.crossed[edge_of(h)]) h = next(half_edges, opposite(h));
+    return h;
+  };
+  const HalfedgeHandle first = outside(half_edges.halfedge_handle(mesh::FaceHandle(domain.face_order[0])));
+  std::vector<HalfedgeHandle> around;
+  HalfedgeHandle h = first;
+  do {
+    if (!around.empty() && around.back() == opposite(h)) {
+      around.pop_back();
+    } else {
+      around.push_back(h);
+    }
+    h = outside(next(half_edges, h));
+  } while (h != first);
+  auto begin = around.begin(), end = around.end();
+  for (; end - begin > 1 && *begin == opposite(*(end - 1)); --end) ++begin;
+  return {begin, end};
 }
 
 // Outside T are the edges left over and the gaps. An edge of T dangles unless there is an end of these, or one of

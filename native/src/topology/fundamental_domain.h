@@ -15,6 +15,10 @@ namespace holomorph::topology {
 FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdges& half_edges, Execution& execution,
                                      const std::vector<mesh::Star>& stars = {});
 
+/// The boundary of D after step 3 of the paper: the half-edges around it in order, D on their left, without pairs h, -h
+/// that follow each other. Without stars these are the edges of the cut graph, twice, and those of the boundary, once.
+std::vector<HalfedgeHandle> domain_boundary(const HalfEdges& half_edges, const FundamentalDomain& domain);
+
 /// The cut graph: the interior edges of G without its dangling ends, ascending. Cutting the surface along it leaves a
 /// disk.
 /// @param ends vertices to which dangling ends are kept
