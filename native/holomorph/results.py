@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 from .array_types import Integers, Progress, Reals
 from .checks import checked_evenness, real_number
+from .newest import Newest
 from .progress import scaled
 from .quality import Quality
 from .solution import Solution
@@ -165,11 +166,11 @@ class Structure(Value):
             made = tiler.tile(**options, evenness=evenness, progress=progress)
         elif made.evenness != evenness:
             made = tiler.even(made, evenness, progress=progress)
-        return _kept(self._tilings, key, made)
+        return self._tilings.keep(key, made)
 
     @cached_property
     def _tilings(self):
-        return {}
+        return Newest(KEPT)
 
     def tiler(
         self,
@@ -193,13 +194,13 @@ class Structure(Value):
         key = surface, count, tuple(chosen), str(boundary), mask, bool(evened)
         tiler = self._tilers.get(key)
         if tiler is None:
-            options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened)}
-            tiler = Tiler(surface, poles, **options, threads=self._threads, progress=progress)
-        return _kept(self._tilers, key, tiler)
+            options = {"boundary": boundary, "allowed": allowed, "evened": bool(evened), "threads": self._threads}
+            tiler = Tiler(surface, poles, **options, progress=progress)
+        return self._tilers.keep(key, tiler)
 
     @cached_property
     def _tilers(self):
-        return {}
+        return Newest(KEPT)
 
     def averaged_star(self, form: ArrayLike) -> Reals:
         """(#E,) the paper's averaged star (§ 7) of one form: the face-wise star, averaged over the two faces of an
@@ -229,15 +230,6 @@ class Structure(Value):
     def _of_surface(self, vertices):
         """Vertices of the component as vertices of the surface, which may have isolated ones besides."""
         return vertices if self._component is self.surface else arrays.frozen(self._component.vertex_index[vertices])
-
-
-def _kept(last, key, value):
-    """The value, the newest of `KEPT` in a dictionary. Threads may ask at once: what is gone is made again."""
-    last.pop(key, None)
-    last[key] = value
-    for oldest in list(last)[:-KEPT]:
-        last.pop(oldest, None)
-    return value
 
 
 def _hashable(value):

@@ -1,0 +1,23 @@
+"""What was made last, by what it was made of."""
+
+from collections.abc import Hashable
+from typing import Any
+
+
+class Newest:
+    """The values that were kept last, `count` at most. Threads may ask at once: what is gone is made again."""
+
+    def __init__(self, count: int) -> None:
+        self._count, self._values = count, {}
+
+    def get(self, key: Hashable) -> Any:
+        """None where it is not kept."""
+        return self._values.get(key)
+
+    def keep(self, key: Hashable, value: Any) -> Any:
+        """The value, as the newest one."""
+        self._values.pop(key, None)
+        self._values[key] = value
+        for oldest in list(self._values)[: -self._count]:
+            self._values.pop(oldest, None)
+        return value
