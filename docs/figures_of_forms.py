@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures of docs/method.md: loops, one-forms, periods and their bounds. Each function draws one."""
+"""Figures of docs/method: loops, one-forms, periods and their bounds. Each function draws one."""
 
 import itertools
 

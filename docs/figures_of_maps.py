@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures of docs/method.md: the maps that are made of forms. Each function draws one."""
+"""Figures of docs/method: the maps that are made of forms. Each function draws one."""
 
 import holomorph
 import matplotlib

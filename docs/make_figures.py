@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python docs/make_figures.py [NAME ...]: draws the figures of docs/method.md into docs/figures, all by default.
+"""python docs/make_figures.py [NAME ...]: draws the figures of docs/method into docs/figures, all by default.
 
 They need the package and matplotlib. The command for a fresh checkout is `scripts/figures [NAME ...]`: it builds the
 package, makes build/venv/figures (make_venv of scripts/environment) and runs this script in it.

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Collects what the pages of the site are made of: collect.py WORK
 
-WORK/pages gets the Markdown of docs and of docs/site with the pictures, WORK/static what the browser runs and shows. A
-page that is opened as a file may not fetch other files, but may run scripts: so each model is wrapped in one.
+WORK/pages gets the Markdown of docs, its folders too, and of docs/site with the pictures, WORK/static what the browser
+runs and shows. A page that is opened as a file may not fetch other files, but may run scripts: so each model is wrapped
+in one.
 """
 
 import base64
@@ -24,8 +25,10 @@ SHOWN = """document.querySelector('model-viewer[data-model="{}"]').src = "data:m
 def collect_pages(pages):
     for folder in ("pictures", "figures"):
         shutil.copytree(ROOT / "docs" / folder, pages / folder)
-    for page in [*(ROOT / "docs").glob("*.md"), *SITE.glob("*.md"), ROOT / "docs" / "bibliography.bib"]:
-        shutil.copy(page, pages)
+    for page in [*(ROOT / "docs").rglob("*.md"), ROOT / "docs" / "bibliography.bib"]:
+        place = pages / page.relative_to(SITE if page.parent == SITE else ROOT / "docs")
+        place.parent.mkdir(exist_ok=True)
+        shutil.copy(page, place)
     shutil.copy(ROOT / "CHANGELOG.md", pages / "changelog.md")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sphinx: the site's pages are docs/*.md and those beside this file, collected by scripts/site."""
+"""Sphinx: the site's pages are those of docs and those beside this file, collected by scripts/site."""
 
 import re
 from pathlib import Path
@@ -83,11 +83,20 @@ def short_types(app, what, name, thing, options, signature, returned):
 
 
 def link_home(app, name, source):
-    """The site's home takes the place of the repository's first page."""
+    """The site's home takes the place of the repository's first page; pages of docs/site are beside those of docs."""
     source[0] = source[0].replace("](../README.md)", "](index.md)")
+    source[0] = re.sub(r"\]\(((?:\.\./)*)site/", r"](\1", source[0])
+
+
+def add_contents(app, name, source):
+    """A page with a folder of its name has the pages there below it, in the order in which it links to them."""
+    below = dict.fromkeys(re.findall(rf"\]\(({name}/[\w-]+)\.md", source[0]))
+    if below:
+        source[0] += "\n".join(["\n```{toctree}", ":hidden:", "", *below, "```", ""])
 
 
 def setup(app):
     app.connect("source-read", link_home)
+    app.connect("source-read", add_contents)
     app.connect("autodoc-process-signature", short_types)
     app.connect("autodoc-process-docstring", as_definitions)
