@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 LEVELS = ("good", "fair", "poor", "unusable")
 
-# The largest values of all levels but the last. They were chosen on pictures of 63 meshes, see docs/python.md.
+# The largest values of all levels but the last. They were chosen on pictures of 63 meshes, see docs/python/verdicts.md.
 UNEVEN = (10.0, 40.0, 1000.0)  # 95 : 5 % ratio of the density, in area
 SHEARED = (1.15, 1.4, 2.5)  # mean s1 / s2, each at most `quality.MOST_SHEARED`
 UNSEEN = 0.3  # mean s1 / s2 that evening may add unseen at evenness 1: it is spread out, and squares have one size
