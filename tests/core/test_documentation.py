@@ -17,7 +17,14 @@ ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = re.compile(r"^```python\n(.*?)^```\n^```\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"`python -m holomorph (examples/[^`]*)`")
-CORNERS = [3, 90, 214, 401]  # vertices on the boundary of a disk, in order, of docs/python.md
+LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)")
+HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
+CORNERS = [3, 90, 214, 401]  # vertices on the boundary of a disk, in order, of docs/python/structures.md
+DOCS = ROOT / "docs"
+PAGES = sorted(str(path.relative_to(ROOT)) for path in [*DOCS.rglob("*.md"), *ROOT.glob("[CR]*.md")])
+OF_THE_PACKAGE = [page for page in PAGES if page.startswith("docs/python")]
+MOST_WORDS = 1500  # of a page
+LONG = {"CHANGELOG.md", "docs/batch.md", "docs/performance.md"}  # are lists: nobody reads them through
 
 
 def text_of(page):
@@ -71,7 +78,7 @@ def disk_with_corners():
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory):
-    """The files that docs/python.md reads."""
+    """The files that the examples of the package read."""
     folder = tmp_path_factory.mktemp("files")
     surface_of(families.block_with_holes(2, 4)).write(folder / "chain.obj")
     surface_of(families.cylinder(24, 12)).write(folder / "pipe.obj")
@@ -80,10 +87,12 @@ def files(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("place", range(len(CODE.findall(text_of("docs/python.md")))))
-def test_example_of_the_package_runs(files, place, monkeypatch):
-    """Each with what those before it have made."""
-    if "plot" in CODE.findall(text_of("docs/python.md"))[place]:
+@pytest.mark.parametrize(
+    ("page", "place"), [(page, place) for page in OF_THE_PACKAGE for place in range(len(CODE.findall(text_of(page))))]
+)
+def test_example_of_the_package_runs(files, page, place, monkeypatch):
+    code = CODE.findall(text_of(page))[place]
+    if "plot" in code:
         pytest.importorskip("matplotlib")
     monkeypatch.chdir(files)
     surface = holomorph.Surface.read("chain.obj")
@@ -92,4 +101,49 @@ def test_example_of_the_package_runs(files, place, monkeypatch):
     names |= dict(uv=structure.uv(structure.balanced_coefficients()), seams=structure.edges[structure.seams])
     names |= dict(soles=np.ones(len(surface.vertices), bool), mesh=holomorph.ProgressiveMesh(surface))
     names |= dict(log_map=holomorph.log_map(holomorph.Surface.read("spot.obj")))
-    printed_by(CODE.findall(text_of("docs/python.md"))[place], "docs/python.md", names)
+    printed_by(code, page, names)
+
+
+def anchors_of(page):
+    """As GitHub and the site name headings."""
+    headings = (re.sub(r"[^\w\- ]", "", heading.lower()) for heading in HEADING.findall(page.read_text("utf-8")))
+    return {heading.strip().replace(" ", "-") for heading in headings}
+
+
+def leads_somewhere(page, target, anchor):
+    """Pages of docs/site are beside those of docs, where the site is built."""
+    folder = DOCS if page.startswith("docs/site") else (ROOT / page).parent
+    places = [ROOT / page] if not target else [folder / target, DOCS / "site" / target]
+    found = [place for place in places if place.exists()]
+    return bool(found) and (not anchor or anchor in anchors_of(found[0]))
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_of_a_page_lead_somewhere(page):
+    assert not [link for link in LINK.findall(text_of(page)) if not leads_somewhere(page, *link)]
+
+
+def test_a_broken_link_is_found():
+    assert not leads_somewhere("docs/tiling.md", "nowhere.md", "") and not leads_somewhere("docs/tiling.md", "", "no")
+    assert leads_somewhere("docs/tiling.md", "method/tilings.md", "round") and leads_somewhere("README.md", "", "more")
+
+
+def test_pages_can_be_read_at_once():
+    words = {page: len(text_of(page).split()) for page in set(PAGES) - LONG}
+    assert not {page: count for page, count in words.items() if count > MOST_WORDS}
+
+
+def test_the_page_for_artists_needs_no_mathematics():
+    text = text_of("docs/artists.md")
+    assert text.split("\n\n")[1].startswith("![") and not re.search(r"\bforms?\b", text)
+
+
+def test_troubleshooting_quotes_what_is_said():
+    files = [
+        *(ROOT / "addon").rglob("*.py"),
+        *ROOT.glob("native/holomorph/*.py"),
+        *ROOT.glob("native/src/tiling/**/*.cpp"),
+    ]
+    said = "\n".join(path.read_text("utf-8") for path in files).lower()
+    quoted = re.findall(r'"([^"]+)"', text_of("docs/troubleshooting.md"))
+    assert len(quoted) > 40 and not [words for words in quoted if words.lower() not in said]
