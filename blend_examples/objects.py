@@ -143,7 +143,7 @@ def gear():
 
 
 def knot():
-    """A trefoil knot of swelling thickness, about 100 000 quads."""
+    """A trefoil knot of swelling thickness, about 27 000 quads."""
     count = 60
     points = []
     for index in range(count):
@@ -151,7 +151,7 @@ def knot():
         radius = 1.0 + 0.35 * math.cos(2 * t + 0.4)
         place = (math.sin(t) + 2 * math.sin(2 * t), math.cos(t) - 2 * math.cos(2 * t), -math.sin(3 * t))
         points.append((*(0.5 * x for x in place), radius))
-    curve = bevel_curve("Knot", points, radius=0.24, cyclic=True, resolution=52, around=14)
+    curve = bevel_curve("Knot", points, radius=0.24, cyclic=True, resolution=28, around=6)
     obj = convert_to_mesh(curve)
     obj.rotation_euler = Euler((math.radians(60), 0, math.radians(20)))
     return [obj]

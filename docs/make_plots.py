@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The plots of the README: make_plots.py FOLDER leaves checker, density, zeros and loops of the pretzel there."""
+"""The plots of docs/python: make_plots.py FOLDER leaves checker, density, zeros and loops of the pretzel there."""
 
 import sys
 from pathlib import Path

@@ -24,6 +24,7 @@ DOCS = ROOT / "docs"
 PAGES = sorted(str(path.relative_to(ROOT)) for path in [*DOCS.rglob("*.md"), *ROOT.glob("[CR]*.md")])
 OF_THE_PACKAGE = [page for page in PAGES if page.startswith("docs/python")]
 MOST_WORDS = 1500  # of a page
+MOST_BYTES = 1_000_000  # of a file
 LONG = {"CHANGELOG.md", "docs/batch.md", "docs/performance.md"}  # are lists: nobody reads them through
 
 
@@ -147,3 +148,15 @@ def test_troubleshooting_quotes_what_is_said():
     said = "\n".join(path.read_text("utf-8") for path in files).lower()
     quoted = re.findall(r'"([^"]+)"', text_of("docs/troubleshooting.md"))
     assert len(quoted) > 40 and not [words for words in quoted if words.lower() not in said]
+
+
+def test_every_picture_is_shown():
+    text = "\n".join(map(text_of, PAGES))
+    assert not [
+        path.name for name in ("figures", "pictures") for path in (DOCS / name).iterdir() if path.name not in text
+    ]
+
+
+def test_no_file_is_heavy():
+    folders = ("docs", "blend_examples", "examples", "tests", "benchmarks", "native")
+    assert not [path for name in folders for path in (ROOT / name).rglob("*") if path.stat().st_size > MOST_BYTES]
