@@ -71,7 +71,7 @@ def quantiles(area, density, parts):
 
 
 def visible_length(obj, uv):
-    """Of the edges that a tiling texture does not run across, over the diagonal of the object's box."""
+    """Length of the edges that a tiling texture does not run across, over the diagonal of the object's box."""
     mesh = obj.data
     vertex = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", vertex)
@@ -182,7 +182,7 @@ def objects_of(path):
 
 
 def mesh_of(path):
-    """Of a file that the library reads, and Blender may not, such as PLY and OFF."""
+    """The mesh of a file that the library reads, and Blender may not, such as PLY and OFF."""
     surface = native.load().Surface.read(str(path))
     mesh = mesh_io.new_mesh(path.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
     obj = bpy.data.objects.new(path.stem, mesh)

@@ -22,7 +22,7 @@ def read(path):
 
 
 def peak_bytes():
-    """Of this process alone: getrusage counts what its parent had before it as well."""
+    """The peak of this process alone: getrusage counts what its parent had before it as well."""
     status = Path("/proc/self/status").read_text(encoding="ascii")
     return 1024 * int(status.split("VmHWM:")[1].split()[0])
 

@@ -51,7 +51,7 @@ def unwrapped(obj, name, operator, **options):
 
 
 def median_density(points, polygons, uv):
-    """Of UV area per surface area, by surface area."""
+    """The median of UV area per surface area, by surface area."""
     corners, _ = module("native").load().distortion.fans(polygons.face_offsets)
     area, uv_area = areas(points[polygons.corner_vertices[corners]]), areas(uv[corners])
     order = np.argsort(uv_area / area)
@@ -60,7 +60,7 @@ def median_density(points, polygons, uv):
 
 
 def areas(triangles):
-    """Of (#T, 3, d) triangles in the plane or in space."""
+    """Areas of (#T, 3, d) triangles in the plane or in space."""
     a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     aa, ab, bb = (np.einsum("ij,ij->i", x, y) for x, y in ((a, a), (a, b), (b, b)))
     return np.sqrt(np.clip(aa * bb - ab * ab, 0, None)) / 2
@@ -126,7 +126,7 @@ def show(obj, polygons, uv):
 
 
 def row(name, parts, found):
-    """Of the table in docs/tiling.md: poles, then each figure of the three maps."""
+    """A row of the table in docs/tiling.md: poles, then each figure of the three maps."""
     poles = sum(len(part["tiling"]["poles"]) for part in parts)
     cells = [f"{figure:.{digits}f}" for digits, of_maps in zip((1, 0, 1), zip(*found.values())) for figure in of_maps]
     return f"| {name} | {poles} | {' | '.join(cells)} |"

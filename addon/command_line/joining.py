@@ -10,7 +10,7 @@ from .. import compatibility
 from ..compatibility import Values
 from ..scene import mesh_io
 
-SAME_PLACE = 1e-6  # of a mesh's largest extent: equal positions, for Blender joins nothing at a distance of 0
+SAME_PLACE = 1e-6  # part of a mesh's largest extent: equal positions, for Blender joins nothing at a distance of 0
 
 
 def join(mesh):

@@ -17,7 +17,7 @@ from ..operators.properties import MapProperties, SharedProperties
 from ..operators.tile_properties import MOST_POLES, TileProperties
 from . import exchange
 
-# Of the files that are written.
+# Suffixes of the files that are written.
 SUFFIXES = {"output": (".blend", *exchange.SUFFIXES), "render": (".png",), "report": (".json",)}
 KINDS = {FloatProperty: float, IntProperty: int, StringProperty: str}
 

@@ -5,7 +5,7 @@ thread."""
 from .. import native
 from ..solving import jobs
 
-MAP_SHARE = 0.6  # of the work, after the structures
+MAP_SHARE = 0.6  # part of the work, after the structures
 FORMLESS = "a sphere or a disk has no forms by which the map could be found, and there are many such maps"
 
 

@@ -107,7 +107,7 @@ class Mapper:
 
     def __init__(self, is_equal=True):
         self._is_equal = is_equal
-        self._area = self._wanted = 0.0  # of all objects; tiles for an area that are asked for
+        self._area = self._wanted = 0.0  # the area of all objects; tiles for an area that are asked for
         self._density = self._per_length = 0.0  # tiles for an area, and UV units for a length, once one is made
 
     def plan(self, solved):

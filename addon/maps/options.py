@@ -21,7 +21,7 @@ def dials(source):
 class TileOptions:
     """What is asked of `holomorph.Structure.tile` for one object."""
 
-    tiles: float = 0.0  # of the texture over the whole object; 0 lets the library choose
+    tiles: float = 0.0  # tiles over the whole object; 0 lets the library choose
     density: float = 0.0  # tiles for an area, instead; 0 for their number
     poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
     lattice: str = "square"
@@ -30,7 +30,9 @@ class TileOptions:
     turn: float = 0.0  # radians by which the texture is rotated
     quarters: int = 0  # turns of the map by 90 degrees after it is made
     pole_group: str = ""  # the vertex group that `allowed` was read of
-    allowed: bytes | None = None  # of the bools that tell where poles may be that are not chosen; None for anywhere
+    allowed: bytes | None = (
+        None  # bytes of the bools that tell where poles may be that are not chosen; None for anywhere
+    )
     evenness: float = 0.5  # from 0 for angles to 1 for squares of one size
     moved: tuple = ()  # (index of a pole in its part's tiling, vertex to which it was dragged)
 

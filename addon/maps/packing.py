@@ -11,7 +11,7 @@ import numpy as np
 from .. import native
 from ..scene import mesh_io, uv_maps
 
-MIDDLE = 0.5  # of the UV square
+MIDDLE = 0.5  # the middle of the UV square
 
 
 def packed(context, mapped):

@@ -60,7 +60,7 @@ class HOLOMORPH_OT_islands(MapProperties, _MapsOperator, bpy.types.Operator):
     bl_idname = "uv.holomorphic_islands"
     bl_label = "Islands by Hard Edges"
 
-    # Of its own, so that the maps operator does not remember them.
+    # Properties of its own, so that the maps operator does not remember them.
     main: main_property("ISLANDS")
     hard_edges: hard_edges_property(HARD_EDGE)
     most_stretch: FloatProperty(name="Most Stretch", description=ABOUT["most_stretch"], min=0.0, soft_max=10.0)

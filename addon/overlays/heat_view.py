@@ -17,7 +17,9 @@ from . import on_screen, scales
 
 BAR_WIDTH, BAR_HEIGHT = 280, 12  # pixels, in a user interface of normal size
 BAR_ABOVE = 52  # pixels, from the lower edge of the view
-DEPTH_BIAS = 1e-6  # of the depth from -1 to 1: ten steps of a depth buffer, to lie over the faces as the mesh has them
+DEPTH_BIAS = (
+    1e-6  # part of the depth from -1 to 1: ten steps of a depth buffer, to lie over the faces as the mesh has them
+)
 LIGHT = np.array((0.35, -0.45, 0.82), np.float32)  # direction to the light
 SHADE = 0.45  # how much darker a face is that is turned away from it
 

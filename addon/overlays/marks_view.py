@@ -78,7 +78,7 @@ def _all_points(objects, dragged):
 
 
 def _points(obj, dragged):
-    """Of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the pointer is on
+    """The marks of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the pointer is on
     it."""
     vertices, is_pole = stored.marks(obj[report.PROPERTY])
     if dragged is not None:

@@ -8,7 +8,7 @@ from ..scene import mesh_io
 from . import tags
 
 OF = "holomorph_mark_of"  # custom property: name of the object whose pole or branch point it is
-SIZE = 0.02  # of the object's largest extent
+SIZE = 0.02  # part of the object's largest extent
 
 
 def write(context, obj, vertices, is_pole):

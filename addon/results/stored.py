@@ -29,12 +29,12 @@ def parsed(stored):
 
 
 def tilings(stored):
-    """Of the parts that have one, and of pieces of parts."""
+    """The tilings of parts, and of pieces of parts."""
     return tilings_of(parsed(stored))
 
 
 def tilings_of(entry):
-    """Of the parts that have one, and of pieces of parts, in the report of an object."""
+    """The tilings of parts, and of pieces of parts, in the report of an object."""
     parts = entry.get("components", [])
     return [tiling for part in parts for tiling in part.get("tilings", [part["tiling"]] if "tiling" in part else [])]
 

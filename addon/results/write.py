@@ -111,7 +111,7 @@ def _cuts(mesh, polygons, made):
 
 
 def _look(made, options, is_tiling):
-    """Of a tiling, as many images in each tile as the wanted number of squares comes nearest to. Elsewhere density is
+    """A tiling gets as many images in each tile as come nearest to the wanted number of squares. Elsewhere density is
     to be seen: the squares are those of density 1, so that there are more of them where it is higher."""
     if is_tiling:
         cells = material.cells(options.texture)

@@ -82,7 +82,7 @@ class Job(Work):
     plan(solved) : the indices of `{i: SolvedObject}` in the order in which to go on; by default as they are
     """
 
-    SOLVE_SHARE = 0.3  # of the work where something follows
+    SOLVE_SHARE = 0.3  # part of the work where something follows
 
     def __init__(self, tasks, progress=None, then=(), plan=list):
         super().__init__(progress)

@@ -24,7 +24,7 @@ from .placement import Frame, frame, place
 from .surface import Surface
 
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
-SINGLE_BITS = 24  # of the mantissa of single precision, which applications store
+SINGLE_BITS = 24  # bits of the mantissa of single precision, which applications store
 QUARTER = np.array([[0, 1], [-1, 0]])  # rows times it: a quarter turn counter-clockwise
 
 
@@ -130,7 +130,7 @@ def arranged_form(
     structures; zeros at corners of parts that lack it."""
     surfaces, uvs, densities = [], [], []
     for surface, structure in parts:
-        if form < structure.form_count:  # of their type: a complex factor would bend straight boundaries
+        if form < structure.form_count:  # their type of coefficients: a complex factor would bend straight boundaries
             surfaces.append(surface)
             uvs.append(structure.uv(np.eye(structure.form_count, dtype=structure.coefficient_type)[form]))
             densities.append(structure.quality(uvs[-1]).median_density)

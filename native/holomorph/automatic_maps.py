@@ -25,8 +25,8 @@ from .sizing import TRIES, Sizing, best_window, relative_size, usual_density, wi
 from .surface import Surface
 from .tiling import Poles
 
-LEADING = 0.25  # of the area of the largest part, from which on a part may say the density of all
-TRYING = 0.9  # of the work on tilings, for numbers of tiles
+LEADING = 0.25  # part of the area of the largest part, from which on a part may say the density of all
+TRYING = 0.9  # part of the work on tilings, for numbers of tiles
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
 

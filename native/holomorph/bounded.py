@@ -116,8 +116,8 @@ class BoundedStructure(CertifiedStructure):
 
     @property
     def modulus(self) -> float:
-        """Of an annulus (genus 0, two loops): height over circumference of the conformal cylinder, ln(R/r) / 2 pi of a
-        round ring; the inverse of the capacity.
+        """The modulus of an annulus (genus 0, two loops): height over circumference of the conformal cylinder. It is
+        ln(R/r) / 2 pi for a round ring; the inverse of the capacity.
 
         Raises
         ------

@@ -12,7 +12,7 @@ from .array_types import Bounds
 from .value import Value
 
 SLACK = 1e-14  # relative: more than the rounding of a few operations
-OPEN = 1.0  # of `Certificate.rounding`: the metric of a triangle is left open
+OPEN = 1.0  # value of `Certificate.rounding` where the metric of a triangle is left open
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -134,7 +134,7 @@ def _star_defect(native):
 def certain_text(lower, upper):
     """Value and uncertainty in certain digits alone, such as "2.178 +- 0.005": an interval that holds both bounds."""
     with localcontext() as context:
-        context.prec = 800  # of any double
+        context.prec = 800  # digits: enough for any double
         low, high = Decimal(float(lower)), Decimal(float(upper))
         if low == high:
             return f"{float(lower)!r}"

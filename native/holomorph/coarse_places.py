@@ -10,8 +10,8 @@ from .array_types import Integers, Reals
 from .distortion import Polygons
 from .edges import polygon_sides
 
-OCTAVES = -4.0  # of the density in area, from which on a face is coarse: lengths four times the median
-LEAST_PART = 0.002  # of all faces, in a place that counts
+OCTAVES = -4.0  # octaves of the density in area, from which on a face is coarse: lengths four times the median
+LEAST_PART = 0.002  # part of all faces in a place that counts
 MOST_PLACES = 8
 
 

@@ -8,7 +8,7 @@ from .equivalence import VERDICTS, conformally_equivalent
 from .plain_data import plain
 
 EXIT_CODES = dict(zip(VERDICTS, (0, 3, 4, 5), strict=True))
-"""Of a verdict. 1: not compared, one sentence says why; 2: the command was misspelled."""
+"""The exit code of each verdict. 1: not compared, one sentence says why; 2: the command was misspelled."""
 
 
 def compare(arguments):

@@ -27,8 +27,8 @@ TRIED = 400  # vertices that tell most wrong starts from right ones
 FINALISTS = 16  # starts that are tried farther, half of them each time
 FARTHER = 4  # times as many vertices each time
 ALIKE = 0.98  # cosine of the forms' values at two points that are taken for one start
-ROUNDS = 4  # of the correction of the start
-MOST_RESIDUAL = 0.05  # of a map that is one
+ROUNDS = 4  # times that the start is corrected
+MOST_RESIDUAL = 0.05  # largest residual of a map that is one
 SEARCH = (0.2, 0.3, 0.4)  # parts of the work: the verdict, starts, the best of them
 
 Mapped = ConformalStructure | BoundedStructure

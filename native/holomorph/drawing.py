@@ -12,7 +12,7 @@ from .surface import Surface
 SQUARES = ((0.96, 0.94, 0.91), (0.84, 0.43, 0.20))  # the two colours of a checker
 PLAIN = (0.75, 0.75, 0.78)
 ZERO = (0.85, 0.05, 0.10)
-DECADES = 1.0  # of the density, to each side of the median
+DECADES = 1.0  # powers of 10 of the density, to each side of the median
 DENSITY = "density over its median, powers of 10"
 SEEN_THROUGH = 0.35  # opacity of a surface that shows what is on its other side
 MOST_FORMS = 8  # that are drawn side by side

@@ -19,7 +19,7 @@ from .structure import conformal_structure
 from .surface import Surface
 from .value import Value
 
-ROUNDING = 1e-9  # of residuals
+ROUNDING = 1e-9  # relative error of residuals
 VERDICTS = ("equivalent", "mirror_image", "not_equivalent", "undecided")
 STEPS = _native.isometry_steps  # limit of one search among integer matrices
 
@@ -171,7 +171,7 @@ def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):
 
 
 def _percent(distance):
-    """Of a logarithm: rounded up to two digits."""
+    """A logarithm as per cent, rounded up to two digits."""
     value = 100 * math.expm1(distance)
     return f"{_rounded(value, math.ceil):.12g} %"
 

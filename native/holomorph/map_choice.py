@@ -42,7 +42,7 @@ MOST_SOFT = 0.02  # length of a seam across the smooth over the square root of t
 
 EVENNESS = 0.5  # what suits textures: squares hardly differ in size, and their shear is not seen
 
-SOLVING = 0.5  # of the work, for the structure
+SOLVING = 0.5  # part of the work, for the structure
 
 
 def first_map(surface, structure, main, evenness, threads, progress):

@@ -22,7 +22,7 @@ from .sizing import SAME_SIZE, Sizing, Tried, Window, is_in, nearest, relative_s
 from .tiling import Poles
 from .tubes import closed, is_tube, opened
 
-MIXING = 0.5  # of the work, for the pieces
+MIXING = 0.5  # part of the work, for the pieces
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from .certificate import OPEN, relative_width
 from .refined_triangles import Triangles, gaps, refined, worst
 from .value import Value, counted
 
-PART = 0.05, 0.4  # of all gaps between the energies that triangles marked for refinement have, at least and at most
-QUARTERED = 0.75  # of the gap of a triangle that is cut in four is gone, where forms are smooth
+PART = 0.05, 0.4  # least and largest part of all gaps between energies that the marked triangles have
+QUARTERED = 0.75  # part of its gap that a triangle loses when it is cut in four, where forms are smooth
 MOST_LEVELS = 60
 LEAST_GAIN = 1e-3  # a level that narrows the bounds by a smaller part is the last: rounding is reached
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-ROWS_PER_EDGE, MOST_ROWS = 8, 4096  # of the lines across a curve that are looked at
+ROWS_PER_EDGE, MOST_ROWS = 8, 4096  # numbers of lines across a curve that are looked at
 
 
 def overlapping_part(curve):

@@ -15,7 +15,7 @@ from .surface import Surface
 
 @dataclass(frozen=True)
 class Frame:
-    """Of a map in the complex plane u + i v: the lower left and upper right corner of its bounding box, and the sum of
+    """The bounding box of a map in the complex plane u + i v, by its lower left and upper right corner, and the sum of
     the areas of its triangles, whichever way they lie."""
 
     low: complex

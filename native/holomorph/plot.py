@@ -35,7 +35,7 @@ except ModuleNotFoundError as error:
     raise ModuleNotFoundError('plots need the library matplotlib: pip install "holomorph[plot]"') from error
 
 PIECES = 150_000  # triangles are cut into, for a checker, about
-MOST_CUTS = 16  # of a triangle's side
+MOST_CUTS = 16  # into which a triangle's side is cut
 LIGHT = np.array([0.4, -0.7, 0.6])
 AMBIENT = 0.45  # the darkest shade
 SIDE, SMALL_SIDE = 6.0, 4.0  # inches of a picture, and of one of several

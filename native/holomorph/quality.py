@@ -105,7 +105,7 @@ class Quality(Value):
         return [f"mean s1/s2 {self.mean_angle:.4g}", f"density ratio {self.density_ratio:.4g}", *counts]
 
     def __getstate__(self):
-        vars(self).update(long_part=self.long_part, _weights=self._weights)  # of these the triangulation is asked
+        vars(self).update(long_part=self.long_part, _weights=self._weights)  # these need the triangulation
         return super().__getstate__()
 
     @property

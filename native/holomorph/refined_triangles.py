@@ -137,7 +137,7 @@ class _Cut:
         self.along = along.reshape(-1, 3)
 
     def turned(self, chosen):
-        """Of triangles with one or two sides cut: their numbers, and that of the cut side whose predecessor is not."""
+        """The triangles with one or two sides cut: their numbers, and that of the cut side whose predecessor is not."""
         t = np.flatnonzero(chosen)
         cut = self.is_cut[self.t.edges[t]]
         return t, np.argmax(cut & ~np.roll(cut, 1, axis=1), axis=1)

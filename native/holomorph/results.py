@@ -25,7 +25,7 @@ from .tiling_options import Poles, asked_poles
 from .tilings import Tiling
 from .value import Value, counted
 
-PLACING = 0.6  # of the work on a tiling, for finding the poles
+PLACING = 0.6  # part of the work on a tiling, for finding the poles
 KEPT = 2  # tilings and their poles: more poles are tried where some are too few
 
 

@@ -81,7 +81,7 @@ def _inversion(g):
 
 
 def _on_the_edge(omega, matrix):
-    """Of the edge of the domain of genus 1, the half with Re tau >= 0."""
+    """On the edge of the domain of genus 1, takes the half with Re tau >= 0."""
     if len(omega) > 1:
         return omega, matrix
     if omega[0, 0].real <= -0.5 + ROUNDING:

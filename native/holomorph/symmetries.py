@@ -15,7 +15,7 @@ from .equivalence import ROUNDING, STEPS, period_lattice
 from .value import Value, counted
 
 AGREEMENT = 0.25  # as native/src/moduli/equivalence.h
-GAP = 1e-6  # of what is allowed: residuals that differ by less belong to the same symmetry of the mesh
+GAP = 1e-6  # part of what is allowed: residuals that differ by less belong to the same symmetry of the mesh
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -10,7 +10,7 @@ from .map import Map
 from .quality import Quality
 from .surface import Surface
 
-ENDS = 2  # of a tube: the longest boundary loops
+ENDS = 2  # the longest boundary loops of a tube
 
 
 def is_tube(surface: Surface) -> bool:

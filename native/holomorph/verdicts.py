@@ -20,7 +20,7 @@ UNEVEN = (10.0, 40.0, 1000.0)  # 95 : 5 % ratio of the density, in area
 SHEARED = (1.15, 1.4, 2.5)  # mean s1 / s2, each at most `quality.MOST_SHEARED`
 UNSEEN = 0.3  # mean s1 / s2 that evening may add unseen at evenness 1: it is spread out, and squares have one size
 LOST = (0.002, 0.01, 0.05)  # part of the area that is flipped or has collapsed
-SMALL_PART = 0.01  # of the area of all parts: worse maps of less do not decide
+SMALL_PART = 0.01  # part of the area of all parts: worse maps of less do not decide
 SAME_SIZE = 1.1  # largest over smallest median density of parts that is not seen
 OVERLAPPING = (1e-6, 0.01, 0.2)  # part of an island that covers itself: less is rounding; it can be textured, not baked
 

@@ -12,7 +12,7 @@ import pytest
 
 FAULTS = Path(__file__).with_name("faults")
 BALANCED = "[maps]\nmain = 'balanced'\n[output]\nformats = ['npz', 'obj']\n"
-DIFFERING = ("seconds", "processor_seconds", "timings")  # of a record: they are no results
+DIFFERING = ("seconds", "processor_seconds", "timings")  # entries of a record that are no results
 SECONDS = 120  # for a run of the command on a busy machine
 
 

@@ -134,7 +134,7 @@ def decoded(content):
 
 
 def state(out):
-    """Of all files of the assets: what they are and when they were written."""
+    """All files of the assets: what they are and when they were written."""
     return {
         path: (path.stat().st_ino, path.stat().st_mtime_ns)
         for path in sorted((out / "assets").rglob("*"))

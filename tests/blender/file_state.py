@@ -165,7 +165,7 @@ def _add_mesh(state, mesh, path):
 
 
 def _add_image(state, image, path):
-    """Of a large image that is packed into the file, its file alone: reading the pixels takes long."""
+    """Notes a large image that is packed by its file alone: reading the pixels takes long."""
     state[f"{path}.packed"] = hashlib.sha1(image.packed_file.data).hexdigest() if image.packed_file else ""
     if len(image.pixels) < LARGE or not image.packed_file:
         pixels = np.empty(len(image.pixels), np.float32)

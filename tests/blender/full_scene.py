@@ -7,7 +7,7 @@ from scenes import grid_arrays, mesh_object, sphere_arrays, torus_arrays, tube_a
 
 FRAMES = (1, 10, 20)
 IMAGE = 8  # pixels of a side
-NEAR = 2e-3  # of lengths, angles and values, in their unit
+NEAR = 2e-3  # difference of lengths, angles and values, in their unit
 
 
 def make():

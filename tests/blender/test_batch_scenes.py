@@ -38,7 +38,7 @@ def program(tmp_path):
 
 
 def batch_modules(*names):
-    """Of the package that the add-on uses."""
+    """Modules of the package that the add-on uses."""
     return [importlib.import_module(f"{native.load().__name__}.batch.{name}") for name in names]
 
 

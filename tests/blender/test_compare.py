@@ -26,7 +26,7 @@ def test_an_object_and_its_image(capfd):
 
 
 def test_a_negative_scale_is_a_mirror_image(capfd):
-    """Of a torus that is twisted, so that it is not its own mirror image."""
+    """The torus is twisted, so that it is not its own mirror image."""
     vertices, faces = torus_arrays(36, 18, 0.5)
     radius, height = np.hypot(vertices[:, 0], vertices[:, 1]), vertices[:, 2].copy()
     angle = np.arctan2(vertices[:, 1], vertices[:, 0])

@@ -10,7 +10,7 @@ from scenes import (
     uv,
 )
 
-FLOAT32 = 1e-6  # of the UV size
+FLOAT32 = 1e-6  # part of the UV size
 
 
 def only_part(obj):

@@ -20,7 +20,7 @@ from scenes import (
     uv_maps,
 )
 
-ACROSS = 12  # of the torus of the scenes
+ACROSS = 12  # faces across the torus of the scenes
 
 
 def pick_faces(obj, wanted, hidden=()):

@@ -16,7 +16,7 @@ from scenes import (
     uv,
 )
 
-FLOAT32 = 1e-5  # of the UV square
+FLOAT32 = 1e-5  # part of the UV square
 MARGIN = 0.02
 
 
@@ -126,7 +126,7 @@ def test_islands_are_turned_and_keep_one_texel_density():
     assert_packed(obj)
     factors = similarities(obj)
     assert len(factors) == 3
-    assert np.ptp(np.abs(factors)) < 0.05 * np.abs(factors[0])  # of their medians, not of their boundaries
+    assert np.ptp(np.abs(factors)) < 0.05 * np.abs(factors[0])  # their medians agree, not their boundaries
     assert np.abs(np.angle(factors)).max() > 0.1
     values = uv(obj)
     assert np.ptp(values, axis=0).max() > 1 - 4 * MARGIN  # they fill the square

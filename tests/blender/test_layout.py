@@ -54,7 +54,7 @@ def test_the_layout_is_the_same_twice_and_of_any_size():
 
 
 def polygon_area(values):
-    """Of quads, (n, 4, 2), whichever way they lie."""
+    """Areas of quads, (n, 4, 2), whichever way they lie."""
     following = np.roll(values, -1, axis=1)
     return 0.5 * np.abs((values[..., 0] * following[..., 1] - following[..., 0] * values[..., 1]).sum(axis=1)).sum()
 

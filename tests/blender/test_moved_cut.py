@@ -8,7 +8,7 @@ from scenes import torus, uv
 
 studio = module("command_line.studio")
 SIZE = 160
-STEP = 1 / 255  # of a channel
+STEP = 1 / 255  # part of a channel
 
 
 def picture(obj, path):

@@ -31,7 +31,7 @@ BEST = {
     ".usdc": {"export_animation": True, "rename_uvmaps": False, "use_instancing": True},
 }
 MAPS = ("--main", "balanced", "--forms", 0)
-FEW = 0.25  # of all facts: what Blender's own exporters lose
+FEW = 0.25  # part of all facts: what Blender's own exporters lose
 
 
 def operators(path):

@@ -19,7 +19,7 @@ from test_headless import headless, needs_program
 
 MESHES = ROOT.parent / "shared" / "meshes"
 SECONDS = 580
-RESIDUAL = 1e-8  # of harmonicity, closedness, periods
+RESIDUAL = 1e-8  # residual of harmonicity, closedness, periods
 IN_SQUARE = 1e-6  # float32 of numbers up to 1
 
 # file: (genus, boundary loops) of its largest part, and the number of parts

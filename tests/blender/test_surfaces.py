@@ -25,7 +25,7 @@ from scenes import (
     written,
 )
 
-FLOAT32 = 1e-6  # of the UV size
+FLOAT32 = 1e-6  # part of the UV size
 
 
 def torus_with_a_hole():

@@ -13,7 +13,7 @@ from scenes import (
 )
 
 patterns, textures = module("materials.patterns"), module("materials.textures")
-SIZE = 512  # of drawings here
+SIZE = 512  # pixels of a drawing here
 LINES = {  # columns and rows of cells, whose borders are alike
     "NUMBERED": (8, 8),
     "BRICKS": (8, 8),

@@ -79,7 +79,7 @@ def symplectic_change(structure, other, old_vertex=None):
 
 
 def determinant(matrix):
-    """Of integers, exactly (Bareiss)."""
+    """The determinant of integers, exactly (Bareiss)."""
     rows = [[int(entry) for entry in row] for row in matrix]
     sign, previous = 1, 1
     for k in range(len(rows) - 1):

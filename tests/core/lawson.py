@@ -8,7 +8,7 @@ sines have opposite signs, between great-circle arcs from the points (i^k, 0) to
 import numpy as np
 
 CLOSE = 9  # decimals that tell vertices apart
-STEPS = 12  # of Newton's method
+STEPS = 12  # steps of Newton's method
 
 
 def lawson(n):

@@ -36,7 +36,7 @@ def regular_map(edge, face):
     across, turn = generated(edge, face)
     n = next(k for k in range(1, len(turn) + 1) if (power(turn, k) == np.arange(len(turn))).all())
     count = len(turn)
-    corner = orbits(turn[across])  # of the flag's side, its first end
+    corner = orbits(turn[across])  # the first end of the flag's side
     middle = corner.max() + 1 + orbits(turn)
     side, spoke = orbits(across), np.arange(count) + orbits(across).max() + 1
     faces = np.stack([middle, corner, corner[turn]], axis=1)

@@ -5,7 +5,7 @@ from math import comb, factorial, prod
 
 
 def derivative(form, x, y):
-    """Of sum_i form[i] X^(n-i) Y^i, x times by X and y times by Y."""
+    """Differentiates sum_i form[i] X^(n-i) Y^i, x times by X and y times by Y."""
     n = len(form) - 1
     falling = [
         prod(range(n - i - x + 1, n - i + 1)) * prod(range(i - y + 1, i + 1)) * form[i] for i in range(y, n + 1 - x)

@@ -62,7 +62,7 @@ BOUNDED_FLAT = {
 
 
 def surface_of(mesh):
-    """Of a `Mesh` or a `FlatSurface`."""
+    """The surface of a `Mesh` or a `FlatSurface`."""
     if isinstance(mesh, families.FlatSurface):
         return Surface.from_edge_lengths(mesh.faces, mesh.edge_lengths, mesh.face_edges)
     return Surface.from_polygons(mesh.vertices, mesh.corners, mesh.offsets)

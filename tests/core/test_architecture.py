@@ -57,7 +57,15 @@ WORDS = {
     r"\blandscape\b": "pole basis",
     r"\bwishe[ds]\b": "options",
     r"(?:HalfEdges|EdgeEnds)&? mesh\b": "half_edges",
+    r"boundary component": "boundary loop",
+    r"cone singularit": "cone point",
+    r"\b1-form": "one-form",
+    r"\b(?:one|1)-ring\b": "star",
+    r"parametri[sz]ation": "map",
+    r"\bgiven ?mesh\b": "input",
 }
+BARE_OF = re.compile(r'^\s*(?://[/!]?|#|""")<?\s*Of\b', re.MULTILINE)  # a comment that begins so is no sentence
+COMMENTED = ("native/holomorph", "addon", "tests", "benchmarks", "blend_examples", "docs")
 HEADER_LINES = 110
 FILE_LINES = 250
 
@@ -115,7 +123,7 @@ def addon_imports(path, is_at_top=False):
 
 
 def packages_at_top(path):
-    """Of others, that a file imports where it is loaded."""
+    """Packages of others that a file imports where it is loaded."""
     nodes = ast.parse(path.read_text(encoding="utf-8")).body
     names = [alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names]
     return names + [node.module for node in nodes if isinstance(node, ast.ImportFrom) and not node.level]
@@ -308,6 +316,11 @@ def test_one_thing_has_one_word():
         text = path.read_text(encoding="utf-8")
         wrong += [f"{identify(path)}: {word}" for said, word in WORDS.items() if re.search(said, text, re.IGNORECASE)]
     assert not wrong
+
+
+def test_comments_say_what_is_there():
+    files = [*cpp_files(), *(path for name in COMMENTED for path in python_files(ROOT / name))]
+    assert not [identify(path) for path in files if BARE_OF.search(path.read_text(encoding="utf-8"))]
 
 
 def test_nothing_is_left_for_later():

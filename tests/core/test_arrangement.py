@@ -82,7 +82,7 @@ def test_maps_of_forms_fill_the_square(mesh):
 
 
 def test_a_unit_has_the_length_that_is_told(mesh):
-    """Of the largest part, or in the median of the tilings."""
+    """On the largest part, or in the median of the tilings."""
     parts = laid(mesh)
     told = unit_length([made for made, _ in parts], Arrangement(margin=MARGIN))
     densities = [made.density for made, _ in parts if made.tiling]

@@ -178,7 +178,9 @@ def test_a_part_on_which_whole_tiles_are_too_few_has_the_same_density_without():
     corners = sum(len(part.corner_vertices) for part in parts)
     uv = holomorph.arrangement.arranged(made, corners)
     found = [Quality.of(part._native, np.ascontiguousarray(uv[part.corner_index]), 0) for part in parts]
-    rounding = np.spacing(np.float32(uv.max())) / np.ptp(uv[parts[1].corner_index], axis=0).min()  # of 24 by 12 quads
+    rounding = (
+        np.spacing(np.float32(uv.max())) / np.ptp(uv[parts[1].corner_index], axis=0).min()
+    )  # the part has 24 by 12 quads
     assert found[0].median_density == pytest.approx(found[1].median_density, rel=24 * rounding)
 
 

@@ -34,7 +34,9 @@ def jittered(flat, k, seed):
     random = np.random.default_rng(seed)
     count = flat.faces.max() + 1
     noise = 0.15 / k * random.uniform(-1, 1, (count, 2)) @ [1, 1j]
-    corners = flat.faces.reshape(-1, 2, 3)[:: k * k]  # of the squares' first cells: their corner 0 is a square's
+    corners = flat.faces.reshape(-1, 2, 3)[
+        :: k * k
+    ]  # corners of the squares' first cells: their corner 0 is a square's
     noise[corners[:, 0, 0]] = 0
     starts, ends = np.roll(flat.faces, -1, axis=1), np.roll(flat.faces, -2, axis=1)
     dz = dz + noise[ends] - noise[starts]
@@ -42,7 +44,7 @@ def jittered(flat, k, seed):
 
 
 def periods(structure, flat, dz):
-    """Of dz over the homology basis, Gaussian integers: dz in the basis of the harmonic forms."""
+    """The periods of dz over the homology basis, Gaussian integers: dz in the basis of the harmonic forms."""
     native = structure.surface._native
     tails, heads = native.triangles, np.roll(native.triangles, -1, axis=1)
     assert (native.triangles == flat.faces).all()

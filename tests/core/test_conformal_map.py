@@ -32,7 +32,7 @@ def structures(*meshes):
 
 @cache
 def mapped(genus, image=moebius_image):
-    """Of a mesh without symmetry, so that the map is the only one: both structures and the map."""
+    """A mesh without symmetry, so that the map is the only one: both structures and the map."""
     mesh = triangles(genus)
     both = structures(mesh, image(mesh))
     return *both, conformal_map(*both)

@@ -49,7 +49,7 @@ def test_poles_along_a_strip(poles, ratio):
 
 
 def test_there_is_room_on_a_strip():
-    """Of a triangle with a side on the boundary, the corner inside may have a pole."""
+    """A triangle with a side on the boundary may have a pole at its corner inside."""
     assert len(Tiler(noisy(strip(40), 0), 8).poles.vertices) == 8
 
 

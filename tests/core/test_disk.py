@@ -239,7 +239,7 @@ def test_holomorphic_forms_come_with_the_poles(name):
     same = (structure.edges == plain.edges).all(axis=1)  # other diagonals are flipped away from the poles
     away = same & ~np.isin(structure.edges, structure.poles).any(axis=1)
     close = np.abs(structure.holomorphic_forms[1:, away] - plain.holomorphic_forms[:, away]).max()
-    assert close < 0.02 * np.abs(plain.holomorphic_forms).max()  # of another triangulation
+    assert close < 0.02 * np.abs(plain.holomorphic_forms).max()  # it has another triangulation
     c = np.concatenate([[1.0], np.linspace(0.5, -0.7, n)])
     uv = structure.uv(c)
     mixed = structure.uv(np.eye(1 + n)[0]) + sum(c[j] * structure.uv(np.eye(1 + n)[j]) for j in range(1, 1 + n))

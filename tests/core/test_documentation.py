@@ -23,8 +23,8 @@ CORNERS = [3, 90, 214, 401]  # vertices on the boundary of a disk, in order, of 
 DOCS = ROOT / "docs"
 PAGES = sorted(str(path.relative_to(ROOT)) for path in [*DOCS.rglob("*.md"), *ROOT.glob("[CR]*.md")])
 OF_THE_PACKAGE = [page for page in PAGES if page.startswith("docs/python")]
-MOST_WORDS = 1500  # of a page
-MOST_BYTES = 1_000_000  # of a file
+MOST_WORDS = 1500  # on a page
+MOST_BYTES = 1_000_000  # in a file
 LONG = {"CHANGELOG.md", "docs/batch.md", "docs/performance.md"}  # are lists: nobody reads them through
 
 

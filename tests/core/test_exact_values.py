@@ -33,7 +33,7 @@ def error(surface, omega):
 
 
 def orders(errors):
-    """Of successive errors when the grid step halves."""
+    """Orders of convergence of successive errors, when the grid step halves."""
     return np.log2(np.array(errors[:-1]) / errors[1:])
 
 
@@ -41,7 +41,7 @@ def orders(errors):
 
 
 def reduced(tau):
-    """Of a purely imaginary modulus."""
+    """The larger of a purely imaginary modulus and its inverse."""
     return max(tau, 1 / tau)
 
 

@@ -116,7 +116,7 @@ def test_invariants_of_the_same_surface(change):
     holds()
 
 
-# Of triangles, as diagonals of quads are chosen by number where they are equal.
+# They have triangles, as diagonals of quads are chosen by number where they are equal.
 ONE_FORM = st.builds(closed, seeds, st.just("torus")) | st.builds(bounded, seeds, st.just("annulus"))
 TWO_FORMS = st.builds(families.block_with_holes, st.just(2), st.integers(1, 2), st.just(0.2), seeds).map(
     families.triangles_of

@@ -96,7 +96,7 @@ def test_uvs_are_the_same_on_both_sides_of_every_edge_that_is_no_seam(unfolded):
 
 
 def test_islands_stand_upright_and_apart():
-    """Of a box the four sides stand in one row: v runs up on them, as z does."""
+    """The four sides of a box stand in one row: v runs up on them, as z does."""
     surface = box()
     made = island_map(surface)
     upright = surface.vertices[surface.corner_vertices]

@@ -104,7 +104,7 @@ def test_a_cone_cut_to_its_apex_becomes_a_sector():
 
 
 def hemisphere_errors(n):
-    """Of the stereographic map, whose scale factor is 1 / (1 + z): that of e^u, and of angles."""
+    """Errors against the stereographic map, whose scale factor is 1 / (1 + z): that of e^u, and of angles."""
     surface = surface_of(families.hemisphere(n))
     structure = free(surface)
     error = np.abs(structure.scale_factors - 1 / (1 + surface.vertices[:, 2])).max()

@@ -17,7 +17,7 @@ EXACT = 1e-11  # rounding of UVs of integer periods, whose extent is below 100
 
 @cache
 def structure_of(name):
-    """Of a family, or of a real mesh in its own polygons."""
+    """The structure of a family, or of a real mesh in its own polygons."""
     if name in CLOSED:
         return solved(name)
     if not (SHARED / "meshes" / name).is_file():
@@ -148,7 +148,7 @@ def test_several_maps_at_once_are_those_one_by_one():
 
 @pytest.mark.parametrize("name", ["cube", "cylinder", "punctured torus", "two components"])
 def test_a_map_without_seams_stays_a_function_of_the_vertices(name):
-    """Of any topology: the positions, say."""
+    """On any topology: the positions, say."""
     mesh = {
         "cube": families.cube(),
         "cylinder": families.cylinder(24, 12),

@@ -136,7 +136,7 @@ def test_parts_in_pieces_have_the_density_of_a_rigid_one():
 
 
 def test_a_smaller_copy_weighs_less():
-    """Of two different maps, the one of a copy of a third of the size."""
+    """Two different maps, one of a copy of a third of the size."""
     first, other = capped(*SHAPES["barrel of 0.25"]), capped(*SHAPES["frustum up to 0.5"])
     small = Surface.from_polygons(first.vertices / 3, first.corner_vertices, first.face_offsets)
     maps = [automatic_map(one, main="untiled", evenness=0) for one in (first, other)]

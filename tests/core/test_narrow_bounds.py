@@ -99,7 +99,7 @@ def test_surfaces_without_periods():
 
 
 def test_uvs_remain():
-    """Of the surface's own triangles."""
+    """They are those of the surface's own triangles."""
     surface = surface_of(families.block_with_holes(2, refine=2))
     plain, narrowed = conformal_structure(surface), conformal_structure(surface, bounds=0.05)
     assert len(narrowed.refinement.levels) > 1

@@ -52,7 +52,7 @@ def test_turns_size_and_mirrors_do_not_matter(turn):
 
 
 def test_a_narrow_overlap_is_found():
-    """Of a hundredth of the height, which is many lines."""
+    """It is a hundredth of the height, which is many lines."""
     curve = np.concatenate([closed(finely(SQUARE)), closed(finely(np.add(SQUARE, 0.99j)))])
     assert MOST_ROWS >= 256 * 8 and overlapping_part(curve) == pytest.approx(0.01 / 1.99, rel=0.1)
 

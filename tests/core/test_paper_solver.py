@@ -169,7 +169,7 @@ def test_other_solvers_have_no_levels():
 
 
 def iterations_from_zero(structure, scaled):
-    """Of conjugate gradients for the same classes up to functions, in NumPy, down to a relative residual of 1e-10."""
+    """Iterations of conjugate gradients for the same classes up to functions, in NumPy, to a residual of 1e-10."""
     surface = structure.surface
     n, edges, weights = len(surface.vertices), structure.edges, edge_weights(structure)
     head, tail = edges[:, 1], edges[:, 0]
@@ -205,7 +205,7 @@ def gradient_steps(edges, weights, b, scaled):
 
 
 def potentials(structure):
-    """Of the forms along a spanning tree: what is left of a form without them is an integer class."""
+    """Potentials of the forms along a spanning tree: what is left of a form without them is an integer class."""
     n = len(structure.surface.vertices)
     edges = EdgeForms(structure.edges, n)
     order, parent = [0], np.full(n, -1)

@@ -30,7 +30,7 @@ results = {}
 
 @pytest.fixture
 def structures(name, tmp_path):
-    """Of all components with a boundary, disks left out."""
+    """Structures of all components with a boundary, disks left out."""
     if name not in results:
         parts = Surface.read(real_file(name, tmp_path)).components
         wanted = [part for part in parts if part.boundary_count and 2 * part.genus + part.boundary_count > 1]

@@ -20,7 +20,7 @@ def grid(n, m, place=lambda x, y: np.stack([x, y, 0 * x], axis=1), shape="quads"
 
 
 def corners_of(n, m):
-    """Of `grid`, in order with the surface on the left, from (0, 0) along x."""
+    """Corners of `grid`, in order with the surface on the left, from (0, 0) along x."""
     return [0, n * (m + 1), n * (m + 1) + m, m]
 
 

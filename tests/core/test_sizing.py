@@ -77,7 +77,7 @@ def test_a_limb_is_stretched_across_its_jumps_and_shows_no_seam(factor, turn):
 
 
 def blob(seed):
-    """Of few triangles: a ball with bumps."""
+    """A ball with bumps, of few triangles."""
     mesh = families.geodesic_sphere(5)
     waves = np.random.default_rng(seed).normal(size=(6, 3)) * 3
     bumps = 1 + 0.12 * np.sin(mesh.vertices @ waves.T).sum(axis=1)

@@ -9,13 +9,13 @@ import pytest
 from holomorph import SolverError, Surface, conformal_structure
 from test_degenerate import square_with
 
-ROUNDING = 1e-13  # of a flat surface's modulus, in any triangulation
+ROUNDING = 1e-13  # error of a flat surface's modulus, in any triangulation
 SOLVERS = [{"solver": "direct"}, {"solver": "multigrid"}, {"solver": "direct", "boundary": "double_cover"}]
 every_solver = pytest.mark.parametrize("options", SOLVERS, ids=lambda options: " ".join(options.values()))
 
 
 def layout(n, m, width, jitter=0.0, cut="random", seed=0, straight=False):
-    """Of a strip 1 long and `width` high as n x m quads, cut along diagonals of any direction: the vertices' grid
+    """A strip 1 long and `width` high of n x m quads, cut along diagonals of any direction: the vertices' grid
     indices (#T, 3, 2) and their positions in the plane. The vertices between the two sides are moved up and down, if
     not `straight`; those of each row along by `jitter` of a step."""
     noise = np.random.default_rng(seed).uniform(-0.4, 0.4, (2, n, m + 1))
@@ -125,7 +125,7 @@ def test_needles_in_a_square(length, angle):
     _, square = square_with(lambda a, _: a + length * np.array([np.cos(angle), np.sin(angle), 0]))
     lower, upper = square.modulus_bounds
     assert lower - ROUNDING <= 1 <= upper + ROUNDING
-    assert upper - lower < length  # of the order of the error of interpolation
+    assert upper - lower < length  # the order of the error of interpolation
 
 
 # ---- tori ----------------------------------------------------------------------------------------------------------

@@ -207,7 +207,7 @@ def test_quality_per_triangle(name):
 
 
 def quality_and_areas(name):
-    """Of some map, and the areas of the surface's triangles."""
+    """The quality of some map, and the areas of the surface's triangles."""
     structure = solved(name)
     uv = structure.uv(some_coefficients(structure))
     return structure.quality(uv), singular_values(structure.surface, uv)[1]

@@ -10,7 +10,7 @@ from programs import run
 
 # Part of a unit: with it positions are the same in single and in double precision, and in text.
 GRAIN = 1024.0
-# Of the texture coordinates of OpenMesh's default traits and of its writers, relative to the largest.
+# Rounding of the texture coordinates of OpenMesh's default traits and of its writers, relative to the largest.
 SINGLE_PRECISION = 2.0**-23
 
 
@@ -57,7 +57,7 @@ def read_uv(path):
 
 
 def sides(surface):
-    """Of each corner: the vertex and the corner that follow in its polygon."""
+    """For each corner, the vertex and the corner that follow in its polygon."""
     following = np.arange(1, len(surface.corner_vertices) + 1)
     following[surface.face_offsets[1:] - 1] = surface.face_offsets[:-1]
     return surface.corner_vertices[following], following

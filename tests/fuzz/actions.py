@@ -15,7 +15,7 @@ from holomorph import (
 
 
 def first_map(structure, _):
-    """Of the first form alone, which costs no search."""
+    """Takes the first form alone, which costs no search."""
     kind = getattr(structure, "coefficient_type", np.float64)
     count = structure.holomorphic_forms.shape[0]
     return oracle.check_map(structure, np.eye(1, count, dtype=kind)[0] if count else ())
@@ -145,7 +145,7 @@ def chosen(random, count):
 
 
 def tiling_options(random, count):
-    """Of `tiling`, on a mesh of `count` vertices; a few of them wrong."""
+    """Options of `tiling`, on a mesh of `count` vertices; a few of them wrong."""
     drawn = {
         "poles": (0, 1, 2, 3, [random.randrange(count) for _ in range(3)], "auto", "many", None),
         "boundary": ("free", "straight", "automatic", "round"),

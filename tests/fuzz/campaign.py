@@ -23,8 +23,8 @@ TOLD = 20  # lines of what a dying worker said
 
 @dataclass
 class Tally:
-    """Of one target: the next number, the inputs tried, their answers, the numbers of those that broke something, by
-    the signature of what broke."""
+    """What is known of one target: the next number, the inputs tried, their answers, the numbers of those that broke
+    something, by the signature of what broke."""
 
     next: int
     tried: int = 0

@@ -85,7 +85,7 @@ def _operator(name):
 
 
 def _options(name, random):
-    """Of some of an operator's properties, whatever their kind."""
+    """Values of some of an operator's properties, whatever their kind."""
     properties = _operator(name).get_rna_type().properties
     return {p.identifier: _value(p, random) for p in properties if not p.is_readonly and random.random() < 0.15}
 

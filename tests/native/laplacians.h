@@ -30,7 +30,7 @@ double relative_residual(const Laplacian& L, const Eigen::MatrixXd& X, const Eig
 /// By an eigendecomposition, 0 at the fixed vertices; of mean 0 where there are none.
 struct DenseSolution {
   Eigen::MatrixXd X;
-  double least_eigenvalue;  ///< of what was inverted: |X - Y| <= |B - L Y| / least_eigenvalue
+  double least_eigenvalue;  ///< least eigenvalue of what was inverted: |X - Y| <= |B - L Y| / least_eigenvalue
 };
 DenseSolution dense_solution(const Laplacian& L, const Eigen::MatrixXd& B, const std::vector<int>& fixed = {});
 

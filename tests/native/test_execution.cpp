@@ -45,7 +45,7 @@ TEST_F(ExecutionTest, ReportsAreOfTheStageAndThePart) {
   pause();
   execution_.report(0.5);
   EXPECT_EQ(reports_.back().first, 0.625);
-  execution_.stage("next", 0.75, 1.0);  // of which the part no longer is
+  execution_.stage("next", 0.75, 1.0);  // the part belongs to it no longer
   pause();
   execution_.report(0.5);
   EXPECT_EQ(reports_.back(), Report(0.875, "next"));

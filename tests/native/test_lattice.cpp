@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 __extension__ using Wide = __int128;
 
 constexpr double kDelta = 0.99;
-// Of the certificates computed from the basis by Eigen's QR factorisation, relative to the diagonal of R.
+// Slack of the certificates computed from the basis by Eigen's QR factorisation, relative to the diagonal of R.
 constexpr double kSlack = 1e-9;
 constexpr double kRounding = 1e-13;
 

@@ -148,7 +148,7 @@ TEST_F(BalancedMaps, OfATubeIsARectangle) {
 
 TEST_F(BalancedMaps, OfASphereHasPunctures) {
   DoublePolygons mesh;
-  const int n = 5;  // of a cube's surface, cut into n x n squares a side
+  const int n = 5;  // a cube's surface, cut into n x n squares a side
   std::map<std::array<int, 3>, OpenMesh::VertexHandle> at;
   const auto vertex = [&](std::array<int, 3> p) {
     const auto [place, is_new] = at.try_emplace(p);

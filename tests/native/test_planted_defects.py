@@ -12,7 +12,7 @@ import holomorph._native
 import pytest
 
 LIBRARY = os.environ.get("HOLOMORPH_PLANTED_DEFECTS")
-# Of each sanitizer's run-time library: what it is to find, and what instrumented code calls.
+# For each sanitizer's run-time library: what it is to find, and what instrumented code calls.
 DEFECTS = {
     "asan": ["heap_overflow(10): heap-buffer-overflow", "signed_overflow(2**31 - 1): signed integer overflow"],
     "tsan": ["data_race(): data race"],

@@ -15,7 +15,7 @@ int openblas_get_num_threads(void);
 namespace holomorph::solver {
 namespace {
 
-// Of rounding alone, for matrices of a condition number up to some hundred.
+// Error of rounding alone, for matrices of a condition number up to some hundred.
 constexpr double kRounding = 1e-12;
 
 using Matrix = Eigen::SparseMatrix<double>;

@@ -10,7 +10,7 @@
 namespace holomorph::solver {
 namespace {
 
-// Of sums in single precision, relative to the energies of both: the preconditioner is symmetric up to this.
+// Error of sums in single precision, relative to the energies of both: the preconditioner is symmetric up to this.
 constexpr double kSinglePrecision = 1e-5;
 
 // One cycle for K right-hand sides, as a matrix.
@@ -123,7 +123,7 @@ TEST_P(MultigridSolverOf, AgreesWithTheDirectOne) {
   const Laplacian L = grid_laplacian(90, 77, Shape::sheet);
   std::vector<int> fixed;
   for (int v = 5; v < L.size(); v += 29) fixed.push_back(v);
-  const Eigen::MatrixXd B = centred(random_values(L.size(), 11, 13));  // of every width
+  const Eigen::MatrixXd B = centred(random_values(L.size(), 11, 13));  // columns of every width
   std::vector<Condition> conditions(11, Condition::natural);
   for (const int column : {1, 2, 8}) conditions[column] = Condition::dirichlet;
   Execution execution(GetParam());

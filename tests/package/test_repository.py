@@ -37,7 +37,7 @@ def repositories(dist, bpy_python, tmp_path):
 
 @pytest.fixture
 def address(repositories):
-    """Of the index of the first folder."""
+    """The address of the index of the first folder."""
     handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=repositories[0])
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()

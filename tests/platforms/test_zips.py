@@ -19,7 +19,7 @@ TAGS = {
     "linux-x64": "manylinux_2_28_x86_64",
     "linux-arm64": "manylinux_2_28_aarch64",
 }
-OLDEST_GLIBC = (2, 28)  # of Blender itself
+OLDEST_GLIBC = (2, 28)  # what Blender itself needs
 GLIBC = {"libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "librt.so.1"}
 GLIBC |= {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
 PROCESSORS = {"linux-x64": "Advanced Micro Devices X86-64", "linux-arm64": "AArch64"}

@@ -122,7 +122,7 @@ def a_stroke_before_the_button():
 
 
 def local_view():
-    """Of one of two selected objects."""
+    """Shows one of two selected objects in local view."""
     pick("Small")
     with inside(area("VIEW_3D")):
         bpy.ops.view3d.localview()

@@ -17,7 +17,7 @@ from screen import area, enter, inside, picture, pixels, region
 
 seen = {}
 TOP = (0.0, 1.0, 0.4)  # a point of the torus in the middle between its vertices
-CORNER = (0.02, 0.8)  # of the view, in its width and height: nothing is there
+CORNER = (0.02, 0.8)  # in the width and height of the view: nothing is there
 
 
 def addon(name):

@@ -21,7 +21,7 @@ def count_draws(panel, kind):
 
 
 def open_sidebar(seen):
-    """Of the 3D view, with our tab."""
+    """Opens the sidebar of the 3D view at our tab."""
     area("VIEW_3D").spaces.active.show_region_ui = True
     count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
     yield 1

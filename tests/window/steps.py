@@ -220,7 +220,7 @@ def level_names():
 
 
 def levels_of_detail():
-    """Of the big mesh, with the worker thread: once cancelled, once to the end, undone in one step."""
+    """Makes levels of the big mesh with the worker thread: once cancelled, once to the end, undone in one step."""
     view = area("VIEW_3D")
     pick("Big")
     with inside(view):

@@ -27,7 +27,7 @@ def test_what_is_no_mesh_is_left_alone(seen):
 
 
 def test_a_mesh_too_coarse_for_a_tiling_gets_another_map(seen):
-    """Of eight vertices: its net."""
+    """The cube of eight vertices gets its net."""
     assert seen["cube tiled"]["level"] == "good" and "cube tiled: told" not in seen
 
 

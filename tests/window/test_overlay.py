@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-NEAR = 10 / 255  # of a colour on the screen
+NEAR = 10 / 255  # difference of a colour on the screen
 PICTURES = ["heat_nothing.png", "heat_density.png", "heat_angle.png", "heat_stretched.png", "with_poles.png"]
 
 

@@ -36,7 +36,7 @@ def test_escape_takes_everything_back(seen):
 
 def test_enter_keeps_the_pole_where_it_was_put(seen):
     assert not seen["map as before after RET"] and seen["pole is where it was put"]
-    assert seen["added distortion after dragging"] < 1.2  # of two poles one alone can make up for the other
+    assert seen["added distortion after dragging"] < 1.2  # one of two poles alone can make up for the other
 
 
 def test_it_is_one_undo_step(seen):

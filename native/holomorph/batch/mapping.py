@@ -35,7 +35,7 @@ def map_parts(surface, recipe, cut_edges=None, threads=None):
     for part in parts:
         try:
             _solve(part, recipe.maps, cut_edges, threads)
-        except MemoryError:  # of the asset, not of this part
+        except MemoryError:  # the whole asset failed, not this part
             raise
         except Error as error:
             part.reason = str(error)
@@ -61,7 +61,7 @@ def form_uvs(surface, parts, maps):
 
 
 def _corner_count(surface):
-    """Of the file, up to the last corner of the surface; `corner_index` of parts counts these."""
+    """Corners of the file, up to the last one of the surface; `corner_index` of parts counts these."""
     return int(surface.corner_index.max()) + 1
 
 

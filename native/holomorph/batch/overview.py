@@ -21,7 +21,7 @@ ASSET_COLUMNS = ("name", "status", "message", "seconds", "part")
 
 
 class Overview:
-    """Of the results of tasks; those that are not done yet are left out."""
+    """An overview of the results of tasks; those that are not done yet are left out."""
 
     def __init__(self, journal, tasks):
         self._journal = journal

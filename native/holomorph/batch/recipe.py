@@ -77,7 +77,7 @@ class Maps:
     poles: tuple = _vertices("a list of vertices")
     residues: tuple = _option((), "a list of numbers or of pairs [real, imaginary]", lambda v: _is_list(v, _is_complex))
     rectangle_corners: tuple = _vertices("a list of four vertices", lambda size: size == 4)
-    cut_at_seams: bool = _flag(False)  # of .blend files
+    cut_at_seams: bool = _flag(False)  # along seams of .blend files
     shape: bool = _flag(False)  # the maps to the sphere and the disk
     density: float = _number(1.0, "a positive number", lambda value: value > 0)
     margin: float = _number(0.02, "a number from 0 to 1", lambda value: 0 <= value < 1)

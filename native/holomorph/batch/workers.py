@@ -16,13 +16,13 @@ from multiprocessing import Pipe
 from .journal import publish
 from .status import CRASHED, MEMORY, TIME
 
-MEMORY_SHARE = 0.8  # of a machine's, for all its workers together
+MEMORY_SHARE = 0.8  # part of a machine's memory, for all its workers together
 ATTEMPTS = 2  # at an asset whose process ends: it may have been ended from outside
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Of each asset: bytes of memory, seconds; and the threads that its process uses."""
+    """Limits for each asset: bytes of memory, seconds, and the threads that its process uses."""
 
     memory: int
     seconds: float

@@ -41,7 +41,7 @@ py::array form_slopes(const mesh::Surface& surface, const forms::RowMajorMatrix&
   return read_only(std::move(result));
 }
 
-// Of (#V,) triangles and (#V, 3) barycentric coordinates, and (#C', 2) UVs: (#C, 2).
+// Takes (#V,) triangles, (#V, 3) barycentric coordinates and (#C', 2) UVs, and returns (#C, 2).
 py::array carried_uv(const mesh::Surface& from, const Contiguous<int>& triangles, const Contiguous<double>& barycentric,
                      const mesh::Surface& to, const Contiguous<double>& uv, const py::object& progress) {
   const moduli::VertexImages images{values(triangles), rows<double, 3>(barycentric)};

@@ -63,7 +63,7 @@ Pointer paper(const SurfacePointer& surface, const Thresholds& thresholds, int t
   });
 }
 
-// Of a level of a progressive mesh, in the classes of its base; `surface` is the surface of that level.
+// The structure of a level of a progressive mesh, in the classes of its base; `surface` is the surface of that level.
 Pointer conformal_of_level(const progressive::ProgressiveMesh& mesh, int splits, const SurfacePointer& surface,
                            const std::string& solver, int threads, std::int64_t memory_limit,
                            const py::object& progress) {

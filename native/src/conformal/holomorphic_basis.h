@@ -22,15 +22,16 @@ struct HolomorphicBasis {
   PeriodBounds bounds;             ///< guaranteed bounds of Omega of the polyhedral surface
 };
 
-/// Of a closed surface: theta_j has the period 1 over a_j and 0 over the other a, n = g.
+/// The basis of a closed surface, n = g: theta_j has the period 1 over a_j and 0 over the other a.
 /// @param G 2g x 2g, of the harmonic basis dual to zeta. @param W its wedge matrix
 /// @param certain a matrix that is not below that of the surface, for the bounds: G, or G and its rounding
 HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const Eigen::MatrixXd& certain,
                               const topology::IntegerMatrix& W, const topology::CanonicalBasis& canonical);
 
-/// Of a surface with boundary, n = 2g + b - 1, the genus of the double. theta_i = h^N_i + i sum_j C#_ij h^D_j: real
-/// combinations of these are holomorphic forms whose imaginary part vanishes along the boundary, so that each loop
-/// becomes a straight line. Omega is that of the double, (i/2) Cap# on planar surfaces.
+/// The basis of a surface with boundary, n = 2g + b - 1, the genus of the double.
+/// theta_i = h^N_i + i sum_j C#_ij h^D_j. Real combinations of these are holomorphic forms whose imaginary part
+/// vanishes along the boundary, so that each loop becomes a straight line. Omega is that of the double, (i/2) Cap# on
+/// planar surfaces.
 /// @param gram n x n each, G_N and G_D of the natural and the Dirichlet forms: first those of the 2g handle classes,
 /// the same in both families, then those of the b - 1 loops
 /// @param certain as in closed_basis

@@ -91,7 +91,7 @@ class StrainEnergy {
   void find_stars(int vertex_count);
   // #V: the corners of triangles that delta flips, and so many rings around them.
   std::vector<char> near_flipped(const Function& delta, int rings) const;
-  // Of the map with the function added.
+  // Derivatives of the map with the function added.
   static Derivatives derivatives(const Triangle& triangle, const Function& function);
   // By which the squared gradient of a change is multiplied.
   double stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const;

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostSteps = 10;
 // A step that leaves more than this part of the error was the last.
 constexpr double kLeastGain = 0.5;
-// Of the set-up, for the progress function.
+// The part of the set-up that is assembly, for the progress function.
 constexpr double kAssembly = 0.2;
 
 bool has_large(std::span<const double> weights, Workers& workers) {

@@ -52,7 +52,8 @@ Eigen::MatrixXd right_hand_sides(const HalfEdges& half_edges, const PoleForms& p
   return B;
 }
 
-// Of what the right-hand sides are fluxes, m columns of u, then of v, each with the coefficients `of_u`, `of_v`.
+// The fluxes that the right-hand sides are made of, m columns of u, then of v, each with the coefficients `of_u`,
+// `of_v`.
 FluxTerms pole_terms(const HalfEdges& half_edges, const PoleForms& poles, const Eigen::MatrixXd& of_u,
                      const Eigen::MatrixXd& of_v) {
   const Eigen::MatrixXd r_u = poles.residues * of_u, r_v = poles.residues * of_v;

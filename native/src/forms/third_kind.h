@@ -44,8 +44,9 @@ struct PoleFunctions {
 PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const double> weights, const PoleForms& poles,
                              RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution);
 
-/// Of sum_j p_j h_j + sum_i r_i (u_i + i v_i) on a closed surface, the one form with these periods and residues alone:
-/// real and imaginary part of its function, #V x 2. The form is the differential of it + the same sum of the classes.
+/// The function of sum_j p_j h_j + sum_i r_i (u_i + i v_i), the one form on a closed surface with these periods and
+/// residues alone: real and imaginary part of its function, #V x 2. The form is the differential of it + the same sum
+/// of the classes.
 /// @param natural classes of the h_j, on the triangulation that `solver` solves on
 /// @param p #natural, r #poles
 /// Cost: 2 solves. @throws SolverError, Cancelled

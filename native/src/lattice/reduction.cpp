@@ -120,7 +120,7 @@ class Reduction {
     }
   }
 
-  // Of the coefficients of column k: its own rounding, and the drift of the columns that are subtracted.
+  // Error of the coefficients of column k: its own rounding, and the drift of the columns that are subtracted.
   double noise(Index k) const {
     const double longest = k == 0 ? 0 : R_.diagonal().head(k).maxCoeff();
     return Q_.rows() * kRounding * columns_.high.col(k).norm() + expected_drift_ * longest;
@@ -157,7 +157,7 @@ class Reduction {
     ++known_;
   }
 
-  // Of columns k - 1 and k. The rotation is followed by a reflection: the diagonal stays positive.
+  // Exchanges columns k - 1 and k. The rotation is followed by a reflection: the diagonal stays positive.
   void exchange(Index k) {
     columns_.swap(k - 1, k);
     transform_.col(k - 1).swap(transform_.col(k));

@@ -12,15 +12,15 @@ namespace holomorph::mesh {
 namespace {
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // the unit of rounding
-// Of a length from positions: 1 of each difference, 3 of its square, 5 of their sum, half that and 1 of the root. Of a
-// given length: the caller's.
+// Error of a length from positions: 1 of each difference, 3 of its square, 5 of their sum, half that and 1 of the root;
+// error of a given length: the caller's.
 constexpr double kOfDistance = 3.5 * kUnit, kOfGivenLength = 2.5 * kUnit;
-// Of a weight cot / 2, in parts of the largest cotangent of the triangle, which is that of |b^2 - a^2| + c^2 over 4 A:
-// 4 of the numerator, 5.5 of the area (Kahan's order), 1 of the quotient; half that, and half of one of the sum.
+// Error of a weight cot / 2, in parts of the largest cotangent of the triangle, which is that of |b^2 - a^2| + c^2 over
+// 4 A: 4 of the numerator, 5.5 of the area (Kahan's order), 1 of the quotient; half that, and half of one of the sum.
 constexpr double kOfWeight = 6 * kUnit;
-// Of the weight of a thin triangle, which is rounded once, and of its errors below; what twice the precision leaves.
+// Error of the weight of a thin triangle, which is rounded once with its errors below; what twice the precision leaves.
 constexpr double kOfSharpWeight = 4 * kUnit, kOfCotangent = 1e-28;
-// Of the sum of the errors themselves, which may cancel opposite obtuse angles.
+// Error of the sum of the errors themselves, which may cancel opposite obtuse angles.
 constexpr double kOfErrors = 1e-12;
 // Areas of flipped faces, from rounded lengths.
 constexpr double kOfArea = 1e-2;
@@ -58,7 +58,7 @@ DoubleDouble sharp_cotangent(const Metric& t, HalfedgeHandle h) {
   return above / sqrt(area);
 }
 
-// Of a map by x, followed by one by y.
+// Relative error of a map with the error x, followed by one with y.
 double both(double x, double y) { return std::min(1.0, x + y + x * y); }
 
 // What a side of an edge adds to its error.

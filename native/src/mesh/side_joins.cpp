@@ -185,10 +185,10 @@ class Joiner {
   const Polygons& mesh_;
   const std::vector<int>& label_;
   const std::vector<int> next_, face_of_;
-  JoinedSets fans_;                                     // of corners
+  JoinedSets fans_;                                     // sets of corners
   std::vector<char> reversed_;                          // #F
   std::vector<int> edge_of_;                            // #C index into `many`, -1 elsewhere
-  std::unordered_map<int, std::vector<int>> sides_at_;  // of `many`, by the fan at one of their ends
+  std::unordered_map<int, std::vector<int>> sides_at_;  // sides of `many`, by the fan at one of their ends
   SideJoins result_;
 };
 

@@ -20,7 +20,7 @@ struct SurfacePoint {
 /// The corners of a triangle in that plane.
 std::array<std::complex<double>, 3> corners(const Surface& surface, int triangle);
 
-/// Of the point in its triangle, not below 0.
+/// Barycentric coordinates of the point in its triangle, not below 0.
 Eigen::Vector3d barycentric(const Surface& surface, const SurfacePoint& point);
 
 /// Steps dz, each in the frame of its triangle.

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr int kSteps = 12;        // walks for one vertex, at most
 constexpr double kGain = 0.99;    // a walk that leaves more of the residual is the last
 constexpr double kStuck = 1.5;    // times a neighbour's residual: the walk of this vertex ended too early
-constexpr double kFine = 1e-6;    // of a residual, in units of a loop's integral: no walk that ended there is stuck
+constexpr double kFine = 1e-6;    // least residual, in units of a loop's integral, of a walk that is stuck
 constexpr double kFreeing = 0.1;  // part of the work that freeing is, about
 
 // Calls visit(h) with each half-edge that leaves the vertex, those of the boundary included.

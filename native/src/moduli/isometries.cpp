@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using lattice::IntegerVector;
 
-// Of energies, relative: what small dense products may lose, and the bounds need not exclude.
+// Relative error of energies that small dense products may add, and the bounds need not exclude.
 constexpr double kRounding = 1e-9;
 // What a reduction costs, in nodes of a search for near points, times the square of the rank.
 constexpr std::int64_t kReduction = 10;
@@ -87,7 +87,7 @@ class Search {
     return products == options_.sign * b_.lattice.pairing.col(k).head(k);
   }
 
-  // Of the first k rows: the bounds overlap.
+  // Whether the bounds of the first k rows overlap.
   bool is_possible(Index k) const {
     const MatrixXd rows = rows_.topRows(k).cast<double>();
     const auto above = [k](const MatrixXd& greater, const MatrixXd& less) {
@@ -113,7 +113,7 @@ class Search {
   SearchOptions options_;
   std::int64_t steps_left_;
   Execution& execution_;
-  MatrixXd upper_, lower_, middle_, root_;  // of a, with the slack
+  MatrixXd upper_, lower_, middle_, root_;  // matrices of a, with the slack
   double spread_ = 0;                       // half-width of the bounds of a, relative to the lower one
   IntegerMatrix rows_;
   Isometries result_;

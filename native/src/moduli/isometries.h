@@ -25,14 +25,14 @@ struct Isometries {
   bool is_complete = true;  ///< false where the limit of steps ended the search
 };
 
-/// Of one search: some seconds.
+/// Limit of one search: some seconds.
 inline constexpr std::int64_t kMostSteps = 20'000'000;
 
 /// What is searched for, and how long.
 struct SearchOptions {
   int sign = 1;                     ///< 1 keeps the orientation, -1 reverses it
   double slack = 0;                 ///< all R with excess <= slack; besides 1e-9 for rounding
-  std::int64_t steps = kMostSteps;  ///< of the search, at most
+  std::int64_t steps = kMostSteps;  ///< most steps of the search
 };
 
 /// All R whose excess is at most `slack`. Row by row, in a reduced basis of b from short to long: the candidates are

@@ -20,10 +20,11 @@ struct PeriodLattice {
   IntegerMatrix pairing;         ///< n x n
 };
 
-/// Of a closed surface. @param G not below the exact Gram matrix of classes with the wedge matrix W @throws SolverError
+/// The lattice of a closed surface. @param G not below the exact Gram matrix of classes with the wedge matrix W @throws
+/// SolverError
 PeriodLattice closed_lattice(const Eigen::MatrixXd& G, const topology::IntegerMatrix& W);
 
-/// Of a surface with boundary. @param G_N,G_D likewise of the natural and the Dirichlet forms
+/// The lattice of a surface with boundary. @param G_N,G_D likewise of the natural and the Dirichlet forms
 /// @param W n x n, W_ij = int h^N_i ^ h^D_j: [[J_h, 0], [X, 1]]. @throws SolverError
 PeriodLattice bounded_lattice(const Eigen::MatrixXd& G_N, const Eigen::MatrixXd& G_D, const topology::IntegerMatrix& W,
                               int genus);

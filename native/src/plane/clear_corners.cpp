@@ -28,7 +28,7 @@ constexpr std::array<double, 5> kParts = {1.0 / 256, 1.0 / 128, 1.0 / 64, 1.0 / 
 // The boundary, the surface on its left, from the lowest vertex.
 struct Border {
   std::vector<int> vertices;
-  std::vector<double> lengths;  // of the edge that leaves each vertex
+  std::vector<double> lengths;  // lengths of the edges that leave each vertex
 };
 
 Border border_of(const mesh::Surface& surface, Execution& execution) {

@@ -7,7 +7,7 @@
 
 namespace holomorph::plane {
 
-/// Of all conformal maps to the plane the one that keeps lengths along the boundary: its scale factors e^u, u = 0 on
+/// The conformal map to the plane that keeps lengths along the boundary: its scale factors e^u, u = 0 on
 /// the boundary, are those with the least Dirichlet energy of u, up to a constant. A surface that is flat already is
 /// mapped by a rigid motion.
 ///

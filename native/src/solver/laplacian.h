@@ -13,7 +13,7 @@ namespace holomorph::solver {
 struct Laplacian {
   Array<int> starts;      ///< #V + 1, where each row begins, and the end of the last
   Array<int> columns;     ///< ascending in each row, the diagonal among them
-  Array<double> weights;  ///< of the same entries
+  Array<double> weights;  ///< weights of the same entries
 
   int size() const { return starts.empty() ? 0 : static_cast<int>(starts.size()) - 1; }
 

@@ -23,7 +23,7 @@ uv::UvArray uv_map(const Structure& structure, UvForms& forms, const Eigen::Vect
 
 struct BalancedMap {
   Structure structure;
-  Eigen::VectorXcd coefficients;  ///< of its differentials
+  Eigen::VectorXcd coefficients;  ///< coefficients of its differentials
   uv::UvArray uv;                 ///< #C x 2
 };
 

@@ -8,7 +8,7 @@
 namespace holomorph::structure {
 
 struct Invariants {
-  CertainGram energies;                     ///< of the natural and, with boundary, of the Dirichlet forms
+  CertainGram energies;                     ///< energies of the natural and, with boundary, the Dirichlet forms
   conformal::HolomorphicBasis holomorphic;  ///< star, holomorphic basis and period matrix (Eq. 13) with its bounds
 };
 

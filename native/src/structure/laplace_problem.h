@@ -14,10 +14,10 @@
 namespace holomorph::structure {
 
 struct LaplaceProblem {
-  std::vector<std::array<int, 2>> ends;  ///< of the edges of the intrinsic Delaunay triangulation
-  Array<double> weights;                 ///< of these edges: (L x)_i = sum_j w_ij (x_i - x_j)
+  std::vector<std::array<int, 2>> ends;  ///< ends of the edges of the intrinsic Delaunay triangulation
+  Array<double> weights;                 ///< weights of these edges: (L x)_i = sum_j w_ij (x_i - x_j)
   std::unique_ptr<solver::LaplaceSolver> solver;
-  int threads = 0;  ///< of the execution that made it
+  int threads = 0;  ///< threads of the execution that made it
 };
 
 /// @param fixed vertices, at 0 for right-hand sides with the condition dirichlet

@@ -14,7 +14,7 @@ namespace holomorph::structure {
 /// The harmonic forms eta_j + d f_j of a surface, measured.
 struct HarmonicForms {
   std::shared_ptr<const forms::RowMajorMatrix> functions;  ///< #V x #forms; null if streamed
-  uv::FormSamples samples;                                 ///< of streamed forms, for the balance
+  uv::FormSamples samples;                                 ///< samples of streamed forms, for the balance
   Invariants invariants;
   Certificate certificate;
 };

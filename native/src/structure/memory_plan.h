@@ -24,8 +24,8 @@ struct MemoryPlan {
   /// Estimate of the most memory in use at once, beside the surface itself: at least that, and up to 2.5 times, of
   /// small surfaces 30 MB more.
   std::int64_t bytes = 0;
-  solver::Choice choice;      ///< of the solver: one that fits
-  solver::Choice map_choice;  ///< of the solver for a single map of forms that are not kept
+  solver::Choice choice;      ///< a solver that fits
+  solver::Choice map_choice;  ///< a solver for a single map of forms that are not kept
 };
 
 /// Whether a computation can do with a few forms at a time.

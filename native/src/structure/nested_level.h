@@ -21,11 +21,12 @@ using SideClasses = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 SideClasses side_classes(const Structure& structure);
 
 struct NestedLevel {
-  std::vector<mesh::Triple> triangles, triangle_edges;  ///< of the Delaunay triangulation; side i from corner i
-  std::vector<double> lengths;                          ///< #E
-  std::vector<double> errors;                           ///< #T mesh::FaceError::largest
-  SideClasses classes;                                  ///< on it
-  forms::RowMajorMatrix functions;                      ///< #V x m
+  std::vector<mesh::Triple> triangles,
+      triangle_edges;               ///< triangles of the Delaunay triangulation; side i from corner i
+  std::vector<double> lengths;      ///< #E
+  std::vector<double> errors;       ///< #T mesh::FaceError::largest
+  SideClasses classes;              ///< on it
+  forms::RowMajorMatrix functions;  ///< #V x m
   CertainGram energies;
   double mollification = 0;  ///< other than 0: bounds are of another surface
 };

@@ -18,9 +18,10 @@ struct LevelReport {
 
 struct SolverReport {
   std::string name, reason;
-  int iterations = 0;   ///< of multigrid, or the paper's on the surface; steps of refinement of the direct solver
+  int iterations = 0;  ///< iterations of multigrid, or of the paper's solver on the surface; steps of refinement of the
+                       ///< direct solver
   double residual = 0;  ///< largest relative residual of the linear systems; of refined forms the error in energy
-  std::vector<LevelReport> levels = {};  ///< of the paper's solver, the base mesh first
+  std::vector<LevelReport> levels = {};  ///< levels of the paper's solver, the base mesh first
 };
 
 /// What a solver reports after its last solve.

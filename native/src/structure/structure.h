@@ -27,7 +27,7 @@ struct SolveRecord {
   SolverReport solver;
   MemoryPlan memory;
   double mollification = 0;  ///< added to some lengths; with 0 energies are of the surface's metric
-  int flip_count = 0;        ///< of the intrinsic Delaunay triangulation
+  int flip_count = 0;        ///< flips to the intrinsic Delaunay triangulation
   std::vector<std::pair<std::string, double>> seconds;  ///< per stage
 };
 

@@ -30,9 +30,9 @@ struct Topology {
   std::vector<std::vector<mesh::HalfedgeHandle>> homology_basis;  ///< 2g loops zeta_i, then boundary loops 1 .. b-1
   topology::IntegerMatrix pairing;     ///< W_ij = int h_i ^ h^D_j, |det| 1; closed: the wedge matrix; with boundary
                                        ///< [[J_h, 0], [X, 1]]
-  topology::CanonicalBasis canonical;  ///< of a closed surface with handles
+  topology::CanonicalBasis canonical;  ///< only on a closed surface with handles
   Families families;
-  topology::IntegerForms classes;  ///< of the whole basis, on the edges of the surface
+  topology::IntegerForms classes;  ///< classes of the whole basis, on the edges of the surface
   std::vector<int> seams;          ///< edges of the cut graph, and of the spokes of poles
   uv::CornerSheets sheets;         ///< integer potentials of the classes
 };

@@ -25,7 +25,7 @@ constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSte
 // From this many forms on, the numbers of starts and of steps fall in inverse proportion, as the cost of each grows
 // faster.
 constexpr int kManyForms = 64, kFewestSteps = 20;
-constexpr double kUsualValues = 1000;  // of the objective, in all descents
+constexpr double kUsualValues = 1000;  // evaluations of the objective in all descents
 // Against the logarithm of the 95 % over 5 % quantile: the mean of s1 / s2, cut off, and a price of flipped triangles.
 constexpr double kMostSheared = 20, kFlipped = 20;
 constexpr double kSame = 1e-3;  // relative difference of the ends of two descents that are one

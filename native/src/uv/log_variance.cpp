@@ -65,7 +65,7 @@ MatrixXd on_unknowns(const MatrixXcd& parts, Coefficients kind) {
   return result;
 }
 
-// Of numbers whose real parts are above their imaginary ones.
+// |z|^2 of numbers whose real parts are above their imaginary ones.
 Eigen::ArrayXd squares(const VectorXd& z) {
   const Eigen::Index rows = z.size() / 2;
   return z.head(rows).array().square() + z.tail(rows).array().square();

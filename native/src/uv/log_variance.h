@@ -28,7 +28,7 @@ struct SampledParts {
   Eigen::MatrixXcd N;  ///< the same, or without rows where B is known to be 0
 };
 
-/// Of combinations of harmonic forms. @param basis #forms x #coefficients
+/// The parts of combinations of harmonic forms. @param basis #forms x #coefficients
 SampledParts sampled_parts(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis);
 
 /// A of the holomorphic du + i dv from v alone, one column for each column of v. @param v #V x m

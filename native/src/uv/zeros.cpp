@@ -40,7 +40,7 @@ std::vector<int> stars(const mesh::Surface& surface, const std::vector<int>& pol
 }
 
 struct Image {
-  std::vector<double> angle;                 // of each vertex, the sum of its signed angles outside of the poles' stars
+  std::vector<double> angle;                 // sum of the signed angles at each vertex, outside of the poles' stars
   std::vector<std::pair<int, int>> flipped;  // triangles there whose angles are not pi together, by how many turns
 };
 
@@ -84,11 +84,11 @@ Image image(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, c
   return result;
 }
 
-// Of the stars of poles, whose triangles have no common image: the image of a link turns once more for each zero
-// inside. All of them count for its vertex with the largest angle.
+// Counts zeros in the stars of poles, whose triangles have no common image: the image of a link turns once more for
+// each zero inside. All of them count for its vertex with the largest angle.
 void count_in_stars(const std::vector<int>& star, const std::vector<char>& is_pole, const std::vector<double>& angle,
                     std::vector<int>& index) {
-  std::map<int, std::pair<double, int>> found;  // of a star: the turn of its link, and that vertex
+  std::map<int, std::pair<double, int>> found;  // for each star, the turn of its link, and that vertex
   for (int v = 0; v < static_cast<int>(star.size()); ++v) {
     if (star[v] == kNone) continue;
     index[v] = 0;

@@ -57,7 +57,7 @@ class BlockSolve {
   Cycle<K> cycle_;
   Array<Sums<K>> x_;         // the solution, #V
   Blocks<K> p_, q_;          // p, A p, #V
-  Block<K> natural_;         // of jacobi_step()
+  Block<K> natural_;         // memory of jacobi_step()
   Sums<K> norm_b_, norm_r_;  // |B|, |B - L X|
   Sums<K> scale_;            // by which the residual is divided for single precision
   int iterations_ = 0;

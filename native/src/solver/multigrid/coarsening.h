@@ -19,7 +19,7 @@ struct Operator {
 
 struct Coarsening {
   Array<int> number;  ///< n: number of a C-point on the coarse level, in the same order; -1 for an F-point
-  int count = 0;      ///< of C-points
+  int count = 0;      ///< number of C-points
 };
 
 /// Classical coarsening (Ruge & Stuben 1987, doi:10.1137/1.9781611971057.ch4) by a maximal independent set: in the

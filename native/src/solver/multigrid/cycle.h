@@ -64,7 +64,7 @@ class Cycle {
   const Hierarchy& hierarchy_;
   Workers& workers_;
   Block<K> natural_ = Block<K>::Ones();
-  std::vector<Workspace> work_;  // of every level
+  std::vector<Workspace> work_;  // one for each level
   std::size_t twice_ = 0;        // the level that is corrected twice, or the coarsest one
   Blocks<K> first_;              // correction of that level
 };

@@ -44,7 +44,7 @@ class Largest {
 struct alignas(32) CNeighbours {
   std::array<int, kCNeighbours> vertex;
   std::array<float, kCNeighbours> weight;
-  float total;  // of the weights
+  float total;  // sum of the weights
   float is_F;   // 1 for an F-point, 0 for a C-point
 };
 

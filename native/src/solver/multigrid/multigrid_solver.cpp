@@ -48,7 +48,7 @@ class MultigridSolver final : public LaplaceSolver {
   std::string remark() const override { return remark_; }
 
  private:
-  static constexpr double kSetUp = 0.3;  // of the whole work, for the progress function
+  static constexpr double kSetUp = 0.3;  // part of the whole work, for the progress function
 
   // From here on vertices have the numbers of the solver's own order, where the given one is scattered.
   void renumber(Execution& execution) {

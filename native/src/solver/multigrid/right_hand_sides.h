@@ -14,7 +14,7 @@ template <int K>
 struct RightHandSides {
   std::array<const double*, K> columns;
   Sums<K> natural;     ///< 1 for those with the natural condition, 0 for the others
-  const float* omega;  ///< of Operator
+  const float* omega;  ///< `omega` of Operator
   Sums<K> mean = Sums<K>::Zero();
 
   /// Entry i of each.

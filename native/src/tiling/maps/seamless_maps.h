@@ -53,7 +53,7 @@ class SeamlessMaps {
   MatrixXd pole_parts_;
 
   // On a closed surface with poles:
-  std::optional<mesh::Discretisation> flipped_;  // of a surface whose diagonals are flipped away from the poles
+  std::optional<mesh::Discretisation> flipped_;  // a surface whose diagonals are flipped away from the poles
   forms::PoleForms pole_forms_;
   std::shared_ptr<const PoleBasis::Solver> solver_;  // that of the basis where it has the same triangles
 };

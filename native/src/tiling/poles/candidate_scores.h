@@ -23,7 +23,7 @@ class CandidateScores {
   /// @param median of a density that is near those of the candidates
   void set_rest(const VectorXcd& A, double median);
 
-  /// Of the rest and `residue` times the Green's function of a vertex. Threads may ask side by side.
+  /// The score of the rest and `residue` times the Green's function of a vertex. Threads may ask side by side.
   /// @pre `prepare` was called for the vertex
   double operator()(int vertex, Complex residue) const;
 

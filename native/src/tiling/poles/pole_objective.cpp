@@ -13,7 +13,7 @@ constexpr double kEnough = 0.4;   // singular values that are enough
 constexpr double kLeastSquare = 6.25e-9;
 constexpr int kSteps = 25;      // at most, for the minimiser
 constexpr int kManyForms = 20;  // from so many on
-// Of many forms, all coefficients are fitted seldom: these are steps times forms, as the cost of one grows with them.
+// With many forms, all coefficients are fitted seldom: these are steps times forms, as the cost of one grows with them.
 constexpr int kStepsTimesForms = 6400, kMostSteps = 100;
 
 PoleObjective::PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every)
@@ -70,7 +70,7 @@ VectorXcd PoleObjective::samples_of(const MeromorphicForm& form) const {
   return columns(theta_, form.poles) * unknowns(form);
 }
 
-// Of `forms`, which stand for the theta_j, and of the poles.
+// The columns of `forms`, which stand for the theta_j, and those of the poles.
 MatrixXcd PoleObjective::columns(const MatrixXcd& forms, const std::vector<int>& vertices) const {
   const MatrixXcd poles = greens_.pole_forms(vertices, every_);
   MatrixXcd all(theta_.rows(), forms.cols() + poles.cols());

@@ -22,7 +22,7 @@ class PoleObjective {
   /// @param poles how many a form has that is judged. @throws SolverError, Cancelled
   void prepare(const std::vector<int>& vertices, Index poles, Execution& execution);
 
-  /// Of many forms the coefficients keep their ratios in `optimise`, as each costs as much as a pole; `fit` does not.
+  /// Whether `optimise` keeps the ratios of the coefficients, as each costs as much as a pole; `fit` does not.
   bool has_many_forms() const;
   /// The best form with these poles, from the coefficients given, and its objective; for each of the floors of the
   /// density in turn. @pre `prepare` was called for the poles, here and below

@@ -11,7 +11,7 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr int kCounts[] = {2, 4, 8, 12, 16};       // of poles by themselves
+constexpr int kCounts[] = {2, 4, 8, 12, 16};       // numbers of poles that are tried
 constexpr int kFew = 4;                            // so many are placed by all samples,
 constexpr int kEvery = 3;                          // more of them by every third one
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density

@@ -9,8 +9,8 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kChange = 0.2;     // relative change of the form that costs 1
-constexpr double kRegular = 1e-12;  // of the largest diagonal entry: keeps a Gram matrix definite in spite of rounding
+constexpr double kChange = 0.2;                     // relative change of the form that costs 1
+constexpr double kRegular = 1e-12;                  // part of the largest diagonal entry: keeps a Gram matrix definite
 constexpr Index kManyColumns = 192, kColumns = 32;  // from so many on, products are made so many columns at a time
 
 // Upper R with R^H R = H.
