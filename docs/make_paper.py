@@ -77,8 +77,8 @@ def draw(bunny_mesh, hand_surface):
 
 
 def row(name, surface):
-    """Of the table: work by levels and from zero, in iterations on the surface, and how far forms are from the direct
-    ones. Genus 0: they do not depend on the basis that is found."""
+    """A row of the table: work by levels and from zero, in iterations on the surface, and how far forms are from the
+    direct ones. Genus 0: they do not depend on the basis that is found."""
     paper = holomorph.conformal_structure(surface, solver="paper")
     zero = holomorph.conformal_structure(surface, solver="paper", thresholds=[])
     direct = holomorph.conformal_structure(surface, solver="direct")

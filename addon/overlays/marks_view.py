@@ -78,8 +78,8 @@ def _all_points(objects, dragged):
 
 
 def _points(obj, dragged):
-    """The marks of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the pointer is on
-    it."""
+    """The marks of an object with a report: (n, 3) places in the world, (n,) whether it is a pole, (n,) whether the
+    pointer is on it."""
     vertices, is_pole = stored.marks(obj[report.PROPERTY])
     if dragged is not None:
         vertices = np.concatenate([dragged.poles, dragged.zeros])

@@ -128,7 +128,7 @@ def test_no_scheduler(meshes, tmp_path):
 @pytest.fixture
 def secured(tmp_path):
     """A cluster that only those reach who have a certificate, made as the documentation says."""
-    page = (Path(__file__).parents[2] / "docs" / "batch.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "batch" / "cluster.md").read_text(encoding="utf-8")
     for line in page.splitlines():
         if line.startswith("openssl "):
             subprocess.run(line.split(), cwd=tmp_path, check=True, capture_output=True)

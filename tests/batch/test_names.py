@@ -125,7 +125,7 @@ LENGTHS = (1, 190, 196, 200, 201, 230, 251)
 
 @pytest.mark.parametrize("letter", "aA%é環🍩\udcff .")
 def test_paths(letter):
-    """Of names of any length: short enough, plain, and each its own, however case is taken. A folder's has two more."""
+    """Folders of names of any length are short enough, plain, and each its own in any case; a folder's has two more."""
     stems = {(letter * length).encode("utf-8", "surrogateescape")[:251] for length in LENGTHS}
     names = [os.fsdecode(stem) + suffix for stem in sorted(stems) for suffix in (".obj", ".OBJ", "")]
     paths = places.told_apart([*names, *(f"{name}/x.obj" for name in names)], of_source)

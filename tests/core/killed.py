@@ -40,7 +40,7 @@ def writers(folder):
 
 
 def kill_at(step, folder):
-    """Of those that concern the folder."""
+    """Ends the process at this step of those that concern the folder."""
     left = [step]
 
     def count(event, arguments):

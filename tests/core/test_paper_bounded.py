@@ -124,8 +124,8 @@ def test_fewer_iterations_than_from_zero(name):
 
 
 def iterations_from_zero(structure):
-    """Iterations for the harmonic measures of the loops: d* d(1 on loop k) as right-hand sides on the double, its inner vertices
-    behind those of the surface."""
+    """Iterations for the harmonic measures of the loops: d* d(1 on loop k) as right-hand sides on the double, its inner
+    vertices behind those of the surface."""
     n, edges, weights = len(structure.surface.vertices), structure.edges, edge_weights(structure)
     loop = np.full(n, -1)
     for k, vertices in enumerate(structure.boundary_loops):

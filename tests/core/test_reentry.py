@@ -140,7 +140,7 @@ CASES = {
 
 
 def bits(value):
-    """Of all arrays that a result is or has."""
+    """The bytes of all arrays that a result is or has."""
     if isinstance(value, np.ndarray):
         return np.ascontiguousarray(value).tobytes()
     if isinstance(value, (list, tuple)):

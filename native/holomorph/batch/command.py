@@ -16,7 +16,7 @@ from .overview import Overview, counts
 from .plan import Plan
 from .status import DONE
 
-ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, MACHINE = range(7)  # exit codes; see docs/batch.md
+ALL_DONE, SOME_FAILED, USAGE, STRICT, STORAGE, ENGINE, MACHINE = range(7)  # exit codes; see docs/batch/results.md
 UNITS = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 DEFAULT_SECONDS = 1800.0
 UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
