@@ -12,7 +12,7 @@ inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
 /// 512 times fewer page faults. Without effect where it is refused.
 void advise_large_pages(void* memory, std::size_t bytes);
 
-/// Memory at a multiple of kLargePage, with any content, that goes back to the system as soon as it is freed: the heap
+/// Memory at a multiple of kLargePage, with any content, that goes back to the system as soon as it is freed. The heap
 /// would keep it, and a computation takes and frees many large arrays of different sizes.
 /// @throws std::bad_alloc
 void* take_large_pages(std::size_t bytes);

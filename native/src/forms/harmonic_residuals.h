@@ -39,7 +39,7 @@ struct HarmonicResiduals {
 };
 
 /// The flux of each edge, k (f_i - f_j + eta), takes the differences first, and is summed in twice the working
-/// precision: with k = 1e8 fluxes of 1e-8 remain, of which b - L f has no digit. At fixed vertices R is the flux
+/// precision. With k = 1e8 fluxes of 1e-8 remain, of which b - L f has no digit. At fixed vertices R is the flux
 /// through the boundary.
 /// Cost: about ten products with L, in parallel; the bits do not depend on the number of threads.
 HarmonicResiduals harmonic_residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights,

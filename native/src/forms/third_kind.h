@@ -1,6 +1,6 @@
 // Differentials of the third kind, theta = du + i dv with residues s / (2 pi i) at poles (paper § 11 names them).
 //
-// No face is cut out. In the stars the singular part (singular_part.h) is known; outside, it is continued as any closed
+// No face is cut out. In the stars the singular part (singular_part.h) is known. Outside, it is continued as any closed
 // form with the same values on the links, and u = u_s + df, v = v_s + g with f, g on all vertices of the whole mesh:
 //
 //     L f = -d^T (k u_s) + b_u,   L g = -d^T (k d v_s) + b_v      (d^T over the faces outside the stars)

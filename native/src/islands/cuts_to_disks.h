@@ -12,7 +12,7 @@ namespace holomorph::islands {
 /// boundary to boundary. Disks and closed components are not cut.
 ///
 /// A forest of shortest paths to the boundary and a spanning tree of the faces that crosses none of it, and prefers
-/// edges far from the boundary, leave 1 - chi edges of each component: these and the paths from their ends are the cut
+/// edges far from the boundary, leave 1 - chi edges of each component. These and the paths from their ends are the cut
 /// (Erickson and Har-Peled 2004, doi:10.1007/s00454-003-2948-z).
 /// Cost: O(n log n).
 std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& execution);

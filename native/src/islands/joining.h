@@ -13,8 +13,9 @@ namespace holomorph::islands {
 /// one, then of the other, each with its polygon on the left.
 using Joint = std::array<int, 4>;
 
-/// Moves islands rigidly so that the sides of a joint coincide, one joint after the other: where the sides are of one
-/// length, they belong to different nets, and the nets then do not overlap. A joint within a net needs nothing.
+/// Moves islands rigidly so that the sides of a joint coincide, one joint after the other. It does so where the sides
+/// are of one length and belong to different nets, and the nets then do not overlap. A joint within a net needs
+/// nothing.
 /// @param surface cut open along its seams. @param uv #C x 2, changed. @param joints the most wanted first
 /// @param is_joinable each component: whether it may be moved
 /// @return each component: the lowest one of its net

@@ -22,8 +22,8 @@ struct ReducedBasis {
 };
 
 /// LLL reduction in floating-point arithmetic (Schnorr & Euchner 1994, doi:10.1007/BF01581144): |R_jk| <= R_jj / 2 for
-/// j < k, and delta R_k-1,k-1^2 <= R_k-1,k^2 + R_kk^2 (Lovasz's condition), both to rounding: of the
-/// first, some m epsilon |column k|, and 1e-9 R_jj.
+/// j < k, and delta R_k-1,k-1^2 <= R_k-1,k^2 + R_kk^2 (Lovasz's condition). Both hold to rounding: the first to some m
+/// epsilon |column k|, and 1e-9 R_jj.
 /// @param B m x n, its columns linearly independent; they may differ in length by many orders of magnitude
 /// @param delta in (1/4, 1)
 /// @throw SolverError a column is not finite, or depends linearly on the others to rounding: it is as near to their
@@ -33,7 +33,7 @@ struct ReducedBasis {
 /// Cost: O(m n^2), and besides O(m n) for each exchange of two columns.
 ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99, const std::function<void()>& tick = {});
 
-/// Integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2, so that
+/// Integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2. So the square
 /// |target - B z|^2 is at most the sum of R_jj^2 / 4, besides the target's squared distance from the span of B.
 /// @param target m @return n integers, for the B that was reduced
 /// @throw SolverError the target is not finite @throw SolverError the integers are beyond 2^53

@@ -10,10 +10,10 @@ namespace holomorph::mesh {
 /// doi:10.1007/s00607-007-0249-8). In exact arithmetic it ends because every flip lowers the Dirichlet energy of every
 /// function (Rippa 1990), so no triangulation recurs; in rounded arithmetic because the flips of
 /// each edge are limited.
-/// Cost: linear in the number of flips, which is about a fifth of the edges of irregular meshes; in parallel where
-/// faces with near numbers are near each other, with the same result at any number of threads.
-/// A degenerate triangle goes with the flip of its longest side, and the metric is still that of the surface; only
-/// those with a side without length, or with their longest side on the boundary, are mollified.
+/// Cost: linear in the number of flips, which is about a fifth of the edges of irregular meshes. Flips are made in
+/// parallel where faces with near numbers are near each other, with the same result at any number of threads. A
+/// degenerate triangle goes with the flip of its longest side, and the metric is still that of the surface. Only those
+/// with a side without length, or with their longest side on the boundary, are mollified.
 void make_delaunay(IntrinsicTriangulation& triangulation, Execution& execution);
 
 }  // namespace holomorph::mesh

@@ -8,9 +8,9 @@
 
 namespace holomorph::mesh {
 
-/// The first copy keeps the numbers of its vertices, edges and faces; the second one, with the other orientation,
-/// shares the vertices and edges of the boundary and has the others, in their order, after those of the first.
-/// Everything is matched by half-edges, never by pairs of vertices, so that chords are no exception.
+/// The first copy keeps the numbers of its vertices, edges and faces. The second one has the other orientation. It
+/// shares the vertices and edges of the boundary. Its others come after those of the first, in their order. Everything
+/// is matched by half-edges, never by pairs of vertices, so that chords are no exception.
 struct DoubleCover {
   HalfEdges half_edges;
   std::vector<int> dual_vertex;  ///< #V of the surface: the same vertex in the second copy

@@ -3,7 +3,7 @@
 //
 // A triangulation with rounded lengths is a surface of its own. The map to the surface that it stands for, affine on
 // each triangle, changes metrics by a relative error there; flips compose such maps. A function on the rounded surface,
-// carried over by the map, is admissible, and its energy is larger by no more than these errors say: so it bounds the
+// carried over by the map, is admissible, and its energy is larger by no more than these errors say. So it bounds the
 // invariants of the surface as given (docs/guarantee.md).
 #pragma once
 

@@ -20,8 +20,8 @@ struct SideJoins {
 ///
 /// Two sides that alone run between two labels are joined, but where, in the order of a flood over the faces, their
 /// orientations contradict. At edges with more faces, pairs are joined in the order of how well their faces continue
-/// each other: first those that are oriented alike as given, then by the angle, then convex before concave. A pair is
-/// left apart where the fans around the ends would become one, though another copy of an edge is there already.
+/// each other. First come those that are oriented alike as given, then by the angle, then convex before concave. A pair
+/// is left apart where the fans around the ends would become one, though another copy of an edge is there already.
 /// @pre crowded_edges is empty
 /// Cost: O(#C log #C).
 SideJoins join_sides(const Polygons& polygons, const std::vector<int>& label);

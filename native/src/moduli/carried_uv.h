@@ -18,8 +18,8 @@ struct VertexImages {
 
 /// UVs at the corners of `to`, one for each polygon corner, carried to the corners of `from`.
 ///
-/// The corners of one polygon get theirs in one chart: the UVs are continued from triangle to triangle over `to`,
-/// across each of their cuts by the similarity that brings the edge's UVs on both sides together (a translation, for
+/// The corners of one polygon get theirs in one chart. The UVs are continued from triangle to triangle over `to`.
+/// Across each cut this is done by the similarity that brings the edge's UVs on both sides together (a translation, for
 /// maps made of forms). Of the charts that a polygon touches, its middle's is taken. A texture that goes on across a
 /// cut so does here; where it breaks off there, it breaks off along the nearest edges.
 /// @pre every polygon's images are in one component of `to` @throws Cancelled

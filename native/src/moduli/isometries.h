@@ -35,10 +35,10 @@ struct SearchOptions {
   std::int64_t steps = kMostSteps;  ///< most steps of the search
 };
 
-/// All R whose excess is at most `slack`. Row by row, in a reduced basis of b from short to long: the candidates are
-/// the lattice points near the one point that has the energy products with the rows before, and in the plane that has
-/// the wedge products with them; a candidate is dropped if the bounds exclude the block of rows so far. Nothing that
-/// the bounds allow is ever dropped.
+/// All R whose excess is at most `slack`. The search goes row by row, in a reduced basis of b from short to long. The
+/// candidates are the lattice points near the one point that has the energy products with the rows before, and in the
+/// plane that has the wedge products with them. A candidate is dropped if the bounds exclude the block of rows so far.
+/// Nothing that the bounds allow is ever dropped.
 /// @throws SolverError, Cancelled, Error where integers leave 2^53
 Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options,
                       Execution& execution);

@@ -12,7 +12,7 @@ namespace holomorph::multiresolution {
 /// @param forms on the edges of `flipped`; changed to those on the edges of `surface`
 void values_of_diagonals(const mesh::Surface& surface, const mesh::Surface& flipped, topology::IntegerForms& forms);
 
-/// Closed loops of vertices that run along the edges of `flipped`, as loops on the half-edges of `surface`: a step
+/// Closed loops of vertices that run along the edges of `flipped`, as loops on the half-edges of `surface`. A step
 /// along an edge that `surface` does not have becomes a path along the polygon, which is homotopic.
 std::vector<std::vector<mesh::HalfedgeHandle>> loops_of_half_edges(const mesh::Surface& surface,
                                                                    const mesh::Surface& flipped,

@@ -9,8 +9,8 @@
 
 namespace holomorph::openmesh {
 
-/// One half-edge collapse v0 -> v1 with the fields of ModProgMeshT::Info, which cannot be made but by a collapse: v0 is
-/// removed, v1 remains, vl and vr lie to the left and right of v0 -> v1, invalid where the edge is on the boundary. The
+/// One half-edge collapse v0 -> v1 with the fields of ModProgMeshT::Info, which cannot be made but by a collapse. v0 is
+/// removed, v1 remains. vl and vr lie to the left and right of v0 -> v1, invalid where the edge is on the boundary. The
 /// split {v_s, v_t, v_l, v_r} is the collapse {v0 = v_t, v1 = v_s, vl = v_r, vr = v_l}.
 struct ProgMeshRecord {
   OpenMesh::VertexHandle v0, v1, vl, vr;
@@ -32,9 +32,9 @@ progressive::ProgressiveMesh from_records(const std::vector<mesh::Triple>& base,
 }  // namespace detail
 
 /// The progressive mesh of a decimated TriMesh, before its garbage collection. The finest level has the vertices and
-/// triangles of the mesh before it was decimated; `vertex_index` has the handle of each vertex, but of triangles the
-/// records do not say which were which, so that these are numbered in the order of the splits, and v_s comes first in
-/// the new left triangle, v_t in the right one.
+/// triangles of the mesh before it was decimated; `vertex_index` has the handle of each vertex. The records do not say
+/// which triangles were which. So these are numbered in the order of the splits. v_s comes first in the new left
+/// triangle, v_t in the right one.
 /// @param records a range of ModProgMeshT::Info or ProgMeshRecord, as infolist() has them
 /// @throws InvalidMesh for faces that are no triangles, vertices that are isolated or deleted by no record, and records
 /// that do not fit

@@ -11,8 +11,8 @@ namespace holomorph::plane {
 /// the boundary, are those with the least Dirichlet energy of u, up to a constant. A surface that is flat already is
 /// mapped by a rigid motion.
 ///
-/// The curvature asks L u = -K inside; the flattened boundary turns by k + L u at each vertex; the curve with these
-/// angles and the lengths nearest to those of the surface is closed, and both coordinates are extended harmonically.
+/// The curvature asks L u = -K inside. The flattened boundary turns by k + L u at each vertex. The curve with these
+/// angles is closed, with the lengths nearest to those of the surface. Both coordinates are extended harmonically.
 /// Where curvature is large and the mesh coarse the image may overlap itself.
 ///
 /// The lowest boundary vertex lies at 0, and the edge that leaves it, the surface on its left, along the real axis.

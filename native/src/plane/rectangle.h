@@ -10,7 +10,7 @@
 namespace holomorph::plane {
 
 /// Corners c0 .. c3 on the boundary, the surface on its left. u is 0 on the side from c3 to c0 and 1 on that from c1 to
-/// c2, v is 0 from c0 to c1 and 1 from c2 to c3; the other sides are natural. Each has the least energy under its own
+/// c2. v is 0 from c0 to c1 and 1 from c2 to c3. The other sides are natural. Each has the least energy under its own
 /// conditions, so (u, m v) is the conformal map to a rectangle of width 1 and height m up to the discretisation, and
 /// its sides are straight exactly.
 ///

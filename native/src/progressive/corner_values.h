@@ -15,12 +15,12 @@ struct CornerValues {
 
 /// Corners of the original at the same vertex with the same values are one wedge (Hoppe 1996). The collapse of v_t into
 /// v_s takes the wedges of v_t in the two triangles that vanish to those of v_s in the same triangles. A wedge of v_t
-/// in neither of them lies beyond a cut through v_t that does not contain v_s: v_s has no value there, and the wedge is
+/// in neither of them lies beyond a cut through v_t that does not contain v_s. v_s has no value there, so the wedge is
 /// translated by the same vector as the others.
 ///
 /// For UVs that only jump by translations across their cuts, those of holomorphic forms, that vector is the same in all
-/// wedges: every vertex of a level keeps its UVs, every edge has the difference of those of its ends along the
-/// collapsed path, so a level's map has the periods of the original's, and jumps across the image of its cuts only.
+/// wedges. Every vertex of a level keeps its UVs. Every edge has the difference of those of its ends along the
+/// collapsed path. So a level's map has the periods of the original's, and jumps across the image of its cuts only.
 ///
 /// @param values #C x width, one row for each polygon corner of the original; finite
 /// @param splits the levels, from 0 to all splits each

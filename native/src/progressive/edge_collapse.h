@@ -48,9 +48,9 @@ class EdgeCollapse {
   /// Q_v + Q_u at the neighbour's position, plus a small multiple of area times squared length, which decides where all
   /// is flat: towards short edges.
   float quadric_error(int i) const;
-  /// The complex remains a surface of the same topology (Dey et al. 1999): v and u have no common neighbours but the
-  /// apexes of the triangles at their edge, the boundary counting as one vertex, and are not two corners of a
-  /// tetrahedron.
+  /// Whether the complex remains a surface of the same topology (Dey et al. 1999). v and u have no common neighbours
+  /// but the apexes of the triangles at their edge, where the boundary counts as one vertex. They are not two corners
+  /// of a tetrahedron.
   bool keeps_topology(int i);
   /// No normal of a triangle of the star rotates by more than 75 degrees.
   bool keeps_normals(int i) const;

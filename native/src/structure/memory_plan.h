@@ -32,8 +32,8 @@ struct MemoryPlan {
 enum class Keeping { all, as_many_as_fit };
 
 /// Plans a computation. Without a limit the forms are kept up to kKeptBytes of functions, and nothing is refused. With
-/// one they are kept where all fits, else solved for in blocks of the largest size that fits; the direct solver, where
-/// it was not asked for by name, gives way to multigrid if its factor does not fit.
+/// one they are kept where all fits, otherwise solved for in blocks of the largest size that fits. The direct solver,
+/// where it was not asked for by name, gives way to multigrid if its factor does not fit.
 /// @throws SolverError if not even two right-hand sides fit, or not all where all must be kept, naming the bytes
 MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping keeping);
 

@@ -32,7 +32,7 @@ struct NestedLevel {
 };
 
 /// Solves for the forms of these classes. On a triangulation that refines the Delaunay triangulation of a coarser
-/// level, energies are no larger than there: the coarser functions are among those to choose from, and flips towards
+/// level, energies are no larger than there. The coarser functions are among those to choose from, and flips towards
 /// Delaunay lower the energy of any (Rippa 1990, doi:10.1016/0167-8396(90)90011-F). So bounds are nested.
 /// @param natural how many of the classes are natural; the others are Dirichlet
 /// @throws SolverError, Cancelled

@@ -25,8 +25,8 @@ std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& 
 /// @throws TopologyError if there is none
 int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
 
-/// Default residues: 1 and -1 for two poles of a closed surface; for more of them 1 everywhere but at the
-/// one with the largest sum of distances to the others, which takes the rest. With a boundary, which takes the rest, 1.
+/// Default residues: 1 and -1 for two poles of a closed surface. For more of them, 1 everywhere but at the one with the
+/// largest sum of distances to the others, which takes the rest. With a boundary, which takes the rest, 1.
 /// @throws Cancelled
 /// Cost: of more than two on a closed surface, a search over the whole surface from each.
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,

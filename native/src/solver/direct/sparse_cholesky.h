@@ -11,9 +11,9 @@ namespace holomorph::solver {
 /// Factorises a positive definite matrix given by its lower triangle. CHOLMOD's supernodal method with AMD ordering,
 /// its BLAS on one thread (so that the bits do not depend on the number of threads); else Eigen's simplicial LDL^T.
 ///
-/// Some unknowns may be `fixed`: eliminated after all others, so that the factor of the matrix without them is a part
-/// of the factor of the whole, and both systems are solved with one factorisation. Where that would be slow, because
-/// too many are fixed, and with Eigen's method there are two.
+/// Some unknowns may be `fixed`: they are eliminated after all others. Then the factor of the matrix without them is a
+/// part of the factor of the whole, and both systems are solved with one factorisation. Where that would be slow,
+/// because too many are fixed, and with Eigen's method there are two.
 class SparseCholesky {
  public:
   SparseCholesky();

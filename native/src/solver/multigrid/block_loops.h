@@ -36,7 +36,7 @@ void for_chunks(int rows, Workers& workers, const Loop& loop) {
   workers.run(row_chunks(rows), [&](int, int chunk) { loop(chunk, rows_of_chunk(chunk, rows)); });
 }
 
-// Bodies of the loops below capture pointers by value: to the compiler a block that is written may be one of the
+// Bodies of the loops below capture pointers by value. To the compiler a block that is written may be one of the
 // pointers of an array, which would be read again for every row.
 
 /// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j).

@@ -14,7 +14,7 @@ namespace holomorph::solver {
 /// for a factor of 1e-4 at a time, so that its rounding does not matter; usually three corrections do.
 ///
 /// A p is not computed but follows from A z, like p from z, and so does p.A p from z.A z (Chronopoulos and Gear 1989,
-/// doi:10.1016/0377-0427(89)90045-9): all sums of an iteration are known at its end.
+/// doi:10.1016/0377-0427(89)90045-9). So all sums of an iteration are known at its end.
 template <int K>
 class BlockSolve {
  public:

@@ -22,10 +22,10 @@ struct Coarsening {
   int count = 0;      ///< number of C-points
 };
 
-/// Classical coarsening (Ruge & Stuben 1987, doi:10.1137/1.9781611971057.ch4) by a maximal independent set: in the
-/// order of the vertices each undecided one becomes a C-point, and its undecided neighbours j with
-/// w_ij >= 0.2 max_k w_jk F-points. A fixed vertex becomes an F-point only because of a fixed one, so that fixed
-/// vertices are coarsened among themselves.
+/// Classical coarsening (Ruge & Stuben 1987, doi:10.1137/1.9781611971057.ch4) by a maximal independent set. In the
+/// order of the vertices each undecided one becomes a C-point. Its undecided neighbours j with w_ij >= 0.2 max_k w_jk
+/// become F-points. A fixed vertex becomes an F-point only because of a fixed one, so that fixed vertices are coarsened
+/// among themselves.
 /// Cost: linear, one thread.
 Coarsening coarsening(const Operator& fine);
 

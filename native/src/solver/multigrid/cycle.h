@@ -7,9 +7,9 @@
 namespace holomorph::solver {
 
 /// z = M r for the symmetric positive semi-definite M of one V-cycle: a Jacobi step before and after the coarse-grid
-/// correction on each level, and the exact solution on the coarsest; below one coarse level a second time, for the
-/// residual that the first leaves. A residual r is known by its jacobi_step() s = omega r alone, with which the cycle
-/// begins: a vector less to write and to read than with both.
+/// correction on each level, and the exact solution on the coarsest. Below one coarse level the cycle runs a second
+/// time, for the residual that the first leaves. A residual r is known by its jacobi_step() s = omega r alone, with
+/// which the cycle begins: a vector less to write and to read than with both.
 template <int K>
 class Cycle {
  public:

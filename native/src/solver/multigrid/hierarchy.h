@@ -2,8 +2,8 @@
 //
 // An F-point drawn onto the C-neighbour of largest weight is an edge collapse, and a step of coarsening a batch of
 // them: a progressive mesh read from its base, batch by batch of vertex splits. Two things differ. The steps see the
-// matrix alone, so that no coarse mesh has to be valid; and a coarse function is interpolated from several values (P)
-// and not from the parent's alone, with coarse operators P^T A P and not those of a coarse geometry.
+// matrix alone, so no coarse mesh has to be valid. A coarse function is interpolated from several values (P) and not
+// from the parent's alone, with coarse operators P^T A P and not those of a coarse geometry.
 #pragma once
 
 #include "solver/laplacian.h"
@@ -28,8 +28,8 @@ inline int coarse_rows_per_chunk(const Level& level) {
   return (level.R.size() + chunks - 1) / chunks;
 }
 
-/// One hierarchy serves both conditions: the fixed vertices of a level are among those of the level above, and their
-/// values are means of theirs alone, so that functions that are 0 at the fixed vertices of a level are so on all.
+/// One hierarchy serves both conditions. The fixed vertices of a level are among those of the level above, and their
+/// values are means of theirs alone. So functions that are 0 at the fixed vertices of a level are so on all.
 struct Hierarchy {
   std::vector<Level> levels;  ///< finest first
   CoarsestInverse coarsest;

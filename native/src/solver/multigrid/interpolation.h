@@ -11,9 +11,9 @@ namespace holomorph::solver {
 /// largest entries.
 ///
 /// Every row sums to 1 exactly: all weights but the largest are multiples of 2^-20. Then constants are interpolated
-/// exactly, and the rounding of a large weight of a sliver does not become a coupling on the coarse level.
-/// The row of a fixed vertex has entries at fixed ones alone: a coarse function that is 0 at the fixed vertices is so
-/// on the fine level as well, and P^T A P without their rows and columns is the coarse operator of A without them.
+/// exactly, and the rounding of a large weight of a sliver does not become a coupling on the coarse level. The row of a
+/// fixed vertex has entries at fixed ones alone. So a coarse function that is 0 at the fixed vertices is so on the fine
+/// level as well, and P^T A P without their rows and columns is the coarse operator of A without them.
 /// @param most 2 or 3
 /// @throws std::bad_alloc, Cancelled
 /// Cost: linear, in parallel.

@@ -59,7 +59,7 @@ void for_row_chunks(int rows, Execution& execution, const Body& body) {
 SparseRows joined(Array<int>&& ends, const std::vector<std::vector<Entry>>& parts, Execution& execution);
 
 /// A matrix with `rows` rows, built in parallel: make_row(thread, i, part) appends the entries of row i to `part`. It
-/// lies in memory chunk by chunk, in each the shortest rows first: a loop whose number of rounds changes from row to
+/// lies in memory chunk by chunk, in each the shortest rows first. A loop whose number of rounds changes from row to
 /// row costs more by the processor's wrong guesses of its end than by its work.
 /// @param make_row its result must not depend on the thread @throws std::bad_alloc, Cancelled
 template <class MakeRow>

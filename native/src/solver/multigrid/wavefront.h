@@ -17,8 +17,8 @@ ChunkNeeds chunk_needs(const SparseRows& M, int each, int chunks, Workers& worke
 /// With the inverse relation: chunk d among those of c where c is among those of d.
 ChunkNeeds symmetrised(const ChunkNeeds& needs);
 
-/// The order in which the chunks of several loops are done. Every thread goes through segments of consecutive chunks:
-/// it does the next chunk of the first loop, then those of the later loops that need no more than what is done in the
+/// The order in which the chunks of several loops are done. Every thread goes through segments of consecutive chunks.
+/// It does the next chunk of the first loop, then those of the later loops that need no more than what is done in the
 /// segment. Those that need another segment are left for the end. As each row is written by one chunk of one loop, and
 /// sums are kept by chunk, the results do not depend on the order.
 class Wavefront {
