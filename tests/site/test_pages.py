@@ -48,7 +48,7 @@ def test_a_broken_link_would_be_found():
     assert not is_broken((SITE / "tiling.html").as_uri() + "#baking")
 
 
-@pytest.mark.parametrize(("name", "count"), [("method", 4), ("method/boundaries", 50), ("method/tilings", 50)])
+@pytest.mark.parametrize(("name", "count"), [("method", 4), ("method/boundaries", 40), ("method/tilings", 40)])
 def test_formulas_are_drawn(page, name, count):
     page.goto((SITE / f"{name}.html").as_uri())
     page.wait_for_selector("mjx-container svg")
