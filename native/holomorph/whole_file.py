@@ -1,10 +1,14 @@
 """Files that are written whole or not at all."""
 
 import contextlib
+import errno
 import os
 import shutil
 import uuid
 from pathlib import Path
+
+EMPTY = bytes(2**12)
+ROOM = 2**17  # bytes: as large as what disks give at a time
 
 
 def write(path, *contents):
@@ -58,6 +62,7 @@ def file_beside(path):
     try:
         yield new
         with _naming(path):
+            require_room(new)
             _move(new, place)
     finally:
         new.unlink(missing_ok=True)
@@ -76,12 +81,30 @@ def folder_beside(path):
     try:
         yield new
         with _naming(path):
-            for made in sorted(each for each in new.rglob("*") if each.is_file()):
+            written = sorted(each for each in new.rglob("*") if each.is_file())
+            for made in written:
+                require_room(made)
+            for made in written:
                 target = place.parent / made.relative_to(new)
                 target.parent.mkdir(exist_ok=True)
                 _move(made, target)
     finally:
         shutil.rmtree(new, ignore_errors=True)
+
+
+def require_room(path):
+    """For a file that another program wrote: not all tell that the disk was full. Then it is full now, too.
+
+    Raises OSError where nothing can be added to the file."""
+    with open(path, "r+b", buffering=0) as file:
+        size = file.seek(0, os.SEEK_END)
+        try:
+            for _ in range(ROOM // len(EMPTY)):
+                if file.write(EMPTY) < len(EMPTY):
+                    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            os.fsync(file.fileno())
+        finally:
+            file.truncate(size)
 
 
 def _place(path):

@@ -8,8 +8,10 @@ import os
 import pytest
 from any_names import any_entries, any_names
 from conftest import command, outputs, run, statuses, torus_obj
-from holomorph.batch import places
-from holomorph.batch.plan import of_source
+from holomorph.batch import places, sources
+from holomorph.batch.journal import Journal
+from holomorph.batch.plan import Plan, of_source
+from holomorph.batch.recipe import Recipe
 from holomorph.console import shown
 
 
@@ -160,6 +162,23 @@ def test_no_path_of_a_name_is_one_within_another():
     for path in paths.values():
         assert not [other for other in paths.values() if other != path and other.startswith(f"{path}/")]
     assert len(set(paths.values())) == len(names)
+
+
+def test_objects_of_a_scene(tmp_path):
+    """Their names are any text; a folder of sources that is called as the scene does not have their results."""
+    path = tmp_path / "town.blend"
+    path.touch()
+    found = [sources.Source("town.blend", path), sources.Source("town.blend/Roof.obj", torus_obj(tmp_path / "a.obj"))]
+    names = ["Roof", "roof", "a/b", "a%2Fb", "a%b", "..", ".", "Roof.obj", "n" * 63, "ж" * 31, "\n"]
+    plan = Plan(found, Journal(tmp_path / "out"), Recipe(), 1, "")
+    (opening,) = plan.openings
+    opening.folder.mkdir(parents=True)
+    listed = [[name, f"{number}.npz", 4] for number, name in enumerate(names)]
+    (opening.folder / "objects.json").write_text(json.dumps(listed))
+    tasks = plan.tasks()
+    assert len({str(task.folder).lower() for task in tasks}) == len({task.key for task in tasks}) == len(names) + 1
+    assert len({task.name for task in tasks if task.scene}) == len(names)
+    assert {len(task.folder.relative_to(tmp_path / "out" / "assets").parts) for task in tasks} == {2}
 
 
 def test_names_that_become_one_on_the_terminal():

@@ -54,12 +54,18 @@ WRITERS = {
     "bytes": "whole_file.write(path, b'n' * 100_000)",
     "mesh": "Surface.read(mesh).write(path)",
     "progressive mesh": "ProgressiveMesh(Surface.read(mesh)).save(path)",
+    "another program": "with whole_file.file_beside(path) as new: write_half(new)",
+    "another program's folder": "with whole_file.folder_beside(path) as new: write_half(new / Path(path).name)",
 }
 # No file may be longer than 1,000 bytes, as on a full disk. In a process of its own: the limit holds for output, too.
 LIMITED = """
-import resource, signal, sys
+import contextlib, resource, signal, sys
+from pathlib import Path
 from holomorph import ProgressiveMesh, Surface, whole_file
 path, mesh = sys.argv[1:]
+def write_half(place):  # and tells nobody
+    with contextlib.suppress(OSError), open(place, "wb", buffering=0) as file:
+        file.write(b"n" * 5000)
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
 try:
@@ -93,6 +99,13 @@ def test_several_files_are_moved_together(old):
         assert old.read_bytes() == OLD
     assert old.read_bytes() == (old.parent / "textures" / "image.png").read_bytes() == NEW
     assert sorted(each.name for each in old.parent.iterdir()) == [old.name, "textures"]
+
+
+def test_a_file_of_another_program_is_moved_as_it_is(old):
+    with whole_file.file_beside(old) as new:
+        assert new.parent == old.parent and new.suffix == old.suffix
+        new.write_bytes(NEW)
+    assert old.read_bytes() == NEW and list(old.parent.iterdir()) == [old]
 
 
 def test_no_file_is_moved_after_an_error(old):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from .. import whole_file
 from .._native import InvalidMesh
 from .errors import UsageError
 from .status import DONE, REFUSED
@@ -66,6 +67,7 @@ def written(task, mesh):
         arrays.write_bytes(mesh)
         scene, name = task.scene or (None, Path(task.name).stem)
         _run(task.blender, scene, "write", arrays, target, name)
+        whole_file.require_room(target)
         return target.read_bytes()
 
 
