@@ -219,11 +219,11 @@ class Structure(Value):
             raise ValueError(f"uv has the shape {uv.shape}; ({len(self._component.corner_vertices)}, 2) is needed")
         return uv
 
-    def _at_vertices(self, values):
-        """Values at the component's vertices as values at the surface's, NaN at isolated ones."""
+    def _at_vertices(self, values, missing=np.nan):
+        """Values at the component's vertices as values at the surface's, `missing` at isolated ones."""
         if self._component is self.surface:
             return values
-        result = np.full((self.surface.given_vertex_count, *values.shape[1:]), np.nan, dtype=values.dtype)
+        result = np.full((self.surface.given_vertex_count, *values.shape[1:]), missing, dtype=values.dtype)
         result[self._component.vertex_index] = values
         return arrays.frozen(result)
 

@@ -7,6 +7,7 @@
 #include "moduli/carried_uv.h"
 #include "moduli/continuation.h"
 #include "moduli/equivalence.h"
+#include "moduli/map_derivatives.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -57,6 +58,22 @@ py::array carried_uv(const mesh::Surface& from, const Contiguous<int>& triangles
   }
   return copy(Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>>(
       reinterpret_cast<const double*>(carried.data()), static_cast<Eigen::Index>(carried.size()), 2));
+}
+
+// Of (#V,) triangles and (#V, 3) barycentric coordinates: p and q, (#T,) each.
+py::tuple map_derivatives(const mesh::Surface& from, const Contiguous<int>& triangles,
+                          const Contiguous<double>& barycentric, const mesh::Surface& to, int sign,
+                          const py::object& progress) {
+  const moduli::VertexImages images{values(triangles), rows<double, 3>(barycentric)};
+  Execution execution(1, callback(progress));
+  moduli::MapDerivatives made;
+  {
+    const py::gil_scoped_release unlocked;
+    execution.stage("stretch of the map", 0, 1);
+    made = moduli::map_derivatives(from, images, to, sign, execution);
+    execution.finish();
+  }
+  return py::make_tuple(give(std::move(made.p)), give(std::move(made.q)));
 }
 
 /// Arrays of `moduli::ConformalImages`.
@@ -145,6 +162,8 @@ void bind_moduli(py::module_& m) {
            py::arg("most_vertices"), py::arg("progress"));
   m.def("carried_uv", &carried_uv, py::arg("first"), py::arg("triangles"), py::arg("barycentric"), py::arg("second"),
         py::arg("uv"), py::arg("progress"));
+  m.def("map_derivatives", &map_derivatives, py::arg("first"), py::arg("triangles"), py::arg("barycentric"),
+        py::arg("second"), py::arg("sign"), py::arg("progress"));
   m.def("form_slopes", &form_slopes);
   m.attr("isometry_steps") = moduli::kMostSteps;
   m.def("short_basis", [](const Eigen::MatrixXd& form) { return copy(moduli::short_basis(form)); });
