@@ -26,6 +26,7 @@ from .coarse_places import CoarsePlace, coarse_places
 from .cones import cut_to_cones
 from .conformal_image import conformal_image
 from .conformal_map import ConformalMap, conformal_map
+from .curve_periods import curve_period_matrix
 from .cut import cut_along
 from .disk import disk_map, free_boundary_map, rectangle_map, triangle_map
 from .disk_islands import disk_islands
@@ -116,6 +117,7 @@ __all__ = [
     "conformal_map",
     "conformal_structure",
     "conformally_equivalent",
+    "curve_period_matrix",
     "cut_along",
     "cut_to_cones",
     "disk_islands",

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native
 from .array_types import Integers, Progress
 from .bounded import BoundedStructure
-from .checks import only_component, real_number
+from .checks import real_number
 from .closed import ConformalStructure
+from .known_periods import KnownPeriods, period_lattice, side_of
 from .planar import LOOPS_OF_ACHIRAL_SURFACES, planar_verdict
 from .progress import scaled
 from .results import Structure
@@ -53,30 +54,37 @@ class Equivalence(Value):
 
 
 def conformally_equivalent(
-    a: Surface | Structure, b: Surface | Structure, *, tolerance: float = 0.0, progress: Progress | None = None
+    a: Surface | Structure | ArrayLike,
+    b: Surface | Structure | ArrayLike,
+    *,
+    tolerance: float = 0.0,
+    progress: Progress | None = None,
 ) -> Equivalence:
     """An `Equivalence`: whether there is a conformal map between two connected surfaces.
 
     By Torelli's theorem just if integers bring the periods of one to those of the other. "not_equivalent" is said where
     the error bars of the periods exclude all integer matrices; "equivalent", or "mirror_image", where one brings the
-    projected periods as near as a quarter of the error bars' geometric mean, and the result's `tolerance` says how
-    near the exact ones are for certain; "undecided" else. A surface with both is called what it is nearer to.
+    projected periods as near as a quarter of the error bars' geometric mean, of the other's where one is exact, and the
+    result's `tolerance` says how near the exact ones are for certain; "undecided" else. A surface with both is called
+    what it is nearer to.
 
     Parameters
     ----------
-    a, b : Surface, or a structure that was computed of it
+    a, b : Surface, or a structure that was computed of it, or a (g, g) period matrix that is taken for exact, such as
+        the `curve_period_matrix` of a known curve
     tolerance : `Equivalence.residual` that counts as none. Error bars are those of the polyhedral surfaces, and 0 tells
         apart two meshes of one smooth surface where their discretisation does: 0.01 takes them for one within 1 %
     progress : progress(fraction, stage), as in `conformal_structure`
 
-    Raises TopologyError for several components, and what `conformal_structure` raises; Cancelled.
+    Raises TopologyError for several components, and what `conformal_structure` raises; ValueError for a matrix that is
+    none of periods; TypeError for what is neither; Cancelled.
 
     Cost: that of both structures; the search takes seconds at most, and beyond a limit is "undecided".
     Source: Plesken & Souvignier (1997), with lattice points near a point for its candidates.
     """
     if real_number(tolerance, "tolerance") < 0:
         raise ValueError(f"tolerance is {tolerance!r}; it is not negative")
-    first, second = _connected(a), _connected(b)
+    first, second = side_of(a), side_of(b)
     found = _by_topology(first, second)
     if found is not None:
         return found
@@ -119,26 +127,11 @@ def _by_topology(first, second):
     return None
 
 
-def period_lattice(structure):
-    """The native lattice of integer classes with their energies of a closed structure or one with boundary."""
-    gram = structure._native.certain_gram_matrices()
-    if isinstance(structure, BoundedStructure):
-        return _native.PeriodLattice.bounded(*gram, structure.pairing, structure._component.genus)
-    wedge = -np.rint(np.linalg.inv(structure.intersection_matrix)).astype(np.int64)
-    return _native.PeriodLattice.closed(gram[0], wedge)
-
-
-def _connected(given):
-    if isinstance(given, Structure):
-        given = given.surface
-    if not isinstance(given, Surface):
-        raise TypeError(f"surfaces or structures are compared, not {type(given).__name__}")
-    return only_component(given)
-
-
 def _structure(given, component, progress):
     if isinstance(given, (ConformalStructure, BoundedStructure)):
         return given
+    if isinstance(component, KnownPeriods):
+        return component
     return conformal_structure(component, progress=progress)
 
 

@@ -37,12 +37,8 @@ def siegel_reduction(period_matrix: ArrayLike) -> SiegelReduction:
 
     Source: Deconinck, Heil, Bobenko, van Hoeij & Schmies (2004), doi:10.1090/S0025-5718-03-01609-0.
     """
-    omega = np.array(period_matrix, dtype=np.complex128)
-    g = omega.shape[0] if omega.ndim == 2 else 0
-    if omega.shape != (g, g) or not g or not np.isfinite(omega).all() or np.abs(omega - omega.T).max() > ROUNDING * g:
-        raise ValueError("a period matrix is square, symmetric and finite, such as [[0.3 + 1j]]")
-    if not (np.linalg.eigvalsh(omega.imag) > 0).all():
-        raise ValueError("the imaginary part of a period matrix is positive definite")
+    omega = checked_period_matrix(period_matrix)
+    g = len(omega)
     matrix, one, none = np.eye(2 * g, dtype=np.int64), np.eye(g, dtype=np.int64), np.zeros((g, g), np.int64)
     for _ in range(MOST_STEPS):
         rows = _native.short_basis(omega.imag)
@@ -57,6 +53,17 @@ def siegel_reduction(period_matrix: ArrayLike) -> SiegelReduction:
         inversion = _inversion(g)
         omega, matrix = moved(omega, inversion), inversion @ matrix
     raise ValueError("the period matrix is too badly conditioned to be reduced")
+
+
+def checked_period_matrix(given):
+    """(g, g) complex; ValueError for what cannot be one."""
+    omega = np.array(given, dtype=np.complex128)
+    g = omega.shape[0] if omega.ndim == 2 else 0
+    if omega.shape != (g, g) or not g or not np.isfinite(omega).all() or np.abs(omega - omega.T).max() > ROUNDING * g:
+        raise ValueError("a period matrix is square, symmetric and finite, such as [[0.3 + 1j]]")
+    if not (np.linalg.eigvalsh(omega.imag) > 0).all():
+        raise ValueError("the imaginary part of a period matrix is positive definite")
+    return omega
 
 
 def moved(omega, matrix):

@@ -11,7 +11,8 @@ from ._native import Error
 from .array_types import Integers, Progress
 from .checks import real_number
 from .closed import ConformalStructure
-from .equivalence import ROUNDING, STEPS, period_lattice
+from .equivalence import ROUNDING, STEPS
+from .known_periods import period_lattice
 from .value import Value, counted
 
 AGREEMENT = 0.25  # as native/src/moduli/equivalence.h

@@ -7,7 +7,7 @@ import numpy as np
 
 from ._native import TopologyError
 from .closed import ConformalStructure
-from .equivalence import period_lattice
+from .known_periods import period_lattice
 from .siegel import siegel_reduction
 
 SMALLEST_TERM = 40.0  # terms below exp(-this) are left out of a theta series
@@ -39,7 +39,7 @@ def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     if genus < 3:
         return Hyperelliptic("yes")
     omega = siegel_reduction(structure.period_matrix).period_matrix
-    values, errors = zip(*even_theta_constants(omega, period_lattice(structure).radius()))
+    values, errors = zip(*even_theta_constants(omega, np.expm1(period_lattice(structure).radius())))
     sizes, errors = np.abs(values), np.array(errors)
     i = int(np.argmin(sizes))
     if (sizes > errors).all():
@@ -47,20 +47,24 @@ def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     return Hyperelliptic("yes" if sizes[i] <= errors[i] / 2 else "undecided", float(sizes[i]), float(errors[i]))
 
 
-def even_theta_constants(omega, radius=0.0):
+def even_theta_constants(omega, change=0.0):
     """(value, error) of theta[a, b](0 | Omega), the sum of exp(pi i (n + a/2) Omega (n + a/2) + pi i (n + a/2) b), for
-    the `even_characteristics` in their order; `radius` is how far Omega may be from the exact one, as
-    `Equivalence.residual`: then |p dOmega p| <= (exp(radius) - 1) p Im Omega p.
+    the `even_characteristics` in their order, of one (g, g) matrix or (k, g, g) several. The exact Omega differs by
+    some E with |p E p| <= change p Im Omega p, exp(r) - 1 where it is within r as `Equivalence.residual`. Errors are
+    infinite where `change` is 1 or more.
     """
-    least = np.linalg.eigvalsh(omega.imag).min() * np.exp(-radius)
+    if change >= 1:
+        yield from ((1.0, np.inf) for _ in even_characteristics(omega.shape[-1]))
+        return
+    least = np.linalg.eigvalsh(omega.imag).min() * (1 - change)
     most = int(np.ceil(np.sqrt(SMALLEST_TERM / (np.pi * least)))) + 1
-    integers = np.stack(np.meshgrid(*[np.arange(-most, most + 1)] * len(omega), indexing="ij"), -1)
-    for a, b in even_characteristics(len(omega)):
-        n = integers.reshape(-1, len(omega)) + np.array(a) / 2
-        energy = np.einsum("ki,ij,kj->k", n, omega.imag, n)
-        terms = np.exp(1j * np.pi * np.einsum("ki,ij,kj->k", n, omega, n))
-        error = np.sum(np.pi * np.expm1(radius) * energy * np.exp(-np.pi * np.exp(-radius) * energy))
-        yield np.sum(terms * np.exp(1j * np.pi * (n @ b))), error + ROUNDING * np.abs(terms).sum()
+    integers = np.stack(np.meshgrid(*[np.arange(-most, most + 1)] * omega.shape[-1], indexing="ij"), -1)
+    for a, b in even_characteristics(omega.shape[-1]):
+        n = integers.reshape(-1, omega.shape[-1]) + np.array(a) / 2
+        exponents = np.einsum("ki,...ij,kj->...k", n, omega, n)
+        terms, energy = np.exp(1j * np.pi * exponents), exponents.imag
+        error = np.sum(np.pi * change * energy * np.exp(-np.pi * (1 - change) * energy), axis=-1)
+        yield np.sum(terms * np.exp(1j * np.pi * (n @ b)), axis=-1), error + ROUNDING * np.abs(terms).sum(axis=-1)
 
 
 def even_characteristics(genus):

@@ -19,7 +19,7 @@ from holomorph import (
     hyperelliptic,
     siegel_reduction,
 )
-from holomorph.equivalence import period_lattice
+from holomorph.known_periods import period_lattice
 from holomorph.siegel import moved
 from holomorph.theta_constants import even_theta_constants
 from solved import surface_of

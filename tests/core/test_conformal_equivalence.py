@@ -3,6 +3,7 @@
 import json
 
 import families
+import flat_cones
 import numpy as np
 import pytest
 from equivalence import gram_of, omega_of, random_symplectic, symplectic_unit
@@ -14,6 +15,7 @@ from holomorph import (
     _native,
     conformal_structure,
     conformally_equivalent,
+    curve_period_matrix,
 )
 from holomorph.__main__ import main
 from holomorph.equivalence import VERDICTS
@@ -282,7 +284,7 @@ def test_refusals():
     torus = surface_of(families.torus(8, 6))
     with pytest.raises(TopologyError, match="2 connected components"):
         conformally_equivalent(torus, surface_of(families.united(families.torus(8, 6), families.torus(8, 6))))
-    with pytest.raises(TypeError, match="surfaces or structures are compared, not str"):
+    with pytest.raises(TypeError, match="surfaces, structures or period matrices are compared, not str"):
         conformally_equivalent(torus, "kitten.obj")
     with pytest.raises(Cancelled):
         conformally_equivalent(torus, torus, progress=lambda fraction, stage: False)
@@ -294,6 +296,74 @@ def test_surfaces_without_positions_are_compared():
     made = equivalent(*tori)
     assert made.verdict == "not_equivalent"
     assert made.margin == pytest.approx(np.log(1.1001 / 1.1), rel=1e-3)
+
+
+# ---- known curves ----------------------------------------------------------------------------------------------
+
+
+def test_a_mesh_is_compared_with_a_known_curve():
+    """The octagon with opposite sides glued is Bolza's, y^2 = x^5 - x; the decagon y^2 = x^5 - 1."""
+    bolza, decagon = curve_period_matrix([1, 0, 0, 0, -1, 0]), curve_period_matrix([1, 0, 0, 0, 0, -1])
+    octagon = surface_of(flat_cones.regular_polygon(8))
+    assert equivalent(octagon, bolza).verdict == equivalent(bolza, octagon).verdict == "equivalent"
+    assert equivalent(octagon, decagon).verdict == "not_equivalent"
+    assert equivalent(surface_of(flat_cones.regular_polygon(10)), decagon).verdict == "equivalent"
+
+
+@pytest.mark.parametrize("tau", [0.21 + 1.3j, -0.37 + 0.9j])
+def test_a_torus_is_compared_with_its_lattice(tau):
+    torus = surface_of(families.flat_torus(tau, 5, jitter=0.2))
+    assert equivalent(torus, [[tau]]).verdict == "equivalent"
+    assert equivalent(torus, [[tau / (1 - tau)]]).verdict == "equivalent"
+    assert equivalent(torus, [[-tau.conjugate()]]).verdict == "mirror_image"
+    assert equivalent(torus, [[tau + 1e-4j]]).verdict == "not_equivalent"
+
+
+def test_a_curved_mesh_is_compared_with_its_smooth_surface():
+    """Within a quarter of its bounds; a finer mesh of it too, and another torus not."""
+    exact = [[1j / np.sqrt(1.5**2 - 1)]]
+    for n in (32, 64):
+        assert equivalent(surface_of(families.torus(n, n, R=1.5)), exact).verdict in ("equivalent", "undecided")
+        assert conformally_equivalent(surface_of(families.torus(n, n, R=1.5)), exact, tolerance=0.02).verdict == (
+            "equivalent"
+        )
+    assert equivalent(surface_of(families.torus(32, 32, R=1.7)), exact).verdict == "not_equivalent"
+
+
+def test_a_structure_has_its_own_period_matrix():
+    structure = conformal_structure(surface_of(triangles(2)))
+    made = equivalent(structure, structure.period_matrix)
+    assert made.verdict == "equivalent" and made.residual < 1e-9
+    assert equivalent(structure.period_matrix, -structure.period_matrix.conj()).verdict == "mirror_image"
+
+
+def test_a_period_matrix_of_another_genus():
+    made = equivalent([[1j]], curve_period_matrix([1, 0, 0, 0, -1, 0]))
+    assert made.sentence == "Not equivalent: genus 1 and 0 boundaries, and genus 2 and 0 boundaries."
+    assert equivalent(surface_of(families.cylinder(8, 4)), [[1j]]).verdict == "not_equivalent"
+
+
+@pytest.mark.parametrize(
+    ("matrix", "reason"),
+    [
+        ([[1j, 0]], "square, symmetric and finite"),
+        ([[1j, 0.5], [0.2, 1j]], "square, symmetric and finite"),
+        ([[np.nan]], "square, symmetric and finite"),
+        (np.zeros((0, 0)), "square, symmetric and finite"),
+        (1j, "square, symmetric and finite"),
+        ([[-1j]], "positive definite"),
+        ([[0.3]], "positive definite"),
+    ],
+)
+def test_wrong_matrices_are_refused(matrix, reason):
+    with pytest.raises(ValueError, match=reason):
+        conformally_equivalent(matrix, [[1j]])
+
+
+@pytest.mark.parametrize("given", ["kitten.obj", [["a"]], [[1j], [1j, 2]], None, [[None]]])
+def test_what_is_no_matrix_is_refused(given):
+    with pytest.raises(TypeError, match="surfaces, structures or period matrices are compared, not"):
+        conformally_equivalent([[1j]], given)
 
 
 # ---- the command -----------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import pytest
 import sextics
 from equivalence import random_symplectic
 from holomorph import TopologyError, conformal_structure, igusa_invariants
-from holomorph.igusa import invariants
+from holomorph.igusa import enclosed, invariants
 from holomorph.siegel import moved, siegel_reduction
 from solved import surface_of
 from test_equivalence import BOLZA, LAWSON
@@ -65,8 +65,48 @@ def test_intervals_of_meshes_hold_the_curve_s_invariants(file, curve):
 
 
 def test_wide_bounds_leave_them_open():
-    found = igusa_invariants(conformal_structure(surface_of(flat_cones.regular_polygon(10))))
-    assert np.isinf(found.errors).all()
+    omega = siegel_reduction(BOLZA).period_matrix
+    assert np.isinf(enclosed(omega, 1.0)[1]).all()
+    assert all(np.isinf(ball.error) for ball in invariants(omega, 1.5))
+
+
+@pytest.mark.parametrize("radius", [1e-4, 1e-3, 1e-2])
+@pytest.mark.parametrize("omega", [BOLZA, LAWSON], ids=["Bolza", "Lawson"])
+def test_intervals_are_as_wide_as_the_bounds_allow(omega, radius):
+    """Of the invariants of period matrices within a distance none is outside, and the farthest is not far
+    from the end. At symmetric curves, as these, the derivatives vanish: plain arithmetic is 100 times as wide."""
+    omega = siegel_reduction(omega).period_matrix
+    values, errors = enclosed(omega, radius)
+    root, random = np.linalg.cholesky(omega.imag), np.random.default_rng(0)
+    farthest = np.zeros(3)
+    for _ in range(300):
+        S = random.normal(size=(2, 2)) + 1j * random.normal(size=(2, 2))
+        S = S + S.T
+        u, _, v = np.linalg.svd(S)  # the nearest unitary one is symmetric: an end of the unit ball
+        other = omega + np.expm1(radius) * root @ (u @ v) @ root.T
+        found = np.array([ball.value for ball in invariants((other + other.T) / 2)])
+        assert (np.abs(found - values) <= errors).all()
+        farthest = np.maximum(farthest, np.abs(found - values))
+    if radius < 1e-2:  # beyond, the remainder is not small
+        assert (farthest > 0.3 * errors).all()
+
+
+def test_they_are_narrowed_to_a_wished_width():
+    structure = conformal_structure(surface_of(flat_cones.regular_polygon(8)))
+    exact = np.array([float(value) for value in sextics.absolute(BOLZA_CURVE)])
+    assert (igusa_invariants(structure).errors > 1e-3 * np.abs(exact)).all()
+    found = igusa_invariants(structure, width=1e-3)
+    assert found.refinement.reached
+    assert (found.errors <= 1e-3 * np.abs(found.values)).all()
+    assert (np.abs(found.values - exact) <= found.errors).all()
+
+
+def test_what_keeps_them_wide_is_told():
+    structure = conformal_structure(surface_of(flat_cones.regular_polygon(8)))
+    found = igusa_invariants(structure, width=1e-6, most_faces=500)
+    assert not found.refinement.reached and "more than 500" in found.refinement.reason
+    with pytest.raises(ValueError, match="width is -1"):
+        igusa_invariants(structure, width=-1)
 
 
 @pytest.mark.parametrize("mesh", [families.torus(12, 8), families.cylinder(8, 4)], ids=["torus", "cylinder"])

@@ -121,6 +121,9 @@ void bind_parts(py::module_& m) {
   using mesh::RefusedFaces;
   using mesh::TopologicalType;
   py::class_<TopologicalType>(m, "TopologicalType")
+      .def(py::init([](int genus, int loops) {
+        return TopologicalType{genus, loops};
+      }))
       .def_readonly("genus", &TopologicalType::genus)
       .def_readonly("boundary_count", &TopologicalType::boundary_count)
       .def("text", &TopologicalType::text);

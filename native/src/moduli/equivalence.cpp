@@ -25,6 +25,12 @@ const Isometry* nearest(const Isometries& isometries) {
   return found == isometries.found.end() ? nullptr : &*found;
 }
 
+// Of both surfaces: the geometric mean, so that a coarse mesh is not taken for all that it may be; of the other where
+// one is exact.
+double common_bars(double of_a, double of_b) {
+  return std::min(of_a, of_b) > kRounding ? std::sqrt(of_a * of_b) : std::max(of_a, of_b);
+}
+
 class Judge {
  public:
   Judge(const PeriodLattice& a, const PeriodLattice& b, double allowed, std::int64_t steps, Execution& execution)
@@ -33,7 +39,7 @@ class Judge {
   Comparison run() {
     const double of_a = radius(a_), of_b = radius(b_);
     execution_.stage("integer matrices", 0, 0.3);
-    const bool agree = look_near(std::max({kRounding, allowed_, kAgreement * std::sqrt(of_a * of_b)}));
+    const bool agree = look_near(std::max({kRounding, allowed_, kAgreement * common_bars(of_a, of_b)}));
     execution_.stage("integer matrices", 0.3, 0.6);
     if (!agree) take_nearest(a_, b_, allowed_, result_.is_complete);
     const double found = result_.isometry ? result_.isometry->residual : std::numeric_limits<double>::infinity();

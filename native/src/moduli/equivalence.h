@@ -22,7 +22,8 @@ struct Comparison {
   bool is_complete = true;  ///< false where a limit of steps ended a search that had to be complete
 };
 
-/// Part of the half-width of the bounds, the geometric mean of both, to which projected periods have to agree. They are
+/// Part of the half-width of the bounds, the geometric mean of both, or the one's where the other is exact, to which
+/// projected periods have to agree. They are
 /// several times as accurate as the bounds, so that meshes of one surface agree to less, and little more can be told
 /// apart from it.
 inline constexpr double kAgreement = 0.25;

@@ -1,0 +1,58 @@
+"""A period matrix in place of a surface, and what is compared of both."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import _native, arrays
+from .array_types import Complexes
+from .bounded import BoundedStructure
+from .checks import only_component
+from .results import Structure
+from .siegel import checked_period_matrix
+from .surface import Surface
+
+
+class KnownPeriods:
+    """The closed surfaces with a period matrix, which is taken for exact."""
+
+    boundary_count = 0
+
+    def __init__(self, period_matrix):
+        self.period_matrix: Complexes = arrays.frozen(checked_period_matrix(period_matrix))
+        self.genus = len(self.period_matrix)
+        self.period_bounds = self.period_matrix.imag, self.period_matrix.imag
+        self._topology = _native.TopologicalType(self.genus, 0)
+
+    def lattice(self):
+        """In the classes dual to the canonical basis, the first g to the a_i."""
+        real, imaginary = self.period_matrix.real, self.period_matrix.imag
+        inverse = np.linalg.inv(imaginary)
+        gram = np.block([[imaginary + real @ inverse @ real, -real @ inverse], [-inverse @ real, inverse]])
+        one, none = np.eye(self.genus, dtype=np.int64), np.zeros((self.genus, self.genus), np.int64)
+        return _native.PeriodLattice.closed((gram + gram.T) / 2, np.block([[none, one], [-one, none]]))
+
+
+def period_lattice(structure):
+    """The native lattice of integer classes with their energies: of a closed structure, of one with boundary, of
+    `KnownPeriods`."""
+    if isinstance(structure, KnownPeriods):
+        return structure.lattice()
+    gram = structure._native.certain_gram_matrices()
+    if isinstance(structure, BoundedStructure):
+        return _native.PeriodLattice.bounded(*gram, structure.pairing, structure._component.genus)
+    wedge = -np.rint(np.linalg.inv(structure.intersection_matrix)).astype(np.int64)
+    return _native.PeriodLattice.closed(gram[0], wedge)
+
+
+def side_of(given):
+    """The connected surface, or `KnownPeriods`, of what is to be compared."""
+    if isinstance(given, (Surface, Structure)):
+        return only_component(given.surface if isinstance(given, Structure) else given)
+    try:
+        is_numeric = np.asarray(given).dtype.kind in "iufc"
+    except ValueError:  # rows of different lengths
+        is_numeric = False
+    if not is_numeric:
+        raise TypeError(f"surfaces, structures or period matrices are compared, not {type(given).__name__}")
+    return KnownPeriods(given)
