@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The memory of a program that measures itself, on Linux.
+// The memory and the processor time of a program that measures itself, on Linux.
 #pragma once
 
 #include <malloc.h>
+#include <sys/resource.h>
 
 #include <fstream>
 #include <string>
+#include <utility>
 
 namespace holomorph::benchmarks {
 
@@ -19,6 +21,16 @@ inline double peak_bytes() {
   }
   status >> kilobytes;
   return 1024 * kilobytes;
+}
+
+/// Seconds of the processors so far, of the user and of the system.
+inline std::pair<double, double> spent() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return {seconds(usage.ru_utime), seconds(usage.ru_stime)};
 }
 
 /// Lets what is freed from now on stay with the program, for its next run.

@@ -1,6 +1,7 @@
 #include "forms/certificates.h"
 
 #include <array>
+#include <type_traits>
 
 #include "forms/block_sums.h"
 #include "mesh/triangle_geometry.h"
@@ -26,7 +27,7 @@ Eigen::Map<const Row<N>> at_vertex(const ClosedForms& forms, int v) {
   return {forms.functions.data() + v * n, n};
 }
 
-// Value of every form along h. N is their number, where it is known in advance: two of them are several times faster.
+// Value of every form along h. N is their number, where it is known in advance: that is several times faster.
 template <int N>
 void add_along(const HalfEdges& half_edges, const ClosedForms& forms, HalfedgeHandle h, double factor, Row<N>& sum) {
   const int head = to_vertex(half_edges, h), tail = mesh::from_vertex(half_edges, h);
@@ -148,11 +149,25 @@ Residuals residuals_of(const HalfEdges& half_edges, std::span<const double> weig
           relative_maximum<N>(half_edges.n_vertices(), n, execution, 0.5, 1.0, vertices)};
 }
 
+// compute(N) with the number of forms, where it is that of a surface with few handles; else with Eigen::Dynamic.
+template <class Compute>
+auto with_count(Eigen::Index count, const Compute& compute) {
+  switch (count) {
+    case 2:
+      return compute(std::integral_constant<int, 2>());
+    case 4:
+      return compute(std::integral_constant<int, 4>());
+    case 6:
+      return compute(std::integral_constant<int, 6>());
+    default:
+      return compute(std::integral_constant<int, Eigen::Dynamic>());
+  }
+}
+
 }  // namespace
 
 Eigen::VectorXd energies(const mesh::Surface& surface, const ClosedForms& forms, Execution& execution) {
-  return forms.functions.cols() == 2 ? energies_of<2>(surface, forms, execution)
-                                     : energies_of<Eigen::Dynamic>(surface, forms, execution);
+  return with_count(forms.functions.cols(), [&](auto n) { return energies_of<n>(surface, forms, execution); });
 }
 
 Eigen::VectorXd wedges(const HalfEdges& half_edges, const ClosedForms& forms, const Eigen::VectorXd& w,
@@ -178,8 +193,8 @@ Residuals residuals(const HalfEdges& half_edges, std::span<const double> weights
                     Execution& execution, int natural, const std::vector<int>& fixed) {
   std::vector<char> is_fixed(half_edges.n_vertices(), 0);
   for (const int v : fixed) is_fixed[v] = 1;
-  const auto of = forms.functions.cols() == 2 ? residuals_of<2> : residuals_of<Eigen::Dynamic>;
-  return of(half_edges, weights, forms, execution, natural, is_fixed);
+  return with_count(forms.functions.cols(),
+                    [&](auto n) { return residuals_of<n>(half_edges, weights, forms, execution, natural, is_fixed); });
 }
 
 }  // namespace holomorph::forms
