@@ -3,8 +3,9 @@
 
 How many times longer a tiling with automatic poles takes than the conformal structure of the same surface, by genus,
 boundary loops and size: on blocks and plates with rectangular holes, and on the meshes given. Each is measured once,
-structure and tiling in turn. Ratios alone, as seconds do not carry over to other machines; those of small surfaces
-have a star where the tiling takes less than ten seconds, which nobody would shorten for a ratio.
+structure and tiling in turn, in processor time, which other work on the machine changes least. Ratios alone, as seconds
+do not carry over to other machines; those of small surfaces have a star where the tiling takes less than ten seconds,
+which nobody would shorten for a ratio.
 """
 
 import argparse
@@ -52,9 +53,9 @@ def cases(files):
 
 def seconds(work):
     """(what it gives, how long it took)."""
-    start = time.perf_counter()
+    start = time.process_time()
     result = work()
-    return result, time.perf_counter() - start
+    return result, time.process_time() - start
 
 
 def main():

@@ -121,7 +121,11 @@ SampledParts sampled_parts(const mesh::Surface& surface, const FormSamples& samp
     const Placed placed(surface, samples.triangles[s]);
     parts.row(s) = 0.5 * placed.derivative(samples.on_sides.row(2 * s), samples.on_sides.row(2 * s + 1));
   }
-  return {parts * basis, parts.conjugate() * basis};
+  // Both from the same four real products, which take half as long as two complex ones.
+  const MatrixXd x = parts.real(), y = parts.imag(), u = basis.real(), v = basis.imag();
+  const MatrixXd xu = x * u, xv = x * v, yu = y * u, yv = y * v;
+  const Complex i(0, 1);
+  return {(xu - yv) + i * (xv + yu), (xu + yv) + i * (xv - yu)};
 }
 
 // du + i dv = A dz with A = v_y + i v_x.

@@ -13,13 +13,19 @@ namespace {
 
 constexpr int kCounts[] = {2, 4, 8, 12, 16};       // numbers of poles that are tried
 constexpr int kFew = 4;                            // so many are placed by all samples,
-constexpr int kEvery = 3;                          // more of them by every third one
+constexpr int kEvery = 3;                          // more of them by every third one,
+constexpr int kManyForms = 64;                     // and so all where there are so many forms
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 16};
 constexpr double kEvened = 2.85, kHopefulEvened = 1.5 * kEvened;  // spread of the evened density
 constexpr double kUsualValues = 30;                               // of the objective, in the last descent
 constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
+
+// Every so many-th of the samples is used in a search for so many poles.
+int thinning(const GreensFunctions& greens, int count) {
+  return count <= kFew && greens.basis().form_count() < kManyForms ? 1 : kEvery;
+}
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
   form = search.settled(std::move(form));
@@ -28,7 +34,7 @@ MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
 
 // Places are polished only where that may be enough, and so for few counts.
 MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
-  PoleSearch few(greens, options, 1, execution), more(greens, options, kEvery, execution);
+  PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
   const double power = evening::power_of_density(evening::kUsualEvenness);
   const auto evened = [&](const MeromorphicForm& form) { return std::pow(few.spread_of(form), power); };
   MeromorphicForm added = few.begin(), best = added;
@@ -55,7 +61,7 @@ MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& option
                              ? "on a closed surface the residues sum to 0, so two or more are needed"
                              : "a disk needs one or more"));
   }
-  PoleSearch search(greens, options, count <= kFew ? 1 : kEvery, execution);
+  PoleSearch search(greens, options, thinning(greens, count), execution);
   MeromorphicForm form = search.begin();
   if (!search.add(form, count)) {
     throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " of " + std::to_string(count) +
@@ -67,7 +73,7 @@ MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& option
 
 MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
   if (options.evened) return enough_for_evening(greens, options, execution);
-  PoleSearch few(greens, options, 1, execution), more(greens, options, kEvery, execution);
+  PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
   MeromorphicForm added = few.begin(), best = added;
   double least = few.spread_of(best);
   for (const int count : kCounts) {

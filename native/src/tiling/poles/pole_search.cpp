@@ -58,7 +58,8 @@ MeromorphicForm PoleSearch::begin() {
                                                                        basis_.holomorphic(), options_.kind, execution_);
   }
   objective_.prepare(form.poles, k, execution_);
-  objective_.fit(form, kFromAfar, tick_);
+  // The balance of many forms alone is a minimum already.
+  objective_.fit(form, k == 0 && objective_.has_many_forms() ? kFromNear : kFromAfar, tick_);
   return form;
 }
 
