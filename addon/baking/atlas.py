@@ -1,22 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Islands of meshes side by side in the UV square, without overlap and with room for margins.
-
-Parts that flatten into islands beside each other keep these, the others get those of Blender's Smart UV Project, and
-Blender packs them all.
-"""
+"""Islands of meshes side by side in the UV square, packed by Blender with room for margins."""
 
 import math
 from dataclasses import dataclass
 
-import bpy
 import numpy as np
 
 from .. import native
 from ..maps import packing
 from ..scene import uv_maps
+from . import unfolding
 from .options import LEAST_SIDE, MOST_SIDE, USUAL_SIDE
 
-MOST_COST = 0.8  # of our islands, see the package's `appearance`: with more, a projection has fewer seams
 FILLED = 0.5  # area of the islands before they are packed: about what they fill then
 SHRUNK = 0.7  # by the packer, for the margins: about
 MOST_MARGIN = 1.0  # that the packer takes
@@ -37,51 +32,14 @@ class Atlas:
 def make(context, meshes, options):
     """The `Atlas` of `mesh_io.Polygons` whose positions are in metres. @throws ValueError there is no room"""
     joined = packing.joined(meshes)
+    islands = unfolding.islands(context, joined, meshes)
+    if not native.load().distortion.length_ratio(joined, islands) > 0:
+        raise ValueError("its faces have no area")
     with packing.mesh_of(context, joined) as mesh:
         uv_maps.write_map(mesh, joined, uv_maps.BAKE_MAP, np.zeros((len(joined.corner_vertices), 2), np.float32))
-        islands = _islands(context, mesh, joined, meshes)
-        if not native.load().distortion.length_ratio(joined, islands) > 0:
-            raise ValueError("its faces have no area")
         uv, side, texels = _packed(context, mesh, joined, islands, options)
     ends = np.cumsum([len(one.corner_vertices) for one in meshes])
     return Atlas(np.split(uv, ends[:-1]), side, texels)
-
-
-def _islands(context, mesh, joined, meshes):
-    """(#C, 2) float32, side by side or not, with nearly a UV unit for a metre."""
-    first, uv = 0, np.full((len(joined.corner_vertices), 2), np.nan, np.float32)
-    for polygons in meshes:
-        for part in _parts(polygons):
-            flat = _flat(part)
-            if flat is not None:
-                uv[first + part.corner_index] = flat
-        first += len(polygons.corner_vertices)
-    is_left = np.isnan(uv).any(axis=1)
-    if is_left.any():
-        with packing.editing_all(context):
-            bpy.ops.uv.smart_project(angle_limit=math.radians(66), island_margin=0.0)
-        found = np.nan_to_num(uv_maps.read_map(mesh, uv_maps.BAKE_MAP))
-        ratio = native.load().distortion.length_ratio(joined, found)
-        uv[is_left] = found[is_left] / (ratio or 1.0)
-    return uv
-
-
-def _parts(polygons):
-    """Connected parts; none of what is no surface."""
-    try:
-        return polygons.surface(strict=False).components
-    except native.refusals():
-        return ()
-
-
-def _flat(part):
-    """(#C, 2) islands of a part that do not overlap and look good; None where there are none."""
-    try:
-        found = native.load().island_map(part)
-    except native.refusals():
-        return None
-    is_taken = found is not None and found.quality.overlapping_part == 0 and found.cost <= MOST_COST
-    return found.uv if is_taken else None
 
 
 def _packed(context, mesh, joined, islands, options):

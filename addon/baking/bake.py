@@ -116,7 +116,7 @@ class BakeWork(Work):
                     image = made.new_image(channel, one.atlas.side)
                     for name, (copy, map_name) in zip(one.names, copies):
                         yield UNFOLDING + (1 - UNFOLDING) * done / count, f"baking {channel.lower()} of {name}"
-                        made.bake(copy, map_name, channel, image, options.margin)
+                        made.bake(copy, map_name, channel, image, options.room)
                         done += 1
                     image.pack()
                     one.images[channel] = image.packed_file.data

@@ -8,7 +8,6 @@ COLOUR, ROUGHNESS, METALLIC, HEIGHT, NORMAL = "COLOUR", "ROUGHNESS", "METALLIC",
 CHANNELS = (COLOUR, ROUGHNESS, METALLIC, HEIGHT, NORMAL)
 USUAL_CHANNELS = frozenset({COLOUR, ROUGHNESS, NORMAL})
 USUAL_SIDE = 2048  # texels of an image's side where no texels per metre are asked for
-RIM = 3  # texels around a margin, which Blender fills in part with the background
 LEAST_SIDE, MOST_SIDE = 16, 16384
 
 
@@ -24,5 +23,5 @@ class BakeOptions:
 
     @property
     def room(self):
-        """Texels around each island: no rim reaches another island's margin."""
-        return self.margin + RIM if self.margin else 1
+        """Texels that belong to each island around it: a margin, and one that rounding may take of it."""
+        return self.margin + 1

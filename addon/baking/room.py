@@ -10,7 +10,7 @@ from ..materials import material as shown
 from ..writing import transaction
 from . import images
 from .channels import ChannelCopy
-from .options import HEIGHT, NORMAL, RIM
+from .options import HEIGHT, NORMAL
 
 FLAT = (0.5, 0.5, 1.0, 1.0)  # a normal that stands upright
 BLACK = (0.0, 0.0, 0.0, 1.0)
@@ -84,7 +84,8 @@ class Room:
                 type="NORMAL" if channel == NORMAL else "EMIT",
                 normal_space="TANGENT",
                 uv_layer=map_name,
-                margin=margin + RIM if margin else 0,
+                margin=margin,
+                margin_type="EXTEND",  # the other kind reads faces beside, and beyond them other islands
                 use_clear=False,
             )
 

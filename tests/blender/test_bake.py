@@ -5,7 +5,7 @@ import json
 import bpy
 import numpy as np
 import pytest
-from baked_images import Points, covering, grown, islands, pixels, sampled
+from baked_images import Points, covering, grown, islands, pixels, sampled, triangles
 from conftest import module
 from file_state import differences, file_state
 from scenes import grid_arrays, mesh_object, select, torus, uv_maps
@@ -144,7 +144,7 @@ def test_islands_are_apart_and_margins_show_their_border(margin):
         count = covering(bpy.data.objects[name], side)
         assert count.max() == 1  # nothing overlaps
         covered[name] = count > 0
-        near = grown(covered[name], margin - 1)
+        near = grown(covered[name], margin)
         assert np.allclose(baked[near], np.eye(3)[channel], atol=STEP)
     assert not (covered["Torus"] & covered["Box"]).any()
     labels, number = islands(covered["Torus"] | covered["Box"])
@@ -435,3 +435,38 @@ def test_the_command_refuses_in_one_sentence(tmp_path):
     ):
         done = headless("--seamless", *options, blend=blend)
         assert done.returncode == 1 and len(our_lines(done)) == 1 and sentence in done.stderr
+
+
+def test_a_part_that_unfolds_keeps_its_flat_islands():
+    _, box = scene()
+    select(box)
+    assert run(texels=60.0) == {"FINISHED"}
+    _, number = islands(grown(covering(box, image_of("Box Colour").size[0]) > 0, 1))
+    assert number == 1  # Smart UV Project makes five
+    loops, _ = triangles(box)
+    corners = uv_maps.read_map(box.data, uv_maps.bake_map(box.data)).astype(np.float64)[loops]
+    sides = corners[:, 1:] - corners[:, :1]
+    world = np.array([box.matrix_world @ vertex.co for vertex in box.data.vertices])
+    at = world[[[box.data.loops[loop].vertex_index for loop in three] for three in loops]]
+    length = np.linalg.norm(at[:, 1] - at[:, 0], axis=1)
+    density = np.linalg.norm(sides[:, 0], axis=1) / length
+    assert np.ptp(density) < 1e-3 * density.mean()
+
+
+def spring_arrays(turns=4, around=8):
+    """A tube with open ends that winds up: a projection lays its turns over each other."""
+    count = 24 * turns
+    i, j = np.meshgrid(np.arange(count), np.arange(around), indexing="ij")
+    u, v = 2 * np.pi * i / 24, 2 * np.pi * j / around
+    radius = 1 + 0.15 * np.cos(v)
+    vertices = np.stack([radius * np.cos(u), radius * np.sin(u), 0.15 * np.sin(v) + 0.08 * u], -1).reshape(-1, 3)
+    first = np.arange(count * around).reshape(count, around)
+    beside = np.roll(first, -1, axis=1)
+    return vertices, np.stack([first[:-1], first[1:], beside[1:], beside[:-1]], -1).reshape(-1, 4)
+
+
+def test_the_turns_of_a_spring_lie_beside_each_other():
+    spring = mesh_object("Spring", *spring_arrays())
+    tiled(spring, texture="BRICKS")
+    assert run() == {"FINISHED"}
+    assert covering(spring, image_of("Spring Colour").size[0]).max() == 1
