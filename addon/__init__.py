@@ -7,7 +7,7 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .interface import panel, presets, shortcuts
-from .operators import carry, compare, drag, lod, mapping, submit, texel_operators, tools
+from .operators import bake, carry, compare, drag, lod, mapping, submit, texel_operators, tools
 from .overlays import overlay
 
 bl_info = {
@@ -29,6 +29,7 @@ MODULES = (
     texel_operators,
     compare,
     carry,
+    bake,
     overlay,
     tools,
     submit,

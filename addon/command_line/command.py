@@ -16,7 +16,7 @@ from ..levels.levels import LevelOptions
 from ..operators.run import Run
 from ..results import report, stored
 from ..writing import transaction
-from . import exchange, sources, studio
+from . import baked, exchange, sources, studio
 from .options import UsageError, parse
 
 EXIT_REFUSED, EXIT_STRICT, EXIT_INTERRUPTED = 1, 3, 130
@@ -66,6 +66,8 @@ def process(options):
         source = options.mesh.stem if options.mesh is not None else Path(bpy.data.filepath).stem
         _write_report(options, report.run_report([report.refusal_report(source, str(error))]))
         raise
+    if options.bake is not None and outcome.done:
+        baked.add(options, outcome)
     levels = _add_levels(options, outcome)
     content = report.run_report(outcome.entries)
     content["seconds"] = time.perf_counter() - start

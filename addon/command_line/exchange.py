@@ -136,16 +136,22 @@ def _with_fbx():
 
 
 def _prepare(objects, forms, texture):
-    """Takes from these objects our materials, but for the texture where it is wanted, our custom properties and, unless
-    wanted, the maps of forms; and what an importer made for its own use, which exporters of other formats do not know.
+    """Takes from these objects our materials, but for baked ones and for the texture where it is wanted, our custom
+    properties and, unless wanted, the maps of forms; and what an importer made for its own use, which exporters of
+    other formats do not know.
     """
     bpy.data.batch_remove([obj for obj in objects if gathering.is_helper(obj)])
     with_meshes = [obj for obj in objects if obj.type == "MESH"]
+    owners = {*objects, *(obj.data for obj in with_meshes)}
     for obj in with_meshes:
+        baked = [slot.material for slot in obj.material_slots if material.is_baked(slot.material)]
+        if baked:
+            owners |= {*baked}
+            continue
         if texture:
             plain.show(obj)
         material.uncover(obj)
-    for owner in {*objects, *(obj.data for obj in with_meshes)}:
+    for owner in owners:
         if owner.library is None:
             _clean(owner, forms)
 

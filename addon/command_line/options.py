@@ -11,6 +11,7 @@ from pathlib import Path
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
+from ..baking.options import CHANNELS, EACH, ONE, UDIM, USUAL_CHANNELS, BakeOptions
 from ..maps.options import DIALS
 from ..operators import map_choices, tile_choices
 from ..operators.properties import MapProperties, SharedProperties
@@ -64,9 +65,10 @@ def parse(arguments):
     parser.add_argument("--lod0", action="store_true", help="a copy of the object as the finest level")
     _add_choices(parser)
     _add_tilings(parser)
+    _add_bake(parser)
     options = parser.parse_args(arguments)
     _check_suffixes(options)
-    _check_folders(options.output, options.render, options.report)
+    _check_folders(options.output, options.render, options.report, options.bake)
     _check_values(options)
     _take_over(options)
     return options
@@ -140,6 +142,20 @@ def _add_tilings(parser):
     _add_properties(group, TileProperties, "tiles", "pole_group", "lattice", "direction")
 
 
+def _add_bake(parser):
+    group = parser.add_argument_group("baking what tilings show into an atlas")
+    group.add_argument("--bake", type=Path, metavar="FOLDER", help="bake, and save the images in this folder")
+    text = "texels on a metre of the surface; 0: images of 2,048 texels a side"
+    group.add_argument("--texels", type=float, default=BakeOptions.texels, help=text)
+    names, usual = [name.lower() for name in CHANNELS], [name.lower() for name in CHANNELS if name in USUAL_CHANNELS]
+    group.add_argument("--bake-channels", nargs="+", choices=names, default=usual, help="what is baked")
+    images = [name.lower() for name in (EACH, ONE, UDIM)]
+    text = "images for each object, one atlas for all, or one with a UDIM tile for each"
+    group.add_argument("--bake-images", choices=images, default=BakeOptions.images.lower(), help=text)
+    text = "texels around islands that show what their border shows"
+    group.add_argument("--bake-margin", type=int, default=BakeOptions.margin, help=text)
+
+
 def _check_suffixes(options):
     for name, suffixes in SUFFIXES.items():
         path = getattr(options, name)
@@ -174,6 +190,10 @@ def _check_values(options):
     _refuse_if(poles not in ("automatic", "selected") and not is_number, sentence)
     chosen = options.pole or options.rectangle
     _refuse_if(options.seamless and chosen, "--pole and --rectangle go without --seamless: it has --poles")
+    is_file = options.bake is not None and options.bake.exists() and not options.bake.is_dir()
+    _refuse_if(is_file, f"--bake: {options.bake} is no folder")
+    is_number = 0 <= options.texels < math.inf and options.bake_margin >= 0
+    _refuse_if(not is_number, "--texels and --bake-margin cannot be negative")
     _refuse_if(min(options.resolution, options.samples) < 1, "--resolution and --samples must be at least 1")
 
 

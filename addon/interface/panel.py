@@ -4,7 +4,7 @@
 import bpy
 
 from .. import native
-from ..operators import carry, compare, drag, lod, submit, texel_operators, tools
+from ..operators import bake, carry, compare, drag, lod, submit, texel_operators, tools
 from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..overlays import overlay
@@ -35,6 +35,7 @@ class _HolomorphPanel(_Panel):
             if context.mode == "OBJECT":
                 _draw_modifiers(column, context, obj)
                 layout.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
+                layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
             _draw_result(layout, context, obj)
         elif obj is not None and obj.type in CONVERTIBLE:
             lines.draw(column, context, CONVERT, "INFO")

@@ -19,10 +19,10 @@ def packed(context, mapped):
     its map has. They fill the UV square, unless the options say a density."""
     options, parts = mapped.options, [part.surface for part in mapped.solved.done]
     _, shelves = next(replace(mapped, options=replace(options, density=1.0, per_length=0.0)).maps())
-    corners, joined = np.concatenate([part.corner_index for part in parts]), _joined(parts)
-    with _mesh_of(context, joined) as mesh:
-        uv_maps.write_map(mesh, joined, uv_maps.MAIN_MAP, shelves[corners])
-        _pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
+    corners, side_by_side = np.concatenate([part.corner_index for part in parts]), joined(parts)
+    with mesh_of(context, side_by_side) as mesh:
+        uv_maps.write_map(mesh, side_by_side, uv_maps.MAIN_MAP, shelves[corners])
+        pack(context, native.load().layout.fitting_margin(options.margin, len(parts)))
         found = uv_maps.read_map(mesh, uv_maps.MAIN_MAP)
     filling = mapped.filling * _length(parts, found) / _length(parts, shelves[corners])
     options = replace(options, per_length=options.per_length or filling)
@@ -49,7 +49,7 @@ def _length(parts, uv):
 
 
 @contextmanager
-def _mesh_of(context, polygons):
+def mesh_of(context, polygons):
     """A mesh of these polygons, as the only object that is selected, and the active one; it is gone in the end."""
     layer = context.view_layer
     before, active = list(layer.objects.selected), layer.objects.active
@@ -70,7 +70,7 @@ def _mesh_of(context, polygons):
         layer.objects.active = active
 
 
-def _joined(parts):
+def joined(parts):
     """The `mesh_io.Polygons` of surfaces side by side, without a common vertex: the packer joins none of them."""
     first_vertices = np.cumsum([0] + [len(part.vertices) for part in parts])
     first_corners = np.cumsum([0] + [len(part.corner_vertices) for part in parts])
@@ -80,16 +80,23 @@ def _joined(parts):
     return mesh_io.Polygons(vertices, np.concatenate(corners), np.concatenate([[0], *ends]), None)
 
 
-def _pack(context, margin):
+def pack(context, margin):
     """Packs the UVs of the active object."""
+    with editing_all(context):
+        # The margin is added before the packer's factor, which is near 1; an exact one would take several packings.
+        bpy.ops.uv.pack_islands(rotate=True, margin_method="ADD", margin=margin)
+
+
+@contextmanager
+def editing_all(context):
+    """Edit mode for the active object, with everything selected."""
     settings = context.scene.tool_settings
     was_synced = settings.use_uv_select_sync
     try:
         settings.use_uv_select_sync = True  # what is selected is packed
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="SELECT")
-        # The margin is added before the packer's factor, which is near 1; an exact one would take several packings.
-        bpy.ops.uv.pack_islands(rotate=True, margin_method="ADD", margin=margin)
+        yield
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
         settings.use_uv_select_sync = was_synced

@@ -19,8 +19,10 @@ CHECKER = "CHECKER"
 CHECKER_ACROSS = 32  # squares that span an object where no number is asked for
 CHECKER_CELLS = 2  # squares of the checker after which it repeats
 REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
+BEFORE_BAKE = "holomorph_before_bake"  # custom property: slot index -> material that a baked one took the place of
 EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
 OURS = "holomorph_checker"  # custom property that tells our materials
+BAKED = "holomorph_baked_of"  # and those of them that show baked images: name of the object
 
 
 def cells(texture):
@@ -73,6 +75,7 @@ def cover(obj, material):
     if not obj.material_slots:
         obj.data.materials.append(material)
         return
+    obj.pop(BEFORE_BAKE, None)
     replaced = dict(obj.get(REPLACED, {}))
     for index, slot in enumerate(obj.material_slots):
         if is_ours(slot.material):
@@ -105,6 +108,35 @@ def uncover(obj):
     return found
 
 
+def before_bake(obj):
+    """What the slots show, or showed before images were baked."""
+    before = obj.get(BEFORE_BAKE, {})
+    shown = enumerate(slot.material for slot in obj.material_slots)
+    shown = [before.get(str(index), material) if is_baked(material) else material for index, material in shown]
+    return [None if material == EMPTY else material for material in shown]
+
+
+def cover_baked(obj, material):
+    """Shows a material of baked images in every slot, until `unbake`."""
+    before = {str(index): shown or EMPTY for index, shown in enumerate(before_bake(obj))}
+    cover(obj, material)
+    obj[BEFORE_BAKE] = before
+
+
+def unbake(obj):
+    """Brings back what `cover_baked` covered: a material that shows a map, else the own ones; returns whether there was
+    something."""
+    found = any(is_baked(slot.material) for slot in obj.material_slots)
+    before = before_bake(obj) if found else []
+    if all(map(is_ours, before)):
+        for slot, shown in zip(obj.material_slots, before):
+            slot.material = shown
+    else:
+        uncover(obj)
+    obj.pop(BEFORE_BAKE, None)
+    return found
+
+
 def _clear(mesh):
     """Takes all slots away; the faces keep their numbers of slots, which Blender sets to 0."""
     numbers = Values(mesh.polygons, "material_index", np.int32)
@@ -119,3 +151,8 @@ def is_covered(obj):
 
 def is_ours(material):
     return material is not None and OURS in material
+
+
+def is_baked(material):
+    """Whether it shows baked images, and so is more than a look at a map."""
+    return material is not None and BAKED in material

@@ -13,7 +13,7 @@ def remember(mesh):
     before = dict(mesh.get(BEFORE, {}))
     active, rendered = mesh.uv_layers.active, next((layer for layer in mesh.uv_layers if layer.active_render), None)
     for use, layer in (("active", active), ("rendered", rendered)):
-        if layer is not None and layer.name not in uv_maps.own_maps(mesh):
+        if layer is not None and layer.name not in (*uv_maps.own_maps(mesh), uv_maps.bake_map(mesh)):
             before[use] = layer.name
     if before:
         mesh[BEFORE] = before
@@ -25,8 +25,19 @@ def is_possible(obj):
 
 
 def restore(obj):
-    """Brings back the materials of all objects with this mesh, and the maps that were active; returns whether there was
-    something."""
+    """Brings back what was shown before images were baked, or else before maps were made: the materials of all objects
+    with this mesh, and the maps that were active; returns whether there was something."""
+    return _unbake(obj) or _uncover(obj)
+
+
+def _unbake(obj):
+    found = [material.unbake(user) for user in (obj, *gathering.others(obj))]
+    if any(found):
+        uv_maps.show_map(obj.data, uv_maps.main_map(obj.data))
+    return any(found)
+
+
+def _uncover(obj):
     mesh = obj.data
     found = [material.uncover(user) for user in (obj, *gathering.others(obj))]
     before = mesh.get(BEFORE)
@@ -45,7 +56,7 @@ def remove_maps(step, obj):
     """Restores, and removes our maps with all that tells of them from the objects with this mesh; returns whether there
     was something. Seams and levels of detail stay."""
     mesh = obj.data
-    found = restore(obj) | uv_maps.has_maps(mesh)
+    found = _unbake(obj) | _uncover(obj) | uv_maps.has_maps(mesh) | uv_maps.remove_bake_map(mesh)
     uv_maps.remove_maps(mesh)
     heat.refresh(obj)
     mesh.update()

@@ -15,6 +15,8 @@ from .mesh_io import is_attribute, read_values, write_values
 
 MAIN_MAP = "Holomorphic"
 SHAPE = "Holomorphic Shape"  # vector attribute of vertices
+BAKE_MAP = "Holomorphic Bake"
+OF_BAKE = "holomorph_bake_map"  # custom property of a mesh: name of the map that images are baked by
 OWN_MAPS = "holomorph_maps"  # custom property of a mesh: names of the maps that were made here, one in a line
 
 
@@ -68,6 +70,36 @@ def remove_maps(mesh):
         mesh.attributes.remove(mesh.attributes[name])
     if OWN_MAPS in mesh:
         del mesh[OWN_MAPS]
+
+
+def bake_map(mesh):
+    """The name of the map that images are baked by, "" without one."""
+    name = str(mesh.get(OF_BAKE, ""))
+    return name if name in mesh.uv_layers else ""
+
+
+def has_room_for_bake_map(mesh):
+    return bool(bake_map(mesh)) or len(mesh.uv_layers) < compatibility.UV_MAP_LIMIT
+
+
+def write_bake_map(mesh, polygons, uv):
+    """Writes (#C,2) float32 `uv` as the map that images are baked by, in place of an earlier one; returns its name.
+    @pre there is room for it"""
+    name = bake_map(mesh)
+    if name:
+        overwrite_map(mesh, polygons, name, uv)
+    else:
+        name = mesh[OF_BAKE] = write_map(mesh, polygons, BAKE_MAP, uv).name
+    return name
+
+
+def remove_bake_map(mesh):
+    """Returns whether there was one."""
+    name = bake_map(mesh)
+    if name:
+        mesh.uv_layers.remove(mesh.uv_layers[name])
+    mesh.pop(OF_BAKE, None)
+    return bool(name)
 
 
 def _of_loops(mesh, polygons, uv, before=""):

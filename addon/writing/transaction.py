@@ -57,7 +57,11 @@ class Step:
         """These objects, and their data where nothing else uses them. Their names are free at once."""
         self._objects += [obj for obj in objects if obj not in self._objects]
         used = [obj.data for obj in self._objects if obj.data is not None]
-        for block in self._objects + [data for data in used if data.users == used.count(data)]:
+        self.discard(self._objects + [data for data in used if data.users == used.count(data)])
+
+    def discard(self, blocks):
+        """These data-blocks, whatever uses them. Their names are free at once."""
+        for block in blocks:
             if block not in self._names:
                 self._names[block] = block.name
                 block.name = REMOVED
@@ -68,7 +72,7 @@ class Step:
 
     def finish(self):
         if self._names or self._copies:
-            _remove([*self._names, *self._copies])
+            remove([*self._names, *self._copies])
 
     def is_finished(self):
         try:
@@ -126,10 +130,10 @@ class _Before:
     def _remove_new(self):
         new = [block for block in _blocks() if block.as_pointer() not in self._blocks]
         if new:
-            _remove(new)
+            remove(new)
 
 
-def _remove(blocks):
+def remove(blocks):
     """Removes data-blocks in one call, with their shape keys: Blender 3.4 would keep these, with a dangling pointer."""
     keys = [block.shape_keys for block in blocks if getattr(block, "shape_keys", None) is not None]
     bpy.data.batch_remove([*blocks, *keys])

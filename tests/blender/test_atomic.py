@@ -4,6 +4,7 @@ import math
 
 import bpy
 import pytest
+from conftest import module
 from file_state import differences, file_state
 from injection import PUT_BACK, Lines, check, stops
 from scenes import mesh_object, select, torus_arrays, two_objects
@@ -179,3 +180,27 @@ def test_the_error_says_that_nothing_is_changed():
     stop = next(stop for stop in stops(lines.met) if stop[0].endswith("material.py"))
     with Lines(stop, MemoryError), pytest.raises(RuntimeError, match=f"while Torus was written.*{PUT_BACK}"):
         maps()
+
+
+def bake(folder, monkeypatch):
+    """The end of a bake: the work itself changes nothing, and is done once."""
+    two_objects()
+    tile(texture="BRICKS")
+    found = module("baking.bake")
+    work = found.BakeWork(
+        bpy.context, [bpy.data.objects[name] for name in ("Torus", "Ball")], found.BakeOptions(texels=20.0)
+    )
+    work.run()
+    monkeypatch.setattr(found, "BakeWork", lambda *_arguments: work)
+    return lambda: bpy.ops.object.holomorphic_bake(texels=20.0, folder=folder)
+
+
+def test_bake(monkeypatch):
+    check(bake("", monkeypatch))
+
+
+def test_second_bake(tmp_path, monkeypatch):
+    """Images and materials of the first one are replaced."""
+    press = bake(str(tmp_path), monkeypatch)
+    assert press() == {"FINISHED"}
+    check(press)

@@ -42,9 +42,10 @@ ADDON_BELOW = {
     "maps": ["scene"],
     "writing": ["materials"],
     "results": ["maps", "writing"],
+    "baking": ["results"],
     "levels": ["results"],
     "overlays": ["results"],
-    "operators": ["levels", "overlays"],
+    "operators": ["baking", "levels", "overlays"],
     "interface": ["operators"],
     "command_line": ["operators"],
 }

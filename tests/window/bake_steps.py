@@ -1,0 +1,58 @@
+"""Runs inside Blender with a window and simulated events: bakes a tiling, once cancelled, once to the end, undone."""
+
+import sys
+import time
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))
+from objects import clear, pick, torus
+from running import run
+from screen import area, hover, inside, tap
+
+PATIENCE = 120  # seconds for a bake
+NAME = "Ring"
+seen = {}
+
+
+def state():
+    """What a bake makes, and what of it must not be left."""
+    made = [image.name for image in bpy.data.images if NAME in image.name]
+    material = bpy.data.objects[NAME].material_slots[0].material.name
+    others = [len(bpy.data.scenes), len(bpy.data.objects), len(bpy.data.meshes)]
+    return [sorted(made), material, bpy.data.objects[NAME].data.uv_layers.keys(), others]
+
+
+def begin():
+    with inside(area("VIEW_3D")):
+        return list(bpy.ops.object.holomorphic_bake("INVOKE_DEFAULT", texels=40.0))
+
+
+def steps():
+    clear()
+    torus(NAME, 24, 12, 0)
+    pick(NAME)
+    with inside(area("VIEW_3D")):
+        bpy.ops.uv.holomorphic_tile("EXEC_DEFAULT", tiles=24, texture="BRICKS")
+        bpy.ops.ed.undo_push(message="Tiled")
+    yield 1
+    seen["before"] = state()
+    seen["begin"] = begin()
+    hover(area("VIEW_3D"))
+    tap("ESC")
+    yield 3
+    seen["after ESC"] = state()
+    begin()
+    start = time.monotonic()
+    while not state()[0] and time.monotonic() - start < PATIENCE:
+        yield 0.1
+    yield 1
+    seen["baked"] = state()
+    with inside(area("VIEW_3D")):
+        bpy.ops.ed.undo()
+    yield 1
+    seen["undone"] = state()
+
+
+run(steps(), seen)
