@@ -205,7 +205,7 @@ def _result(a, b, matching, found, progress):
     sign = -1 if found.verdict == "mirror_image" else 1
     p, q = (np.abs(z) for z in _native.map_derivatives(first, triangles, barycentric, second, sign, progress))
     is_folded = ~(q < p)
-    # Of an image's triangle, what is not similar to it, in the metric of the forms.
+    # What is not similar in the image of a triangle, in the metric of the forms.
     sizes = np.sqrt(areas(first.edge_lengths[first.triangle_edges])) * matching.densities(
         triangles[first.triangles[:, 0]]
     )

@@ -73,7 +73,7 @@ def test_wide_bounds_leave_them_open():
 @pytest.mark.parametrize("radius", [1e-4, 1e-3, 1e-2])
 @pytest.mark.parametrize("omega", [BOLZA, LAWSON], ids=["Bolza", "Lawson"])
 def test_intervals_are_as_wide_as_the_bounds_allow(omega, radius):
-    """Of the invariants of period matrices within a distance none is outside, and the farthest is not far
+    """No invariants of period matrices within a distance are outside, and the farthest are not far
     from the end. At symmetric curves, as these, the derivatives vanish: plain arithmetic is 100 times as wide."""
     omega = siegel_reduction(omega).period_matrix
     values, errors = enclosed(omega, radius)

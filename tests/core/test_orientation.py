@@ -34,7 +34,7 @@ def test_the_error_of_the_periods_is_told(name):
 
 
 def test_what_is_folded_is_told():
-    """Of a hole's boundary the ears, whose image has next to no area."""
+    """Ears of a hole's boundary have images with next to no area."""
     assert len(conformal_map(*map_pairs.symmetric_pair(0).structures()).folded) == 0
     found = conformal_map(*map_pairs.symmetric_pair(7).structures(), tolerance=map_pairs.TOLERANCE)
     assert len(found.folded) > 0 and f"{len(found.folded)} folded" in repr(found)

@@ -60,7 +60,7 @@ py::array carried_uv(const mesh::Surface& from, const Contiguous<int>& triangles
       reinterpret_cast<const double*>(carried.data()), static_cast<Eigen::Index>(carried.size()), 2));
 }
 
-// Of (#V,) triangles and (#V, 3) barycentric coordinates: p and q, (#T,) each.
+// p and q, (#T,) each, from (#V,) triangles and (#V, 3) barycentric coordinates.
 py::tuple map_derivatives(const mesh::Surface& from, const Contiguous<int>& triangles,
                           const Contiguous<double>& barycentric, const mesh::Surface& to, int sign,
                           const py::object& progress) {

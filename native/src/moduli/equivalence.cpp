@@ -25,7 +25,7 @@ const Isometry* nearest(const Isometries& isometries) {
   return found == isometries.found.end() ? nullptr : &*found;
 }
 
-// Of both surfaces: the geometric mean, so that a coarse mesh is not taken for all that it may be; of the other where
+// For both surfaces the geometric mean, so that a coarse mesh is not taken for all that it may be; the other's where
 // one is exact.
 double common_bars(double of_a, double of_b) {
   return std::min(of_a, of_b) > kRounding ? std::sqrt(of_a * of_b) : std::max(of_a, of_b);
