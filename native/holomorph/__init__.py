@@ -42,6 +42,7 @@ from .map import Map, form_map
 from .mixed import Mixed
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
+from .places import Places
 from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
 from .progressive import ProgressiveMesh
@@ -53,6 +54,7 @@ from .structure import conformal_structure
 from .surface import Surface
 from .symmetries import Automorphisms, automorphisms
 from .theta_constants import Hyperelliptic, hyperelliptic
+from .tiled_surface import TiledSurface
 from .tiling import Tiler, place_poles
 from .tilings import PlacedPoles, Rounding, Tiling
 from .verdicts import UNEVEN, Verdict, overall, verdict
@@ -85,6 +87,7 @@ __all__ = [
     "OutOfMemory",
     "ProgressiveMesh",
     "PlacedPoles",
+    "Places",
     "PoleStructure",
     "Quality",
     "RectangleMap",
@@ -98,6 +101,7 @@ __all__ = [
     "SolverError",
     "SolverReport",
     "Surface",
+    "TiledSurface",
     "Tiler",
     "Tiling",
     "TopologyError",
