@@ -19,6 +19,7 @@ from .automatic_map import automatic_map
 from .automatic_maps import automatic_maps
 from .automatic_structure import AnyStructure, automatic_structure
 from .bounded import BoundedStructure
+from .cells import Cells
 from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
@@ -37,6 +38,7 @@ from .igusa import IgusaInvariants, igusa_invariants
 from .island_map import Islands, island_map
 from .islands import islands
 from .levels import LevelOfDetail
+from .lines import Lines
 from .log_map import log_map
 from .map import Map, form_map
 from .mixed import Mixed
@@ -65,6 +67,7 @@ __all__ = [
     "Automorphisms",
     "BoundedStructure",
     "Cancelled",
+    "Cells",
     "Certificate",
     "CoarsePlace",
     "ConformalMap",
@@ -81,6 +84,7 @@ __all__ = [
     "Islands",
     "InvalidMesh",
     "LevelOfDetail",
+    "Lines",
     "Map",
     "MemoryPlan",
     "Mixed",

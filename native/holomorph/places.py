@@ -10,14 +10,15 @@ import numpy as np
 
 from . import arrays
 from .array_types import Integers, Reals
-from .value import Value, counted
+from .surface_points import SurfacePoints
+from .value import counted
 
 if TYPE_CHECKING:
     from .tiled_surface import TiledSurface
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Places(Value):
+class Places(SurfacePoints):
     """Result of `TiledSurface.places`: n points of the surface, each once, also on edges and where the map branches, in
     the order of the triangles. All arrays are read-only; what is not listed here is computed when asked for.
 
@@ -46,15 +47,6 @@ class Places(Value):
 
     def _facts(self):
         return [counted(len(self), "place"), f"{self.flipped} more in flipped triangles"]
-
-    def of(self, values: Reals) -> Reals:
-        """(n, ...) values at the places, of (#V, ...) values at the vertices of the surface."""
-        return np.einsum("ni,ni...->n...", self.barycentric, np.asarray(values)[self._corners])
-
-    @cached_property
-    def positions(self) -> Reals:
-        """(n, 3) in space."""
-        return arrays.frozen(self.of(self.tiled.surface.vertices))
 
     @cached_property
     def tangents(self) -> Reals:
@@ -97,11 +89,6 @@ class Places(Value):
         then along edges; infinite where there is no pole."""
         from_corner = np.linalg.norm(self.tiled.surface.vertices[self._corners] - self.positions[:, None], axis=2)
         return arrays.frozen((from_corner + self.tiled.pole_distances[self._corners]).min(axis=1))
-
-    @cached_property
-    def _corners(self):
-        """(n, 3) vertices."""
-        return self.tiled.surface.triangles[self.triangles]
 
 
 def _unit(vectors):

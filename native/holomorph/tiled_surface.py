@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import operator
+from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
@@ -11,7 +13,9 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 from ._native import TopologyError
 from .array_types import Integers, Reals
+from .cells import Cells
 from .checks import check_options, check_type
+from .lines import Lines
 from .places import Places
 from .surface import Surface
 from .tiling_options import generators
@@ -101,6 +105,50 @@ class TiledSurface(Value):
             _numbers=numbers,
         )
 
+    def lines(self, direction: str | Sequence[int] = "u", per_tile: int = 1) -> Lines:
+        """The lines between the tiles in one direction, as curves on the surface: see `Lines`.
+
+        direction : "u" for lines along the first vector of the lattice, "v" along the second, or two whole numbers
+            without a common divisor: so many of each
+        per_tile : as many lines for each tile, the first between tiles
+
+        Raises ValueError for others; SolverError for too many points. Cost: linear in triangles and points.
+        """
+        a, b = _direction(direction)
+        count = _count(per_tile, "per_tile")
+        coordinates = self._coordinates(((count * b, -count * a), (0, 0)))
+        found = _native.lines(self.surface._native, coordinates, threads=self._threads)
+        return Lines(
+            offsets=found.offsets,
+            is_closed=arrays.frozen(found.is_closed.astype(bool)),
+            triangles=found.triangles,
+            barycentric=found.barycentric,
+            tiled=self,
+        )
+
+    def cells(self) -> Cells:
+        """The surface with one polygon for each tile: see `Cells`. Raises SolverError for too many. Cost: linear in
+        triangles and pieces of them in tiles."""
+        found = _native.cells(self.surface._native, self._coordinates(), threads=self._threads)
+        points, first = found.corner_points, found.offsets[:-1]
+        is_whole, is_line = found.is_whole.astype(bool), found.corner_points == np.rint(found.corner_points)
+        is_corner = is_line.all(axis=1)
+        is_tile = np.logical_and.reduceat(is_line.any(axis=1), first) & is_whole & (found.poles < 0)
+        return Cells(
+            corner_vertices=found.corner_vertices,
+            face_offsets=found.offsets,
+            uv=arrays.frozen(points @ self.lattice.T),
+            is_corner=arrays.frozen(is_corner),
+            tiles=found.tiles,
+            poles=found.poles,
+            is_quad=arrays.frozen(is_tile & (np.add.reduceat(is_corner.astype(int), first) == 4)),
+            is_whole=arrays.frozen(is_whole),
+            triangles=found.triangles,
+            barycentric=found.barycentric,
+            tiled=self,
+            _is_needed=arrays.frozen(found.is_needed.astype(bool)),
+        )
+
     def _coordinates(self, steps=((1, 0), (0, 1)), origin=(0.0, 0.0)):
         return _native.tile_coordinates(
             self.surface._native,
@@ -116,6 +164,19 @@ def _pair(values, name):
     if np.shape(values) != (2,):
         raise ValueError(f"{name} is {values!r}; two numbers are needed")
     return values
+
+
+def _direction(direction):
+    given = {"u": (1, 0), "v": (0, 1)}.get(direction, direction) if isinstance(direction, str) else direction
+    if not isinstance(given, str) and np.shape(given) == (2,):
+        a, b = given
+        whole = all(isinstance(number, (int, np.integer)) and abs(number) <= MOST_PER_TILE for number in given)
+        if whole and math.gcd(a, b) == 1:
+            return int(a), int(b)
+    raise ValueError(
+        f'direction is {direction!r}; "u", "v", or two whole numbers without a common divisor, up to '
+        f"{MOST_PER_TILE}, are needed"
+    )
 
 
 def _count(value, name):

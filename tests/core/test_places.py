@@ -9,6 +9,7 @@ import pytest
 from holomorph import Surface, TiledSurface, TopologyError, automatic_map
 from solved import surface_of
 from tiled_families import CASES, MORE, tiled, tiling
+from tiled_grids import flat_square
 
 EXACT = 1e-12
 NEAR = 1e-9  # of a tile: what is decided at such a distance may be rounding
@@ -159,16 +160,6 @@ def test_poles_are_found_in_the_uvs(name):
     assert sorted(tiled(name).poles) == sorted(tiling(name).poles)
     single = TiledSurface(tiled(name).surface, tiling(name).uv.astype(np.float32), tiling(name).lattice)
     assert sorted(single.poles) == sorted(tiling(name).poles)
-
-
-def flat_square(shift, quads=4):
-    """A square of 4 x 4 quads of which each is a tile, moved by `shift`, in the plane, with the UVs of its vertices."""
-    x, y = (each.ravel() for each in np.meshgrid(np.arange(quads + 1), np.arange(quads + 1)))
-    first = (np.arange(quads)[:, None] * (quads + 1) + np.arange(quads)).ravel()
-    faces = np.stack([first, first + 1, first + quads + 2, first + quads + 1], axis=1)
-    surface = Surface(np.stack([x, y, 0 * x], axis=1).astype(float), faces)
-    uv = np.stack([x, y], axis=1)[surface.corner_vertices] + shift
-    return surface, uv
 
 
 @pytest.mark.parametrize("shift", [(0, 0), (0.5, 0), (0.5, 0.5), (0.25, 0)])

@@ -83,6 +83,8 @@ EXAMPLES = {
     "double cover": lambda: conformal_structure(surface_of(BOUNDED["tube"]), boundary="double_cover"),
     "TiledSurface": tiled,
     "Places": lambda: tiled().places(),
+    "Lines": lambda: tiled().lines(),
+    "Cells": lambda: tiled().cells(),
     "PoleStructure": lambda: log_map(ball()),
     "truncated": lambda: log_map(surface_of(families.cube())),
     "residues": lambda: log_map(
