@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from holomorph import Surface, TiledSurface
 from solved import surface_of
-from tiled_families import CASES, MORE, tiled, tiling
+from tiled_families import CASES, MORE, renumbered, same_points, tiled, tiling
 from tiled_grids import flat_square, folded_torus, grid_torus, torus_uv
 
 EXACT = 1e-9  # of a tile
@@ -172,6 +172,14 @@ def test_a_tile_with_holes_is_a_few_disks():
     cells = TiledSurface(surface, torus_uv(at, surface, 2, 3)).cells()
     assert_same_topology(cells, surface)
     assert 6 < len(cells) < 20 and not cells.is_whole.all()
+
+
+@pytest.mark.parametrize("name", ["genus 5", "sphere", "handle and hole", "genus 2, hexagonal"])
+def test_they_are_the_same_in_any_numbering(name):
+    one, other = tiled(name).cells(), renumbered(tiled(name)).cells()
+    assert len(one) == len(other) and one.is_quad.sum() == other.is_quad.sum()
+    assert same_points(one.vertices, other.vertices, EXACT)
+    assert (np.sort(np.diff(one.face_offsets)) == np.sort(np.diff(other.face_offsets))).all()
 
 
 def test_no_thread_changes_a_bit():

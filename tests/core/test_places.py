@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from holomorph import Surface, TiledSurface, TopologyError, automatic_map
 from solved import surface_of
-from tiled_families import CASES, MORE, tiled, tiling
+from tiled_families import CASES, MORE, renumbered, same_points, tiled, tiling
 from tiled_grids import flat_square
 
 EXACT = 1e-12
@@ -128,22 +128,9 @@ def test_none_is_nearer_than_half_a_tile_but_at_poles_branches_and_folds(name):
 
 @everywhere
 def test_they_are_the_same_in_any_numbering(name):
-    on, numbers = tiled(name), np.random.default_rng(4)
-    triangles, corners = on.surface.triangles, on.surface.triangle_corners
-    new_vertex = numbers.permutation(len(on.surface.vertices))
-    order, turn = numbers.permutation(len(triangles)), numbers.integers(0, 3, len(triangles))
-    turned = (np.arange(3) + turn[:, None]) % 3
-    vertices = np.empty_like(on.surface.vertices)
-    vertices[new_vertex] = on.surface.vertices
-    faces = np.take_along_axis(new_vertex[triangles], turned, 1)[order]
-    uv = on.uv[np.take_along_axis(corners, turned, 1)[order].ravel()]
-    other = TiledSurface(Surface(vertices, faces), uv, on.lattice)
+    on, other = tiled(name), renumbered(tiled(name))
     for options in GRIDS.values():
-        a, b = (np.sort(each.places(**options).positions.view("f8,f8,f8").ravel()) for each in (on, other))
-        assert len(a) == len(b)
-    for options in GRIDS.values():
-        a, b = (each.places(**options).positions for each in (on, other))
-        assert np.linalg.norm(a[:, None] - b, axis=2).min(axis=1).max() < 1e-9
+        assert same_points(on.places(**options).positions, other.places(**options).positions, NEAR)
 
 
 @everywhere

@@ -3,7 +3,8 @@
 from functools import cache
 
 import families
-from holomorph import TiledSurface, automatic_structure
+import numpy as np
+from holomorph import Surface, TiledSurface, automatic_structure
 from solved import CLOSED, surface_of
 
 SPHERE = families.geodesic_sphere(9, jitter=0.25)
@@ -51,3 +52,22 @@ def tiling(name):
 def tiled(name):
     made = tiling(name)
     return TiledSurface(surface_of((CASES | MORE)[name][0]), made.uv, made.lattice)
+
+
+def renumbered(on):
+    """The same with vertices, triangles and the corners of these in another order."""
+    numbers = np.random.default_rng(4)
+    triangles, corners = on.surface.triangles, on.surface.triangle_corners
+    vertex, order = numbers.permutation(len(on.surface.vertices)), numbers.permutation(len(triangles))
+    turned = (np.arange(3) + numbers.integers(0, 3, (len(triangles), 1))) % 3
+    vertices = np.empty_like(on.surface.vertices)
+    vertices[vertex] = on.surface.vertices
+    faces = np.take_along_axis(vertex[triangles], turned, 1)[order]
+    uv = on.uv[np.take_along_axis(corners, turned, 1)[order].ravel()]
+    return TiledSurface(Surface(vertices, faces), uv, on.lattice)
+
+
+def same_points(a, b, distance):
+    """Whether each point of one list is near one of the other: as many in both."""
+    between = np.linalg.norm(a[:, None] - b, axis=2)
+    return len(a) == len(b) and max(between.min(axis=0).max(), between.min(axis=1).max()) < distance
