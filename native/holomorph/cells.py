@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Cells(SurfacePoints):
-    """Result of `TiledSurface.cells`: a mesh of polygons, each a tile of the surface, whose topology it has. All arrays
-    are read-only.
+    """Result of `TiledSurface.cells`: a mesh of polygons, each a tile of the surface, or a part of a grid in it. It has
+    the surface's topology. All arrays are read-only.
 
     The polygons follow the lines between tiles over the surface, with a vertex on each edge that these cross. Four of a
     polygon's vertices are corners of the tile wherever there is no pole, branch or boundary; `simplified` leaves others
-    out. The star of a pole, its triangles, is one polygon. A tile that is no disk with a simple outline, as one with a
-    hole or one that meets itself around a limb, is a few polygons.
+    out, but a brick keeps the corners of those above and below it. The star of a pole, its triangles, is one polygon. A
+    tile that is no disk with a simple outline, as one with a hole or one that meets itself around a limb, is a few.
 
     corner_vertices, face_offsets : (#C,) and (#F + 1,) the polygons, as in `Surface`, oriented as its triangles
     uv : (#C, 2) of each corner, continued across seams in a polygon

@@ -82,12 +82,10 @@ class TiledSurface(Value):
 
         Raises ValueError for others. Cost: linear in triangles and places.
         """
-        columns, rows = (_count(number, "per_tile") for number in _pair(per_tile, "per_tile"))
+        columns, rows = _grid(per_tile, shifted_rows)
         offset = arrays.numbers(_pair(offset, "offset"), "offset")
         if not np.isfinite(offset).all():
             raise ValueError(f"offset is {tuple(offset)}; two finite numbers are needed")
-        if shifted_rows and rows % 2:
-            raise ValueError(f"shifted rows close up where a tile has an even number of them; per_tile is {per_tile}")
         shift = rows // 2 if shifted_rows else 0
         coordinates = self._coordinates(((columns, -shift), (0, rows)), offset / (columns, rows))
         found = _native.places(self.surface._native, coordinates, threads=self._threads)
@@ -126,20 +124,29 @@ class TiledSurface(Value):
             tiled=self,
         )
 
-    def cells(self) -> Cells:
-        """The surface with one polygon for each tile: see `Cells`. Raises SolverError for too many. Cost: linear in
-        triangles and pieces of them in tiles."""
-        found = _native.cells(self.surface._native, self._coordinates(), threads=self._threads)
-        points, first = found.corner_points, found.offsets[:-1]
-        is_whole, is_line = found.is_whole.astype(bool), found.corner_points == np.rint(found.corner_points)
+    def cells(self, per_tile: tuple[int, int] = (1, 1), shifted_rows: bool = False) -> Cells:
+        """The surface with one polygon for each tile: see `Cells`.
+
+        per_tile, shifted_rows : as of `places`, which are the middles: with shifted rows cells are bricks
+
+        Raises ValueError for others; SolverError for too many. Cost: linear in triangles and their pieces.
+        """
+        columns, rows = _grid(per_tile, shifted_rows)
+        parts = 2 if shifted_rows else 1  # of the columns: rows of bricks begin with the first or the second
+        coordinates = self._coordinates(((parts * columns, 0), (0, rows)))
+        found = _native.cells(self.surface._native, coordinates, bricks=shifted_rows, threads=self._threads)
+        points, first, is_whole = found.corner_points, found.offsets[:-1], found.is_whole.astype(bool)
+        is_line = points == np.rint(points)
+        if shifted_rows:
+            is_line[:, 0] &= (points[:, 0] + np.repeat(found.tiles[:, 1], np.diff(found.offsets))) % 2 == 0
         is_corner = is_line.all(axis=1)
         is_tile = np.logical_and.reduceat(is_line.any(axis=1), first) & is_whole & (found.poles < 0)
         return Cells(
             corner_vertices=found.corner_vertices,
             face_offsets=found.offsets,
-            uv=arrays.frozen(points @ self.lattice.T),
+            uv=arrays.frozen(points / (parts * columns, rows) @ self.lattice.T),
             is_corner=arrays.frozen(is_corner),
-            tiles=found.tiles,
+            tiles=arrays.frozen((found.tiles + (parts // 2, 0)) // (parts * columns, rows)),
             poles=found.poles,
             is_quad=arrays.frozen(is_tile & (np.add.reduceat(is_corner.astype(int), first) == 4)),
             is_whole=arrays.frozen(is_whole),
@@ -164,6 +171,13 @@ def _pair(values, name):
     if np.shape(values) != (2,):
         raise ValueError(f"{name} is {values!r}; two numbers are needed")
     return values
+
+
+def _grid(per_tile, shifted_rows):
+    columns, rows = (_count(number, "per_tile") for number in _pair(per_tile, "per_tile"))
+    if shifted_rows and rows % 2:
+        raise ValueError(f"shifted rows close up where a tile has an even number of them; per_tile is {per_tile}")
+    return columns, rows
 
 
 def _direction(direction):

@@ -26,6 +26,17 @@ def assert_same_topology(cells, surface):
     assert len(cells.uv) == len(cells.is_corner) == len(cells.corner_vertices)
 
 
+def test_several_components_and_other_options():
+    mesh = families.united(families.torus(12, 9, shape="triangles"), families.torus(12, 9, shape="triangles"))
+    one = grid_torus(12, 9, 4, 3)
+    both = TiledSurface(surface_of(mesh), np.concatenate([one.uv, one.uv]))
+    assert len(both.cells()) == 2 * len(one.cells()) and len(both.places()) == 24 and len(both.lines()) == 6
+    with pytest.raises(ValueError, match="an even number of them"):
+        one.cells(shifted_rows=True)
+    with pytest.raises(ValueError, match="per_tile has 0"):
+        one.cells(per_tile=(0, 1))
+
+
 def inside(cells, uv):
     return np.linalg.solve(cells.tiled.lattice, uv.T).T
 
@@ -136,13 +147,45 @@ def test_squares_with_a_boundary(shift):
     assert abs(polygon_areas(cells).sum() - 16) < EXACT
 
 
+BRICKS = {"per_tile": (2, 2), "shifted_rows": True}
+
+
+@everywhere
+def test_bricks_are_the_surface_too(name):
+    cells = tiled(name).cells(**BRICKS)
+    assert_same_topology(cells, tiled(name).surface)
+    assert_same_topology(cells.simplified(), tiled(name).surface)
+    areas = polygon_areas(cells)
+    if not tiling(name).quality.flipped.any():
+        assert np.abs(areas[cells.is_quad] - 1 / 4).max() < EXACT
+    assert abs(areas[cells.poles < 0].sum() - area_outside_of_stars(tiled(name))) < 1e-7
+    assert cells.is_quad.sum() > 2 * tiled(name).cells().is_quad.sum()
+
+
+@pytest.mark.parametrize("options", [BRICKS, {"per_tile": (1, 4), "shifted_rows": True}, {"per_tile": (3, 2)}])
+@pytest.mark.parametrize("name", ["torus without poles", "knot"])
+def test_their_middles_are_places(name, options):
+    cells, places = tiled(name).cells(**options), tiled(name).places(**options)
+    assert len(cells) == len(places) and cells.is_quad.all()
+    if "shifted_rows" in options:
+        assert (np.diff(cells.simplified().face_offsets) == 6).all()  # four corners, and one above and below
+    at = inside(cells, cells.uv)
+    low, high = (bound.reduceat(at, cells.face_offsets[:-1]) for bound in (np.minimum, np.maximum))
+    sizes = high - low
+    assert np.abs(sizes - 1 / np.array(options["per_tile"])).max() < EXACT
+    middles, own = ((each % 1).round(6) % 1 for each in ((low + high) / 2, inside(cells, places.uv)))
+    assert {*map(tuple, middles)} == {*map(tuple, own)}
+    assert (np.floor((low + high) / 2 + EXACT) == cells.tiles).all()
+
+
 @pytest.mark.parametrize("seed", range(30))
 def test_whatever_folds_they_fit(seed):
     """UVs far from what a map should be: a third of the triangles is flipped, some have collapsed onto lines."""
     on = folded_torus(seed)
-    cells = on.cells()
-    assert_same_topology(cells, on.surface)
-    assert_same_topology(cells.simplified(), on.surface)
+    for options in ({}, BRICKS):
+        cells = on.cells(**options)
+        assert_same_topology(cells, on.surface)
+        assert_same_topology(cells.simplified(), on.surface)
     area = area_outside_of_stars(on)
     assert abs(area - round(area)) < EXACT
     places = on.places(offset=(0.37, 0.41))

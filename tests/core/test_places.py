@@ -6,7 +6,7 @@ import families
 import holomorph
 import numpy as np
 import pytest
-from holomorph import Surface, TiledSurface, TopologyError, automatic_map
+from holomorph import SolverError, Surface, TiledSurface, TopologyError, automatic_map
 from solved import surface_of
 from tiled_families import CASES, MORE, renumbered, same_points, tiled, tiling
 from tiled_grids import flat_square
@@ -236,6 +236,16 @@ def test_a_map_gives_them():
 def test_bad_options_are_refused(options, message):
     with pytest.raises(ValueError, match=message):
         tiled("torus").places(**options)
+
+
+def test_too_many_tiles_are_refused():
+    surface, uv = flat_square((0, 0))
+    on = TiledSurface(surface, uv * 100)
+    for ask in (on.places, on.cells):
+        with pytest.raises(SolverError, match="tiles: too many"):
+            ask(per_tile=(1000, 1000))
+    with pytest.raises(SolverError, match="lines of tiles: too many"):
+        TiledSurface(surface, uv * [1, 2e6]).lines("u", per_tile=3)
 
 
 def test_maps_that_are_no_tilings_are_refused():

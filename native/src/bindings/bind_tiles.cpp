@@ -40,11 +40,12 @@ Lines lines(const Surface& surface, const TileCoordinates& coordinates, int thre
   return tiles::lines(surface, coordinates, execution);
 }
 
-Cells cells(const Surface& surface, const TileCoordinates& coordinates, int threads) {
+Cells cells(const Surface& surface, const TileCoordinates& coordinates, bool bricks, int threads) {
   const py::gil_scoped_release unlocked;
   Execution execution(threads);
+  const auto pattern = bricks ? tiles::Pattern::bricks : tiles::Pattern::grid;
   const tiles::EdgeNodes nodes = tiles::edge_nodes(surface, coordinates, execution);
-  return tiles::cells(tiles::pieces(surface, coordinates, nodes, execution));
+  return tiles::cells(tiles::pieces(surface, coordinates, nodes, pattern, execution));
 }
 
 // A view of a list.
@@ -94,7 +95,7 @@ void bind_tiles(py::module_& m) {
       .def_property_readonly("numbers", member(&Places::numbers))
       .def_readonly("flipped", &Places::flipped);
   m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
-  m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
+  m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a);
   m.def("tile_coordinates", &tile_coordinates, "surface"_a, "uv"_a, py::kw_only(), "inverse_lattice"_a, "origin"_a,
         "steps"_a, "threads"_a);
   m.def("places", &places, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);

@@ -13,7 +13,7 @@ using Segment = std::array<int, 2>;  // from a node to a node, with what is less
 // Across the triangles of a chunk, and along their sides: those of the first triangle at each edge.
 std::vector<Segment> segments(const mesh::Surface& surface, const TileCoordinates& coordinates,
                               const EdgeNodes& edge_nodes, int begin, int end) {
-  TriangleCut cut(surface, coordinates, edge_nodes, true);
+  TriangleCut cut(surface, coordinates, edge_nodes, Pattern::columns);
   std::vector<Segment> result;
   for (int t = begin; t < end; ++t) {
     const auto& pieces = cut.cut(t);

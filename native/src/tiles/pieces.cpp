@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/chunks.h"
-#include "tiles/triangle_cut.h"
 
 namespace holomorph::tiles {
 namespace {
@@ -17,15 +16,14 @@ struct Part {
   int segment_count = 0;
 };
 
-std::int64_t tile(std::int64_t low, std::int64_t high) { return (low == high ? low : low | 1) >> 1; }
-
 class Cutting {
  public:
-  Cutting(const mesh::Surface& surface, const TileCoordinates& coordinates, const EdgeNodes& edge_nodes)
-      : surface_(surface), coordinates_(coordinates), edge_nodes_(edge_nodes) {}
+  Cutting(const mesh::Surface& surface, const TileCoordinates& coordinates, const EdgeNodes& edge_nodes,
+          Pattern pattern)
+      : surface_(surface), coordinates_(coordinates), edge_nodes_(edge_nodes), pattern_(pattern) {}
 
   Part part(int begin, int end) const {
-    TriangleCut cut(surface_, coordinates_, edge_nodes_, false);
+    TriangleCut cut(surface_, coordinates_, edge_nodes_, pattern_);
     Part result;
     for (int t = begin; t < end; ++t) {
       const int pole = pole_of(t);
@@ -71,13 +69,14 @@ class Cutting {
       pieces.is_wall.push_back(is_link || (pole == kNone && cut.is_on_line(corner, next)));
     }
     pieces.offsets.push_back(static_cast<int>(pieces.side_nodes.size()));
-    pieces.tiles.push_back({tile(low[0], high[0]), tile(low[1], high[1])});
+    pieces.tiles.push_back(cut.cell(low, high));
     pieces.poles.push_back(pole);
   }
 
   const mesh::Surface& surface_;
   const TileCoordinates& coordinates_;
   const EdgeNodes& edge_nodes_;
+  Pattern pattern_;
 };
 
 // Appends the pieces of a chunk, whose inside nodes and segments follow those before; then `segments` is known.
@@ -123,8 +122,8 @@ Locations edge_locations(const mesh::Surface& surface, const EdgeNodes& edge_nod
 }
 
 Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, const EdgeNodes& edge_nodes,
-              Execution& execution) {
-  const Cutting cutting(surface, coordinates, edge_nodes);
+              Pattern pattern, Execution& execution) {
+  const Cutting cutting(surface, coordinates, edge_nodes, pattern);
   const int count = static_cast<int>(surface.triangles.size()), chunks = chunk_count(count);
   std::vector<Part> parts(chunks);
   run_throwing(execution.workers(), chunks,

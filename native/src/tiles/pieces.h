@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tiles/edge_nodes.h"
+#include "tiles/triangle_cut.h"
 
 namespace holomorph::tiles {
 
@@ -27,14 +27,14 @@ struct Pieces {
   std::vector<int> offsets{0};                     ///< #P + 1
   std::vector<int> side_nodes, side_segments;      ///< #S
   std::vector<Point> side_points;                  ///< #S tile coordinates of the node in the triangle
-  std::vector<std::array<std::int64_t, 2>> tiles;  ///< #P, in the triangle
+  std::vector<std::array<std::int64_t, 2>> tiles;  ///< #P cells of the pattern, in the triangle
   std::vector<int> poles;                          ///< #P the pole in a piece, or -1
   std::vector<char> is_wall;                       ///< of each segment: on a line, the boundary or the star of a pole
 };
 
-/// @throws SolverError if there are more than memory is meant for; Cancelled. Cost: linear in triangles and pieces.
+/// Cost: linear in triangles and pieces.
 Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, const EdgeNodes& edge_nodes,
-              Execution& execution);
+              Pattern pattern, Execution& execution);
 
 /// The vertices, and the nodes on edges, as TriangleCut numbers them.
 Locations edge_locations(const mesh::Surface& surface, const EdgeNodes& edge_nodes);

@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kWhole = 1e-3;  // of a tile: jumps nearer to whole tiles are, in single precision, too
+constexpr double kWhole = 1e-3;     // of a tile: jumps nearer to whole tiles are, in single precision, too
+constexpr double kMostTiles = 3e8;  // whose places, with all that is told of them, are some 30 GB
 constexpr int kNone = -1;
 
 Vector2d vector(const Point& p) { return {p[0], p[1]}; }
@@ -53,8 +54,13 @@ class Making {
       for (int i = 0; i < 3; ++i) result_.points[t][i] = point(t, i);
     });
     check_edges();
-    double area = 0;
-    for (int t = 0; t < count; ++t) area += signed_area(result_, t);
+    double area = 0, whole = 0;
+    for (int t = 0; t < count; ++t) {
+      const double own = signed_area(result_, t) / 2 / (result_.unit * result_.unit);
+      area += own;
+      whole += std::abs(own);
+    }
+    if (!(whole < kMostTiles)) throw SolverError("the surface has " + std::to_string(whole) + " tiles: too many");
     result_.is_mirrored = area < 0;
     return std::move(result_);
   }

@@ -25,12 +25,12 @@ const std::vector<Piece>& TriangleCut::cut(int t) {
   Piece whole = outline(t);
   if (has_pole(t)) {
     pieces_.push_back(std::move(whole));
-  } else if (columns_only_) {
+  } else if (pattern_ == Pattern::columns) {
     cut_along(0, std::move(whole), pieces_);
   } else {
     std::vector<Piece> rows;
     cut_along(1, std::move(whole), rows);
-    for (Piece& row : rows) cut_along(0, std::move(row), pieces_);
+    for (const Piece& row : rows) cut_along(0, with_crossings(row), pieces_);
     name_rows();
   }
   return pieces_;
@@ -71,34 +71,56 @@ void TriangleCut::append_side(int t, int i, Piece& ring) const {
 }
 
 void TriangleCut::cut_along(int axis, Piece whole, std::vector<Piece>& pieces) {
-  const auto [low, high] = std::minmax_element(
-      whole.begin(), whole.end(), [axis](const auto& a, const auto& b) { return a.code[axis] < b.code[axis]; });
-  const std::int64_t first = low->code[axis], last = high->code[axis];
-  for (std::int64_t line = first + 2 - (first & 1); line < last; line += 2) pieces.push_back(split(axis, line, whole));
+  Code low = whole[0].code, high = low;
+  for (const PieceCorner& corner : whole) {
+    for (int x = 0; x < 2; ++x) {
+      low[x] = std::min(low[x], corner.code[x]);
+      high[x] = std::max(high[x], corner.code[x]);
+    }
+  }
+  const std::int64_t row = between(low[1], high[1]);
+  for (std::int64_t line = low[axis] + 2 - (low[axis] & 1); line < high[axis]; line += 2) {
+    if (axis == 1 || has_column(line, row)) pieces.push_back(split(axis, line, whole));
+  }
   pieces.push_back(std::move(whole));
 }
 
-// Takes away, and returns, what lies below the line. Along the outline of a convex piece, also of one without area,
-// codes ascend and descend once: above the line is one part of it. @pre there are corners on both sides
-Piece TriangleCut::split(int axis, std::int64_t line, Piece& whole) {
+// Takes away, and returns, what lies below the line, of which every crossing is a corner. Along the outline of a convex
+// piece, also of one without area, codes ascend and descend once: above the line is one part of it. @pre there are
+// corners on both sides
+Piece TriangleCut::split(int axis, std::int64_t line, Piece& ring) {
   const auto side = [&](const PieceCorner& corner) { return sign(corner.code[axis] - line); };
-  Piece ring;
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    const PieceCorner &corner = whole[i], &next = whole[(i + 1) % whole.size()];
-    ring.push_back(corner);
-    if (side(corner) * side(next) < 0) ring.push_back(crossing(line, corner.code[1]));  // only rows are crossed so
-  }
   std::size_t up = 0;
   while (side(ring[up]) != 0 || side(ring[(up + 1) % ring.size()]) <= 0) ++up;
   std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(up), ring.end());
   const auto down = std::find_if(ring.begin() + 1, ring.end(), [&](const auto& corner) { return side(corner) <= 0; });
+  assert(down != ring.end() && side(*down) == 0);
   const int segment = axis == 1 ? kRow : ~segment_count_++;
   Piece low(down, ring.end());
   low.push_back(ring.front());
   low.back().segment = segment;
-  whole.assign(ring.begin(), down + 1);
-  whole.back().segment = segment;
+  ring.erase(down + 1, ring.end());
+  ring.back().segment = segment;
   return low;
+}
+
+// With a corner wherever a column crosses the rows below and above: those of the pieces on the other side, too.
+Piece TriangleCut::with_crossings(const Piece& row) {
+  Piece ring;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    ring.push_back(row[i]);
+    if (row[i].segment != kRow) continue;
+    const std::int64_t from = row[i].code[0], to = row[(i + 1) % row.size()].code[0], step = to > from ? 2 : -2;
+    const std::int64_t first = is_line(from) ? from + step : from + step / 2;
+    for (std::int64_t line = first; (to - line) * step > 0; line += step)
+      ring.push_back(crossing(line, row[i].code[1]));
+  }
+  return ring;
+}
+
+Code TriangleCut::cell(const Code& low, const Code& high) const {
+  const std::int64_t column = between(low[0], high[0]), row = between(low[1], high[1]);
+  return {has_column(2 * column, row) ? column : column - 1, row};
 }
 
 // Where a column crosses a row, inside of the triangle.
@@ -110,7 +132,7 @@ PieceCorner TriangleCut::crossing(std::int64_t column, std::int64_t row) {
   return {found->second, kRow, code, {middle(column), middle(row)}};
 }
 
-// A row is cut by the same columns on both of its sides.
+// A row has the same corners on both of its sides.
 void TriangleCut::name_rows() {
   for (Piece& piece : pieces_) {
     for (std::size_t i = 0; i < piece.size(); ++i) {
