@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture of docs/things.md: scales, stones and wires on examples, by their tilings.
+"""The picture of docs/things.md: scales, bricks and wires on examples, by their tilings.
 
 blender -b EXAMPLE.blend --factory-startup --python-exit-code 1 --python docs/make_things.py -- PNG KIND TILES
 
-KIND is scales, stones or wires.
+KIND is scales, bricks or wires.
 """
 
 import importlib
@@ -17,7 +17,7 @@ import numpy as np
 PACKAGE = "holomorph_pictures"
 SAMPLES, RESOLUTION = 32, 480
 LEAST, MOST = 0.3, 1.3  # of the median size: smaller scales, near poles, are left out, and none is larger
-COLOURS = {"scales": (0.05, 0.28, 0.13), "stones": (0.35, 0.16, 0.08), "wires": (0.55, 0.36, 0.13)}
+COLOURS = {"scales": (0.05, 0.28, 0.13), "bricks": (0.35, 0.16, 0.08), "wires": (0.55, 0.36, 0.13)}
 GROUND = (0.02, 0.02, 0.02)
 
 
@@ -64,17 +64,17 @@ def scales(tiled):
     return copies.reshape(-1, 3), faces.ravel(), 4 * np.arange(faces.shape[0] * faces.shape[1] + 1)
 
 
-def stones(tiled):
+def bricks(tiled):
     """Each cell a little smaller and raised, with sides."""
-    cells = tiled.cells()
+    cells = tiled.cells(per_tile=(1, 2), shifted_rows=True)
     sizes = np.diff(cells.face_offsets)
     corners = cells.corner_vertices
     faces = np.repeat(np.arange(len(cells)), sizes)
     points, normals = cells.vertices[corners], cells.of(smooth_normals(tiled.surface))[corners]
     middle = np.add.reduceat(points, cells.face_offsets[:-1]) / sizes[:, None]
     radius = np.sqrt(np.add.reduceat(((points - middle[faces]) ** 2).sum(axis=1), cells.face_offsets[:-1]) / sizes)
-    inner = points + 0.12 * (middle[faces] - points)
-    top = inner + 0.28 * np.minimum(radius, 1.5 * np.median(radius))[faces][:, None] * normals
+    inner = points + 0.1 * (middle[faces] - points)
+    top = inner + 0.45 * np.minimum(radius, 1.5 * np.median(radius))[faces][:, None] * normals
     count = len(points)
     following = cells._following
     sides = np.stack([np.arange(count), following, following + count, np.arange(count) + count], axis=1)
@@ -119,9 +119,9 @@ def main():
         mesh_io.world_points(body), polygons.corner_vertices, polygons.face_offsets, strict=False
     )
     tiled = holomorph.automatic_map(surface.components[0], main="seamless", tiles=float(tiles)).tiled
-    vertices, corners, offsets = {"scales": scales, "stones": stones, "wires": wires}[kind](tiled)
+    vertices, corners, offsets = {"scales": scales, "bricks": bricks, "wires": wires}[kind](tiled)
     mesh = mesh_io.new_mesh(kind, vertices, corners.astype(np.int32), offsets.astype(np.int32))
-    mesh.polygons.foreach_set("use_smooth", np.full(len(mesh.polygons), kind != "stones"))
+    mesh.polygons.foreach_set("use_smooth", np.full(len(mesh.polygons), kind != "bricks"))
     things = coloured(bpy.data.objects.new(kind, mesh), COLOURS[kind])
     shown = [things] if kind == "wires" else [coloured(body, GROUND), things]
     module("command_line.studio").render(shown, png, RESOLUTION, SAMPLES)
