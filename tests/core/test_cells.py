@@ -13,7 +13,7 @@ everywhere = pytest.mark.parametrize("name", CASES | MORE)
 
 
 def as_surface(cells):
-    """Of vertices, with all checks: no vertex twice in a polygon, no edge or vertex that is no manifold's."""
+    """A surface of the polygons, checked: no vertex twice in a polygon, no edge or vertex that is no manifold's."""
     return Surface.from_polygons(cells.vertices, cells.corner_vertices, cells.face_offsets)
 
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kNone = -1;
 
-// Of one chunk of triangles: inside nodes and segments are named ~0, ~1 ...
+// The pieces of one chunk of triangles: inside nodes and segments are named ~0, ~1 ...
 struct Part {
   Pieces pieces;
   std::vector<TriangleCut::Inside> nodes;

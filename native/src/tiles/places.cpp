@@ -11,7 +11,7 @@ namespace {
 constexpr double kRounding = 4;  // of where a row meets a side, in the integers of coordinates
 constexpr int kNone = -1;
 
-// Of one chunk of triangles, later of all.
+// Joins the places of one chunk of triangles to those before.
 void append(Places& all, const Places& more) {
   all.triangles.insert(all.triangles.end(), more.triangles.begin(), more.triangles.end());
   all.barycentric.insert(all.barycentric.end(), more.barycentric.begin(), more.barycentric.end());
