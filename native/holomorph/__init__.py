@@ -19,6 +19,7 @@ from .automatic_map import automatic_map
 from .automatic_maps import automatic_maps
 from .automatic_structure import AnyStructure, automatic_structure
 from .bounded import BoundedStructure
+from .cells import Cells
 from .certificate import Certificate
 from .checks import SOLVERS
 from .closed import ConformalStructure
@@ -38,11 +39,13 @@ from .igusa import IgusaInvariants, igusa_invariants
 from .island_map import Islands, island_map
 from .islands import islands
 from .levels import LevelOfDetail
+from .lines import Lines
 from .log_map import log_map
 from .map import Map, form_map
 from .mixed import Mixed
 from .narrow_bounds import Refinement
 from .placement import Frame, frame, place
+from .places import Places
 from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
 from .progressive import ProgressiveMesh
@@ -54,6 +57,7 @@ from .structure import conformal_structure
 from .surface import Surface
 from .symmetries import Automorphisms, automorphisms
 from .theta_constants import Hyperelliptic, hyperelliptic
+from .tiled_surface import TiledSurface
 from .tiling import Tiler, place_poles
 from .tilings import PlacedPoles, Rounding, Tiling
 from .verdicts import UNEVEN, Verdict, overall, verdict
@@ -64,6 +68,7 @@ __all__ = [
     "Automorphisms",
     "BoundedStructure",
     "Cancelled",
+    "Cells",
     "Certificate",
     "CoarsePlace",
     "ConformalMap",
@@ -80,12 +85,14 @@ __all__ = [
     "Islands",
     "InvalidMesh",
     "LevelOfDetail",
+    "Lines",
     "Map",
     "MemoryPlan",
     "Mixed",
     "OutOfMemory",
     "ProgressiveMesh",
     "PlacedPoles",
+    "Places",
     "PoleStructure",
     "Quality",
     "RectangleMap",
@@ -99,6 +106,7 @@ __all__ = [
     "SolverError",
     "SolverReport",
     "Surface",
+    "TiledSurface",
     "Tiler",
     "Tiling",
     "TopologyError",

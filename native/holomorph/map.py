@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import arrays
+from ._native import TopologyError
 from .appearance import cost
 from .array_types import Complexes, Integers, Progress, Reals
 from .automatic_structure import AnyStructure
@@ -21,6 +22,7 @@ from .mixed import Mixed
 from .pole_structure import PoleStructure
 from .quality import Quality
 from .surface import Surface
+from .tiled_surface import TiledSurface
 from .tiling import Tiling
 from .value import Value
 from .verdicts import Verdict
@@ -114,6 +116,14 @@ class Map(Value):
             return (self.tiling or self.mixed).poles
         is_log = not self.islands and isinstance(self.structure, PoleStructure)
         return self._of_surface(self.structure._native.poles() if is_log else np.empty(0, np.int32))
+
+    @cached_property
+    def tiled(self) -> TiledSurface:
+        """The surface under the tiling, where things are placed in tiles. Raises TopologyError for a map that is
+        none."""
+        if not self.tiling:
+            raise TopologyError(f'the map is no tiling: its kind is {self.kind!r}; main="seamless" makes one')
+        return TiledSurface(self.surface, self.uv, self.tiling.lattice)
 
     @property
     def density(self) -> float:

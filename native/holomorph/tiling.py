@@ -178,6 +178,7 @@ class Tiler:
             tiles=made.tiles(),
             quality=self._quality(made, evenness),
             seams=self._of_surface(triangulation.edges[made.seams()]),
+            lattice=arrays.frozen(basis.copy()),
         )
         self._made[tiling] = made
         return tiling

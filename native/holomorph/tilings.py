@@ -49,6 +49,7 @@ class Tiling(Value):
     tiles : the number of tiles that was aimed at: area times median density
     quality : `Quality` on the triangles of the surface, diagonals flipped away from the poles
     seams : (#S, 2) vertices of the edges where the UVs jump
+    lattice : (2, 2) reals, whose columns are the translations by which they may
     """
 
     uv: Reals
@@ -64,6 +65,7 @@ class Tiling(Value):
     tiles: float
     quality: Quality
     seams: Integers
+    lattice: Reals
 
     def _facts(self):
         size = f"{self.tiles:.4g} tiles, {counted(len(self.poles), 'pole')}"

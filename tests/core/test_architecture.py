@@ -17,6 +17,7 @@ ROOM_BELOW = {
     "base": [],
     "lattice": ["base"],
     "mesh": ["base"],
+    "tiles": ["mesh"],
     "progressive": ["mesh"],
     "openmesh": ["progressive"],
     "solver": ["base"],
@@ -31,7 +32,7 @@ ROOM_BELOW = {
     "plane": ["structure"],
     "islands": ["plane", "evening"],
     "multiresolution": ["structure"],
-    "bindings": ["tiling", "moduli", "islands", "multiresolution"],
+    "bindings": ["tiles", "tiling", "moduli", "islands", "multiresolution"],
 }
 # Each room of the add-on, and the rooms that it may import directly or through them. "" is what lies in addon itself.
 ADDON_BELOW = {

@@ -47,7 +47,7 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/tiling.md", "docs/howto.md", "docs/paper.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/tiling.md", "docs/things.md", "docs/howto.md", "docs/paper.md"])
 def test_example_prints_what_the_page_says(page, folder):
     examples = EXAMPLE.findall(text_of(page))
     assert len(examples) == len(CODE.findall(text_of(page))) > 0

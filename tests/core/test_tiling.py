@@ -5,43 +5,11 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Cancelled, InvalidMesh, Tiler, TopologyError, automatic_structure, place_poles
-from solved import CLOSED, surface_of
+from solved import surface_of
+from tiled_families import CASES, DISK, DOUBLE, SPHERE, TORUS, tiling
 
 EXACT = 1e-12
-SPHERE = families.geodesic_sphere(9, jitter=0.25)
-TORUS = CLOSED["torus of triangles"]
-DOUBLE = families.block_with_holes(2, refine=4, jitter=0.2)
-HANDLE_AND_HOLE = families.punctured_torus(24, 18)
-HOLES = families.punched(families.geodesic_sphere(12, jitter=0.2), 3)
-DISK = families.hemisphere(12, jitter=0.2)
-CASES = {
-    "sphere": (SPHERE, {"poles": 4, "tiles": 40}),
-    "torus": (TORUS, {"poles": 4, "tiles": 60}),
-    "torus of quads": (CLOSED["torus of quads"], {"poles": 3, "tiles": 60}),
-    "torus without poles": (TORUS, {"poles": 0, "tiles": 200}),
-    "genus 2": (DOUBLE, {"poles": 4, "tiles": 128}),
-    "genus 2, hexagonal": (DOUBLE, {"poles": 4, "tiles": 128, "lattice": "hex"}),
-    "sphere, brick": (SPHERE, {"poles": 4, "tiles": 40, "lattice": "brick"}),
-    "handle and hole": (HANDLE_AND_HOLE, {"poles": 2, "tiles": 100}),
-    "holes, straight": (HOLES, {"poles": 2, "tiles": 60, "boundary": "straight"}),
-    "holes, free": (HOLES, {"poles": 2, "tiles": 60, "boundary": "free"}),
-    "disk": (DISK, {"poles": 3, "tiles": 40}),
-    "sphere, evened": (SPHERE, {"poles": 4, "tiles": 40, "evenness": 0.5}),
-    "torus, evened": (TORUS, {"poles": 4, "tiles": 60, "evenness": 1}),
-    "genus 2, evened": (DOUBLE, {"poles": 4, "tiles": 128, "evenness": 0.5}),
-    "handle and hole, evened": (HANDLE_AND_HOLE, {"poles": 2, "tiles": 100, "evenness": 0.5}),
-    "holes, straight, evened": (HOLES, {"poles": 2, "tiles": 60, "boundary": "straight", "evenness": 1}),
-    "holes, free, evened": (HOLES, {"poles": 2, "tiles": 60, "boundary": "free", "evenness": 0.5}),
-}
 everywhere = pytest.mark.parametrize("name", CASES)
-tiled = {}
-
-
-def tiling(name):
-    if name not in tiled:
-        mesh, options = CASES[name]
-        tiled[name] = automatic_structure(surface_of(mesh)).tile(**options)
-    return tiled[name]
 
 
 def basis(options):

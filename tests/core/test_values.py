@@ -46,6 +46,10 @@ def disk():
     return surface_of(families.punched(families.block_with_holes(0, refine=4, jitter=0.2), 1))
 
 
+def tiled():
+    return holomorph.TiledSurface(surface_of(CLOSED["torus of quads"]), tiling().uv)
+
+
 def two_parts():
     """Isolated vertices, faces in reverse, a vertex where fans touch, a part that is no surface."""
     mesh = families.united(families.partly_reversed(families.block_with_holes(1, refine=2)), families.torus(9, 6))
@@ -77,6 +81,10 @@ EXAMPLES = {
     "narrow bounds": lambda: conformal_structure(surface_of(families.torus(9, 6)), bounds=0.1),
     "BoundedStructure": lambda: conformal_structure(surface_of(BOUNDED["tube"])),
     "double cover": lambda: conformal_structure(surface_of(BOUNDED["tube"]), boundary="double_cover"),
+    "TiledSurface": tiled,
+    "Places": lambda: tiled().places(),
+    "Lines": lambda: tiled().lines(),
+    "Cells": lambda: tiled().cells(),
     "PoleStructure": lambda: log_map(ball()),
     "truncated": lambda: log_map(surface_of(families.cube())),
     "residues": lambda: log_map(
@@ -152,6 +160,9 @@ def assert_same(one, two):
         assert_same(one.repairs, two.repairs)
     elif isinstance(one, ProgressiveMesh):
         assert one._native.to_bytes() == two._native.to_bytes()
+    elif isinstance(one, holomorph.TiledSurface):
+        for name in ("surface", "uv", "lattice", "poles"):
+            assert_same(getattr(one, name), getattr(two, name))
     elif is_dataclass(one):
         for entry in fields(one):
             if not entry.name.startswith("_"):

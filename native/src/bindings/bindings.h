@@ -14,6 +14,7 @@ void bind_laplace_problem(pybind11::module_& m);
 void bind_moduli(pybind11::module_& m);
 void bind_nested_level(pybind11::module_& m);
 void bind_plane_maps(pybind11::module_& m);
+void bind_tiles(pybind11::module_& m);
 void bind_tiling(pybind11::module_& m);
 void bind_uv_maps(pybind11::module_& m);
 

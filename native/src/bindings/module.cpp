@@ -60,6 +60,7 @@ PYBIND11_MODULE(_native, m) {
   bindings::bind_moduli(m);
   bindings::bind_nested_level(m);
   bindings::bind_plane_maps(m);
+  bindings::bind_tiles(m);
   bindings::bind_tiling(m);
   bindings::bind_uv_maps(m);
 }

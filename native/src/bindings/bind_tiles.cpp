@@ -1,0 +1,104 @@
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "tiles/cells.h"
+#include "tiles/lines.h"
+#include "tiles/places.h"
+
+namespace holomorph::bindings {
+namespace {
+
+using namespace pybind11::literals;
+using mesh::Surface;
+using tiles::Cells;
+using tiles::Lines;
+using tiles::Locations;
+using tiles::Places;
+using tiles::TileCoordinates;
+
+// The facade has checked the shapes.
+TileCoordinates tile_coordinates(const Surface& surface, const Contiguous<double>& uv,
+                                 const Eigen::Matrix2d& inverse_lattice, const Eigen::Vector2d& origin,
+                                 const Eigen::Matrix2i& steps, int threads) {
+  const Eigen::Map<const tiles::Corners> corners(uv.data(), uv.shape(0), 2);
+  const py::gil_scoped_release unlocked;
+  Execution execution(threads);
+  return tiles::tile_coordinates(surface, corners, {inverse_lattice, origin, steps}, execution);
+}
+
+Places places(const Surface& surface, const TileCoordinates& coordinates, int threads) {
+  const py::gil_scoped_release unlocked;
+  Execution execution(threads);
+  return tiles::places(surface, coordinates, execution);
+}
+
+Lines lines(const Surface& surface, const TileCoordinates& coordinates, int threads) {
+  const py::gil_scoped_release unlocked;
+  Execution execution(threads);
+  return tiles::lines(surface, coordinates, execution);
+}
+
+Cells cells(const Surface& surface, const TileCoordinates& coordinates, bool bricks, int threads) {
+  const py::gil_scoped_release unlocked;
+  Execution execution(threads);
+  const auto pattern = bricks ? tiles::Pattern::bricks : tiles::Pattern::grid;
+  const tiles::EdgeNodes nodes = tiles::edge_nodes(surface, coordinates, execution);
+  return tiles::cells(tiles::pieces(surface, coordinates, nodes, pattern, execution));
+}
+
+// A view of a list.
+template <class Result, class List>
+auto member(List Result::*list) {
+  return [list](const py::object& result) { return view(result.cast<const Result&>().*list, result); };
+}
+
+// The same of where points lie.
+template <class Result, class List>
+auto located(Locations Result::*points, List tiles::Locations::*list) {
+  return [=](const py::object& result) { return view((result.cast<const Result&>().*points).*list, result); };
+}
+
+std::vector<int> poles(const TileCoordinates& coordinates) {
+  std::vector<int> result;
+  for (int v = 0; v < std::ssize(coordinates.is_pole); ++v) {
+    if (coordinates.is_pole[v]) result.push_back(v);
+  }
+  return result;
+}
+
+}  // namespace
+
+void bind_tiles(py::module_& m) {
+  py::class_<TileCoordinates>(m, "TileCoordinates").def("poles", [](const TileCoordinates& c) {
+    return copy(poles(c));
+  });
+  py::class_<Cells>(m, "Cells")
+      .def_property_readonly("triangles", located(&Cells::vertices, &Locations::triangles))
+      .def_property_readonly("barycentric", located(&Cells::vertices, &Locations::barycentric))
+      .def_property_readonly("offsets", member(&Cells::offsets))
+      .def_property_readonly("corner_vertices", member(&Cells::corner_vertices))
+      .def_property_readonly("corner_points", member(&Cells::corner_points))
+      .def_property_readonly("is_needed", member(&Cells::is_needed))
+      .def_property_readonly("tiles", member(&Cells::tiles))
+      .def_property_readonly("poles", member(&Cells::poles))
+      .def_property_readonly("is_whole", member(&Cells::is_whole));
+  py::class_<Lines>(m, "Lines")
+      .def_property_readonly("triangles", located(&Lines::points, &Locations::triangles))
+      .def_property_readonly("barycentric", located(&Lines::points, &Locations::barycentric))
+      .def_property_readonly("offsets", member(&Lines::offsets))
+      .def_property_readonly("is_closed", member(&Lines::is_closed));
+  py::class_<Places>(m, "Places")
+      .def_property_readonly("triangles", member(&Places::triangles))
+      .def_property_readonly("barycentric", member(&Places::barycentric))
+      .def_property_readonly("numbers", member(&Places::numbers))
+      .def_readonly("flipped", &Places::flipped);
+  m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
+  m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a);
+  m.def("tile_coordinates", &tile_coordinates, "surface"_a, "uv"_a, py::kw_only(), "inverse_lattice"_a, "origin"_a,
+        "steps"_a, "threads"_a);
+  m.def("places", &places, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
+}
+
+}  // namespace holomorph::bindings

@@ -1,0 +1,232 @@
+#include "tiles/cells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace holomorph::tiles {
+namespace {
+
+constexpr int kNone = -1;
+
+class Joining {
+ public:
+  explicit Joining(const Pieces& pieces) : p_(pieces), is_wall_(pieces.is_wall) {
+    const auto sides = static_cast<int>(p_.side_nodes.size());
+    piece_.resize(sides);
+    for (int f = 0; f < count(); ++f) {
+      for (int s = p_.offsets[f]; s < p_.offsets[f + 1]; ++s) piece_[s] = f;
+    }
+    std::vector<int> first(is_wall_.size(), kNone);
+    twin_.assign(sides, kNone);
+    for (int s = 0; s < sides; ++s) {
+      int& other = first[p_.side_segments[s]];
+      if (other == kNone) {
+        other = s;
+      } else {
+        twin_[s] = other;
+        twin_[other] = s;
+      }
+    }
+  }
+
+  Cells run() {
+    open_flat_pieces();
+    find_cells();
+    find_what_is_no_disk();
+    find_what_is_not_simple();
+    part_broken_cells();
+    return outlines();
+  }
+
+ private:
+  int count() const { return static_cast<int>(p_.tiles.size()); }
+  int following(int side) const {
+    return side + 1 < p_.offsets[piece_[side] + 1] ? side + 1 : p_.offsets[piece_[side]];
+  }
+  bool is_wall(int side) const { return is_wall_[p_.side_segments[side]]; }
+  /// The next wall around the cell.
+  int next_wall(int side) const {
+    int next = following(side);
+    while (!is_wall(next)) next = following(twin_[next]);
+    return next;
+  }
+
+  // A piece without area that lies on a line is no tile's: it is joined to a neighbour.
+  void open_flat_pieces() {
+    for (int f = 0; f < count(); ++f) {
+      const int begin = p_.offsets[f], end = p_.offsets[f + 1];
+      int walls = 0, open = kNone;
+      for (int s = begin; s < end; ++s) {
+        walls += is_wall(s);
+        if (open == kNone && twin_[s] != kNone && p_.poles[piece_[twin_[s]]] == kNone) open = s;
+      }
+      if (walls == end - begin && open != kNone && is_flat(f)) is_wall_[p_.side_segments[open]] = 0;
+    }
+  }
+
+  bool is_flat(int f) const {
+    const Point& first = p_.side_points[p_.offsets[f]];
+    bool flat[2] = {true, true};
+    for (int s = p_.offsets[f]; s < p_.offsets[f + 1]; ++s) {
+      for (int x = 0; x < 2; ++x) flat[x] = flat[x] && p_.side_points[s][x] == first[x];
+    }
+    return flat[0] || flat[1];
+  }
+
+  // cell_: #P the first piece of each piece's cell
+  void find_cells() {
+    cell_.resize(count());
+    std::iota(cell_.begin(), cell_.end(), 0);
+    const auto root = [&](int f) {
+      while (cell_[f] != f) f = cell_[f] = cell_[cell_[f]];
+      return f;
+    };
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      if (is_wall(s) || twin_[s] < s) continue;
+      const int a = root(piece_[s]), b = root(piece_[twin_[s]]);
+      cell_[std::max(a, b)] = std::min(a, b);
+    }
+    for (int f = 0; f < count(); ++f) cell_[f] = root(f);
+  }
+
+  // The Euler characteristic of an open cell is 1 where it is a disk.
+  void find_what_is_no_disk() {
+    std::vector<int> euler(count(), 0);
+    std::vector<char> is_known(p_.nodes.triangles.size(), 0);  // nodes on walls, and those that are counted
+    for (int f = 0; f < count(); ++f) ++euler[cell_[f]];
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      if (is_wall(s)) {
+        is_known[p_.side_nodes[s]] = is_known[p_.side_nodes[following(s)]] = 1;
+      } else if (twin_[s] > s) {
+        --euler[cell_[piece_[s]]];
+      }
+    }
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      if (is_known[p_.side_nodes[s]]) continue;
+      is_known[p_.side_nodes[s]] = 1;
+      ++euler[cell_[piece_[s]]];
+    }
+    is_broken_.resize(count());
+    for (int f = 0; f < count(); ++f) is_broken_[f] = euler[cell_[f]] != 1;
+  }
+
+  void find_what_is_not_simple() {
+    std::vector<int> seen(p_.nodes.triangles.size(), kNone);
+    std::vector<char> visited(twin_.size(), 0);
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      if (visited[s] || !is_wall(s) || is_broken_[cell_[piece_[s]]]) continue;
+      int length = 0, at = s;
+      bool is_simple = true;
+      do {
+        const int node = p_.side_nodes[at];
+        is_simple = is_simple && seen[node] != s;
+        seen[node] = s;
+        visited[at] = 1;
+        ++length;
+        at = next_wall(at);
+      } while (at != s);
+      if (!is_simple || length < 3) is_broken_[cell_[piece_[s]]] = 1;
+    }
+    for (int f = 0; f < count(); ++f) is_broken_[f] |= is_broken_[cell_[f]];
+  }
+
+  // Few disks instead of each broken cell: each grows as long as it stays one, then the next begins.
+  void part_broken_cells() {
+    std::vector<int> region(count(), kNone), touched(p_.nodes.triangles.size(), kNone);
+    for (int f = 0; f < count(); ++f) {
+      if (!is_broken_[f] || region[f] != kNone) continue;
+      std::vector<int> pending{f};
+      region[f] = f;
+      for (std::size_t i = 0; i < pending.size(); ++i) {
+        const int g = pending[i];
+        if (g != f && (region[g] != kNone || !fits(g, f, region, touched))) continue;
+        region[g] = f;
+        for (int s = p_.offsets[g]; s < p_.offsets[g + 1]; ++s) {
+          touched[p_.side_nodes[s]] = f;
+          if (!is_wall(s) && region[piece_[twin_[s]]] == kNone) pending.push_back(piece_[twin_[s]]);
+        }
+      }
+    }
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      const bool is_between =
+          is_broken_[piece_[s]] && twin_[s] != kNone && region[piece_[s]] != region[piece_[twin_[s]]];
+      if (is_between) is_wall_[p_.side_segments[s]] = 1;
+    }
+    for (int f = 0; f < count(); ++f) {
+      if (is_broken_[f]) cell_[f] = region[f];
+    }
+  }
+
+  // Whether a disk and a piece are one together: what they share is one part of the piece's outline.
+  bool fits(int piece, int disk, const std::vector<int>& region, const std::vector<int>& touched) const {
+    int nodes = 0, sides = 0, parts = 0;
+    const auto is_shared = [&](int s) { return !is_wall(s) && region[piece_[twin_[s]]] == disk; };
+    for (int s = p_.offsets[piece]; s < p_.offsets[piece + 1]; ++s) {
+      nodes += touched[p_.side_nodes[s]] == disk;
+      sides += is_shared(s);
+      parts += is_shared(s) && !is_shared(following(s));
+    }
+    return parts == 1 && nodes == sides + 1;
+  }
+
+  Cells outlines() const {
+    Cells cells;
+    std::vector<char> visited(twin_.size(), 0);
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      if (visited[s] || !is_wall(s)) continue;
+      const int cell = cell_[piece_[s]];
+      const auto& tile = p_.tiles[cell];
+      int at = s;
+      do {
+        visited[at] = 1;
+        const auto& own = p_.tiles[piece_[at]];
+        Point point = p_.side_points[at];
+        for (int x = 0; x < 2 && p_.poles[cell] == kNone; ++x) point[x] += static_cast<double>(tile[x] - own[x]);
+        cells.corner_vertices.push_back(p_.side_nodes[at]);
+        cells.corner_points.push_back(point);
+        at = next_wall(at);
+      } while (at != s);
+      cells.offsets.push_back(static_cast<int>(cells.corner_vertices.size()));
+      cells.tiles.push_back(tile);
+      cells.poles.push_back(p_.poles[cell]);
+      cells.is_whole.push_back(!is_broken_[cell]);
+    }
+    number_vertices(cells);
+    return cells;
+  }
+
+  // Those at walls alone remain; one with two walls may be left out.
+  void number_vertices(Cells& cells) const {
+    std::vector<int> walls(p_.nodes.triangles.size(), 0), number(walls.size(), kNone);
+    for (int s = 0; s < std::ssize(twin_); ++s) {
+      if (!is_wall(s) || (twin_[s] != kNone && twin_[s] < s)) continue;
+      ++walls[p_.side_nodes[s]];
+      ++walls[p_.side_nodes[following(s)]];
+    }
+    for (std::size_t n = 0; n < walls.size(); ++n) {
+      if (walls[n] == 0) continue;
+      number[n] = static_cast<int>(cells.vertices.triangles.size());
+      cells.vertices.push_back(p_.nodes.triangles[n], p_.nodes.barycentric[n]);
+      cells.is_needed.push_back(walls[n] != 2);
+    }
+    for (std::size_t c = 0; c < cells.corner_vertices.size(); ++c) {
+      int& vertex = cells.corner_vertices[c];
+      vertex = number[vertex];
+      const auto& [x, y] = cells.corner_points[c];
+      if (x == std::round(x) && y == std::round(y)) cells.is_needed[vertex] = 1;
+    }
+  }
+
+  const Pieces& p_;
+  std::vector<char> is_wall_;
+  std::vector<int> piece_, twin_;  // #S; the side of the other piece on the same segment
+  std::vector<int> cell_;          // #P
+  std::vector<char> is_broken_;    // #P: of cells that are no disk with a simple outline
+};
+
+}  // namespace
+
+Cells cells(const Pieces& pieces) { return Joining(pieces).run(); }
+
+}  // namespace holomorph::tiles

@@ -1,0 +1,38 @@
+// Where edges cross the lines between tiles.
+#pragma once
+
+#include <cstdint>
+
+#include "tiles/tile_coordinates.h"
+
+namespace holomorph::tiles {
+
+/// Tile coordinates as far as combinatorics need them: 2 m where one is the whole number m, 2 m + 1 between m and m
+/// + 1.
+using Code = std::array<std::int64_t, 2>;
+
+inline bool is_line(std::int64_t code) { return code % 2 == 0; }
+
+/// The nodes on edge e are offsets[e] .. offsets[e + 1] - 1, in the order of side i of triangle t, 3 t + i = sides[e],
+/// the first one at the edge. An edge that ends at a pole has none.
+struct EdgeNodes {
+  std::vector<int> sides;       ///< #E
+  std::vector<int> offsets;     ///< #E + 1
+  std::vector<Code> codes;      ///< in that triangle
+  std::vector<double> weights;  ///< of the end of the side, strictly between 0 and 1
+};
+
+/// The nodes strictly between the ends of each edge, in an order that is decided exactly; what crosses two lines at
+/// once is one node.
+/// @throws SolverError if there are more than memory is meant for. Cost: linear in edges and nodes.
+EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
+
+/// The code of a point in integers.
+Code code_of(const Point& point, double unit);
+
+/// By how many whole tiles coordinates in one triangle differ from those in another, seen at one corner of each.
+inline Code jump_between(const Point& from, const Point& to, double unit) {
+  return {static_cast<std::int64_t>((to[0] - from[0]) / unit), static_cast<std::int64_t>((to[1] - from[1]) / unit)};
+}
+
+}  // namespace holomorph::tiles

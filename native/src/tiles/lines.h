@@ -1,0 +1,20 @@
+// The lines of a surface along which one of its tile coordinates is a whole number.
+#pragma once
+
+#include "tiles/pieces.h"
+
+namespace holomorph::tiles {
+
+/// Line l has the points offsets[l] .. offsets[l + 1] - 1, the first not repeated where it closes.
+struct Lines {
+  Locations points;
+  std::vector<int> offsets{0};  ///< #L + 1
+  std::vector<char> is_closed;  ///< #L
+};
+
+/// All lines of the first coordinate, from edge to edge. They end on the boundary, at the star of a pole, and where
+/// others meet them, as where the map branches. The order is that of the first edges.
+/// Cost: linear in triangles and points. @throws SolverError if there are too many points
+Lines lines(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
+
+}  // namespace holomorph::tiles

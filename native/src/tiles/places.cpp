@@ -1,0 +1,121 @@
+#include "tiles/places.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/chunks.h"
+
+namespace holomorph::tiles {
+namespace {
+
+constexpr double kRounding = 4;  // of where a row meets a side, in the integers of coordinates
+constexpr int kNone = -1;
+
+// Joins the places of one chunk of triangles to those before.
+void append(Places& all, const Places& more) {
+  all.triangles.insert(all.triangles.end(), more.triangles.begin(), more.triangles.end());
+  all.barycentric.insert(all.barycentric.end(), more.barycentric.begin(), more.barycentric.end());
+  all.numbers.insert(all.numbers.end(), more.numbers.begin(), more.numbers.end());
+  all.flipped += more.flipped;
+}
+
+// Where the row at height y meets the triangle, a little more.
+Point reach(const std::array<Point, 3>& p, double y) {
+  double low = kLargestCoordinate, high = -kLargestCoordinate;
+  for (int i = 0; i < 3; ++i) {
+    const Point &a = p[i], &b = p[(i + 1) % 3];
+    if (std::min(a[1], b[1]) > y || std::max(a[1], b[1]) < y) continue;
+    const double t = a[1] == b[1] ? 0 : (y - a[1]) / (b[1] - a[1]), x = a[0] + t * (b[0] - a[0]);
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  return {low - kRounding, high + kRounding};
+}
+
+class Search {
+ public:
+  Search(const mesh::Surface& surface, const TileCoordinates& coordinates)
+      : surface_(surface), coordinates_(coordinates), first_(surface.vertex_count, kNone) {
+    for (int t = 0; t < static_cast<int>(surface.triangles.size()); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const int v = surface.triangles[t][i];
+        if (first_[v] == kNone && is_number(coordinates.points[t][i]) && signed_area(coordinates, t) > 0) first_[v] = t;
+      }
+    }
+  }
+
+  void look(int t, Places& found) const {
+    const auto& p = coordinates_.points[t];
+    const double unit = coordinates_.unit;
+    const auto [low, high] = std::minmax({p[0][1], p[1][1], p[2][1]});
+    const double first = std::ceil(low / unit), last = std::floor(high / unit);
+    if (first > last) return;
+    const double area = signed_area(coordinates_, t);
+    if (area == 0) return;
+    for (double n = first; n <= last; ++n) {
+      const auto [from, to] = reach(p, n * unit);
+      for (double m = std::ceil(from / unit); m <= std::floor(to / unit); ++m) look_at(t, {m, n}, area > 0, found);
+    }
+  }
+
+ private:
+  bool is_number(const Point& p) const {
+    return std::fmod(p[0], coordinates_.unit) == 0 && std::fmod(p[1], coordinates_.unit) == 0;
+  }
+
+  void look_at(int t, const Point& number, bool upright, Places& found) const {
+    const auto& p = coordinates_.points[t];
+    const Point x{number[0] * coordinates_.unit, number[1] * coordinates_.unit};
+    const double turn = upright != coordinates_.is_mirrored ? 1 : -1;
+    std::array<double, 3> side;  // side i is opposite corner i
+    int sides = 0, last = 0;     // on which it lies
+    for (int i = 0; i < 3; ++i) {
+      side[i] = turn * orientation(p[(i + 1) % 3], p[(i + 2) % 3], x);
+      if (side[i] < 0) return;
+      if (side[i] == 0) ++sides, last = i;
+    }
+    if (sides == 2 && !has_vertex(t, side)) return;
+    if (sides == 1 && !has_side(t, (last + 1) % 3, turn, upright)) return;
+    if (!upright) {
+      found.flipped += sides < 2;
+      return;
+    }
+    const double sum = side[0] + side[1] + side[2];
+    found.triangles.push_back(t);
+    found.barycentric.push_back({side[0] / sum, side[1] / sum, side[2] / sum});
+    found.numbers.push_back({static_cast<std::int64_t>(number[0]), static_cast<std::int64_t>(number[1])});
+  }
+
+  bool has_vertex(int t, const std::array<double, 3>& side) const {
+    const int i = side[0] > 0 ? 0 : side[1] > 0 ? 1 : 2, v = surface_.triangles[t][i];
+    return first_[v] == t && !coordinates_.is_pole[v];
+  }
+
+  // Whether a point on side i, moved by (d, d^2), lies in the triangle.
+  bool has_side(int t, int i, double turn, bool upright) const {
+    if (upright && surface_.edge_face_count[surface_.triangle_edges[t][i]] == 1) return true;
+    const Point &a = coordinates_.points[t][i], &b = coordinates_.points[t][(i + 1) % 3];
+    const double x = turn * (b[0] - a[0]), y = turn * (b[1] - a[1]);
+    return y != 0 ? y < 0 : x > 0;
+  }
+
+  const mesh::Surface& surface_;
+  const TileCoordinates& coordinates_;
+  std::vector<int> first_;  // #V the first upright triangle at a vertex whose coordinates are whole numbers
+};
+
+}  // namespace
+
+Places places(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution) {
+  const Search search(surface, coordinates);
+  const int count = static_cast<int>(surface.triangles.size()), chunks = chunk_count(count);
+  std::vector<Places> parts(chunks);
+  run_throwing(execution.workers(), chunks, [&](int chunk) {
+    for (int t = chunk * kChunk, end = std::min(t + kChunk, count); t < end; ++t) search.look(t, parts[chunk]);
+  });
+  Places all;
+  for (const Places& part : parts) append(all, part);
+  return all;
+}
+
+}  // namespace holomorph::tiles

@@ -1,0 +1,25 @@
+// The points of a surface at which its tile coordinates are whole numbers.
+#pragma once
+
+#include <vector>
+
+#include "tiles/tile_coordinates.h"
+
+namespace holomorph::tiles {
+
+struct Places {
+  std::vector<int> triangles;                        ///< in which each lies, ascending
+  std::vector<std::array<double, 3>> barycentric;    ///< there, not negative
+  std::vector<std::array<std::int64_t, 2>> numbers;  ///< the whole numbers
+  int flipped = 0;                                   ///< in flipped triangles, which are left out
+};
+
+/// All of them, each once, in the order of the triangles, then of the rows and in each row. Which triangle has one on
+/// an edge is decided as if all points were moved a little, by (d, d^2), so that of two triangles side by side one has
+/// it and of a fold both or none, and the number of points less `flipped` is what the map's degree asks for. One at a
+/// vertex is had by the first triangle there, also where the map branches; all those on the boundary belong to it.
+/// Triangles at a pole have UVs of their own: what lies in one is a place of it, whatever lies in the next.
+/// Cost: linear in triangles, rows in these and places, in parallel; the same at any number of threads.
+Places places(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
+
+}  // namespace holomorph::tiles

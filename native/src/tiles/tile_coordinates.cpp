@@ -1,0 +1,140 @@
+#include "tiles/tile_coordinates.h"
+
+#include <cmath>
+#include <sstream>
+#include <string>
+
+#include "base/chunks.h"
+#include "base/errors.h"
+
+namespace holomorph::tiles {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kWhole = 1e-3;     // of a tile: jumps nearer to whole tiles are, in single precision, too
+constexpr double kMostTiles = 3e8;  // whose places, with all that is told of them, are some 30 GB
+constexpr int kNone = -1;
+
+Vector2d vector(const Point& p) { return {p[0], p[1]}; }
+Vector2d whole(const Vector2d& jump) { return jump.array().round(); }
+bool is_whole(const Vector2d& jump) { return (jump - whole(jump)).cwiseAbs().maxCoeff() <= kWhole; }
+
+std::string text(const Vector2d& jump) {
+  std::ostringstream out;
+  out.precision(4);
+  out << '(' << jump[0] << ", " << jump[1] << ')';
+  return out.str();
+}
+
+std::string between(const mesh::Surface& surface, int edge) {
+  const auto& [a, b] = surface.edges[edge];
+  return "the edge between the vertices " + std::to_string(a) + " and " + std::to_string(b);
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw TopologyError("the map is no tiling: " + what); }
+
+class Making {
+ public:
+  Making(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv, const TileFrame& frame)
+      : surface_(surface), frame_(frame), lattice_(uv.rows(), 2) {
+    for (Eigen::Index c = 0; c < uv.rows(); ++c) lattice_.row(c) = frame.inverse_lattice * uv.row(c).transpose();
+    if (!lattice_.allFinite()) refuse("a UV is not finite");
+    const Eigen::RowVector2d sum = frame.steps.cwiseAbs().cast<double>().rowwise().sum().transpose();
+    const double largest = (lattice_.cwiseAbs().maxCoeff() + frame.origin.cwiseAbs().maxCoeff()) * sum.maxCoeff();
+    if (!(largest < std::sqrt(kLargestCoordinate))) refuse("its UVs are " + std::to_string(largest) + " tiles apart");
+    result_.unit = kLargestCoordinate / std::exp2(std::ceil(std::log2(largest + 2)));
+  }
+
+  TileCoordinates run(Workers& workers) {
+    find_bases();
+    const int count = static_cast<int>(surface_.triangles.size());
+    result_.points.resize(count);
+    for_rows(workers, count, [&](int t) {
+      for (int i = 0; i < 3; ++i) result_.points[t][i] = point(t, i);
+    });
+    check_edges();
+    double area = 0, whole = 0;
+    for (int t = 0; t < count; ++t) {
+      const double own = signed_area(result_, t) / 2 / (result_.unit * result_.unit);
+      area += own;
+      whole += std::abs(own);
+    }
+    if (!(whole < kMostTiles)) throw SolverError("the surface has " + std::to_string(whole) + " tiles: too many");
+    result_.is_mirrored = area < 0;
+    return std::move(result_);
+  }
+
+ private:
+  Vector2d at(int corner) const { return lattice_.row(corner); }
+  Vector2d jump(int t, int i) const {
+    return at(surface_.triangle_corners[t][i]) - at(base_[surface_.triangles[t][i]]);
+  }
+
+  Point rounded(int corner) const {
+    const Vector2d x = frame_.steps.cast<double>() * (at(corner) - frame_.origin) * result_.unit;
+    return {std::round(x[0]), std::round(x[1])};
+  }
+
+  // The first corner at each vertex, and the vertices around which jumps are no whole tiles.
+  void find_bases() {
+    base_.assign(surface_.vertex_count, kNone);
+    result_.is_pole.assign(surface_.vertex_count, 0);
+    for (int t = 0; t < static_cast<int>(surface_.triangles.size()); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const int v = surface_.triangles[t][i];
+        if (base_[v] == kNone) base_[v] = surface_.triangle_corners[t][i];
+        if (!is_whole(jump(t, i))) result_.is_pole[v] = 1;
+      }
+    }
+    for (int e = 0; e < static_cast<int>(surface_.edges.size()); ++e) {
+      const auto& [a, b] = surface_.edges[e];
+      const bool is_border = surface_.edge_face_count[e] == 1;
+      if (result_.is_pole[a] + result_.is_pole[b] > (is_border ? 0 : 1))
+        refuse("its UVs jump by parts of a tile at " + between(surface_, e));
+    }
+  }
+
+  Point point(int t, int i) const {
+    const int v = surface_.triangles[t][i];
+    if (result_.is_pole[v]) return rounded(surface_.triangle_corners[t][i]);
+    const Point base = rounded(base_[v]);
+    const Vector2d moved = vector(base) + frame_.steps.cast<double>() * whole(jump(t, i)) * result_.unit;
+    return {moved[0], moved[1]};
+  }
+
+  // Both sides of an edge must be moved alike along all of it.
+  void check_edges() const {
+    std::vector<Vector2d> along(surface_.edges.size());
+    std::vector<char> seen(surface_.edges.size(), 0);
+    for (int t = 0; t < static_cast<int>(surface_.triangles.size()); ++t) {
+      const auto& v = surface_.triangles[t];
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, e = surface_.triangle_edges[t][i];
+        if (result_.is_pole[v[i]] || result_.is_pole[v[j]]) continue;
+        const Vector2d step = whole(jump(t, j)) - whole(jump(t, i));
+        const Vector2d side = v[i] < v[j] ? step : Vector2d(-step);
+        if (seen[e] && side != along[e])
+          refuse("its UVs jump by other tiles at the two ends of " + between(surface_, e) + ", which differ by " +
+                 text(side - along[e]));
+        seen[e] = 1;
+        along[e] = side;
+      }
+    }
+  }
+
+  const mesh::Surface& surface_;
+  const TileFrame& frame_;
+  Corners lattice_;        // #C x 2
+  std::vector<int> base_;  // #V
+  TileCoordinates result_;
+};
+
+}  // namespace
+
+TileCoordinates tile_coordinates(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv,
+                                 const TileFrame& frame, Execution& execution) {
+  return Making(surface, uv, frame).run(execution.workers());
+}
+
+}  // namespace holomorph::tiles

@@ -1,0 +1,45 @@
+// The UVs of a tiling as integers, exactly alike on both sides of every seam: what all that is made of one begins with.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "base/execution.h"
+#include "mesh/surface.h"
+#include "tiles/orientation.h"
+
+namespace holomorph::tiles {
+
+using Corners = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+/// Tile coordinates N (A^-1 uv - origin): what is looked for lies where they are whole numbers.
+struct TileFrame {
+  Eigen::Matrix2d inverse_lattice;  ///< A^-1, the columns of A the translations by which UVs may jump
+  Eigen::Vector2d origin;           ///< in these
+  Eigen::Matrix2i steps;            ///< N; a row of it may be 0 where one coordinate is enough
+};
+
+struct TileCoordinates {
+  double unit = 1;                     ///< a power of two, which stands for 1
+  Array<std::array<Point, 3>> points;  ///< #T, of the triangles' corners, in integers; jumps are multiples of the unit
+  std::vector<char> is_pole;           ///< #V: vertices around which the UVs do not close up by whole tiles
+  bool is_mirrored = false;            ///< most of the area is clockwise
+};
+
+/// The same place of a vertex in all its triangles, up to whole tiles: rounded once, and moved by the jumps.
+/// @param uv #C x 2
+/// @throws TopologyError where they are no tiling's: not finite or too large, jumps that are no whole tiles at two
+/// neighbours or on the boundary, or at the two ends of an edge are different; naming it. SolverError for more tiles
+/// than memory is meant for
+TileCoordinates tile_coordinates(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv,
+                                 const TileFrame& frame, Execution& execution);
+
+/// Twice the signed area of triangle t, in squares of the unit, positive as most are; exactly 0 where it is.
+inline double signed_area(const TileCoordinates& coordinates, int t) {
+  const auto& [a, b, c] = coordinates.points[t];
+  const double area = orientation(a, b, c);
+  return coordinates.is_mirrored ? -area : area;
+}
+
+}  // namespace holomorph::tiles

@@ -1,0 +1,149 @@
+#include "tiles/triangle_cut.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace holomorph::tiles {
+namespace {
+
+int sign(std::int64_t a) { return a > 0 ? 1 : a < 0 ? -1 : 0; }
+
+double middle(std::int64_t code) { return static_cast<double>(code) / 2; }
+
+}  // namespace
+
+bool TriangleCut::has_pole(int t) const {
+  const auto& [a, b, c] = surface_.triangles[t];
+  return coordinates_.is_pole[a] || coordinates_.is_pole[b] || coordinates_.is_pole[c];
+}
+
+const std::vector<Piece>& TriangleCut::cut(int t) {
+  triangle_ = t;
+  crossings_.clear();
+  row_segments_.clear();
+  pieces_.clear();
+  Piece whole = outline(t);
+  if (has_pole(t)) {
+    pieces_.push_back(std::move(whole));
+  } else if (pattern_ == Pattern::columns) {
+    cut_along(0, std::move(whole), pieces_);
+  } else {
+    std::vector<Piece> rows;
+    cut_along(1, std::move(whole), rows);
+    for (const Piece& row : rows) cut_along(0, with_crossings(row), pieces_);
+    name_rows();
+  }
+  return pieces_;
+}
+
+Piece TriangleCut::outline(int t) const {
+  Piece ring;
+  const double unit = coordinates_.unit;
+  for (int i = 0; i < 3; ++i) {
+    const Point& p = coordinates_.points[t][i];
+    ring.push_back({surface_.triangles[t][i], 0, code_of(p, unit), {p[0] / unit, p[1] / unit}});
+    append_side(t, i, ring);
+  }
+  return ring;
+}
+
+// The nodes of side i; names the segments from the last corner on.
+void TriangleCut::append_side(int t, int i, Piece& ring) const {
+  const int e = surface_.triangle_edges[t][i], begin = edge_nodes_.offsets[e], end = edge_nodes_.offsets[e + 1];
+  const int first = edge_nodes_.sides[e] / 3, side = edge_nodes_.sides[e] % 3, count = end - begin;
+  const bool along = first == t && side == i;
+  ring.back().segment = segments(e) + (along ? 0 : count);
+  if (count == 0) return;
+  const double unit = coordinates_.unit;
+  const Point &a = coordinates_.points[first][side], &b = coordinates_.points[first][(side + 1) % 3];
+  const Code jump = jump_between(b, coordinates_.points[t][along ? (i + 1) % 3 : i], unit);
+  for (int j = 0; j < count; ++j) {
+    const int k = along ? j : count - 1 - j;
+    const Code& here = edge_nodes_.codes[begin + k];
+    PieceCorner corner{surface_.vertex_count + begin + k, segments(e) + (along ? k + 1 : k), {}, {}};
+    for (int x = 0; x < 2; ++x) {
+      corner.code[x] = here[x] + 2 * jump[x];
+      const double between = (a[x] + edge_nodes_.weights[begin + k] * (b[x] - a[x])) / unit;
+      corner.at[x] = is_line(corner.code[x]) ? middle(corner.code[x]) : between + static_cast<double>(jump[x]);
+    }
+    ring.push_back(corner);
+  }
+}
+
+void TriangleCut::cut_along(int axis, Piece whole, std::vector<Piece>& pieces) {
+  Code low = whole[0].code, high = low;
+  for (const PieceCorner& corner : whole) {
+    for (int x = 0; x < 2; ++x) {
+      low[x] = std::min(low[x], corner.code[x]);
+      high[x] = std::max(high[x], corner.code[x]);
+    }
+  }
+  const std::int64_t row = between(low[1], high[1]);
+  for (std::int64_t line = low[axis] + 2 - (low[axis] & 1); line < high[axis]; line += 2) {
+    if (axis == 1 || has_column(line, row)) pieces.push_back(split(axis, line, whole));
+  }
+  pieces.push_back(std::move(whole));
+}
+
+// Takes away, and returns, what lies below the line, of which every crossing is a corner. Along the outline of a convex
+// piece, also of one without area, codes ascend and descend once: above the line is one part of it. @pre there are
+// corners on both sides
+Piece TriangleCut::split(int axis, std::int64_t line, Piece& ring) {
+  const auto side = [&](const PieceCorner& corner) { return sign(corner.code[axis] - line); };
+  std::size_t up = 0;
+  while (side(ring[up]) != 0 || side(ring[(up + 1) % ring.size()]) <= 0) ++up;
+  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(up), ring.end());
+  const auto down = std::find_if(ring.begin() + 1, ring.end(), [&](const auto& corner) { return side(corner) <= 0; });
+  assert(down != ring.end() && side(*down) == 0);
+  const int segment = axis == 1 ? kRow : ~segment_count_++;
+  Piece low(down, ring.end());
+  low.push_back(ring.front());
+  low.back().segment = segment;
+  ring.erase(down + 1, ring.end());
+  ring.back().segment = segment;
+  return low;
+}
+
+// With a corner wherever a column crosses the rows below and above: those of the pieces on the other side, too.
+Piece TriangleCut::with_crossings(const Piece& row) {
+  Piece ring;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    ring.push_back(row[i]);
+    if (row[i].segment != kRow) continue;
+    const std::int64_t from = row[i].code[0], to = row[(i + 1) % row.size()].code[0], step = to > from ? 2 : -2;
+    const std::int64_t first = is_line(from) ? from + step : from + step / 2;
+    for (std::int64_t line = first; (to - line) * step > 0; line += step)
+      ring.push_back(crossing(line, row[i].code[1]));
+  }
+  return ring;
+}
+
+Code TriangleCut::cell(const Code& low, const Code& high) const {
+  const std::int64_t column = between(low[0], high[0]), row = between(low[1], high[1]);
+  return {has_column(2 * column, row) ? column : column - 1, row};
+}
+
+// Where a column crosses a row, inside of the triangle.
+PieceCorner TriangleCut::crossing(std::int64_t column, std::int64_t row) {
+  assert(is_line(row));
+  const Code code{column, row};
+  const auto [found, is_new] = crossings_.try_emplace(code, ~static_cast<int>(nodes_.size()));
+  if (is_new) nodes_.push_back({triangle_, code});
+  return {found->second, kRow, code, {middle(column), middle(row)}};
+}
+
+// A row has the same corners on both of its sides.
+void TriangleCut::name_rows() {
+  for (Piece& piece : pieces_) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      if (piece[i].segment != kRow) continue;
+      const std::int64_t from = piece[i].code[0], to = piece[(i + 1) % piece.size()].code[0];
+      const std::int64_t column = from == to ? from : std::min(from, to) | 1;
+      const auto [found, is_new] = row_segments_.try_emplace({column, piece[i].code[1]}, ~segment_count_);
+      if (is_new) ++segment_count_;
+      piece[i].segment = found->second;
+    }
+  }
+}
+
+}  // namespace holomorph::tiles
