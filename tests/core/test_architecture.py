@@ -45,8 +45,9 @@ ADDON_BELOW = {
     "results": ["maps", "writing"],
     "baking": ["results"],
     "levels": ["results"],
+    "things": ["results"],
     "overlays": ["results"],
-    "operators": ["baking", "levels", "overlays"],
+    "operators": ["baking", "levels", "things", "overlays"],
     "interface": ["operators"],
     "command_line": ["operators"],
 }
