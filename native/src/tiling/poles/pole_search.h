@@ -1,10 +1,12 @@
 // The search for poles of even density: steps that add, move, relocate and prune them.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "base/watch.h"
 #include "tiling/poles/candidate_scores.h"
+#include "tiling/poles/orbits.h"
 #include "tiling/poles/pole_candidates.h"
 #include "tiling/poles/pole_objective.h"
 
@@ -13,6 +15,7 @@ namespace holomorph::tiling {
 /// The least number of poles that a form needs.
 int least_count(const PoleBasis& basis);
 
+/// With a mirror every step is one of an orbit: of a pole on the plane, or of a pair.
 class PoleSearch {
  public:
   /// @param every of the samples every so many-th is used. @pre what is referred to outlives the search
@@ -20,7 +23,8 @@ class PoleSearch {
 
   /// The fixed poles, or as few as there can be.
   MeromorphicForm begin();
-  /// Adds poles up to `count`, one by one where they help most. @return whether there was room for so many
+  /// Adds poles up to `count`, one by one where they help most. @return whether there was room for so many; with a
+  /// mirror for one less
   bool add(MeromorphicForm& form, int count);
   /// Moves each pole in turn to where it does best beside the others. @return whether one moved
   bool sweep(MeromorphicForm& form);
@@ -39,14 +43,19 @@ class PoleSearch {
   };
 
   void refit(MeromorphicForm& form);
-  bool is_fixed(int vertex) const;
+  bool is_fixed(int vertex) const { return std::ranges::find(options_.fixed, vertex) != options_.fixed.end(); }
   void sweep_to_the_end(MeromorphicForm& form);
   bool relocate(MeromorphicForm& form);
+  void fill(MeromorphicForm& form, int count);
   bool exchange(MeromorphicForm& form, Index i);
-  bool add_one(MeromorphicForm& form);
-  MeromorphicForm without_last(MeromorphicForm form) const;
-  MeromorphicForm joined(const MeromorphicForm& form, const Trial& trial) const;
+  bool add_one(MeromorphicForm& form, int most);
+  Index orbit_size(const MeromorphicForm& form, Index i) const {
+    return tiling::orbit_size(form.poles, i, options_.mirror);
+  }
+  bool is_on_plane(int vertex) const { return options_.mirror && options_.mirror->is_on_plane(vertex); }
+  bool is_pair(int vertex) const { return options_.mirror && !options_.mirror->is_on_plane(vertex); }
   std::vector<Trial> trials_everywhere(const MeromorphicForm& form);
+  std::vector<MeromorphicForm> all_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
   MeromorphicForm best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
 
   GreensFunctions& greens_;
