@@ -46,6 +46,7 @@ MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& 
       best = added;
     }
   }
+  best = (std::ssize(best.poles) <= kFew ? few : more).hidden(std::move(best));
   return optimised(greens, options.kind, options.mirror, std::move(best), execution);
 }
 

@@ -1,44 +1,21 @@
 #include "tiling/poles/pole_search.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "base/chunks.h"
 #include "uv/balance.h"
 
 namespace holomorph::tiling {
 namespace {
 
-constexpr int kThinning = 3;  // a third of the samples tells what is worth a trial
-// Candidates that are optimised when a pole is added, beside these on a plane, and when one moves.
-constexpr int kTried = 4, kTriedOnPlane = 2, kRefined = 2;
 constexpr int kRounds = 3, kSweeps = 5;
-constexpr int kSpare = 4;              // so many more poles are placed, and taken away again
-constexpr double kGain = 1e-3;         // less is no gain
-constexpr double kUsualValues = 3000;  // of the objective, in a search
-// Residues that a new pole is tried with, relative to the root of mean density times area.
-constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
-constexpr int kTrialPhases = 6;
-const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor}, kFromNear = {uv::kDensityFloor},
-                          kWithTrial = {0.03, uv::kDensityFloor};
-
-VectorXcd thinned(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning)); }
+constexpr int kSpare = 4;  // so many more poles are placed, and taken away again
+// By what part the objective may grow where poles are hidden, and what it is worth that none is seen.
+constexpr double kHiding = 0.1, kWorth = 1;
+const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor};
 
 }  // namespace
 
 int least_count(const PoleBasis& basis) { return basis.form_count() > 0 ? 0 : basis.closed() ? 2 : 1; }
-
-PoleSearch::PoleSearch(GreensFunctions& greens, const PlaceOptions& options, int every, Execution& execution)
-    : greens_(greens),
-      basis_(greens.basis()),
-      options_(options),
-      execution_(execution),
-      candidates_(basis_, options),
-      every_(every),
-      objective_(greens, options.kind, every, options.mirror),
-      scores_(greens, every * kThinning, options.mirror),
-      watch_(execution, kUsualValues) {}
 
 MeromorphicForm PoleSearch::begin() {
   MeromorphicForm form;
@@ -108,6 +85,14 @@ MeromorphicForm PoleSearch::pruned(MeromorphicForm form) {
   return ratio(other) < ratio(form) ? other : form;
 }
 
+MeromorphicForm PoleSearch::hidden(MeromorphicForm form) {
+  if (basis_.surface().intrinsic() || form.poles.empty() || basis_.has_jacobian()) return form;
+  begin_hiding(form.poles, kWorth * form.objective, kHiding * form.objective / static_cast<double>(form.poles.size()));
+  sweep(form);
+  end_hiding();
+  return form;
+}
+
 // The coefficients of many forms, which stay behind while places are compared.
 void PoleSearch::refit(MeromorphicForm& form) {
   if (objective_.has_many_forms()) objective_.fit(form, kFromNear, tick_);
@@ -147,104 +132,6 @@ bool PoleSearch::relocate(MeromorphicForm& form) {
     moved = true;
   }
   return moved;
-}
-
-// Scores all candidates for pole i with everything else as it is, and optimises the best ones.
-bool PoleSearch::exchange(MeromorphicForm& form, Index i) {
-  std::vector<int> others = form.poles;
-  const Index size = orbit_size(form, i);
-  const std::vector<int> own(others.begin() + i, others.begin() + i + size);
-  others.erase(others.begin() + i, others.begin() + i + size);
-  const std::vector<int> candidates = candidates_.for_move(form.poles[i], others);
-  if (candidates.empty()) return false;
-  const Index k = form.residues.size();
-  objective_.prepare(with_images(candidates, options_.mirror), k, execution_);
-  scores_.prepare(candidates);
-  const VectorXcd A = objective_.samples_of(form), now = thinned(A);
-  scores_.set_rest(now - greens_.at(own, every_ * kThinning) * form.residues.segment(i, size),
-                   median(now.cwiseAbs2().array()));
-  objective_.prepare(form.poles, k, execution_);
-  const MatrixXcd metric = objective_.jacobian_metric(A.cwiseAbs2().array(), k);
-  std::vector<std::pair<double, int>> scores(candidates.size());
-  run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
-    std::vector<int> vertices = form.poles;
-    vertices[i] = candidates[j];
-    scores[j] = {scores_(candidates[j], form.residues[i]) + objective_.jacobian_term(vertices, form.residues, metric),
-                 candidates[j]};
-  });
-  std::sort(scores.begin(), scores.end());
-  std::vector<MeromorphicForm> tried;
-  for (int j = 0; j < std::min<int>(kRefined, static_cast<int>(scores.size())); ++j) {
-    tried.push_back(form);
-    tried.back().poles[i] = scores[j].second;
-    if (size == 2) tried.back().poles[i + 1] = options_.mirror->image[scores[j].second];
-  }
-  MeromorphicForm found = best_optimised(std::move(tried), kFromNear);
-  if (found.objective > form.objective * (1 - kGain)) return false;
-  form = std::move(found);
-  return true;
-}
-
-// @param most poles, of which an orbit has one or two: what a pole gains is what counts
-bool PoleSearch::add_one(MeromorphicForm& form, int most) {
-  const std::size_t count = form.poles.size();
-  std::vector<MeromorphicForm> tried;
-  int left[] = {options_.mirror ? kTriedOnPlane : kTried, kTried};
-  for (const Trial& trial : trials_everywhere(form)) {
-    const bool pair = is_pair(trial.vertex);
-    if ((pair && most < 2) || left[pair] == 0) continue;
-    const bool known = std::any_of(tried.begin(), tried.end(),
-                                   [&](const MeromorphicForm& p) { return p.poles[count] == trial.vertex; });
-    if (known) continue;
-    tried.push_back(joined(form, trial.vertex, trial.residue, basis_.closed(), options_.mirror));
-    --left[pair];
-  }
-  if (tried.empty()) return false;
-  std::vector<int> vertices = form.poles;
-  for (const MeromorphicForm& each : tried)
-    vertices.insert(vertices.end(), each.poles.begin() + count, each.poles.end());
-  objective_.prepare(vertices, tried.front().residues.size(), execution_);
-  tried = all_optimised(std::move(tried), kWithTrial);
-  form = *std::ranges::min_element(tried, {}, [&](const MeromorphicForm& each) {
-    return options_.mirror
-               ? (each.objective - form.objective) / std::sqrt(static_cast<double>(each.poles.size() - count))
-               : each.objective;
-  });
-  return true;
-}
-
-// All candidates with all trial residues beside the form as it is, the best first.
-std::vector<PoleSearch::Trial> PoleSearch::trials_everywhere(const MeromorphicForm& form) {
-  const std::vector<int> candidates = candidates_.everywhere(form.poles);
-  greens_.solve_at(with_images(candidates, options_.mirror), execution_);
-  scores_.prepare(candidates);
-  const VectorXcd A = thinned(objective_.samples_of(form));
-  scores_.set_rest(A, median(A.cwiseAbs2().array()));
-  const double scale = std::sqrt(A.cwiseAbs2().mean() * basis_.area());
-  const int phases = options_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
-  std::vector<Trial> trials;
-  for (const int v : candidates) {
-    for (const double size : kTrialSizes) {
-      const int own = is_on_plane(v) ? 2 : phases;
-      for (int j = 0; j < own; ++j) trials.push_back({0, v, std::polar(size * scale, 2 * std::numbers::pi * j / own)});
-    }
-  }
-  run_throwing(execution_.workers(), static_cast<int>(trials.size()),
-               [&](int j) { trials[j].value = scores_(trials[j].vertex, trials[j].residue); });
-  std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.value < b.value; });
-  return trials;
-}
-
-std::vector<MeromorphicForm> PoleSearch::all_optimised(std::vector<MeromorphicForm> list,
-                                                       const std::vector<double>& floors) {
-  run_long_tasks(execution_.workers(), static_cast<int>(list.size()),
-                 [&](int thread, int i) { objective_.optimise(list[i], floors, [&] { watch_(thread); }); });
-  return list;
-}
-
-MeromorphicForm PoleSearch::best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors) {
-  list = all_optimised(std::move(list), floors);
-  return *std::ranges::min_element(list, {}, &MeromorphicForm::objective);
 }
 
 }  // namespace holomorph::tiling
