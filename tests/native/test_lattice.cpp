@@ -1,3 +1,4 @@
+#include "lattice/integer_kernel.h"
 #include "lattice/reduction.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <ostream>
 #include <string>
 
@@ -218,6 +220,28 @@ TEST(Lattice, APointThatIsNotFiniteIsRefused) {
   for (const double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW(nearest_plane(reduced, VectorXd{{0, value}}), SolverError);
   }
+}
+
+TEST(IntegerKernel, IsWhatTheMatrixTakesToZero) {
+  IntegerMatrix A(3, 5);
+  A << 2, 4, 0, -6, 1, 0, 3, 9, 0, 6, 2, 7, 9, -6, 7;  // the last row is the sum of the others
+  const IntegerMatrix kernel = integer_kernel(A);
+  ASSERT_EQ(kernel.cols(), 3);
+  EXPECT_TRUE((A * kernel).isZero());
+  // All of it: the greatest common divisor of the minors is 1, so that no vector between is left out.
+  std::int64_t divisor = 0;
+  for (int i = 0; i < 5; ++i) {
+    for (int j = i + 1; j < 5; ++j) {
+      Eigen::Matrix3d minor;
+      for (int row = 0, k = 0; row < 5; ++row) {
+        if (row != i && row != j) minor.row(k++) = kernel.row(row).cast<double>();
+      }
+      divisor = std::gcd(divisor, std::llround(minor.determinant()));
+    }
+  }
+  EXPECT_EQ(divisor, 1);
+  EXPECT_EQ(integer_kernel(IntegerMatrix::Identity(3, 3)).cols(), 0);
+  EXPECT_EQ(integer_kernel(IntegerMatrix::Zero(2, 3)).cols(), 3);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "tiling/inversion/abel_jacobi.h"
 #include "tiling/maps/seamless_maps.h"
 #include "tiling/poles/candidate_scores.h"
+#include "tiling/poles/exposure.h"
 #include "tiling/poles/meromorphic_form.h"
 #include "tiling/rounding/rounding.h"
 
@@ -176,6 +177,28 @@ TEST(SurfaceWalk, ComesBack) {
   }
 }
 
+TEST(Exposure, IsAllOutsideAndLessInsideOfARing) {
+  const auto surface = wavy_torus(60, 40);
+  std::vector<int> vertices;
+  for (int v = 0; v < surface->vertex_count; v += 7) vertices.push_back(v);
+  Execution one(1), two(2);
+  Exposure exposure(*surface), other(*surface);
+  exposure.prepare(vertices, one.workers());
+  other.prepare(vertices, two.workers());
+  double inside = 0, outside = 1;
+  for (const int v : vertices) {
+    EXPECT_EQ(exposure(v), other(v));
+    EXPECT_GE(exposure(v), 0);
+    EXPECT_LE(exposure(v), 1);
+    const auto& p = surface->polygons.vertices[v];
+    const double ring = std::hypot(p[0], p[1]);
+    if (ring > 2.9) outside = std::min(outside, exposure(v));
+    if (ring < 1.1) inside = std::max(inside, exposure(v));
+  }
+  EXPECT_GT(outside, 0.98);
+  EXPECT_LT(inside, 0.9);
+}
+
 TEST(SurfaceWalk, EndsAtTheBoundary) {
   const auto surface = wavy_torus(12, 8, 60);
   Execution execution(1);
@@ -197,7 +220,9 @@ TEST(TextureLattice, NearestPointsAndSymmetry) {
     const Complex point = lattice.point(3, -2);
     EXPECT_LT(std::abs(lattice.nearest(point + Complex(0.2, -0.1)) - point), 1e-12);
     EXPECT_LT((lattice.coordinates(point) - Eigen::Vector2d(3, -2)).norm(), 1e-12);
+    EXPECT_TRUE(lattice.is_mirrored());
   }
+  EXPECT_FALSE((TextureLattice{1.0, {0.3, 1.0}}).is_mirrored());
 }
 
 }  // namespace

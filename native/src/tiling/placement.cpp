@@ -7,34 +7,36 @@ namespace holomorph::tiling {
 namespace {
 
 // The same form on the surface: the same residues, and c_j that fit it as a vector field in space.
-// @param greens of the level; afterwards of the surface
-MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, const CoarseLevel& level,
-                            std::shared_ptr<const mesh::Surface> surface, uv::Coefficients kind,
-                            const structure::Options& options, Execution& execution) {
+// @param greens of the level; afterwards of the surface. @param mirror the same
+MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::optional<Mirror>& mirror,
+                            const CoarseLevel& level, std::shared_ptr<const mesh::Surface> surface,
+                            uv::Coefficients kind, const PoleOptions& options, Execution& execution) {
   const VectorXcd wanted = samples_of(form, greens);
   const MatrixXcd frames = uv::tangent_frames(*level.surface, greens.basis().samples());
+  const std::vector<int> level_poles = form.poles;
   for (int& v : form.poles) v = level.vertex[v];
   if (level.is_whole(*surface))
-    greens = GreensFunctions(std::make_shared<const PoleBasis>(std::move(surface), options, execution));
+    greens = GreensFunctions(std::make_shared<const PoleBasis>(std::move(surface), options.solving, execution));
   else
-    greens = std::move(greens).on(
-        std::make_shared<const PoleBasis>(std::move(surface), options, greens.shared_basis(), level, execution));
-  greens.solve_at(form.poles, execution);
+    greens = std::move(greens).on(std::make_shared<const PoleBasis>(std::move(surface), options.solving,
+                                                                    greens.shared_basis(), level, execution));
   const PoleBasis& basis = greens.basis();
+  if (mirror) mirror = mirror_of_poles(*mirror, level_poles, basis, options.allowed, form.poles);
+  greens.solve_at(form.poles, execution);
   if (basis.form_count() > 0) {
     form.coefficients =
         fitted_coefficients(wanted, frames, basis.holomorphic().M, greens.at(form.poles) * form.residues,
                             uv::tangent_frames(basis.surface(), basis.samples()), kind == uv::Coefficients::real);
   }
-  return optimised(greens, kind, std::move(form), execution);
+  return optimised(greens, kind, mirror ? &*mirror : nullptr, std::move(form), execution);
 }
 
 // With the Green's functions of the poles alone.
 Placement placement(PoleOptions options, uv::Coefficients kind, const GreensFunctions& greens, MeromorphicForm form,
-                    Execution& execution) {
+                    std::optional<Mirror> mirror, Execution& execution) {
   const auto& basis = greens.shared_basis();
   const double ratio = density_ratio(density(form, greens));
-  Placement result{std::move(options), basis, kind, GreensFunctions(basis), std::move(form), ratio};
+  Placement result{std::move(options), basis, kind, GreensFunctions(basis), std::move(form), ratio, std::move(mirror)};
   if (basis->has_jacobian()) result.inversion = std::make_shared<const JacobiInversion>(*basis, execution);
   result.greens.solve_at(result.form.poles, execution);
   return result;
@@ -50,7 +52,9 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   const CoarseLevel level = options.is_chosen() ? CoarseLevel{surface, {}, {}} : coarse_level(surface, execution);
   execution.stage("forms for the poles", 0.2, 0.25);
   GreensFunctions greens(std::make_shared<const PoleBasis>(level.surface, options.solving, execution));
-  PlaceOptions place_options{kind, {}, options.vertices, level.large_polygons, options.evened};
+  std::optional<Mirror> plane = options.is_chosen() ? std::nullopt : mirror(greens.basis());
+  PlaceOptions place_options{kind,          {}, options.vertices, level.large_polygons, plane ? &*plane : nullptr,
+                             options.evened};
   for (const int v : level.vertex) {
     if (!options.allowed.empty()) place_options.allowed.push_back(options.allowed[v]);
   }
@@ -58,9 +62,10 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   MeromorphicForm form = options.count ? placed_poles(greens, place_options, *options.count, execution)
                                        : placed_poles(greens, place_options, execution);
   execution.stage("forms of the surface", 0.6, 1.0);
+  if (!place_options.mirror) plane.reset();
   if (level.surface != surface)
-    form = transferred(std::move(form), greens, level, std::move(surface), kind, options.solving, execution);
-  Placement result = placement(std::move(options), kind, greens, std::move(form), execution);
+    form = transferred(std::move(form), greens, plane, level, std::move(surface), kind, options, execution);
+  Placement result = placement(std::move(options), kind, greens, std::move(form), std::move(plane), execution);
   execution.finish();
   return result;
 }

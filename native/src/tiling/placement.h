@@ -10,6 +10,7 @@
 #include "tiling/inversion/jacobi_inversion.h"
 #include "tiling/maps/seamless_maps.h"
 #include "tiling/poles/meromorphic_form.h"
+#include "tiling/poles/mirror.h"
 
 namespace holomorph::tiling {
 
@@ -34,6 +35,7 @@ struct Placement {
   GreensFunctions greens;                  ///< at the poles
   MeromorphicForm form;                    ///< the most even one with these poles, before its periods are rounded
   double optimal_density_ratio = 1;        ///< 95 % over 5 % quantile of its density
+  std::optional<Mirror> mirror;            ///< of the poles, where the form is its own mirror image
   std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null
   /// Those of the last tiling, for another one with the same poles.
   std::shared_ptr<LastMade<std::vector<int>, SeamlessMaps>> maps =

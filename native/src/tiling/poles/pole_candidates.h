@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "tiling/greens/pole_basis.h"
+#include "tiling/poles/mirror.h"
 
 namespace holomorph::tiling {
 
@@ -14,6 +14,7 @@ struct PlaceOptions {
   std::vector<char> allowed;                    ///< #V of the basis: may a pole be there; empty: anywhere
   std::vector<int> fixed;                       ///< poles that stay where they are
   std::vector<std::vector<int>> polygons = {};  ///< vertices of which one may be a pole, beside faces of the surface
+  const Mirror* mirror = nullptr;               ///< poles lie as it says
   bool evened = false;                          ///< the number of poles is to do for an evened map
 };
 
@@ -29,17 +30,22 @@ class PoleCandidates {
   std::vector<int> first();
   /// Some 200 all over the surface, ascending.
   std::vector<int> everywhere(const std::vector<int>& others);
-  /// Those, and some in balls of several sizes around `vertex`, which is none of them; ascending.
+  /// Those, and some in balls of several sizes around `vertex`, which is none of them; ascending. With a mirror all are
+  /// on the plane, or none, as the vertex is.
   std::vector<int> for_move(int vertex, const std::vector<int>& others);
 
  private:
   std::vector<int> first_candidates();
   std::vector<int> spread() const;
   std::vector<int> near(int vertex);
+  std::vector<int> first_mirrored();
   std::vector<int> free_ones(std::vector<int> candidates, const std::vector<int>& others);
+  bool is_apart_from_image(int vertex, const std::vector<char>& taken) const;
+  bool may_replace(int vertex, int by) const;
   const std::vector<double>& distances(int vertex);
   bool is_allowed(int vertex) const {
-    return (options_.allowed.empty() || options_.allowed[vertex]) && basis_.is_certain(vertex);
+    return (options_.allowed.empty() || options_.allowed[vertex]) && basis_.is_certain(vertex) &&
+           (!options_.mirror || options_.mirror->image[vertex] >= 0);
   }
 
   const PoleBasis& basis_;

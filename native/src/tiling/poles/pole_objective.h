@@ -8,6 +8,7 @@
 
 #include "tiling/greens/jacobian.h"
 #include "tiling/poles/meromorphic_form.h"
+#include "tiling/poles/mirror.h"
 
 namespace holomorph::tiling {
 
@@ -15,8 +16,9 @@ class PoleObjective {
  public:
   using Tick = std::function<void()>;
 
-  /// The Green's functions outlive this. @param every of the samples every so many-th is used
-  PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1);
+  /// The Green's functions and the mirror outlive this. @param every of the samples every so many-th is used
+  /// @param mirror null, or forms stay their own mirror image
+  PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1, const Mirror* mirror = nullptr);
 
   /// Solves for the Green's functions of these vertices, which the methods below look up.
   /// @param poles how many a form has that is judged. @throws SolverError, Cancelled
@@ -49,6 +51,7 @@ class PoleObjective {
   GreensFunctions& greens_;
   uv::Coefficients kind_;
   int every_;
+  const Mirror* mirror_;
   MatrixXcd theta_;                   // A of the theta_j on the samples used
   std::optional<Jacobian> jacobian_;  // only on a closed surface with handles
   std::map<int, VectorXcd> tau_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "base/errors.h"
 #include "evening/evening.h"
@@ -38,8 +39,10 @@ MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& 
   const double power = evening::power_of_density(evening::kUsualEvenness);
   const auto evened = [&](const MeromorphicForm& form) { return std::pow(few.spread_of(form), power); };
   MeromorphicForm added = few.begin(), best = added;
+  if (options.mirror && added.poles.empty()) return added;
   double least = evened(best);
   for (const int count : kCountsEvened) {
+    if (options.mirror && count % 2 == 1) continue;  // which would ask for a pole on the plane
     PoleSearch& search = count <= kFew ? few : more;
     if (least <= kEvened || !search.add(added, count)) break;
     search.sweep(added);
@@ -49,32 +52,14 @@ MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& 
       best = added;
     }
   }
-  return optimised(greens, options.kind, std::move(best), execution);
+  best = (std::ssize(best.poles) <= kFew ? few : more).hidden(std::move(best));
+  return optimised(greens, options.kind, options.mirror, std::move(best), execution);
 }
 
-}  // namespace
-
-MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution) {
-  if (count < least_count(greens.basis()) || (count == 1 && greens.basis().closed())) {
-    throw TopologyError(std::to_string(count) + (count == 1 ? " pole is" : " poles are") + " not enough: " +
-                        (greens.basis().closed()
-                             ? "on a closed surface the residues sum to 0, so two or more are needed"
-                             : "a disk needs one or more"));
-  }
-  PoleSearch search(greens, options, thinning(greens, count), execution);
-  MeromorphicForm form = search.begin();
-  if (!search.add(form, count)) {
-    throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " of " + std::to_string(count) +
-                        " poles: the faces around them must not touch; take fewer, or subdivide the mesh");
-  }
-  if (static_cast<int>(options.fixed.size()) < count) form = at_the_best_places(search, std::move(form));
-  return optimised(greens, options.kind, std::move(form), execution);
-}
-
-MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
-  if (options.evened) return enough_for_evening(greens, options, execution);
+MeromorphicForm enough(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
   PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
   MeromorphicForm added = few.begin(), best = added;
+  if (options.mirror && added.poles.empty()) return added;
   double least = few.spread_of(best);
   for (const int count : kCounts) {
     PoleSearch& search = count <= kFew ? few : more;
@@ -87,11 +72,39 @@ MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& option
     least = spread;
     best = added;
   }
-  return optimised(greens, options.kind, std::move(best), execution);
+  return optimised(greens, options.kind, options.mirror, std::move(best), execution);
 }
 
-MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, MeromorphicForm start, Execution& execution) {
-  PoleObjective objective(greens, kind);
+}  // namespace
+
+MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution) {
+  if (count < least_count(greens.basis()) || (count == 1 && greens.basis().closed())) {
+    throw TopologyError(std::to_string(count) + (count == 1 ? " pole is" : " poles are") + " not enough: " +
+                        (greens.basis().closed()
+                             ? "on a closed surface the residues sum to 0, so two or more are needed"
+                             : "a disk needs one or more"));
+  }
+  PoleSearch search(greens, options, thinning(greens, count), execution);
+  MeromorphicForm form = search.begin();
+  if (!search.add(form, count) || std::ssize(form.poles) < count) {
+    if (std::exchange(options.mirror, nullptr)) return placed_poles(greens, options, count, execution);
+    throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " of " + std::to_string(count) +
+                        " poles: the faces around them must not touch; take fewer, or subdivide the mesh");
+  }
+  if (static_cast<int>(options.fixed.size()) < count) form = at_the_best_places(search, std::move(form));
+  return optimised(greens, options.kind, options.mirror, std::move(form), execution);
+}
+
+MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution) {
+  const auto place = options.evened ? enough_for_evening : enough;
+  MeromorphicForm form = place(greens, options, execution);
+  if (!form.poles.empty() || !std::exchange(options.mirror, nullptr)) return form;
+  return place(greens, options, execution);
+}
+
+MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, const Mirror* mirror, MeromorphicForm start,
+                          Execution& execution) {
+  PoleObjective objective(greens, kind, 1, mirror);
   objective.prepare(start.poles, start.residues.size(), execution);
   Watch watch(execution, kUsualValues);
   objective.fit(start, {uv::kDensityFloor}, [&] { watch(0); });

@@ -9,17 +9,19 @@ namespace holomorph::tiling {
 /// The most even form with `count` poles. They are added one by one where they help most; then each in turn moves to
 /// where the density becomes more even, or is taken away and added anew, until nothing is gained; then some more are
 /// added, and those that matter least taken away again. On a closed surface with handles a small term keeps them where
-/// moving them can take up the rounding of the periods (jacobian.h). The fixed ones are among them.
+/// moving them can take up the rounding of the periods (jacobian.h). The fixed ones are among them. With a mirror they
+/// lie in pairs and on its plane, and so does what follows; the mirror is left away where they have no room so.
 /// @throws TopologyError for a single pole on a closed surface, a surface of genus 0 without any, or where no vertex is
 /// left whose star is apart from those of the others; SolverError; Cancelled
-MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution);
+MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution);
 
 /// As many as the density asks for: none where its spread is at most 3 without; else the first of 2, 4, 8, 12, 16 with
 /// which it is at most 5, or the last with which it fell. Where maps will be evened, the first of more numbers with
 /// which the spread of the evened map is at most 3.
-MeromorphicForm placed_poles(GreensFunctions& greens, const PlaceOptions& options, Execution& execution);
+MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution);
 
-/// The same poles with the best coefficients and residues near those given.
-MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, MeromorphicForm start, Execution& execution);
+/// The same poles with the best coefficients and residues near those given. @param mirror null, or of these poles
+MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, const Mirror* mirror, MeromorphicForm start,
+                          Execution& execution);
 
 }  // namespace holomorph::tiling

@@ -120,12 +120,17 @@ std::vector<double> RoundingSearch::phases() const {
   if (problem_.kind == uv::Coefficients::real)
     return {options_.phase && std::cos(*options_.phase) < 0 ? std::numbers::pi
                                                             : 0};  // u runs along boundaries either way
+  if (options_.only_phase) return {*options_.phase};
   std::vector<double> phases;
   const int count = is_whole() ? kPhases : kPhasesByBlocks;
   for (int i = 0; !options_.phase && i < count; ++i) phases.push_back(problem_.lattice.symmetry() * i / count);
   for (int i = 0; options_.phase && i < kNearPhases; ++i)
     phases.push_back(*options_.phase + options_.max_turn * (2.0 * i / (kNearPhases - 1) - 1));
   return phases;
+}
+
+int RoundingSearch::scales() const {
+  return options_.only_phase ? kScales * kNearPhases : is_whole() ? kScales : kScalesByBlocks;
 }
 
 RoundingSearch::Weighted RoundingSearch::weighted(const MatrixXcd& rows) {
@@ -155,7 +160,7 @@ lattice::IntegerVector RoundingSearch::nearest(const Weighted& weighted, Complex
 std::vector<Rounding> RoundingSearch::best() const {
   const double scale = std::sqrt(problem_.median_density / median(problem_.target_density));
   const std::vector<double> turns = phases();
-  const int scales = is_whole() ? kScales : kScalesByBlocks;
+  const int scales = this->scales();
   Watch watch(execution_, kUsualTargets);
   std::set<std::vector<std::int64_t>> found;
   for (const Weighted& each : weighted_) {

@@ -13,6 +13,7 @@ namespace holomorph::tiling {
 struct RoundingOptions {
   std::optional<double> phase;  ///< which the target is given, in radians; none: any
   double max_turn = 0;          ///< largest change of a given phase, in radians
+  bool only_phase = false;      ///< a given phase is not changed, and more sizes are tried
   bool steps = false;           ///< also those a short step away from the best are looked at: other sizes
 };
 
@@ -58,6 +59,7 @@ class RoundingSearch {
 
   bool is_whole() const;
   std::vector<double> phases() const;
+  int scales() const;
   Weighted weighted(const MatrixXcd& rows);
   lattice::IntegerVector nearest(const Weighted& weighted, Complex by) const;
 

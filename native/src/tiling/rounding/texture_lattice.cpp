@@ -19,13 +19,16 @@ Complex TextureLattice::nearest(Complex z) const {
   return point(std::round(c[0]), std::round(c[1]));
 }
 
+bool TextureLattice::has(Complex z) const { return std::abs(z - nearest(z)) < kSame * std::abs(z); }
+
 double TextureLattice::symmetry() const {
   for (const int part : {3, 2}) {
     const Complex turn = std::polar(1.0, std::numbers::pi / part);
-    const auto is_kept = [&](Complex z) { return std::abs(turn * z - nearest(turn * z)) < kSame * std::abs(z); };
-    if (is_kept(a) && is_kept(b)) return std::numbers::pi / part;
+    if (has(turn * a) && has(turn * b)) return std::numbers::pi / part;
   }
   return std::numbers::pi;
 }
+
+bool TextureLattice::is_mirrored() const { return has(std::conj(a)) && has(std::conj(b)); }
 
 }  // namespace holomorph::tiling

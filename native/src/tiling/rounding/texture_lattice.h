@@ -13,8 +13,11 @@ struct TextureLattice {
   /// Coordinates (m, n), integers at the lattice's points.
   Eigen::Vector2d coordinates(Complex z) const;
   Complex nearest(Complex z) const;
+  bool has(Complex z) const;  ///< up to rounding, z not 0
   /// The least turn that takes it to itself, in radians: pi / 2, pi / 3 or, of most lattices, pi.
   double symmetry() const;
+  /// Whether z -> conj z takes it to itself.
+  bool is_mirrored() const;
 };
 
 }  // namespace holomorph::tiling

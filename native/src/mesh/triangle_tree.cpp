@@ -1,0 +1,133 @@
+#include "mesh/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/spatial_order.h"
+
+namespace holomorph::mesh {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kLeaf = 4;        // triangles at most in a leaf
+constexpr int kDeepest = 64;    // the tree is balanced
+constexpr double kEdge = 1e-9;  // barycentric: a ray through an edge meets both triangles rather than none
+
+double squared_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d along = b - a;
+  const double square = along.squaredNorm();
+  const double t = square > 0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).squaredNorm();
+}
+
+double squared_distance(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Vector3d normal = (b - a).cross(c - a);
+  if (const double square = normal.squaredNorm(); square > 0) {
+    const bool inside = (b - a).cross(p - a).dot(normal) >= 0 && (c - b).cross(p - b).dot(normal) >= 0 &&
+                        (a - c).cross(p - c).dot(normal) >= 0;
+    if (inside) return (p - a).dot(normal) * (p - a).dot(normal) / square;
+  }
+  return std::min({squared_distance(p, a, b), squared_distance(p, b, c), squared_distance(p, c, a)});
+}
+
+// Möller and Trumbore 1997.
+bool meets_triangle(const Vector3d& start, const Vector3d& direction, double begin,
+                    const std::array<Vector3d, 3>& corners) {
+  const Vector3d e = corners[1] - corners[0], f = corners[2] - corners[0], p = direction.cross(f);
+  const double determinant = e.dot(p);
+  if (determinant == 0) return false;
+  const Vector3d s = start - corners[0], q = s.cross(e);
+  const double u = s.dot(p) / determinant, v = direction.dot(q) / determinant;
+  return u >= -kEdge && v >= -kEdge && u + v <= 1 + kEdge && f.dot(q) / determinant > begin;
+}
+
+bool meets_box(const Vector3d& start, const Vector3d& inverse, const Eigen::AlignedBox3d& box) {
+  double from = 0, to = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double a = (box.min()[i] - start[i]) * inverse[i], b = (box.max()[i] - start[i]) * inverse[i];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  return from <= to;
+}
+
+}  // namespace
+
+TriangleTree::TriangleTree(const Surface& surface) {
+  std::vector<Corners> corners;
+  std::vector<std::array<double, 3>> centres;
+  for (const Triple& t : surface.triangles) {
+    Corners& own = corners.emplace_back();
+    for (int i = 0; i < 3; ++i) own[i] = Vector3d(surface.polygons.vertices[t[i]].data());
+    const Vector3d centre = (own[0] + own[1] + own[2]) / 3;
+    centres.push_back({centre[0], centre[1], centre[2]});
+  }
+  order_ = spatial_order(centres);
+  for (const int t : order_) corners_.push_back(corners[t]);
+  build(0, 0, static_cast<int>(order_.size()));
+}
+
+void TriangleTree::build(std::size_t node, int first, int end) {
+  if (nodes_.size() <= node) nodes_.resize(2 * node + 1);
+  if (end - first > kLeaf) {
+    const int middle = first + (end - first) / 2;
+    build(2 * node + 1, first, middle);
+    build(2 * node + 2, middle, end);
+    nodes_[node] = {nodes_[2 * node + 1].box.merged(nodes_[2 * node + 2].box), first, end};
+    return;
+  }
+  nodes_[node] = {{}, first, end};
+  for (int i = first; i < end; ++i) {
+    for (const Vector3d& p : corners_[i]) nodes_[node].box.extend(p);
+  }
+}
+
+std::pair<int, double> TriangleTree::nearest(const Vector3d& point) const {
+  std::pair<int, double> best{-1, std::numeric_limits<double>::infinity()};
+  std::array<std::size_t, kDeepest> stack;
+  std::size_t height = 0;
+  stack[height++] = 0;
+  while (height > 0) {
+    const std::size_t n = stack[--height];
+    const Node& node = nodes_[n];
+    if (node.box.squaredExteriorDistance(point) >= best.second) continue;
+    if (node.end - node.first <= kLeaf) {
+      for (int i = node.first; i < node.end; ++i) {
+        if (const double d = squared_distance(point, corners_[i]); d < best.second) best = {i, d};
+      }
+      continue;
+    }
+    const std::size_t low = 2 * n + 1, high = 2 * n + 2;
+    const bool low_first =
+        nodes_[low].box.squaredExteriorDistance(point) <= nodes_[high].box.squaredExteriorDistance(point);
+    stack[height++] = low_first ? high : low;
+    stack[height++] = low_first ? low : high;
+  }
+  return {order_[best.first], std::sqrt(best.second)};
+}
+
+bool TriangleTree::meets(const Vector3d& start, const Vector3d& direction, double begin) const {
+  const Vector3d inverse = direction.cwiseInverse();
+  std::array<std::size_t, kDeepest> stack;
+  std::size_t height = 0;
+  stack[height++] = 0;
+  while (height > 0) {
+    const std::size_t n = stack[--height];
+    const Node& node = nodes_[n];
+    if (!meets_box(start, inverse, node.box)) continue;
+    if (node.end - node.first > kLeaf) {
+      stack[height++] = 2 * n + 2;
+      stack[height++] = 2 * n + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.end; ++i) {
+      if (meets_triangle(start, direction, begin, corners_[i])) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,38 @@
+// Boxes around the triangles of a surface: which is nearest to a point, and whether a ray meets one.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <utility>
+#include <vector>
+
+#include "mesh/surface.h"
+
+namespace holomorph::mesh {
+
+class TriangleTree {
+ public:
+  /// @pre the surface has positions, which are copied, and a triangle. Cost: O(#T log #T)
+  explicit TriangleTree(const Surface& surface);
+
+  /// The triangle nearest to a point, of several the first along the curve of `spatial_order`, and its distance.
+  /// Cost: O(log #T) near the surface
+  std::pair<int, double> nearest(const Eigen::Vector3d& point) const;
+
+  /// Whether a ray, of any length, meets a triangle farther than `begin` times the direction from where it starts.
+  bool meets(const Eigen::Vector3d& start, const Eigen::Vector3d& direction, double begin) const;
+
+ private:
+  struct Node {
+    Eigen::AlignedBox3d box;
+    int first, end;  // of the triangles
+  };
+  using Corners = std::array<Eigen::Vector3d, 3>;
+
+  void build(std::size_t node, int first, int end);
+
+  std::vector<int> order_;        // triangles, near ones near each other
+  std::vector<Corners> corners_;  // in that order
+  std::vector<Node> nodes_;       // children of node n: 2 n + 1 and 2 n + 2
+};
+
+}  // namespace holomorph::mesh

@@ -1,0 +1,35 @@
+// How much of a place is seen from outside: a pole's star looks best where nobody looks.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "base/workers.h"
+#include "mesh/triangle_tree.h"
+
+namespace holomorph::tiling {
+
+/// The part of the directions above a vertex, weighted by their cosine with the normal, in which no triangle of the
+/// surface is met: 1 on a convex one, small in an armpit. By fixed rays: deterministic, and up to some 0.05 whatever
+/// the surface's position is.
+class Exposure {
+ public:
+  /// @pre the surface has positions and outlives this
+  explicit Exposure(const mesh::Surface& surface);
+
+  /// Finds that of these vertices. Cost: some hundred rays for each that is not known
+  void prepare(const std::vector<int>& vertices, Workers& workers);
+  /// @pre `prepare` was called for the vertex
+  double operator()(int vertex) const { return known_.at(vertex); }
+
+ private:
+  double found(int vertex) const;
+
+  const mesh::Surface& surface_;
+  mesh::TriangleTree tree_;
+  std::vector<Eigen::Vector3d> normals_;  // #V
+  double begin_;                          // of the rays
+  std::unordered_map<int, double> known_;
+};
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,105 @@
+#include "tiling/poles/mirror.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tiling/inversion/neighbourhoods.h"
+
+namespace holomorph::tiling {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kAround = 36;  // vertices around a pole, of which one may be nearer to the plane
+constexpr double kNear = 1e-3;       // what their distance from the pole counts beside that from the plane
+
+Vector3d position(const mesh::Surface& surface, int vertex) {
+  return Vector3d(surface.polygons.vertices[vertex].data());
+}
+
+// The corner nearest to a point, of the triangle nearest to it.
+int nearest_vertex(const mesh::Surface& surface, const mesh::TriangleTree& tree, const Vector3d& point) {
+  const auto& corners = surface.triangles[tree.nearest(point).first];
+  return *std::min_element(corners.begin(), corners.end(), [&](int a, int b) {
+    return (position(surface, a) - point).squaredNorm() < (position(surface, b) - point).squaredNorm();
+  });
+}
+
+// The place of least distance in the list that can be a pole beside the others; `vertex` where there is none.
+template <class Distance>
+int best_place(const PoleBasis& basis, const std::vector<char>& allowed, const std::vector<int>& list,
+               const std::vector<int>& poles, int vertex, const Distance& distance) {
+  std::vector<int> corners;
+  for (const int p : poles) {
+    if (p == vertex) continue;
+    const auto own = mesh::corners_around(basis.surface(), basis.half_edges(), p);
+    corners.insert(corners.end(), own.begin(), own.end());
+  }
+  std::sort(corners.begin(), corners.end());
+  int best = vertex;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int v : list) {
+    if (!(distance(v) < least) || !basis.is_place(v, allowed) ||
+        !are_apart(mesh::corners_around(basis.surface(), basis.half_edges(), v), corners))
+      continue;
+    best = v;
+    least = distance(v);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<Mirror> mirror(const PoleBasis& basis) {
+  const mesh::Surface& surface = basis.surface();
+  if (surface.intrinsic() || !basis.closed() || basis.form_count() > 0) return std::nullopt;
+  const mesh::TriangleTree tree(surface);
+  const auto plane = mesh::mirror_plane(surface, tree);
+  if (!plane) return std::nullopt;
+  Mirror result{*plane, std::vector<int>(surface.vertex_count)};
+  std::vector<int> nearest;
+  for (int v = 0; v < surface.vertex_count; ++v)
+    nearest.push_back(nearest_vertex(surface, tree, plane->image(position(surface, v))));
+  for (int v = 0; v < surface.vertex_count; ++v) result.image[v] = nearest[nearest[v]] == v ? nearest[v] : -1;
+  return result;
+}
+
+Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_poles, const PoleBasis& basis,
+                       const std::vector<char>& allowed, std::vector<int>& poles) {
+  const mesh::Surface& surface = basis.surface();
+  const mesh::MirrorPlane& plane = on_level.plane;
+  Mirror result{plane, std::vector<int>(surface.vertex_count, -1)};
+  for (std::size_t i = 0; i < poles.size(); ++i) {
+    const Index size = orbit_size(level_poles, static_cast<Index>(i), &on_level);
+    const Vector3d at = position(surface, poles[i]);
+    if (size == 1) {
+      poles[i] = best_place(
+          basis, allowed, vertices_around(basis.half_edges(), poles[i], kAround), poles, poles[i], [&](int v) {
+            return std::abs(plane.height(position(surface, v))) + kNear * (position(surface, v) - at).norm();
+          });
+      result.image[poles[i]] = poles[i];
+    } else if (size == 2) {
+      const Vector3d image = plane.image(at);
+      const auto distance = [&](int v) { return (position(surface, v) - image).norm(); };
+      int nearest = 0;
+      for (int v = 1; v < surface.vertex_count; ++v) {
+        if (distance(v) < distance(nearest)) nearest = v;
+      }
+      std::vector<int> list = vertices_around(basis.half_edges(), nearest, 1);
+      list.push_back(poles[i + 1]);
+      poles[i + 1] = best_place(basis, allowed, list, poles, poles[i + 1], distance);
+      result.image[poles[i]] = poles[i + 1];
+      result.image[poles[i + 1]] = poles[i];
+    }
+  }
+  return result;
+}
+
+Index orbit_size(const std::vector<int>& poles, Index i, const Mirror* mirror) {
+  const auto at = static_cast<std::size_t>(i);
+  if (!mirror || mirror->image[poles[at]] == poles[at]) return 1;
+  return at + 1 < poles.size() && mirror->image[poles[at]] == poles[at + 1] ? 2 : 0;
+}
+
+}  // namespace holomorph::tiling

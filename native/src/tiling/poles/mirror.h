@@ -1,0 +1,38 @@
+// Poles that lie as the mirror image of a surface does: in pairs, and on the plane.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "mesh/mirror_plane.h"
+#include "tiling/greens/pole_basis.h"
+
+namespace holomorph::tiling {
+
+/// A form is its own mirror image, u -> -u and v -> v, where the image p' of each pole p is one, with the residue
+/// conj(r): the reflection takes dz to its conjugate and turns circles the other way.
+struct Mirror {
+  mesh::MirrorPlane plane;
+  std::vector<int> image;  ///< #V: the vertex at the mirror image of a vertex; itself near the plane; -1: none
+
+  bool is_on_plane(int vertex) const { return image[vertex] == vertex; }
+};
+
+/// Of a closed surface of genus 0 that is its own mirror image up to a small distance, see mesh::mirror_plane; else
+/// none. Each vertex and its image are the nearest to where the other is seen.
+std::optional<Mirror> mirror(const PoleBasis& basis);
+
+/// The same of the surface whose level that is, for poles alone: those on the plane go to the vertex nearest to it
+/// around them, and of two the second to the vertex nearest to the image of the first, where these can be poles.
+/// @param level_poles vertices of the level, those of a pair one after the other
+/// @param allowed #V of the surface: may a pole be there; empty: anywhere
+/// @param poles the same of the surface; changed
+Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_poles, const PoleBasis& basis,
+                       const std::vector<char>& allowed, std::vector<int>& poles);
+
+/// How many poles from index i on are an orbit: 2 where i is the first of a pair, 1 where it is alone, and 0 where it
+/// is the second of a pair. @param mirror null: all are alone
+Index orbit_size(const std::vector<int>& poles, Index i, const Mirror* mirror);
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,155 @@
+#include "tiling/poles/search_steps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/chunks.h"
+
+namespace holomorph::tiling {
+namespace {
+
+// Candidates that are optimised when a pole is added, beside these on a plane, and when one moves.
+constexpr int kTried = 4, kTriedOnPlane = 2, kRefined = 2;
+// Residues that a new pole is tried with, relative to the root of mean density times area.
+constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
+constexpr int kTrialPhases = 6;
+const std::vector<double> kWithTrial = {0.03, uv::kDensityFloor};
+
+constexpr int kThinning = 3;           // a third of the samples tells what is worth a trial
+constexpr double kUsualValues = 3000;  // of the objective, in a search
+
+VectorXcd thinned(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning)); }
+
+}  // namespace
+
+SearchSteps::SearchSteps(GreensFunctions& greens, const PlaceOptions& options, int every, Execution& execution)
+    : greens_(greens),
+      basis_(greens.basis()),
+      options_(options),
+      execution_(execution),
+      candidates_(basis_, options),
+      objective_(greens, options.kind, every, options.mirror),
+      watch_(execution, kUsualValues),
+      every_(every),
+      scores_(greens, every * kThinning, options.mirror) {}
+
+void SearchSteps::begin_hiding(const std::vector<int>& poles, double worth, double share) {
+  exposure_.emplace(basis_.surface());
+  exposure_->prepare(poles, execution_.workers());
+  weight_ = worth;
+  share_ = share;
+}
+
+// The objective, and how much of the poles is seen while they are hidden.
+double SearchSteps::price(const MeromorphicForm& form) const {
+  if (!exposure_) return form.objective;
+  if (form.objective > limit_) return INFINITY;
+  double seen = 0;
+  for (const int v : form.poles) seen += (*exposure_)(v);
+  return form.objective + weight_ * seen / static_cast<double>(form.poles.size());
+}
+
+// Scores all candidates for pole i with everything else as it is, and optimises the best ones.
+bool SearchSteps::exchange(MeromorphicForm& form, Index i) {
+  std::vector<int> others = form.poles;
+  const Index size = orbit_size(form, i);
+  const std::vector<int> own(others.begin() + i, others.begin() + i + size);
+  others.erase(others.begin() + i, others.begin() + i + size);
+  const std::vector<int> candidates = candidates_.for_move(form.poles[i], others);
+  if (candidates.empty()) return false;
+  limit_ = form.objective + share_ * static_cast<double>(size);
+  if (exposure_) exposure_->prepare(with_images(candidates, options_.mirror), execution_.workers());
+  const Index k = form.residues.size();
+  objective_.prepare(with_images(candidates, options_.mirror), k, execution_);
+  scores_.prepare(candidates);
+  const VectorXcd A = objective_.samples_of(form), now = thinned(A);
+  scores_.set_rest(now - greens_.at(own, every_ * kThinning) * form.residues.segment(i, size),
+                   median(now.cwiseAbs2().array()));
+  objective_.prepare(form.poles, k, execution_);
+  const MatrixXcd metric = objective_.jacobian_metric(A.cwiseAbs2().array(), k);
+  std::vector<std::pair<double, int>> scores(candidates.size());
+  run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
+    std::vector<int> vertices = form.poles;
+    vertices[i] = candidates[j];
+    const double seen = exposure_ ? weight_ * (*exposure_)(candidates[j]) * static_cast<double>(size) / k : 0;
+    scores[j] = {
+        scores_(candidates[j], form.residues[i]) + objective_.jacobian_term(vertices, form.residues, metric) + seen,
+        candidates[j]};
+  });
+  std::sort(scores.begin(), scores.end());
+  std::vector<MeromorphicForm> tried;
+  for (int j = 0; j < std::min<int>(exposure_ ? kTried : kRefined, static_cast<int>(scores.size())); ++j) {
+    tried.push_back(form);
+    tried.back().poles[i] = scores[j].second;
+    if (size == 2) tried.back().poles[i + 1] = options_.mirror->image[scores[j].second];
+  }
+  MeromorphicForm found = best_optimised(std::move(tried), kFromNear);
+  if (price(found) > price(form) * (1 - kGain)) return false;
+  form = std::move(found);
+  return true;
+}
+
+// @param most poles, of which an orbit has one or two: what a pole gains is what counts
+bool SearchSteps::add_one(MeromorphicForm& form, int most) {
+  const std::size_t count = form.poles.size();
+  std::vector<MeromorphicForm> tried;
+  int left[] = {options_.mirror ? kTriedOnPlane : kTried, kTried};
+  for (const Trial& trial : trials_everywhere(form)) {
+    const bool pair = is_pair(trial.vertex);
+    if ((pair && most < 2) || left[pair] == 0) continue;
+    const bool known = std::any_of(tried.begin(), tried.end(),
+                                   [&](const MeromorphicForm& p) { return p.poles[count] == trial.vertex; });
+    if (known) continue;
+    tried.push_back(joined(form, trial.vertex, trial.residue, basis_.closed(), options_.mirror));
+    --left[pair];
+  }
+  if (tried.empty()) return false;
+  std::vector<int> vertices = form.poles;
+  for (const MeromorphicForm& each : tried)
+    vertices.insert(vertices.end(), each.poles.begin() + count, each.poles.end());
+  objective_.prepare(vertices, tried.front().residues.size(), execution_);
+  tried = all_optimised(std::move(tried), kWithTrial);
+  form = *std::ranges::min_element(tried, {}, [&](const MeromorphicForm& each) {
+    return options_.mirror
+               ? (each.objective - form.objective) / std::sqrt(static_cast<double>(each.poles.size() - count))
+               : each.objective;
+  });
+  return true;
+}
+
+// All candidates with all trial residues beside the form as it is, the best first.
+std::vector<SearchSteps::Trial> SearchSteps::trials_everywhere(const MeromorphicForm& form) {
+  const std::vector<int> candidates = candidates_.everywhere(form.poles);
+  greens_.solve_at(with_images(candidates, options_.mirror), execution_);
+  scores_.prepare(candidates);
+  const VectorXcd A = thinned(objective_.samples_of(form));
+  scores_.set_rest(A, median(A.cwiseAbs2().array()));
+  const double scale = std::sqrt(A.cwiseAbs2().mean() * basis_.area());
+  const int phases = options_.kind == uv::Coefficients::real ? 2 : kTrialPhases;
+  std::vector<Trial> trials;
+  for (const int v : candidates) {
+    for (const double size : kTrialSizes) {
+      const int own = options_.mirror && !is_pair(v) ? 2 : phases;
+      for (int j = 0; j < own; ++j) trials.push_back({0, v, std::polar(size * scale, 2 * std::numbers::pi * j / own)});
+    }
+  }
+  run_throwing(execution_.workers(), static_cast<int>(trials.size()),
+               [&](int j) { trials[j].value = scores_(trials[j].vertex, trials[j].residue); });
+  std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) { return a.value < b.value; });
+  return trials;
+}
+
+std::vector<MeromorphicForm> SearchSteps::all_optimised(std::vector<MeromorphicForm> list,
+                                                        const std::vector<double>& floors) {
+  run_long_tasks(execution_.workers(), static_cast<int>(list.size()),
+                 [&](int thread, int i) { objective_.optimise(list[i], floors, [&] { watch_(thread); }); });
+  return list;
+}
+
+MeromorphicForm SearchSteps::best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors) {
+  list = all_optimised(std::move(list), floors);
+  return *std::ranges::min_element(list, {}, [&](const MeromorphicForm& form) { return price(form); });
+}
+
+}  // namespace holomorph::tiling

@@ -1,0 +1,67 @@
+// The steps of a search for poles: one is added, or goes to where it does best beside the others.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/watch.h"
+#include "tiling/poles/candidate_scores.h"
+#include "tiling/poles/exposure.h"
+#include "tiling/poles/orbits.h"
+#include "tiling/poles/pole_candidates.h"
+#include "tiling/poles/pole_objective.h"
+
+namespace holomorph::tiling {
+
+/// With a mirror every step is one of an orbit: of a pole on the plane, or of a pair.
+class SearchSteps {
+ public:
+  /// @param every of the samples every so many-th is used. @pre what is referred to outlives the steps
+  SearchSteps(GreensFunctions& greens, const PlaceOptions& options, int every, Execution& execution);
+
+ protected:
+  static constexpr double kGain = 1e-3;  // less is no gain
+  static inline const std::vector<double> kFromNear = {uv::kDensityFloor};
+
+  /// Moves pole i, the first of an orbit, to the candidate that does best. @return whether it moved
+  bool exchange(MeromorphicForm& form, Index i);
+  /// @param most poles, of which an orbit has one or two. @return whether there was room
+  bool add_one(MeromorphicForm& form, int most);
+  /// From now on poles pay for being seen. @param worth of the mean exposure, beside the objective
+  /// @param share by what the objective may grow for each pole that moves
+  void begin_hiding(const std::vector<int>& poles, double worth, double share);
+  void end_hiding() { exposure_.reset(); }
+  MeromorphicForm best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
+  Index orbit_size(const MeromorphicForm& form, Index i) const {
+    return tiling::orbit_size(form.poles, i, options_.mirror);
+  }
+  bool is_pair(int vertex) const { return options_.mirror && !options_.mirror->is_on_plane(vertex); }
+
+  GreensFunctions& greens_;
+  const PoleBasis& basis_;
+  const PlaceOptions& options_;
+  Execution& execution_;
+  PoleCandidates candidates_;
+  PoleObjective objective_;
+  Watch watch_;
+  const PoleObjective::Tick tick_ = [this] { watch_(0); };  // on the calling thread
+
+ private:
+  struct Trial {
+    double value;
+    int vertex;
+    Complex residue;
+  };
+
+  double price(const MeromorphicForm& form) const;
+  std::vector<Trial> trials_everywhere(const MeromorphicForm& form);
+  std::vector<MeromorphicForm> all_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
+
+  int every_;
+  CandidateScores scores_;
+  std::optional<Exposure> exposure_;  // while poles are hidden
+  double weight_ = 0;                 // of its mean, beside the objective
+  double share_ = 0, limit_ = 0;      // by what the objective may grow for a pole, and up to which it may now
+};
+
+}  // namespace holomorph::tiling
