@@ -71,7 +71,7 @@ def _area(polygons, uv):
 
 
 def _side(texels, per_metre):
-    """Of the image, in texels. @throws ValueError"""
+    """The side of the image, in texels. @throws ValueError"""
     if not texels:
         return USUAL_SIDE
     side = math.ceil(texels / per_metre)

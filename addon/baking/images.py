@@ -20,7 +20,7 @@ def colour_space(channel):
 
 
 def suffix(channel):
-    """Of a channel's files: heights are of floating point."""
+    """The end of the names of a channel's files: heights are of floating point."""
     return ".exr" if channel == HEIGHT else ".png"
 
 
