@@ -26,8 +26,8 @@ class CandidateScores {
   /// @param median of a density that is near those of the candidates
   void set_rest(const VectorXcd& A, double median);
 
-  /// The score of the rest and `residue` times the Green's function of a vertex, and its conjugate at the image. Threads
-  /// may ask side by side.
+  /// The score of the rest and `residue` times the Green's function of a vertex, and its conjugate at the image.
+  /// Threads may ask side by side.
   /// @pre `prepare` was called for the vertex
   double operator()(int vertex, Complex residue) const;
 
