@@ -66,7 +66,7 @@ def test_there_is_a_piece_at_every_place(piece):
 @pytest.mark.parametrize("lattice", ["square", "brick", "hex"])
 @pytest.mark.parametrize("arrangement", ["STRAIGHT", "SHIFTED"])
 def test_the_number_of_places_is_that_of_the_cells(lattice, arrangement):
-    """Of a torus that has no pole: its area in tiles, times the cells in each."""
+    """On a torus without poles that is its area in tiles, times the cells in each."""
     made = put(tiled(torus(), lattice=lattice), columns=3, rows=4, arrangement=arrangement)
     polygons, uv, name = geometry.source(bpy.data.objects["Torus"])
     starts, following = polygons.face_offsets[:-1], np.arange(len(uv)) + 1
@@ -164,7 +164,7 @@ def test_pieces_are_outside_of_a_mirrored_object():
 
 
 def linking_numbers(matrices, curves):
-    """Of the ring of each matrix with a closed curve: how often this goes up through the ring's disk, less how often
+    """The linking number of the ring of each matrix with a closed curve: how often this goes up through the ring's disk, less how often
     down."""
     inside = np.linalg.inv(matrices)
     local = np.einsum("nab,nkb->nka", inside[:, :3, :3], curves) + inside[:, None, :3, 3]
@@ -459,7 +459,7 @@ def test_bricks_of_a_torus():
 
 
 def test_irregular_vertices_are_counted():
-    """Of a cube's surface: eight corners of three edges; of a sheet none."""
+    """A cube's surface has eight corners of three edges, a sheet none."""
     offsets = np.arange(0, 25, 4)
     cube = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
     made = cut.CutMesh(np.zeros((8, 3)), np.ravel(cube), offsets, np.zeros((24, 2)), {})

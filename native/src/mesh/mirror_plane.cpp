@@ -23,7 +23,7 @@ struct Moments {
   Matrix3d second = Matrix3d::Zero();
 };
 
-// Of the area: integrals of 1, x and x x^T.
+// Integrals of 1, x and x x^T over the area.
 Moments moments(const Surface& surface) {
   Moments sum;
   for (const Triple& t : surface.triangles) {

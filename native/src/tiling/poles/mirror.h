@@ -19,8 +19,8 @@ struct Mirror {
   bool is_on_plane(int vertex) const { return image[vertex] == vertex; }
 };
 
-/// Of a closed surface of genus 0 that is its own mirror image up to a small distance, see mesh::mirror_plane; else
-/// none. Each vertex and its image are the nearest to where the other is seen.
+/// The mirror of a closed surface of genus 0 that is its own mirror image up to a small distance, see
+/// mesh::mirror_plane; none for others. Each vertex and its image are the nearest to where the other is seen.
 std::optional<Mirror> mirror(const PoleBasis& basis);
 
 /// The same of the surface whose level that is, for poles alone: those on the plane go to the vertex nearest to it

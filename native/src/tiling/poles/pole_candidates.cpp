@@ -109,7 +109,7 @@ std::vector<int> PoleCandidates::spread() const {
     for (int v = 0; v < surface.vertex_count; ++v) {
       if (mirror->is_on_plane(v) && basis_.is_place(v, options_.allowed)) on_plane.push_back(v);
     }
-    // Of a pair the first stands for both.
+    // The first of a pair stands for both.
     std::erase_if(corners, [&](int v) { return mirror->image[v] <= v; });
     on_plane = evenly(on_plane, kOnPlane);
     corners.insert(corners.end(), on_plane.begin(), on_plane.end());
