@@ -164,8 +164,7 @@ def test_pieces_are_outside_of_a_mirrored_object():
 
 
 def linking_numbers(matrices, curves):
-    """The linking number of the ring of each matrix with a closed curve: how often this goes up through the ring's disk, less how often
-    down."""
+    """How often a closed curve goes up through the disk of the ring of each matrix, less how often down."""
     inside = np.linalg.inv(matrices)
     local = np.einsum("nab,nkb->nka", inside[:, :3, :3], curves) + inside[:, None, :3, 3]
     following = np.roll(local, -1, axis=1)
