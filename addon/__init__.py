@@ -7,7 +7,7 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .interface import panel, presets, shortcuts
-from .operators import carry, compare, drag, lod, mapping, submit, texel_operators, tools
+from .operators import carry, compare, drag, geometry, lod, mapping, submit, texel_operators, tools
 from .overlays import overlay
 
 bl_info = {
@@ -26,6 +26,7 @@ MODULES = (
     mapping,
     drag,
     lod,
+    geometry,
     texel_operators,
     compare,
     carry,

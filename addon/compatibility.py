@@ -161,3 +161,29 @@ def is_there(operator):
 def forward_axis(up):
     """The forward axis of an OBJ file with this axis upwards, by the name that its importer takes."""
     return "NEGATIVE_Z" if up == "Y" else "Y"
+
+
+def add_socket(tree, name, kind, is_output=False):
+    """A new input, or output, of a node tree; the unit of a number is a subtype of its own from 4.0 on."""
+    if not hasattr(tree, "interface"):
+        return (tree.outputs if is_output else tree.inputs).new(kind, name)
+    plain = kind.removesuffix("Angle")
+    socket = tree.interface.new_socket(name, in_out="OUTPUT" if is_output else "INPUT", socket_type=plain)
+    if plain != kind:
+        socket.subtype = "ANGLE"
+    return socket
+
+
+def set_node_inputs(modifier, values):
+    """Sets inputs of a modifier's node tree, by their names; they are properties of their own from 5.2 on."""
+    tree = modifier.node_group
+    if hasattr(tree, "interface"):
+        sockets = [item for item in tree.interface.items_tree if item.item_type == "SOCKET" and item.in_out == "INPUT"]
+    else:
+        sockets = tree.inputs
+    identifiers = {socket.name: socket.identifier for socket in sockets}
+    for name, value in values.items():
+        if hasattr(modifier, "properties"):
+            getattr(modifier.properties.inputs, identifiers[name]).value = value
+        else:
+            modifier[identifiers[name]] = value

@@ -4,7 +4,7 @@
 import bpy
 
 from .. import native
-from ..operators import carry, compare, drag, lod, submit, texel_operators, tools
+from ..operators import carry, compare, drag, geometry, lod, submit, texel_operators, tools
 from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..overlays import overlay
@@ -35,6 +35,10 @@ class _HolomorphPanel(_Panel):
             if context.mode == "OBJECT":
                 _draw_modifiers(column, context, obj)
                 layout.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
+                column = layout.column(align=True)
+                column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
+                column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
+                column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
             _draw_result(layout, context, obj)
         elif obj is not None and obj.type in CONVERTIBLE:
             lines.draw(column, context, CONVERT, "INFO")

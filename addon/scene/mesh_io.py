@@ -217,11 +217,14 @@ def corner_normals(mesh):
     return read_values(compatibility.corner_normal_values(mesh))
 
 
-def new_mesh(name, vertices, corner_vertices, face_offsets):
-    """A Blender mesh of these polygons, vertices and corners in their order."""
+def new_mesh(name, vertices, corner_vertices, face_offsets, edges=()):
+    """A Blender mesh of these polygons, vertices and corners in their order; `edges` are (n, 2) further ones."""
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(vertices))
     write_values(compatibility.position_values(mesh), vertices)
+    if len(edges):
+        mesh.edges.add(len(edges))
+        write_values(compatibility.edge_vertex_values(mesh), edges)
     mesh.loops.add(len(corner_vertices))
     write_values(Values(mesh.loops, "vertex_index", np.uint32), corner_vertices)
     mesh.polygons.add(len(face_offsets) - 1)

@@ -7,7 +7,15 @@ import bpy
 
 from . import mesh_state, modes, states
 
-MADE = ("objects", "meshes", "materials", "images", "texts", "collections")  # kinds of data-blocks that are made here
+MADE = (
+    "objects",
+    "meshes",
+    "materials",
+    "images",
+    "texts",
+    "collections",
+    "node_groups",
+)  # kinds of data-blocks that are made here
 REMOVED = "Holomorph Removed"  # name of what is about to be removed
 PUT_BACK = "Nothing is changed: what had been written was put back"
 

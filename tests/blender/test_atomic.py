@@ -81,6 +81,26 @@ def test_levels(is_second):
     check(levels)
 
 
+@pytest.mark.parametrize("is_second", [False, True])
+def test_geometry(is_second):
+    """A second run removes what the first one made."""
+    two_objects()
+    tile()
+    if is_second:
+        bpy.ops.object.holomorphic_geometry(piece="BRICK", columns=2)
+    check(lambda: bpy.ops.object.holomorphic_geometry(piece="STUD", columns=1))
+
+
+@pytest.mark.parametrize("name", ["lines", "cells"])
+def test_lines_and_cells(name):
+    two_objects()
+    tile()
+    press = getattr(bpy.ops.object, f"holomorphic_{name}")
+    press()
+    changed = {"lines": {"per_tile": 1}, "cells": {"simple": True}}[name]
+    check(lambda: press(**changed))
+
+
 def test_an_object_of_what_modifiers_make():
     for obj in two_objects():
         obj.modifiers.new("Finer", "SUBSURF").levels = 1

@@ -44,8 +44,9 @@ ADDON_BELOW = {
     "writing": ["materials"],
     "results": ["maps", "writing"],
     "levels": ["results"],
+    "things": ["results"],
     "overlays": ["results"],
-    "operators": ["levels", "overlays"],
+    "operators": ["levels", "things", "overlays"],
     "interface": ["operators"],
     "command_line": ["operators"],
 }

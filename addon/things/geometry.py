@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Objects made of the tiling of another one: pieces, wires, cells. Those of an earlier run are replaced.
+
+They have their origin at that of the world, where the points lie that their modifiers move to the surface.
+"""
+
+import math
+
+import bpy
+import numpy as np
+
+from .. import compatibility
+from ..compatibility import Values
+from ..results import report, stored, tags
+from ..scene import attributes, gathering, mesh_io, uv_maps
+from . import following, pieces, placing, wires
+
+PIECES_OF, WIRES_OF, CELLS_OF = (f"holomorph_{kind}_of" for kind in ("geometry", "lines", "cells"))  # custom properties
+SHARP = math.radians(35)  # angle of a piece's faces above which their edge is seen
+
+
+def source(obj):
+    """(polygons, (#C, 2) UVs, name of the lattice) of the tiling of an object. @throws ValueError with one sentence"""
+    polygons = mesh_io.read_polygons(obj.data, gathering.linear(obj))
+    if not polygons.face_count:
+        raise ValueError(f"{obj.name}: it has no faces")
+    name = uv_maps.main_map(obj.data) or getattr(obj.data.uv_layers.active, "name", "")
+    if not name:
+        raise ValueError(f"{obj.name}: it has no UV map: press Seamless Tiling first")
+    asked = stored.asked(obj.get(report.PROPERTY))
+    uv = uv_maps.read_corners(obj.data, polygons, name).astype(np.float64)
+    return polygons, uv, asked.lattice if asked else "square"
+
+
+def write_pieces(step, obj, values, piece, cell):
+    """A piece at each of the points with these values of `points.joined`; the object of points.
+
+    step : the `transaction.Step` of the object
+    piece : a name in `pieces.PIECES`, an object, or a collection
+    cell : `pieces.Cell`
+    """
+    step.remove(_earlier(obj, PIECES_OF))
+    made = _object(step, obj, f"{obj.name} Geometry", _points_mesh(obj, values))
+    dials = {}
+    if isinstance(piece, str):
+        shipped = pieces.PIECES[piece]
+        own = _object(step, obj, f"{obj.name} {piece.title()}", _piece_mesh(shipped.formula(cell)))
+        tags.put(own, PIECES_OF, obj)
+        _put_away(step.context, own)
+        dials = {"Tilt": shipped.tilt, "Rows Lean in Turn": shipped.is_alternating, "Height": shipped.above}
+        piece = own
+    kind = "Object" if isinstance(piece, bpy.types.Object) else "Collection"
+    _add_nodes(made, obj, placing.group(), dials | {kind: piece})
+    tags.put(made, PIECES_OF, obj)
+    return made
+
+
+def write_wires(step, obj, values):
+    """A tube along each of the lines of `wires.joined`; their object."""
+    step.remove(_earlier(obj, WIRES_OF))
+    kept = {name: array for name, array in values.items() if name not in ("edges", "side", "count")}
+    made = _object(step, obj, f"{obj.name} Lines", _points_mesh(obj, kept, values["edges"]))
+    _add_nodes(made, obj, wires.group(), {"Radius": wires.THICKNESS * float(np.median(values["side"]))})
+    tags.put(made, WIRES_OF, obj)
+    return made
+
+
+def write_cells(step, obj, cut):
+    """The polygons of a `cut.CutMesh`; their object."""
+    step.remove(_earlier(obj, CELLS_OF))
+    cut = cut.mirrored() if _is_mirrored(obj) else cut
+    polygons = mesh_io.Polygons(_in_world(obj, cut.vertices), cut.corner_vertices, cut.face_offsets, None)
+    mesh = mesh_io.new_mesh(f"{obj.name} Cells", polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+    uv_maps.write_map(mesh, polygons, uv_maps.MAIN_MAP, cut.uv.astype(np.float32))
+    for name, values in cut.faces.items():
+        _write_attribute(mesh, name, values, "FACE")
+    made = _object(step, obj, mesh.name, mesh)
+    if obj.active_material is not None:
+        made.data.materials.append(obj.active_material)
+    tags.put(made, CELLS_OF, obj)
+    return made
+
+
+def _earlier(obj, kind):
+    """What an earlier run made, without pieces that a copy of its points needs."""
+    found = tags.find(kind, obj)
+    users = bpy.data.user_map(subset=set(found))
+    copies = {user for block in found for user in users[block] if isinstance(user, bpy.types.Object)} - set(found)
+    return [block for block in found if block.modifiers or not copies & users[block]]
+
+
+def _object(step, obj, name, mesh):
+    """In the collections of the object that can be changed."""
+    made = bpy.data.objects.new(name, mesh)
+    mesh.name = made.name
+    for collection in [c for c in obj.users_collection if c.library is None] or [step.context.scene.collection]:
+        collection.objects.link(made)
+    return made
+
+
+def _put_away(context, made):
+    """Out of sight: what is seen of a piece are its instances."""
+    context.view_layer.update()
+    if made.name in context.view_layer.objects:
+        made.hide_set(True)
+    made.hide_render = True
+
+
+def _add_nodes(made, obj, group, dials):
+    modifier = made.modifiers.new(group.name, "NODES")
+    modifier.node_group = group
+    compatibility.set_node_inputs(modifier, {"Surface": obj, "Other Side": _is_mirrored(obj)} | dials)
+
+
+def _is_mirrored(obj):
+    """Whether faces are seen from outside against their direction: Blender then turns normals over."""
+    return obj.matrix_world.determinant() < 0
+
+
+def _in_world(obj, positions):
+    return positions + np.array(obj.matrix_world, np.float64)[:3, 3]
+
+
+def _points_mesh(obj, values, edges=()):
+    positions, none = values[following.POSITION], np.empty(0, np.int32)
+    mesh = mesh_io.new_mesh(f"{obj.name} Points", _in_world(obj, positions), none, np.zeros(1, np.int32), edges)
+    for name, array in values.items():
+        if name != following.POSITION:
+            _write_attribute(mesh, name, array, "POINT")
+    return mesh
+
+
+def _write_attribute(mesh, name, array, domain):
+    kinds = {"i": "INT", "b": "BOOLEAN", "f": "FLOAT"}
+    kind = "FLOAT_VECTOR" if array.ndim == 2 else kinds[array.dtype.kind]
+    mesh.attributes.new(name, kind, domain)
+    mesh_io.write_values(Values(mesh.attributes[name].data, *attributes.VALUES[kind]), array)
+
+
+def _piece_mesh(shape):
+    vertices, faces = shape
+    offsets = np.cumsum([0, *map(len, faces)], dtype=np.int32)
+    mesh = mesh_io.new_mesh("Piece", vertices, np.array([v for face in faces for v in face], np.int32), offsets)
+    mesh_io.shade_smooth(mesh, SHARP)
+    return mesh

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tiled parts of an object, and what is found on each. No bpy here: it runs in a worker thread."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import native
+from ..solving import jobs
+from . import following
+
+NO_TILING = "its UV map is no seamless tiling: press Seamless Tiling first"
+
+
+@dataclass
+class PartsWork(jobs.Work):
+    """Looks for something on every connected part of an object that has a tiling. After `run`, `found` is what `find`
+    gave, a part after the other; `problem` is one sentence why there is none, or ""."""
+
+    polygons: object  # mesh_io.Polygons
+    uv: np.ndarray  # (#C, 2)
+    lattice: str
+    find: object  # of a `holomorph.TiledSurface`
+    progress: object = None
+    found: list = field(default_factory=list)
+    problem: str = ""
+
+    def __post_init__(self):
+        super().__init__(self.progress)
+
+    def work(self):
+        library, refusals = native.load(), []
+        components = self.polygons.surface(strict=False).components
+        for done, part in enumerate(components):
+            if not self.ask(done / len(components), "tiles"):
+                raise library.Cancelled("cancelled while tiles were looked for")
+            uv = self.uv if part.is_whole else self.uv[part.corner_index]
+            try:
+                tiled = library.TiledSurface(part, uv, self.lattice)
+            except library.TopologyError as error:
+                refusals.append(native.sentence(error))
+                continue
+            self.found.append(self.find(tiled))
+        if not self.found:
+            self.problem = f"{NO_TILING} ({refusals[0]})" if refusals else NO_TILING
+
+
+def surface_values(points):
+    """Where `holomorph.SurfacePoints` lie, as attributes by name: their positions in the frame of the polygons, and
+    what `following.Followed` needs to find them again."""
+    surface = points.tiled.surface
+    vertices = surface.vertex_index[surface.triangles[points.triangles]]
+    return {
+        following.POSITION: points.positions,
+        **{name: vertices[:, k] for k, name in enumerate(following.VERTICES)},
+        following.BARYCENTRIC: points.barycentric,
+    }
+
+
+def joined(dictionaries):
+    """{name: (n, ...)} of several with the same names."""
+    return {name: np.concatenate([one[name] for one in dictionaries]) for name in dictionaries[0]}
