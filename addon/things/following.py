@@ -31,7 +31,7 @@ class Followed:
         return tree.times(tree.vector("NORMALIZE", tree.combined(self._weights, normals)), self.side)
 
     def weight(self, group):
-        """The weight in a vertex group whose name is a socket."""
+        """The weight in a vertex group, whose name is a socket."""
         tree, weights = self._tree, self._at_vertices(self._tree.attribute(group), "FLOAT")
         products = [tree.number("MULTIPLY", *pair) for pair in zip(self._weights, weights)]
         return tree.number("ADD", tree.number("ADD", *products[:2]), products[2])

@@ -52,7 +52,7 @@ def _swept(outline, profile, rise=0.0):
 
 
 def _quads(rows, columns, is_closed_along, is_closed_across):
-    """The quads of a grid of vertices, row by row; which way round depends on the grid."""
+    """The faces of a grid of vertices, row by row; which way round depends on the grid."""
     i, j = np.meshgrid(
         np.arange(rows - (not is_closed_along)), np.arange(columns - (not is_closed_across)), indexing="ij"
     )

@@ -66,7 +66,7 @@ def test_there_is_a_piece_at_every_place(piece):
 @pytest.mark.parametrize("lattice", ["square", "brick", "hex"])
 @pytest.mark.parametrize("arrangement", ["STRAIGHT", "SHIFTED"])
 def test_the_number_of_places_is_that_of_the_cells(lattice, arrangement):
-    """On a torus without poles that is its area in tiles, times the cells in each."""
+    """On a torus without poles: its area in tiles, times the cells in each."""
     made = put(tiled(torus(), lattice=lattice), columns=3, rows=4, arrangement=arrangement)
     polygons, uv, name = geometry.source(bpy.data.objects["Torus"])
     starts, following = polygons.face_offsets[:-1], np.arange(len(uv)) + 1
@@ -458,7 +458,7 @@ def test_bricks_of_a_torus():
 
 
 def test_irregular_vertices_are_counted():
-    """A cube's surface has eight corners of three edges, a sheet none."""
+    """A cube has eight corners of three edges, a sheet has none."""
     offsets = np.arange(0, 25, 4)
     cube = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
     made = cut.CutMesh(np.zeros((8, 3)), np.ravel(cube), offsets, np.zeros((24, 2)), {})
