@@ -29,6 +29,7 @@ void add(Function& a, double factor, const Function& b, Workers& workers) {
 StrainEnergy::Value Descent::begin(Function delta) {
   delta_ = std::move(delta);
   precondition_ = nullptr;
+  was_short_ = false;
   return value_ = at(delta_, gradient_);
 }
 
@@ -64,8 +65,11 @@ bool Descent::step() {
   delta_ = std::move(next);
   gradient_ = std::move(next_gradient);
   value_ = next_value;
-  if (progress > kFar) precondition_ = nullptr;
-  return progress > kProgress;
+  const bool is_worth_it = progress > kProgress;
+  // A step that had to be shortened does not say that the minimum is near: one more follows, with a new preconditioner.
+  was_short_ = !is_worth_it && length < 1 && !was_short_;
+  if (progress > kFar || was_short_) precondition_ = nullptr;
+  return is_worth_it || was_short_;
 }
 
 Function Descent::direction() const {

@@ -50,6 +50,7 @@ class Descent {
   Function delta_, gradient_, at_corners_;
   StrainEnergy::Value value_;
   Precondition precondition_;  // none: it is made before the next step
+  bool was_short_ = false;     // the last step, and lowered the energy by little
   std::deque<Step> steps_;
 };
 
