@@ -39,10 +39,11 @@ MeromorphicForm PoleSearch::begin() {
 }
 
 bool PoleSearch::add(MeromorphicForm& form, int count) {
+  if (options_.mirror && form.poles.empty()) return false;  // there was no room for the first ones
   fill(form, count);
   refit(form);
   const int missing = count - static_cast<int>(form.poles.size());
-  return options_.mirror ? missing <= 1 && !form.poles.empty() : missing <= 0;
+  return missing <= (options_.mirror ? 1 : 0);
 }
 
 void PoleSearch::fill(MeromorphicForm& form, int count) {
