@@ -91,8 +91,9 @@ def test_a_mirrored_body_has_a_mirrored_map(lattice, direction):
         assert away_from_mirror(BODY, made.uv) < SAME
 
 
-@pytest.mark.parametrize("poles", [2, 3, 4, 7, 10])
+@pytest.mark.parametrize("poles", [7, 8, 10, 12])
 def test_any_number_of_poles_is_mirrored(poles):
+    """Where they are as many as the body has limbs: fewer of them are much more even without the mirror."""
     placed = Tiler(surface_of(BODY), poles).poles
     assert len(placed.vertices) == poles
     assert are_mirrored(BODY.vertices, placed.vertices, placed.residues)

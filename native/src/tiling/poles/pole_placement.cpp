@@ -1,6 +1,7 @@
 #include "tiling/poles/pole_placement.h"
 
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -21,6 +22,7 @@ constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is 
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 16};
 constexpr double kEvened = 2.85, kHopefulEvened = 1.5 * kEvened;  // spread of the evened density
 constexpr double kUsualValues = 30;                               // of the objective, in the last descent
+constexpr double kMirrorCosts = 1.25;                             // at most, of the ratio of the density
 constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
 
 // Every so many-th of the samples is used in a search for so many poles.
@@ -75,6 +77,32 @@ MeromorphicForm enough(GreensFunctions& greens, const PlaceOptions& options, Exe
   return optimised(greens, options.kind, options.mirror, std::move(best), execution);
 }
 
+// So many poles; with a mirror none, where there is no room for them in pairs.
+MeromorphicForm so_many(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution) {
+  PoleSearch search(greens, options, thinning(greens, count), execution);
+  MeromorphicForm form = search.begin();
+  if (!search.add(form, count) || std::ssize(form.poles) < count) {
+    if (options.mirror) return {};
+    throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " of " + std::to_string(count) +
+                        " poles: the faces around them must not touch; take fewer, or subdivide the mesh");
+  }
+  if (static_cast<int>(options.fixed.size()) < count) form = at_the_best_places(search, std::move(form));
+  return optimised(greens, options.kind, options.mirror, std::move(form), execution);
+}
+
+// What `place` finds, mirrored where that is hardly less even. @param options without the mirror, afterwards, where not
+MeromorphicForm mirrored_or_not(GreensFunctions& greens, PlaceOptions& options,
+                                const std::function<MeromorphicForm()>& place) {
+  MeromorphicForm mirrored = place();
+  const Mirror* mirror = std::exchange(options.mirror, nullptr);
+  if (!mirror) return mirrored;
+  MeromorphicForm other = place();
+  const auto ratio = [&](const MeromorphicForm& form) { return density_ratio(density(form, greens)); };
+  if (mirrored.poles.empty() || ratio(mirrored) > kMirrorCosts * ratio(other)) return other;
+  options.mirror = mirror;
+  return mirrored;
+}
+
 }  // namespace
 
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution) {
@@ -84,22 +112,12 @@ MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int
                              ? "on a closed surface the residues sum to 0, so two or more are needed"
                              : "a disk needs one or more"));
   }
-  PoleSearch search(greens, options, thinning(greens, count), execution);
-  MeromorphicForm form = search.begin();
-  if (!search.add(form, count) || std::ssize(form.poles) < count) {
-    if (std::exchange(options.mirror, nullptr)) return placed_poles(greens, options, count, execution);
-    throw TopologyError("there is room for " + std::to_string(form.poles.size()) + " of " + std::to_string(count) +
-                        " poles: the faces around them must not touch; take fewer, or subdivide the mesh");
-  }
-  if (static_cast<int>(options.fixed.size()) < count) form = at_the_best_places(search, std::move(form));
-  return optimised(greens, options.kind, options.mirror, std::move(form), execution);
+  return mirrored_or_not(greens, options, [&] { return so_many(greens, options, count, execution); });
 }
 
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution) {
   const auto place = options.evened ? enough_for_evening : enough;
-  MeromorphicForm form = place(greens, options, execution);
-  if (!form.poles.empty() || !std::exchange(options.mirror, nullptr)) return form;
-  return place(greens, options, execution);
+  return mirrored_or_not(greens, options, [&] { return place(greens, options, execution); });
 }
 
 MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, const Mirror* mirror, MeromorphicForm start,
