@@ -4,7 +4,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, mesh_io, run, select, torus, uv
+from scenes import everything, linked, mesh_io, run, select, torus, uv
 from test_faces import add_own_map
 
 
@@ -163,13 +163,7 @@ def test_removing_follows_with_the_heat_attributes():
 def test_a_linked_mesh_is_left_alone(tmp_path):
     textured()
     run()
-    path = str(tmp_path / "library.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    with bpy.data.libraries.load(path, link=True) as (source, target):
-        target.objects = source.objects
-    (obj,) = target.objects
-    bpy.context.scene.collection.objects.link(obj)
+    obj = linked(tmp_path)
     select(obj)
     before = everything(obj)
     assert bpy.ops.uv.holomorphic_remove_maps() == {"CANCELLED"} and restore() == {"CANCELLED"}

@@ -19,7 +19,7 @@ struct Structure {
   int threads = 0;
   structure::Structure value;
   std::mutex mutex;
-  std::atomic<std::thread::id> user;          ///< of the forms
+  std::atomic<std::thread::id> user;          ///< the thread that uses the forms
   std::unique_ptr<structure::UvForms> forms;  ///< none of a structure that was cut
   std::shared_ptr<Structure> uncut;           ///< where this was cut: the one whose forms it shares
 

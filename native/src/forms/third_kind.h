@@ -45,8 +45,8 @@ PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const 
                              RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution);
 
 /// The function of sum_j p_j h_j + sum_i r_i (u_i + i v_i), the one form on a closed surface with these periods and
-/// residues alone: real and imaginary part of its function, #V x 2. The form is the differential of it + the same sum
-/// of the classes.
+/// residues alone: real and imaginary part of its function, #V x 2. The form is its differential + the same sum of the
+/// classes.
 /// @param natural classes of the h_j, on the triangulation that `solver` solves on
 /// @param p #natural, r #poles
 /// Cost: 2 solves. @throws SolverError, Cancelled

@@ -24,7 +24,7 @@ class TriangleTree {
  private:
   struct Node {
     Eigen::AlignedBox3d box;
-    int first, end;  // of the triangles
+    int first, end;  // its triangles, as places in order_
   };
   using Corners = std::array<Eigen::Vector3d, 3>;
 

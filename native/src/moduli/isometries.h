@@ -12,8 +12,8 @@ namespace holomorph::moduli {
 /// R with R pairing_a R^T = sign pairing_b, |det R| = 1: row i is class i of b written in the classes of a.
 struct Isometry {
   IntegerMatrix matrix;
-  /// max |log of the ratio of R E_a R^T and E_b|, E the projected energies: a metric, for tori the hyperbolic distance
-  /// of tau. The energies of corresponding classes differ at most by the factor exp(residual).
+  /// max |log of the ratio of R E_a R^T and E_b|, E the projected energies: a metric. For tori it is the hyperbolic
+  /// distance of tau. The energies of corresponding classes differ at most by the factor exp(residual).
   double residual = 0;
   /// The bounds overlap just if this is <= 0. Else a map between the surfaces in the homotopy class of R stretches some
   /// direction exp(excess) times as much as another: energies grow at most by a map's dilatation.
