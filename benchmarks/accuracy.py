@@ -16,7 +16,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCE = ROOT.parent / "shared" / "reference"
 PACKAGE = ROOT / "build" / "lib" / f"cp{sys.version_info.major}{sys.version_info.minor}"
-sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "core")]
+sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "support")]
 
 import equivalence  # noqa: E402
 import families  # noqa: E402

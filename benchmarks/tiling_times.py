@@ -17,7 +17,7 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "build" / "lib" / f"cp{sys.version_info.major}{sys.version_info.minor}"
-sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "core")]
+sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "support")]
 
 import families  # noqa: E402
 import holomorph  # noqa: E402

@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 MESHES = ROOT.parent / "shared" / "meshes"
 PACKAGE = ROOT / "build" / "lib" / f"cp{sys.version_info.major}{sys.version_info.minor}"
-sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "core")]
+sys.path[:0] = [str(PACKAGE), str(ROOT / "tests" / "support")]
 
 import holomorph  # noqa: E402
 from zero_sums import COMBINATIONS, rows  # noqa: E402

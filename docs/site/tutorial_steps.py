@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Euler
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "window"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "support"))
 from objects import maps, part_report, pick
 from running import run
 from screen import area, click, enter, hover, inside, picture, region, window

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import SECONDS, run, statuses
+from batch_runs import SECONDS, run, statuses
 
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or shutil.which("blender")
 pytestmark = pytest.mark.skipif(not BLENDER, reason="no Blender program")

@@ -9,7 +9,7 @@ from urllib.parse import unquote
 
 import pytest
 from any_names import any_names
-from conftest import BALANCED, SECONDS, library, run
+from batch_runs import BALANCED, SECONDS, library, run
 from holomorph.console import shown
 
 BROWSERS = ("chromium-headless-shell", "chromium", "google-chrome")

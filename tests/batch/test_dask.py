@@ -7,10 +7,9 @@ import socket
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import pytest
-from conftest import (
+from batch_runs import (
     SECONDS,
     children,
     command,
@@ -23,6 +22,7 @@ from conftest import (
     statuses,
     torus_obj,
 )
+from repository import ROOT
 
 pytest.importorskip("distributed")
 
@@ -128,7 +128,7 @@ def test_no_scheduler(meshes, tmp_path):
 @pytest.fixture
 def secured(tmp_path):
     """A cluster that only those reach who have a certificate, made as the documentation says."""
-    page = (Path(__file__).parents[2] / "docs" / "batch" / "cluster.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "batch" / "cluster.md").read_text(encoding="utf-8")
     for line in page.splitlines():
         if line.startswith("openssl "):
             subprocess.run(line.split(), cwd=tmp_path, check=True, capture_output=True)

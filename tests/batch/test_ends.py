@@ -4,10 +4,10 @@ import os
 import resource
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
-from conftest import SECONDS, command, library, outputs, run, statuses, torus_obj
+from batch_runs import SECONDS, command, library, outputs, run, statuses, torus_obj
+from repository import SUPPORT
 
 MACHINE = 6
 
@@ -92,7 +92,7 @@ def test_little_memory(megabytes, meshes, undisturbed, recipe, tmp_path):
     assert outputs(out) == undisturbed
 
 
-INTERRUPTING = Path(__file__).parents[1] / "core" / "interrupting"
+INTERRUPTING = SUPPORT / "interrupting"
 MOMENTS = ["holomorph.batch.command", "holomorph.batch.overview", "cpython._PySys_ClearAuditHooks"]
 
 

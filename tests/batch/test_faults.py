@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import (
+from batch_runs import (
     SECONDS,
     command,
     compared,

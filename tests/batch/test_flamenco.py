@@ -3,12 +3,12 @@
 
 import json
 import sys
-from pathlib import Path
 
 import pytest
-from conftest import BALANCED, outputs, run
+from batch_runs import BALANCED, outputs, run
+from repository import ROOT
 
-SCRIPT = Path(__file__).resolve().parents[2] / "addon" / "holomorph-uv-maps.js"
+SCRIPT = ROOT / "addon" / "holomorph-uv-maps.js"
 # https://flamenco.blender.org/usage/job-types/
 MANAGER = """
 const author = {

@@ -5,7 +5,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from conftest import SECONDS, command, outputs, run, statuses, torus_obj
+from batch_runs import SECONDS, command, outputs, run, statuses, torus_obj
 
 KILLING = Path(__file__).with_name("killing")
 RECIPE = "[maps]\nmain = 'balanced'\n[levels]\nlevels = 1\n[output]\nformats = ['obj', 'glb']\n"

@@ -7,7 +7,7 @@ import os
 
 import pytest
 from any_names import any_entries, any_names
-from conftest import command, outputs, run, statuses, torus_obj
+from batch_runs import command, outputs, run, statuses, torus_obj
 from holomorph.batch import places, sources
 from holomorph.batch.journal import Journal
 from holomorph.batch.plan import Plan, of_source

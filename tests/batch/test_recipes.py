@@ -5,7 +5,7 @@ import json
 import holomorph
 import numpy as np
 import pytest
-from conftest import run, torus_obj
+from batch_runs import run, torus_obj
 from holomorph.batch import mapping, recipe
 
 

@@ -9,7 +9,7 @@ import sys
 import holomorph
 import numpy as np
 import pytest
-from conftest import BALANCED, outputs, run, torus_obj
+from batch_runs import BALANCED, outputs, run, torus_obj
 from holomorph import formats
 from holomorph.batch import picture
 from holomorph.map_choice import EVENNESS

@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 
 import pytest
-from conftest import library, run, torus_obj
+from batch_runs import library, run, torus_obj
 from holomorph.batch import recipe, sources
 from holomorph.batch.errors import UsageError
 

@@ -5,7 +5,7 @@ import itertools
 import bpy
 import numpy as np
 import pytest
-from conftest import ROOT
+from repository import ROOT
 from scenes import (
     edge_mismatch,
     mesh_io,

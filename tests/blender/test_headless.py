@@ -10,7 +10,7 @@ import time
 import bpy
 import numpy as np
 import pytest
-from conftest import ROOT
+from repository import ROOT
 from scenes import (
     limb_arrays,
     mesh_io,

@@ -5,7 +5,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from conftest import ROOT
+from repository import ROOT
 from scenes import edge_jumps, open_example, stored_report
 
 FOLDER = ROOT / "blend_examples" / "seamless"

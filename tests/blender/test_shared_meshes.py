@@ -8,7 +8,7 @@ import shutil
 import bpy
 import numpy as np
 import pytest
-from conftest import ROOT
+from repository import SHARED
 from scenes import (
     edge_mismatch,
     parts_of,
@@ -17,7 +17,7 @@ from scenes import (
 )
 from test_headless import headless, needs_program
 
-MESHES = ROOT.parent / "shared" / "meshes"
+MESHES = SHARED / "meshes"
 SECONDS = 580
 RESIDUAL = 1e-8  # residual of harmonicity, closedness, periods
 IN_SQUARE = 1e-6  # float32 of numbers up to 1

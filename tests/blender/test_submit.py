@@ -7,7 +7,8 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import bpy
 import pytest
-from conftest import ROOT, module
+from conftest import module
+from repository import ROOT
 
 flamenco = module("operators.flamenco")
 SECONDS = 60

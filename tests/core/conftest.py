@@ -1,24 +1,10 @@
-"""Where the package and the shared data are."""
-
-import sys
-from pathlib import Path
+"""The package, and fixtures for the shared data."""
 
 import pytest
+from repository import find_package
+from shared_data import shared_folder
 
-ROOT = Path(__file__).resolve().parents[2]
-SHARED = ROOT.parent / "shared"
-
-try:
-    import holomorph  # noqa: F401
-except ModuleNotFoundError:  # not installed: what scripts/build leaves for this Python
-    sys.path.insert(0, str(ROOT / "build" / "lib" / f"cp{sys.version_info.major}{sys.version_info.minor}"))
-
-
-def shared_folder(name):
-    folder = SHARED / name
-    if not folder.is_dir():
-        pytest.skip(f"no folder ../shared/{name}")
-    return folder
+find_package()
 
 
 @pytest.fixture(scope="session")

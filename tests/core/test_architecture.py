@@ -3,9 +3,9 @@
 import ast
 import re
 import warnings
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from repository import ROOT
+
 NATIVE = ROOT / "native" / "src"
 PUBLIC = ROOT / "native" / "include" / "holomorph"
 FACADE = ROOT / "native" / "holomorph"

@@ -6,9 +6,9 @@ from functools import cache
 import families
 import numpy as np
 import pytest
-from conftest import shared_folder
 from forms import edge_forms
 from holomorph import Surface, conformal_structure
+from shared_data import shared_folder
 from solved import surface_of
 
 # Capacity of {max |x| < 1} minus {max |x| <= 1/2}: ../shared/reference/values.json, by elliptic integrals.

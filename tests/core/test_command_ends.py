@@ -3,15 +3,15 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import families
 import pytest
 from holomorph.console import INTERRUPTED
+from repository import SUPPORT
 from solved import surface_of
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="signals, devices and limits of Linux")
-INTERRUPTING = Path(__file__).with_name("interrupting")
+INTERRUPTING = SUPPORT / "interrupting"
 SECONDS = 120
 
 

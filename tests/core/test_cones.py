@@ -5,8 +5,8 @@ from dataclasses import replace
 import families
 import numpy as np
 import pytest
-from conftest import shared_folder
 from holomorph import Cancelled, Surface, TopologyError, cut_to_cones, free_boundary_map
+from shared_data import shared_folder
 from solved import surface_of
 from test_islands import assert_same_faces
 

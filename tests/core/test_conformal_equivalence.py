@@ -19,10 +19,10 @@ from holomorph import (
 )
 from holomorph.__main__ import main
 from holomorph.equivalence import VERDICTS
+from mesh_files import obj
 from solved import surface_of
 from test_equivalence import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
 from test_exact_values import complex_matrix, reference_values
-from test_read import obj
 
 ROUNDING = 1e-9
 

@@ -6,7 +6,6 @@ from functools import cache
 import families
 import numpy as np
 import pytest
-from conftest import shared_folder
 from holomorph import (
     Cancelled,
     SolverError,
@@ -17,6 +16,7 @@ from holomorph import (
     conformal_structure,
     log_map,
 )
+from shared_data import shared_folder
 from solved import BOUNDED, surface_of
 from test_conformal_equivalence import moebius_image, triangles
 

@@ -4,12 +4,12 @@ import json
 import runpy
 from collections import defaultdict
 from dataclasses import replace
-from pathlib import Path
 
 import families
 import numpy as np
 import pytest
 from holomorph import InvalidMesh, Surface, TopologyError, __main__, automatic_structure, conformal_structure
+from repository import SHARED
 
 TORUS = families.torus(6, 5)
 TETRAHEDRON = families.tetrahedron()
@@ -501,7 +501,7 @@ def test_what_is_mostly_whole_is_not_joined():
 
 # ---- meshes as people bring them -------------------------------------------------------------------------------------
 
-HARD_CASES = Path(__file__).parents[3] / "shared" / "tools" / "hard_cases.py"
+HARD_CASES = SHARED / "tools" / "hard_cases.py"
 
 
 @pytest.mark.skipif(not HARD_CASES.exists(), reason="no folder ../shared")

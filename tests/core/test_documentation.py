@@ -11,9 +11,9 @@ import families
 import holomorph
 import numpy as np
 import pytest
+from repository import ROOT
 from solved import surface_of
 
-ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = re.compile(r"^```python\n(.*?)^```\n^```\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 COMMAND = re.compile(r"`python -m holomorph (examples/[^`]*)`")

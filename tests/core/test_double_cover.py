@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from equivalence import distance
 from holomorph import Surface, TopologyError, conformal_structure, double_cover, symmetrised
+from shared_data import REAL, real_file
 from solved import BOUNDED, BOUNDED_FLAT, solved_bounded, surface_of
-from test_read import REAL, real_file
 
 SAME = 1e-10  # of the largest entry: both ways solve the same equations
 everywhere = pytest.mark.parametrize("name", [*BOUNDED, *BOUNDED_FLAT])

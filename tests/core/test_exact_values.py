@@ -6,9 +6,9 @@ import families
 import lawson
 import numpy as np
 import pytest
-from conftest import shared_folder
 from equivalence import distance_or_mirrored, gram_of, isometries, omega_of
 from holomorph import Surface, conformal_structure
+from shared_data import shared_folder
 from solved import surface_of
 
 EXACT = 1e-12  # where the symmetry of the mesh alone fixes Omega, only rounding is left

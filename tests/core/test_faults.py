@@ -10,65 +10,26 @@ from pathlib import Path
 
 import families
 import holomorph
-import numpy as np
 import pytest
-from holomorph import Cancelled, ProgressiveMesh, Surface, Tiler, automatic_structure
-from solved import surface_of
-from test_read import off
+from computed_bits import TINY, TORUS, bits_of_levels, bits_of_structure, bits_of_tiling
+from holomorph import Cancelled
+from repository import SUPPORT
 
 LIBRARY = os.environ.get("HOLOMORPH_FAILING_REQUESTS")  # made by tests/native, named by scripts/test
 linux = pytest.mark.skipif(sys.platform != "linux", reason="signals, processes and the loader of Linux")
 needs_library = pytest.mark.skipif(not LIBRARY, reason="no library that lets requests fail")
 
 
-# ---- what is computed ------------------------------------------------------------------------------------------------
-
-
-def bits_of_structure(mesh, options, progress=None):
-    structure = automatic_structure(surface_of(mesh), **options, progress=progress)
-    uv = structure.uv(structure.balanced_coefficients())
-    return uv.tobytes() + np.array(structure.quality(uv).density_ratio).tobytes()
-
-
-def bits_of_tiling(mesh, options, progress=None):
-    return Tiler(surface_of(mesh), 2, **options, progress=progress).tile(60, progress=progress).uv.tobytes()
-
-
-def bits_of_levels(mesh, options, progress=None):
-    progressive = ProgressiveMesh(surface_of(mesh), progress=progress)
-    return progressive.splits.tobytes() + progressive.level(30).vertices.tobytes()
-
-
-def bits_of_file(mesh, options, progress=None):
-    path = Path(options["folder"], "mesh.off")
-    path.write_bytes(off(mesh))
-    return Surface.read(path).vertices.tobytes()
-
-
-TINY = {
-    "closed, direct": (bits_of_structure, families.torus(6, 5), {"solver": "direct", "threads": 1}),
-    "closed, multigrid": (bits_of_structure, families.torus(6, 5), {"solver": "multigrid", "threads": 2}),
-    "closed, paper": (bits_of_structure, families.torus(6, 5), {"solver": "paper", "threads": 2}),
-    "bounded": (bits_of_structure, families.punched(families.block_with_holes(0, refine=2), 3), {"threads": 2}),
-    "sphere": (bits_of_structure, families.geodesic_sphere(2), {"threads": 2}),
-    "disk": (bits_of_structure, families.hemisphere(3), {"threads": 2}),
-    "tiling": (bits_of_tiling, families.torus(6, 5), {"threads": 2}),
-    "levels": (bits_of_levels, families.torus(6, 5), {}),
-    "file": (bits_of_file, families.torus(6, 5), {}),
-}
-
-
 # ---- requests that are refused ---------------------------------------------------------------------------------------
 
 REFUSED = """
-import ctypes, sys
-sys.path.insert(0, sys.argv[1])
+import ctypes, os, sys
 import holomorph
-from test_faults import LIBRARY, TINY
+from computed_bits import TINY
 
-library = ctypes.CDLL(LIBRARY)
-compute, mesh, options = TINY[sys.argv[2]]
-options = {"folder": sys.argv[3]} if sys.argv[2] == "file" else options
+library = ctypes.CDLL(os.environ["HOLOMORPH_FAILING_REQUESTS"])
+compute, mesh, options = TINY[sys.argv[1]]
+options = {"folder": sys.argv[2]} if sys.argv[1] == "file" else options
 expected, refusals, granted, done = compute(mesh, options), 0, 0, False
 while not done:
     library.fail_memory_after(granted)
@@ -87,7 +48,7 @@ print(refusals, granted)
 
 def ended(arguments, **variables):
     """The words that a process of its own prints."""
-    packages = os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(Path(__file__).parent)])
+    packages = os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(SUPPORT)])
     command = [sys.executable, *map(str, arguments)]
     environment = os.environ | {"PYTHONPATH": packages} | variables
     child = subprocess.run(command, capture_output=True, text=True, timeout=600, env=environment)
@@ -96,7 +57,7 @@ def ended(arguments, **variables):
 
 
 def run_child(program, *arguments, **variables):
-    return ended(["-c", program, Path(__file__).parent, *arguments], **variables)
+    return ended(["-c", program, *arguments], **variables)
 
 
 @linux
@@ -109,11 +70,10 @@ def test_a_request_for_memory_fails(name, tmp_path):
 
 
 NO_THREADS = """
-import ctypes, sys
-sys.path.insert(0, sys.argv[1])
-from test_faults import LIBRARY, TORUS, bits_of_structure
+import ctypes, os
+from computed_bits import TORUS, bits_of_structure
 
-library = ctypes.CDLL(LIBRARY)
+library = ctypes.CDLL(os.environ["HOLOMORPH_FAILING_REQUESTS"])
 expected = bits_of_structure(TORUS, {"threads": 1})
 for granted in range(8):
     library.fail_thread_after(granted)
@@ -122,7 +82,6 @@ for granted in range(8):
     assert bits_of_structure(TORUS, {"threads": 4}) == expected
 print("done")
 """
-TORUS = families.torus(97, 85, shape="triangles", jitter=0.2)  # just large enough for its loops to be shared out
 
 
 @linux
@@ -136,10 +95,9 @@ def test_a_thread_that_cannot_be_started():
 
 INTERRUPTED = """
 import random, signal, sys, time
-sys.path.insert(0, sys.argv[1])
-from test_faults import TORUS, bits_of_structure
+from computed_bits import TORUS, bits_of_structure
 
-options = {"threads": 2, "solver": sys.argv[2]}
+options = {"threads": 2, "solver": sys.argv[1]}
 expected, start = bits_of_structure(TORUS, options), time.monotonic()
 bits_of_structure(TORUS, options)
 once, chance, interrupts = time.monotonic() - start, random.Random(7), 0
@@ -201,8 +159,7 @@ def test_cancelling_at_every_call(name):
 
 POOLED = """
 import multiprocessing, sys
-sys.path.insert(0, sys.argv[1])
-from test_faults import TORUS, bits_of_structure
+from computed_bits import TORUS, bits_of_structure
 
 
 def compute(solver):
@@ -212,7 +169,7 @@ def compute(solver):
 if __name__ == "__main__":
     solvers = ["direct", "multigrid", "direct", "multigrid"]
     expected = [compute(solver) for solver in solvers]
-    with multiprocessing.get_context(sys.argv[2]).Pool(2) as pool:
+    with multiprocessing.get_context(sys.argv[1]).Pool(2) as pool:
         assert pool.map_async(compute, solvers).get(timeout=300) == expected
     assert [compute(solver) for solver in solvers] == expected
     print("done")
@@ -225,7 +182,7 @@ def test_processes_of_a_pool(method, tmp_path):
     """After their parent has had threads of its own."""
     program = tmp_path / "pooled.py"  # a child that is not forked loads it again
     program.write_text(POOLED)
-    assert ended([program, Path(__file__).parent, method]) == ["done"]
+    assert ended([program, method]) == ["done"]
 
 
 SECOND = """

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from holomorph import Surface, checker, indexed_png
 from holomorph.__main__ import main
+from mesh_files import obj
 from solved import solved, surface_of
-from test_read import obj
 
 PIL = pytest.importorskip("PIL.Image")
 TRIANGLE, UV = np.eye(3), np.array([[0, 0], [1, 0], [0.25, 0.75]])

@@ -2,12 +2,14 @@
 whole."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from repository import SUPPORT
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="processes and file systems of Linux")
 WRITERS = ("mesh", "progressive mesh", "levels", "command", "compare")
@@ -17,7 +19,8 @@ FOLDER = Path(__file__).parent
 def told(*arguments):
     """What the script prints."""
     command = [sys.executable, FOLDER / "killed.py", *arguments]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    paths = {"PYTHONPATH": os.pathsep.join([str(SUPPORT), os.environ.get("PYTHONPATH", "")])}
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, env=os.environ | paths)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 

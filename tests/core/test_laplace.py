@@ -5,10 +5,10 @@ from functools import cache
 import families
 import numpy as np
 import pytest
-from conftest import SHARED
 from holomorph import Surface, _native
+from repository import SHARED
+from shared_data import real_file
 from solved import surface_of
-from test_read import real_file
 
 SOLVERS = ["direct", "multigrid"]
 

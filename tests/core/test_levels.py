@@ -5,9 +5,9 @@ from functools import cache
 import families
 import numpy as np
 import pytest
-from conftest import SHARED
 from forms import EdgeForms
 from holomorph import Cancelled, InvalidMesh, ProgressiveMesh, Surface, TopologyError, conformal_structure
+from repository import SHARED
 from solved import CLOSED, solved, surface_of
 
 REAL = ("kitten_19k.obj", "double-torus.obj", "fertility_ngon_g4.obj")

@@ -4,10 +4,10 @@ import families
 import flat_cones
 import numpy as np
 import pytest
-from conftest import shared_folder
 from equivalence import distance_or_mirrored
 from holomorph import TopologyError, conformal_structure
 from holomorph.narrow_bounds import narrow
+from shared_data import shared_folder
 from solved import surface_of
 from test_exact_values import complex_matrix, reference_values
 

@@ -8,7 +8,7 @@ from solved import surface_of
 
 @pytest.mark.parametrize("number", [k * 9 + k // 6 for k in range(12)])
 def test_symmetric_pairs(number):
-    """All shapes and all kinds of images; `python tests/core/map_pairs.py` tries 200."""
+    """All shapes and all kinds of images; `python tests/support/map_pairs.py` tries 200."""
     found = map_pairs.measured(map_pairs.symmetric_pair(number))
     assert found.verdict == "equivalent"
     assert found.kept > 0.95

@@ -5,7 +5,6 @@ from functools import cache
 import families
 import numpy as np
 import pytest
-from conftest import SHARED
 from forms import edge_weights
 from holomorph import (
     BoundedStructure,
@@ -16,6 +15,7 @@ from holomorph import (
     TopologyError,
     conformal_structure,
 )
+from repository import SHARED
 from solved import BOUNDED, surface_of
 from test_paper_solver import gradient_steps
 

@@ -6,9 +6,9 @@ from functools import cache
 import families
 import numpy as np
 import pytest
-from conftest import SHARED
 from forms import EdgeForms, edge_forms, edge_weights, on_triangle_sides
 from holomorph import Cancelled, InvalidMesh, ProgressiveMesh, SolverError, Surface, conformal_structure
+from repository import SHARED
 from solved import CLOSED, surface_of
 from test_multigrid import needles
 from test_running import assert_same_bits, run, write_obj

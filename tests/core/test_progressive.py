@@ -7,9 +7,9 @@ import counting
 import families
 import numpy as np
 import pytest
-from conftest import SHARED
 from forms import EdgeForms
 from holomorph import Cancelled, Error, InvalidMesh, ProgressiveMesh, Surface, TopologyError, conformal_structure
+from repository import SHARED
 from solved import surface_of
 
 ORDERS = ("quadric", "independent")

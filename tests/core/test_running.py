@@ -13,8 +13,9 @@ import holomorph
 import numpy as np
 import pytest
 from holomorph import Cancelled, Error, Surface, TopologyError, conformal_structure
+from mesh_files import obj
+from repository import ROOT, SUPPORT
 from solved import CLOSED, RESULTS, solved, surface_of
-from test_read import obj
 
 
 def all_arrays(structure):
@@ -72,7 +73,7 @@ def test_bits_of_another_process():
 
 def output_of(program):
     """The lines that a process of its own prints."""
-    paths = {"PYTHONPATH": os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(Path(__file__).parent)])}
+    paths = {"PYTHONPATH": os.pathsep.join([str(Path(holomorph.__file__).parents[1]), str(SUPPORT)])}
     command = [sys.executable, "-c", program]
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, env=os.environ | paths)
     assert run.returncode == 0, run.stderr
@@ -468,11 +469,10 @@ print(finder.problem() or finder.load().conformal_structure.__name__)
 @pytest.mark.parametrize("text", [None, "", "from ._native import Error"])
 def test_a_folder_of_the_package_s_name_does_not_hide_it(tmp_path, text):
     """Beside the add-on, which has the package's build: a folder, someone else's package, the sources alone."""
-    root = Path(__file__).resolve().parents[2]
     (tmp_path / "holomorph").mkdir()
     if text is not None:
         (tmp_path / "holomorph" / "__init__.py").write_text(text)
-    program = ADDON_FINDS.format(path=str(root / "addon" / "native.py"))
+    program = ADDON_FINDS.format(path=str(ROOT / "addon" / "native.py"))
     paths = os.pathsep.join([str(tmp_path), str(Path(np.__file__).parents[1])])
     command, environment = [sys.executable, "-c", program], os.environ | {"PYTHONPATH": paths}
     run = subprocess.run(command, capture_output=True, text=True, timeout=120, env=environment, cwd=tmp_path)

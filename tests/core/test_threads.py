@@ -5,14 +5,14 @@ import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from pathlib import Path
 
 import families
 import numpy as np
 import pytest
 from holomorph import Cancelled, InvalidMesh, Surface, Tiler, conformal_structure
+from mesh_files import obj
+from repository import SUPPORT
 from solved import CLOSED, surface_of
-from test_read import obj
 
 # Just large enough for its loops over vertices to be shared out, which takes more than two chunks.
 TORUS = families.torus(97, 85, shape="triangles", jitter=0.2)
@@ -159,5 +159,4 @@ assert matrix(0) == before
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no fork")
 def test_children_by_fork_solve_as_their_parent_did():
-    folder = str(Path(families.__file__).parent)
-    subprocess.run([sys.executable, "-c", FORKED, folder], check=True, timeout=120)
+    subprocess.run([sys.executable, "-c", FORKED, str(SUPPORT)], check=True, timeout=120)

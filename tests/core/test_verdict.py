@@ -10,8 +10,8 @@ from holomorph import Surface, automatic_structure, form_map, overall, verdict
 from holomorph.__main__ import main
 from holomorph.report import part_report, whole_report
 from holomorph.verdicts import LEVELS, LOST, OVERLAPPING, SHEARED, UNEVEN
+from mesh_files import obj
 from solved import solved, surface_of
-from test_read import obj
 
 POINTS, TRIANGLES = families.hexagonal_disk(6)
 FLAT_PIECE = np.pad(POINTS, ((0, 0), (0, 1)))

@@ -2,15 +2,11 @@
 
 import os
 import shutil
-import sys
 from pathlib import Path
 
 import pytest
 from programs import output
-
-ROOT = Path(__file__).resolve().parents[2]
-
-sys.path.append(str(ROOT / "tests" / "core"))  # families
+from repository import ROOT
 
 
 @pytest.fixture(scope="session")

@@ -9,18 +9,15 @@ import importlib
 import importlib.util
 import json
 import random as random_numbers
-import sys
-from pathlib import Path
 
 import bmesh
 import bpy
 import mesh_mutations
 import numpy as np
 import plain_cases
+from loaded_addon import ADDON
 from starts import STARTS
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "blender"))
 OPERATORS = ("uv.holomorphic_maps", "uv.holomorphic_maps", "uv.holomorphic_tile", "uv.holomorphic_heat",
              "object.holomorphic_levels")  # fmt: skip
 TEXTS = ("", "1 -1", "1, 1, -2", "nan", "1+0.5j", "{}", "pole", "\u00e9" * 300)
@@ -28,18 +25,7 @@ SOLVERS = ("auto", "direct", "multigrid", "paper")  # the items of this property
 SENTENCE = 1500  # characters, for all the objects and their parts together
 
 
-def _loaded_addon():
-    spec = importlib.util.spec_from_file_location(
-        "holomorph_addon", ROOT / "addon" / "__init__.py", submodule_search_locations=[str(ROOT / "addon")]
-    )
-    package = importlib.util.module_from_spec(spec)
-    sys.modules["holomorph_addon"] = package
-    spec.loader.exec_module(package)
-    package.register()
-    return package
-
-
-_loaded_addon()
+ADDON.register()
 scenes = importlib.import_module("scenes")
 
 EDITS = {

@@ -6,7 +6,7 @@ from pathlib import Path
 import byte_mutations
 import oracle
 from holomorph import Surface
-from test_read import POLYGON_FILES, TRIANGLE_FILES
+from mesh_files import POLYGON_FILES, TRIANGLE_FILES
 
 FILES = sorted((POLYGON_FILES | TRIANGLE_FILES).items())
 FORMATS = (".obj", ".off", ".ply", ".stl")

@@ -6,17 +6,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import campaign
+import minimise
+import numpy as np
+import oracle
 import pytest
+import worker
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "core"))
-
-import campaign  # noqa: E402  (found on the path above)
-import minimise  # noqa: E402
-import numpy as np  # noqa: E402
-import oracle  # noqa: E402
-import worker  # noqa: E402
-
 PLANTED = """
 import os, signal, sys
 import holomorph

@@ -1,16 +1,12 @@
 """What once broke something does so no more: the files in corpus, each of the target that its folder is named after."""
 
-import sys
 from pathlib import Path
 
+import oracle
 import pytest
+import worker
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "core"))
-
-import oracle  # noqa: E402  (found on the path above)
-import worker  # noqa: E402
-
 CORPUS = sorted(path for path in (HERE / "corpus").glob("*/*") if path.parent.name != "operator")
 
 

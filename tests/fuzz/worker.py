@@ -21,7 +21,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 # Blender does not look at PYTHONPATH by itself.
-sys.path[:0] = [str(HERE), str(HERE.parent / "core"), *filter(None, os.environ.get("PYTHONPATH", "").split(os.pathsep))]
+PATHS = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+sys.path[:0] = [str(HERE), str(HERE.parent / "support"), *filter(None, PATHS)]
 
 TARGETS = ("readers", "progressive", "pipeline", "gluings")
 LIMIT = float(os.environ.get("HOLOMORPH_FUZZ_LIMIT", 60))  # seconds of the processor: far more than any input takes

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import bpy
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 import use_addon
 
 MODULE = "bl_ext.user_default.holomorph"

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import bpy
 
-sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1] / "support"))
 import use_addon
 
 shown, following, address = sys.argv[-3:]

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import ROOT, extension, run, run_extension_program
+from conftest import extension, run, run_extension_program
+from repository import ROOT
 
 HERE = Path(__file__).resolve().parent
 # What every Linux with glibc has, the C++ run-time library included: Blender itself needs them.

@@ -7,7 +7,8 @@ import threading
 import zipfile
 
 import pytest
-from conftest import ROOT, extension, run, run_extension_program
+from conftest import extension, run, run_extension_program
+from repository import ROOT
 
 SUBSCRIBE = ROOT / "tests" / "package" / "subscribe.py"
 

@@ -3,7 +3,8 @@
 import zipfile
 
 import pytest
-from conftest import ROOT, extension, run
+from conftest import extension, run
+from repository import ROOT
 
 WRONG_ZIP = ROOT / "tests" / "package" / "wrong_zip.py"
 

@@ -9,10 +9,9 @@ import sys
 
 import numpy as np
 import pytest
-from conftest import ROOT, extension, run
-
-sys.path.insert(0, str(ROOT / "tests" / "core"))
+from conftest import extension, run
 from families import block_with_holes, torus
+from repository import ROOT
 
 FOREIGN_PYTHON = ROOT / "scripts" / "foreign-python"
 MAP_MESHES = ROOT / "tests" / "platforms" / "map_meshes.py"

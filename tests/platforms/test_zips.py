@@ -8,7 +8,8 @@ import zipfile
 import mach_o
 import pytest
 import tomllib
-from conftest import PLATFORMS, PYTHONS, ROOT, extension, run, wheels
+from conftest import PLATFORMS, PYTHONS, extension, run, wheels
+from repository import ROOT
 
 BLENDER = ROOT / "build" / "venv" / "bpy-4.2" / "bin" / "python"  # as a Python module
 MOST_MEGABYTES = 3.0

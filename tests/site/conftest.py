@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import sync_playwright
+from repository import ROOT
 
-ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "build" / "site"
 BROWSERS = ("chromium-headless-shell", "chromium", "google-chrome")
 # WebGL without a graphics card.

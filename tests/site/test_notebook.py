@@ -2,14 +2,14 @@
 
 import base64
 import io
-from pathlib import Path
 
 import nbclient
 import nbformat
 import pytest
 from matplotlib.image import imread
+from repository import ROOT
 
-NOTEBOOK = Path(__file__).resolve().parents[2] / "examples" / "plots.ipynb"
+NOTEBOOK = ROOT / "examples" / "plots.ipynb"
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,8 @@ from urllib.parse import unquote, urldefrag
 
 import holomorph
 import pytest
-from conftest import ROOT, SITE
+from conftest import SITE
+from repository import ROOT
 
 PAGES = sorted(str(path.relative_to(SITE)) for path in SITE.rglob("*.html"))
 DOCS = ROOT / "docs"

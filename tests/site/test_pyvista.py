@@ -11,6 +11,7 @@ import pytest
 import pyvista
 from holomorph import InvalidMesh, Surface, plot, plot_pyvista
 from matplotlib.colors import to_rgb
+from repository import ROOT
 
 FUNCTIONS = ("checker", "density", "forms", "zeros", "loops")
 WITHOUT = "import sys; sys.modules['pyvista'] = None; sys.path.insert(0, {!r}); from holomorph import plot_pyvista"
@@ -25,7 +26,7 @@ def off_screen():
 
 @pytest.fixture(scope="module")
 def pretzel():
-    path = Path(__file__).resolve().parents[2] / "examples" / "pretzel.obj"
+    path = ROOT / "examples" / "pretzel.obj"
     return holomorph.conformal_structure(Surface.read(path))
 
 

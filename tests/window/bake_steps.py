@@ -1,12 +1,8 @@
 """Runs inside Blender with a window and simulated events: bakes a tiling, once cancelled, once to the end, undone."""
 
-import sys
 import time
-from pathlib import Path
 
 import bpy
-
-sys.path.insert(0, str(Path(__file__).parent))
 from objects import clear, pick, torus
 from running import run
 from screen import area, hover, inside, tap

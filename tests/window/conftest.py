@@ -7,8 +7,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from repository import ROOT, SUPPORT
 
-ROOT = Path(__file__).resolve().parents[2]
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or shutil.which("blender")
 SECONDS = 280
 
@@ -31,7 +31,8 @@ def take_steps(folder, tmp_path_factory):
     (scripts / "addons" / "holomorph_addon").symlink_to(ROOT / "addon")
     screen = "-screen 0 1600x1000x24 +extension GLX"
     command = ["xvfb-run", "-a", "-s", screen, BLENDER, "--factory-startup", "--enable-event-simulate"]
-    command += ["--window-geometry", "0", "0", "1600", "1000", "--addons", "holomorph_addon", "--python"]
+    command += ["--window-geometry", "0", "0", "1600", "1000", "--addons", "holomorph_addon"]
+    command += ["--python-expr", f"import sys; sys.path.insert(0, {str(SUPPORT)!r})", "--python"]
     environment = {**os.environ, "LIBGL_ALWAYS_SOFTWARE": "1", "BLENDER_USER_SCRIPTS": str(scripts)}
     environment.pop("PYTHONPATH", None)
 

@@ -1,16 +1,12 @@
 """Runs inside Blender with a window and simulated events: an artist's first minutes with a cube, a mug and Suzanne."""
 
-import sys
-from pathlib import Path
-
 import bpy
-
-sys.path.insert(0, str(Path(__file__).parent))
 from artist import prepare, press, seen, then
+from repository import ROOT
 from running import run
 from screen import area, inside
 
-MUG = Path(__file__).resolve().parents[2] / "blend_examples" / "mug.blend"
+MUG = ROOT / "blend_examples" / "mug.blend"
 
 
 def mug():

@@ -1,12 +1,8 @@
 """Runs inside Blender with a window and simulated events: an artist's first minute, in solid view without textures."""
 
 import json
-import sys
-from pathlib import Path
 
 import bpy
-
-sys.path.insert(0, str(Path(__file__).parent))
 from objects import clear, look_at, maps, pick, spikes
 from running import run
 from screen import area, enter, inside, picture

@@ -4,13 +4,9 @@ Leaves FOLDER/habits_steps.json and pictures.
 """
 
 import json
-import sys
-from pathlib import Path
 
 import bmesh
 import bpy
-
-sys.path.insert(0, str(Path(__file__).parent))
 from objects import clear, maps, pick, sheet, torus
 from running import run
 from screen import area, click, enter, hover, inside, move, picture, region, tap

@@ -4,13 +4,8 @@ local view.
 Leaves FOLDER/mode_steps.json and pictures.
 """
 
-import sys
-from pathlib import Path
-
 import bpy
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parent))
 from objects import clear, maps, pick, torus
 from running import run
 from screen import area, enter, event, hover, inside, move, picture, tap

@@ -2,15 +2,11 @@
 
 import importlib
 import json
-import sys
-from pathlib import Path
 
 import addon_utils
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-
-sys.path.insert(0, str(Path(__file__).parent))
 from objects import clear, pick, torus
 from running import run
 from screen import area, enter, inside, picture, pixels, region

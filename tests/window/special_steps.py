@@ -1,12 +1,7 @@
 """Runs inside Blender with a window and simulated events: an artist's next minutes with bones that a modifier makes a
 character, a terrain, a pipe and a text."""
 
-import sys
-from pathlib import Path
-
 import bpy
-
-sys.path.insert(0, str(Path(__file__).parent))
 from artist import prepare, press, report_of, seen, then
 from objects import figure, look_at, pipe, terrain
 from running import run

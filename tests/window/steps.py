@@ -5,14 +5,10 @@ Leaves FOLDER/steps.json (name of the step: what was seen) and pictures.
 """
 
 import importlib
-import sys
 import threading
 import time
-from pathlib import Path
 
 import bpy
-
-sys.path.insert(0, str(Path(__file__).parent))
 from objects import clear, maps, part_report, pick, pick_vertices, sheet, torus
 from running import run
 from screen import area, click, enter, hover, inside, picture, region, tap

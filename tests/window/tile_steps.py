@@ -2,14 +2,10 @@
 
 import importlib
 import json
-import sys
 import time
-from pathlib import Path
 
 import bpy
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parent))
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from objects import clear, part_report, pick, torus
 from running import run

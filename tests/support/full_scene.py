@@ -2,7 +2,7 @@
 
 import bpy
 import numpy as np
-from conftest import module
+from loaded_addon import module
 from scenes import grid_arrays, mesh_object, sphere_arrays, torus_arrays, tube_arrays
 
 FRAMES = (1, 10, 20)

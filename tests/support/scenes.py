@@ -7,7 +7,7 @@ from functools import partial
 import bmesh
 import bpy
 import numpy as np
-from conftest import ROOT
+from repository import ROOT
 
 uv_maps = importlib.import_module("holomorph_addon.scene.uv_maps")
 mesh_io = importlib.import_module("holomorph_addon.scene.mesh_io")

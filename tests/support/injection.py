@@ -11,8 +11,8 @@ from collections import defaultdict
 
 import bpy
 import pytest
-from conftest import ROOT
 from file_state import differences, file_state
+from repository import ROOT
 
 ADDON = str(ROOT / "addon")
 ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)

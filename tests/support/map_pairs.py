@@ -1,5 +1,5 @@
-"""python tests/core/map_pairs.py [COUNT]: maps that many symmetric and that many random pairs with boundary, and prints
-what fails and how the errors told compare with the true ones.
+"""PYTHONPATH=build/lib/cp311 python tests/support/map_pairs.py [COUNT]: maps that many symmetric and that many random
+pairs with boundary, and prints what fails and how the errors told compare with the true ones.
 
 Pairs of meshes between which a conformal map is known to exist: annuli, square rings, pants, disks with holes, tori and
 surfaces of genus 2 with holes; symmetric ones, which are their own mirror images, and random ones without symmetry."""
@@ -7,7 +7,6 @@ surfaces of genus 2 with holes; symmetric ones, which are their own mirror image
 import sys
 from dataclasses import dataclass
 
-import conftest  # noqa: F401  (where the package is)
 import families
 import numpy as np
 from holomorph import Error, _native, conformal_map, conformal_structure

@@ -3,7 +3,7 @@
 import os
 from pathlib import Path
 
-from conftest import torus_obj
+from batch_runs import torus_obj
 
 LONG = "n" * 251
 SCRIPTS = {  # as many whole letters as 251 bytes hold
