@@ -3,18 +3,8 @@
 import bpy
 import numpy as np
 from conftest import module
-from scenes import (
-    grid_arrays,
-    mesh_io,
-    mesh_object,
-    run,
-    select,
-    torus,
-    torus_arrays,
-    two_parts,
-)
-from test_faces import pick_faces
-from test_refusals import moebius
+from picked_faces import pick_faces
+from scenes import grid_arrays, mesh_io, mesh_object, moebius, run, select, torus, torus_arrays, two_parts
 
 Values = module("compatibility").Values
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from baked_images import Points, covering, grown, islands, pixels, sampled, triangles
 from conftest import module
+from exchange_formats import may_write_gltf
 from file_state import differences, file_state
+from headless_runs import headless, our_lines
 from scenes import grid_arrays, mesh_object, select, torus, uv_maps
-from test_exchange import may_write_gltf
-from test_headless import headless, our_lines
 
 bake, material = module("baking.bake"), module("materials.material")
 STEP = 1 / 255  # of a channel

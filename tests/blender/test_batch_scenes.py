@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
+from exchange_formats import SCENES
+from headless_runs import BLENDER
 from scenes import mesh_io, native, torus, torus_arrays, uv_maps
-from test_headless import BLENDER
-from test_round_trips import SCENES
 
 compatibility, exchange = module("compatibility"), module("command_line.exchange")
 AS_PROGRAM = """#!{python}

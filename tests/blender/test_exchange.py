@@ -6,23 +6,12 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import (
-    grid_arrays,
-    mesh_io,
-    select,
-    torus,
-    torus_arrays,
-    uv_maps,
-)
-from test_faces import add_own_map
-from test_headless import headless, our_lines, write_obj
+from exchange_formats import may_write_gltf, needs_usd
+from headless_runs import headless, our_lines, write_obj
+from picked_faces import add_own_map
+from scenes import grid_arrays, mesh_io, select, torus, torus_arrays, uv_maps
 
 exchange = module("command_line.exchange")
-needs_usd = pytest.mark.skipif(not bpy.app.build_options.usd, reason="this Blender is built without USD")
-# Blender 4.2 as a Python module crashes at exit once it has written a glTF file, with no add-on either.
-may_write_gltf = pytest.mark.skipif(
-    bpy.app.version[:2] == (4, 2) and not bpy.app.binary_path, reason="this Blender crashes at exit after writing glTF"
-)
 FORMATS = [
     *(pytest.param(suffix, marks=may_write_gltf) for suffix in (".glb", ".gltf")),
     ".fbx",

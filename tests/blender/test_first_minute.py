@@ -7,43 +7,10 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
+from drawn_panel import Drawn, drawn
 from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
-coarse, lines, verdict_view, viewport = (
-    module(name) for name in ("maps.coarse", "interface.lines", "interface.verdict_view", "materials.viewport")
-)
-
-
-class Drawn:
-    """A layout that notes what is drawn in it."""
-
-    def __init__(self):
-        self.texts, self.buttons, self.icons, self.calls = [], [], [], []
-
-    def label(self, text="", icon="NONE"):
-        self.texts.append(text)
-        self.icons.append(icon)
-
-    def operator(self, name, text="", icon="NONE"):
-        self.buttons.append(text or name)
-        self.calls.append((name, type("Properties", (), {})()))
-        return self.calls[-1][1]
-
-    def box(self, **_options):
-        return self
-
-    row = column = split = box
-
-
-def drawn(obj, width=220, is_edited=False):
-    """Drawn in a region of so many pixels."""
-    style = SimpleNamespace(widget=SimpleNamespace(points=11))
-    preferences = SimpleNamespace(system=SimpleNamespace(ui_scale=1.0), ui_styles=[style])
-    layout, context = Drawn(), SimpleNamespace(region=SimpleNamespace(width=width), preferences=preferences)
-    verdict_view.draw(
-        layout, context, obj["holomorph_report"], "uv.holomorphic_tile", "uv.holomorphic_islands", is_edited
-    )
-    return layout
+coarse, lines, viewport = map(module, ("maps.coarse", "interface.lines", "materials.viewport"))
 
 
 def spikes():

@@ -7,17 +7,10 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import (
-    everything,
-    mesh_io,
-    mesh_object,
-    run,
-    select,
-    stored_report,
-)
-from test_first_minute import drawn
-from test_headless import headless, our_lines, write_obj
-from test_islands import assert_packed, capped_cylinder
+from drawn_panel import drawn
+from headless_runs import headless, our_lines, write_obj
+from packed import assert_packed, capped_cylinder
+from scenes import everything, mesh_io, mesh_object, run, select, stored_report
 
 BUTTON = "uv.holomorphic_islands"
 

@@ -4,61 +4,14 @@ import json
 import os
 import signal
 import subprocess
-import sys
 import time
 
 import bpy
 import numpy as np
 import pytest
+from headless_runs import BLENDER, SCRIPT, SECONDS, headless, needs_program, our_lines, write_obj
 from repository import ROOT
-from scenes import (
-    limb_arrays,
-    mesh_io,
-    mesh_object,
-    sphere_arrays,
-    torus,
-    torus_arrays,
-    uv_maps,
-)
-
-BLENDER = os.environ.get("HOLOMORPH_BLENDER", "")
-SCRIPT = str(ROOT / "addon" / "headless.py")
-SECONDS = 300
-# What `blender -b FILE --python SCRIPT` does, where Blender is a Python module. In 4.2 such a module crashes at the end
-# of the process where a class is still registered, as Blender's glTF exporter leaves some: it ends without.
-AS_MODULE = """
-import os, runpy, sys, bpy
-blend, script = sys.argv[1:3]
-if blend:
-    bpy.ops.wm.open_mainfile(filepath=blend)
-runpy.run_path(script, run_name="__main__")
-sys.stdout.flush()
-sys.stderr.flush()
-os._exit(0)
-"""
-
-needs_program = pytest.mark.skipif(not BLENDER, reason="needs a Blender program: HOLOMORPH_BLENDER names it")
-
-
-def headless(*arguments, blend="", seconds=SECONDS):
-    if BLENDER:
-        command = [BLENDER, "-b", "--disable-autoexec", *([str(blend)] if blend else []), "--factory-startup"]
-        command += ["--python-exit-code", "1", "--python", SCRIPT]
-    else:
-        command = [sys.executable, "-c", AS_MODULE, str(blend), SCRIPT]
-    command += ["--", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=seconds, check=False)
-
-
-def our_lines(done):
-    return [line for line in done.stderr.splitlines() if line.startswith("Holomorph")]
-
-
-def write_obj(path, vertices, faces):
-    lines = [f"v {x:.17g} {y:.17g} {z:.17g}" for x, y, z in vertices]
-    lines += ["f " + " ".join(str(i + 1) for i in face) for face in faces]
-    path.write_text("\n".join(lines) + "\n")
-    return path
+from scenes import limb_arrays, mesh_io, mesh_object, sphere_arrays, torus, torus_arrays, uv_maps
 
 
 @pytest.fixture

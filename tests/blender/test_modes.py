@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
+from picked_faces import pick_faces
 from scenes import everything, mesh_io, mesh_object, pick, select, sphere_arrays, stored_report, torus, uv
-from test_faces import pick_faces
 
 PAINTING = ("SCULPT", "VERTEX_PAINT", "WEIGHT_PAINT", "TEXTURE_PAINT", "PARTICLE_EDIT")
 compatibility = module("compatibility")

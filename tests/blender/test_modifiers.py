@@ -3,6 +3,7 @@
 import bpy
 import numpy as np
 import pytest
+from picked_faces import pick_faces
 from scenes import (
     edge_mismatch,
     everything,
@@ -17,7 +18,6 @@ from scenes import (
     torus_arrays,
     uv,
 )
-from test_faces import pick_faces
 
 
 def skin():

@@ -5,15 +5,9 @@ import json
 import numpy as np
 import pytest
 from conftest import module
-from scenes import (
-    everything,
-    mesh_object,
-    run,
-    select,
-    stored_report,
-)
-from test_headless import headless, our_lines, write_obj
-from test_islands import assert_packed
+from headless_runs import headless, our_lines, write_obj
+from packed import assert_packed
+from scenes import everything, mesh_object, run, select, stored_report
 
 
 def finger_arrays(n=24):

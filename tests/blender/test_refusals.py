@@ -4,7 +4,20 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, linked, mesh_object, pick, run, select, stored_report, torus, torus_arrays, uv, written
+from scenes import (
+    everything,
+    linked,
+    mesh_object,
+    moebius,
+    pick,
+    run,
+    select,
+    stored_report,
+    torus,
+    torus_arrays,
+    uv,
+    written,
+)
 
 
 def fin():
@@ -28,18 +41,6 @@ def not_a_number():
 def infinite():
     vertices, faces = torus_arrays()
     return mesh_object("Bad", vertices + np.inf, faces), "infinite"
-
-
-def moebius():
-    count = 12
-    angle = np.pi * np.arange(count) / count
-    edge = np.stack([np.cos(angle), np.sin(angle), 0 * angle], -1)
-    around = np.stack([np.cos(2 * angle), np.sin(2 * angle), 0 * angle], -1)
-    side = around * edge[:, :1] * 0.3 + np.array([0, 0, 0.3]) * edge[:, 1:2]
-    vertices = np.concatenate([around - side, around + side])
-    faces = [(i, i + 1, count + i + 1, count + i) for i in range(count - 1)]
-    faces.append((count - 1, count, 0, 2 * count - 1))
-    return mesh_object("Bad", vertices, faces)
 
 
 def zero_area():

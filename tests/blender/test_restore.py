@@ -4,8 +4,8 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import everything, linked, mesh_io, run, select, torus, uv
-from test_faces import add_own_map
+from picked_faces import add_own_map
+from scenes import duplicate, everything, linked, mesh_io, run, select, torus, uv
 
 
 def textured():
@@ -22,13 +22,6 @@ def textured():
     obj.material_slots[2].link = "OBJECT"
     obj.material_slots[2].material = None
     return obj
-
-
-def duplicate(obj):
-    """Linked: another object with the same mesh."""
-    copy = obj.copy()
-    bpy.context.scene.collection.objects.link(copy)
-    return copy
 
 
 def shown(obj):

@@ -6,16 +6,11 @@ import full_scene
 import numpy as np
 import pytest
 from conftest import module
+from exchange_formats import SCENES, may_write_gltf
+from headless_runs import headless
 from scenes import grid_arrays, mesh_object
-from test_exchange import may_write_gltf, needs_usd
-from test_headless import headless
 
 compatibility, exchange = module("compatibility"), module("command_line.exchange")
-SCENES = [
-    pytest.param(".glb", marks=may_write_gltf),
-    ".fbx",
-    pytest.param(".usdc", marks=needs_usd),
-]
 BEST = {
     ".glb": {
         "export_cameras": True,

@@ -8,14 +8,9 @@ import shutil
 import bpy
 import numpy as np
 import pytest
+from headless_runs import headless, needs_program
 from repository import SHARED
-from scenes import (
-    edge_mismatch,
-    parts_of,
-    straightness,
-    uv_maps,
-)
-from test_headless import headless, needs_program
+from scenes import edge_mismatch, parts_of, straightness, uv_maps
 
 MESHES = SHARED / "meshes"
 SECONDS = 580

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
+from picked_faces import HALF, add_own_map, corners_of, leave, pick_faces
 from scenes import (
     edge_jumps,
     everything,
@@ -22,7 +23,6 @@ from scenes import (
     uv,
     uv_maps,
 )
-from test_faces import HALF, add_own_map, corners_of, leave, pick_faces
 
 LIKE = 1.1  # largest over smallest median density of parts whose squares have one size
 ROUNDED = 0.1  # relative: a tiling has whole numbers of tiles around, of 100 that are a few each

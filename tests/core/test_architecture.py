@@ -4,7 +4,7 @@ import ast
 import re
 import warnings
 
-from repository import ROOT
+from repository import ROOT, SUPPORT
 
 NATIVE = ROOT / "native" / "src"
 PUBLIC = ROOT / "native" / "include" / "holomorph"
@@ -299,6 +299,13 @@ def test_others_import_at_the_top():
 def test_only_mesh_io_touches_mesh_arrays():
     touching = {path.stem for path in python_files(ADDON) if re.search(r"\bforeach_[gs]et\b", path.read_text("utf-8"))}
     assert touching <= {"mesh_io"}
+
+
+def test_tests_share_what_is_in_support():
+    """No test imports from another, nor does a program within a test; what they share knows of no suite."""
+    test = re.compile(r"^\s*(?:from|import) test_", re.MULTILINE)
+    assert not [identify(path) for path in python_files(ROOT / "tests") if test.search(path.read_text("utf-8"))]
+    assert not [identify(path) for path in python_files(SUPPORT) if "conftest" in imports(path)]
 
 
 def test_headers_fit_a_screen():

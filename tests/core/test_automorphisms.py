@@ -4,27 +4,15 @@ import families
 import numpy as np
 import pytest
 import regular_maps
-from equivalence import (
-    distance_or_mirrored,
-    gram_of,
-    random_symplectic,
-    symplectic_unit,
-)
+from equivalence import distance_or_mirrored, gram_of, random_symplectic, symplectic_unit
 from flint import acb
-from holomorph import (
-    TopologyError,
-    _native,
-    automorphisms,
-    conformal_structure,
-    hyperelliptic,
-    siegel_reduction,
-)
+from holomorph import TopologyError, _native, automorphisms, conformal_structure, hyperelliptic, siegel_reduction
 from holomorph.known_periods import period_lattice
 from holomorph.siegel import moved
 from holomorph.theta_constants import even_theta_constants
+from known_matrices import BOLZA, LAWSON
+from shared_data import reference_surface
 from solved import surface_of
-from test_equivalence import BOLZA, LAWSON
-from test_exact_values import reference_surface
 
 ROUNDING = 1e-9
 # The only matrix with the symmetries of the Klein quartic (Rauch & Lewittes 1970).

@@ -6,14 +6,9 @@ from dataclasses import replace
 import families
 import numpy as np
 import pytest
+from boundaries import boundary_edges, boundary_sides, handles_of, least_eigenvalue, signed_area, size
 from equivalence import distance
-from forms import (
-    determinant,
-    edge_forms,
-    edge_weights,
-    energy_matrix,
-    on_triangle_sides,
-)
+from forms import determinant, edge_forms, edge_weights, energy_matrix, on_triangle_sides
 from holomorph import BoundedStructure, Cancelled, TopologyError, conformal_structure
 from solved import BOUNDED, BOUNDED_FLAT, solved_bounded, surface_of
 
@@ -24,34 +19,6 @@ everywhere = pytest.mark.parametrize("name", [*BOUNDED, *BOUNDED_FLAT])
 embedded = pytest.mark.parametrize("name", BOUNDED)
 PLANAR = [name for name, mesh in BOUNDED.items() if mesh.genus == 0]
 planar = pytest.mark.parametrize("name", PLANAR)
-
-
-def size(matrix):
-    return np.abs(matrix).max()
-
-
-def handles_of(structure):
-    return 2 * structure.surface.genus
-
-
-def least_eigenvalue(matrix):
-    return np.linalg.eigvalsh((matrix + matrix.T) / 2).min()
-
-
-def is_boundary_side(surface):
-    """(#T, 3): side i of a triangle, from corner i to the next, is the only one between its two vertices."""
-    ends = np.sort(np.stack([surface.triangles, np.roll(surface.triangles, -1, axis=1)], axis=-1), axis=-1)
-    keys = ends.astype(np.int64) @ [len(surface.vertices), 1]
-    _, place, count = np.unique(keys, return_inverse=True, return_counts=True)
-    return count[place].reshape(keys.shape) == 1
-
-
-def boundary_edges(structure):
-    """Indices of the edges on the boundary."""
-    surface = structure.surface
-    ends = np.stack([surface.triangles, np.roll(surface.triangles, -1, axis=1)], axis=-1)[is_boundary_side(surface)]
-    weights = [len(surface.vertices), 1]
-    return np.flatnonzero(np.isin(structure.edges.astype(np.int64) @ weights, np.sort(ends, axis=1) @ weights))
 
 
 # ---- topology, exactly ---------------------------------------------------------------------------
@@ -266,13 +233,6 @@ def some_coefficients(structure, seed=4):
     return np.random.default_rng(seed).normal(size=len(structure.pairing))
 
 
-def boundary_sides(structure):
-    """(#, 2) corners at both ends of every boundary edge, in the triangle there."""
-    surface = structure.surface
-    corners = surface.triangle_corners
-    return np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1)[is_boundary_side(surface)]
-
-
 @embedded
 def test_boundaries_are_straight_bit_for_bit(name):
     structure = solved_bounded(name)
@@ -331,12 +291,6 @@ def test_surface_cut_at_the_seams_is_a_disk(name):
     vertices = len(np.unique(families.components(3 * count, left, right)))
     edges = len(structure.edges) + len(structure.seams)
     assert vertices - edges + count == 1
-
-
-def signed_area(structure, uv):
-    p = uv[structure.surface.triangle_corners]
-    a, b = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
-    return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2
 
 
 @everywhere

@@ -11,6 +11,7 @@ import pytest
 import slow_path
 from holomorph import SolverError, Surface, _native, conformal_structure, report
 from holomorph.certificate import certain_text
+from small_families import SMALL
 from solved import surface_of
 
 TIGHT = 1e-11  # relative width where the forms are represented exactly: rounding alone
@@ -89,15 +90,6 @@ def test_the_area_of_a_square_tiled_surface(name, is_jittered):
 
 
 # ---- against 200 bits ---------------------------------------------------------------------------------------------
-
-TORI = [(2, 1, 6, 4), (3, 1, 8, 4), (1, 0.5, 6, 4), (2, 1, 8, 5), (3, 2, 7, 5), (2, 0.5, 9, 3)]
-SMALL = {
-    **{f"torus {R} {r} {n} {m}": families.torus(n, m, R, r, "triangles") for R, r, n, m in TORI},
-    "genus 1 block": families.block_with_holes(1),
-    "genus 2 block": families.block_with_holes(2),
-    "jittered genus 1 block": families.block_with_holes(1, jitter=0.05),
-    "jittered genus 2 block": families.block_with_holes(2, jitter=0.05),
-}
 
 
 @pytest.mark.parametrize("name", SMALL)

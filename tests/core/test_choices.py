@@ -6,8 +6,8 @@ import pytest
 from families import cylinder, geodesic_sphere, hemisphere, punctured_torus, torus, united
 from holomorph import InvalidMesh, TopologyError, automatic_maps, automatic_structure, conformal_image
 from holomorph.edges import around_boundary, boundary_edges
+from plane_meshes import corners_of, grid, wavy
 from solved import surface_of
-from test_rectangle import corners_of, grid, wavy
 
 SHEET = surface_of(grid(7, 5, wavy))
 CORNERS = corners_of(7, 5)

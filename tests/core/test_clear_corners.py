@@ -4,8 +4,8 @@ import families
 import numpy as np
 import pytest
 from holomorph import RectangleMap, Surface, _native, automatic_structure, disk_map, rectangle_map
+from plane_meshes import grid
 from solved import surface_of
-from test_rectangle import grid
 
 WAVES = 8  # of terrain along a side, at most
 

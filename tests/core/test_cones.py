@@ -6,9 +6,9 @@ import families
 import numpy as np
 import pytest
 from holomorph import Cancelled, Surface, TopologyError, cut_to_cones, free_boundary_map
+from island_checks import assert_same_faces
 from shared_data import shared_folder
 from solved import surface_of
-from test_islands import assert_same_faces
 
 FINGERS = ((-0.4, -0.3), (0.4, -0.2), (0.0, 0.4))
 

@@ -19,10 +19,11 @@ from holomorph import (
 )
 from holomorph.__main__ import main
 from holomorph.equivalence import VERDICTS
+from known_matrices import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
 from mesh_files import obj
+from moebius_images import BLOCKS, moebius_image, twisted_block
+from shared_data import complex_matrix, reference_values
 from solved import surface_of
-from test_equivalence import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
-from test_exact_values import complex_matrix, reference_values
 
 ROUNDING = 1e-9
 
@@ -147,26 +148,6 @@ def test_a_thousand_random_pairs():
 
 # ---- meshes ----------------------------------------------------------------------------------------------------
 
-BLOCKS = {g: families.block_with_holes(g, refine=4, jitter=0.1, seed=g) for g in range(2, 7)} | {
-    1: families.torus(48, 32, R=1.5, shape="triangles", jitter=0.2)
-}
-
-
-def triangles(g):
-    """Twisted, so that nothing is its own mirror image."""
-    mesh = BLOCKS[g] if g == 1 else families.triangles_of(BLOCKS[g])
-    x, y, z = mesh.vertices.T
-    return families.replace(mesh, vertices=np.stack([x, y + 0.3 * x * z, z + 0.15 * x * y + 0.05 * x**2], axis=1))
-
-
-def moebius_image(mesh):
-    """By the inversion in a sphere beside the mesh, which reverses the orientation, and a reflection, which does so
-    again."""
-    centre = mesh.vertices.max(axis=0) + 1.5 * np.ptp(mesh.vertices, axis=0)
-    from_centre = mesh.vertices - centre
-    inverted = from_centre / (from_centre**2).sum(axis=1, keepdims=True)
-    return families.replace(mesh, vertices=inverted * [1, 1, -1])
-
 
 def equivalent(a, b):
     made = conformally_equivalent(a, b)
@@ -177,7 +158,7 @@ def equivalent(a, b):
 @pytest.mark.parametrize("g", sorted(BLOCKS))
 def test_the_same_surface_is_equivalent(g):
     """Rotated, scaled, renumbered, and cut finer."""
-    mesh = triangles(g)
+    mesh = twisted_block(g)
     structure = conformal_structure(surface_of(mesh))
     renumbered, _ = families.relabelled(families.moved(mesh, scale=1e3))
     made = equivalent(structure, surface_of(renumbered))
@@ -187,21 +168,21 @@ def test_the_same_surface_is_equivalent(g):
 
 @pytest.mark.parametrize("g", sorted(BLOCKS))
 def test_mirror_image_of_a_mesh(g):
-    mesh = triangles(g)
+    mesh = twisted_block(g)
     made = equivalent(surface_of(mesh), surface_of(families.mirrored(mesh)))
     assert made.verdict == "mirror_image" and made.residual < 1e-6
 
 
 @pytest.mark.parametrize("g", sorted(BLOCKS))
 def test_different_meshes(g):
-    mesh = triangles(g)
+    mesh = twisted_block(g)
     made = equivalent(surface_of(mesh), surface_of(families.replace(mesh, vertices=mesh.vertices * [1, 1, 3])))
     assert made.verdict == "not_equivalent" and made.margin > 0
 
 
 @pytest.mark.parametrize("g", [1, 2])
 def test_moebius_image(g):
-    mesh = triangles(g)
+    mesh = twisted_block(g)
     assert equivalent(surface_of(mesh), surface_of(moebius_image(mesh))).verdict == "equivalent"
 
 
@@ -331,7 +312,7 @@ def test_a_curved_mesh_is_compared_with_its_smooth_surface():
 
 
 def test_a_structure_has_its_own_period_matrix():
-    structure = conformal_structure(surface_of(triangles(2)))
+    structure = conformal_structure(surface_of(twisted_block(2)))
     made = equivalent(structure, structure.period_matrix)
     assert made.verdict == "equivalent" and made.residual < 1e-9
     assert equivalent(structure.period_matrix, -structure.period_matrix.conj()).verdict == "mirror_image"
@@ -376,8 +357,8 @@ def write(folder, name, mesh):
 
 
 def test_command_line(tmp_path, capsys):
-    torus = write(tmp_path, "a.obj", triangles(1))
-    mirrored = write(tmp_path, "b.obj", families.mirrored(triangles(1)))
+    torus = write(tmp_path, "a.obj", twisted_block(1))
+    mirrored = write(tmp_path, "b.obj", families.mirrored(twisted_block(1)))
     ball = write(tmp_path, "ball.obj", families.cube())
     assert main(["compare", torus, torus, "--report", str(tmp_path / "r.json")]) == 0
     assert capsys.readouterr().out.startswith("Equivalent: ")

@@ -16,9 +16,9 @@ from holomorph import (
     conformal_structure,
     log_map,
 )
+from moebius_images import moebius_image, twisted_block
 from shared_data import shared_folder
 from solved import BOUNDED, surface_of
-from test_conformal_equivalence import moebius_image, triangles
 
 
 def edge_length(mesh):
@@ -33,7 +33,7 @@ def structures(*meshes):
 @cache
 def mapped(genus, image=moebius_image):
     """A mesh without symmetry, so that the map is the only one: both structures and the map."""
-    mesh = triangles(genus)
+    mesh = twisted_block(genus)
     both = structures(mesh, image(mesh))
     return *both, conformal_map(*both)
 
@@ -41,7 +41,7 @@ def mapped(genus, image=moebius_image):
 @pytest.mark.parametrize("image", [moebius_image, families.moved, families.mirrored, families.subdivided])
 def test_vertices_are_found_again(image):
     a, b, found = mapped(3, image)
-    mesh, others = triangles(3), b.surface.vertices
+    mesh, others = twisted_block(3), b.surface.vertices
     distance = np.linalg.norm(found.of(others) - others[: len(mesh.vertices)], axis=1)
     assert np.median(distance) < 0.25 * edge_length(mesh) * np.ptp(others) / np.ptp(mesh.vertices)
     assert found.residual < 0.03

@@ -7,7 +7,7 @@ from equivalence import distance
 from holomorph import curve_period_matrix
 from holomorph.igusa import invariants
 from holomorph.siegel import siegel_reduction
-from test_equivalence import BOLZA, LAWSON
+from known_matrices import BOLZA, LAWSON
 
 
 def random_coefficients(degree, seed):

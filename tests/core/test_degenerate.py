@@ -3,8 +3,9 @@
 import families
 import numpy as np
 import pytest
-from holomorph import InvalidMesh, Surface, conformal_structure, log_map, rectangle_map
+from holomorph import InvalidMesh, Surface, conformal_structure, log_map
 from solved import surface_of
+from thin_meshes import square_with
 
 
 @pytest.mark.parametrize("cap", ["n-gon", "fan"])
@@ -89,24 +90,6 @@ def test_a_corner_shrunk_to_next_to_nothing_does_no_harm(size):
 
 ROUNDING = 1e-12
 FLAT = 1e-8  # rounded lengths leave open where the middle vertex of a flat triangle is, to 1e-8 of its longest side
-SQUARE = families.cut_quads(families.grid_quads(5, 5).reshape(5, 5, 4)[:4, :4].reshape(-1, 4))
-
-
-def square_with(point):
-    """The modulus of the unit square in 32 triangles, one more vertex at `point` beside one of their sides, and its
-    bounds."""
-    x, y = (index.ravel() / 4 for index in np.indices((5, 5)))
-    vertices = np.column_stack([x, y, 0 * x])
-    faces = SQUARE.tolist()
-    a, b = 6, 12  # both in the interior
-    across = next(f for f in faces if a in f and b in f)
-    apex = next(v for v in across if v not in (a, b))
-    faces.remove(across)
-    new = len(vertices)
-    start, end = (a, b) if (across.index(b) - across.index(a)) % 3 == 1 else (b, a)
-    faces += [[start, new, apex], [new, end, apex], [start, end, new]]
-    surface = Surface(np.vstack([vertices, point(vertices[a], vertices[b])]), np.array(faces))
-    return surface, rectangle_map(surface, [0, 20, 24, 4])
 
 
 @pytest.mark.parametrize("height", [0, 1e-15, 1e-12, 1e-9, 1e-7, 3e-7])

@@ -3,6 +3,7 @@
 import families
 import numpy as np
 import pytest
+from boundaries import boundary_mask
 from forms import edge_forms
 from holomorph import (
     DiskMap,
@@ -20,36 +21,12 @@ from holomorph import (
     rectangle_map,
     triangle_map,
 )
+from plane_meshes import flat, ring
 from solved import surface_of
-from test_log_map import mean_angle_off_the_stars, neighbours, vertex_at
+from stars import mean_angle_off_the_stars, neighbours, vertex_at
 
 EXACT = 1e-12
 SOLVER = 1e-8
-
-
-def boundary_mask(surface):
-    """(#V,) bool, by counting the faces at each side."""
-    triangles = surface.triangles
-    sides = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-    rows, count = np.unique(sides, axis=0, return_counts=True)
-    mask = np.zeros(len(surface.vertices), dtype=bool)
-    mask[rows[count == 1]] = True
-    return mask
-
-
-def flat(n, jitter=0.2):
-    """The unit disk in the plane."""
-    points, faces = families.hexagonal_disk(n, jitter)
-    return families.uniform(np.column_stack([points, np.zeros(len(points))]), faces, ((0, 1),))
-
-
-def ring(n):
-    """`flat` without its inner half: two boundary loops."""
-    mesh = flat(n, 0)
-    faces = mesh.corners.reshape(-1, 3)
-    kept = faces[np.linalg.norm(mesh.vertices[faces], axis=2).min(axis=1) > 0.5 - 1e-9]
-    used, faces = np.unique(kept, return_inverse=True)
-    return families.uniform(mesh.vertices[used], faces.reshape(-1, 3), ((0, 2),))
 
 
 # ---- the Riemann map ---------------------------------------------------------------------------------------------

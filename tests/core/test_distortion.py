@@ -8,8 +8,8 @@ import pytest
 from families import torus
 from holomorph import coarse_places, distortion
 from holomorph.edges import boundary_edges
+from plane_meshes import grid
 from solved import surface_of
-from test_rectangle import grid
 
 
 def of_arrays(vertices, faces, at):

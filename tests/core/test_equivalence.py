@@ -11,13 +11,10 @@ from equivalence import (
     random_symplectic,
     symplectic_unit,
 )
+from known_matrices import BOLZA, BOLZA_AGAIN, LAWSON, SQUARES
 
 ROUNDING = 1e-9  # entries below 10, after integer matrices with entries below 10^3 on both sides
 
-BOLZA = np.array([[-2, 1], [1, -2]]) / 3 + 1j * np.array([[2, -1], [-1, 2]]) * np.sqrt(2) / 3
-BOLZA_AGAIN = np.array([[1, -1], [-1, 1]]) / 2 + 1j * np.eye(2) / np.sqrt(2)
-LAWSON = 1j / np.sqrt(3) * np.array([[2, -1], [-1, 2]])
-SQUARES = 1j / 3 * np.array([[5, -4], [-4, 5]])
 MATRICES = {
     "square torus": np.array([[1j]]),
     "skew torus": np.array([[0.3 + 1.2j]]),

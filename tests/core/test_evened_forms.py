@@ -3,6 +3,7 @@
 import families
 import numpy as np
 import pytest
+from evened_disks import bumpy_disk, jumps, rim
 from holomorph import (
     Cancelled,
     automatic_structure,
@@ -15,9 +16,8 @@ from holomorph import (
     triangle_map,
 )
 from holomorph.verdicts import UNSEEN, verdict
+from measured import Measured
 from solved import surface_of
-from test_evened_maps import bumpy_disk, jumps, rim
-from test_verdict import Measured
 
 EXACT = 1e-12
 SPHERE = families.geodesic_sphere(9, jitter=0.2)

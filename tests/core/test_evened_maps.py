@@ -3,6 +3,7 @@
 import families
 import numpy as np
 import pytest
+from evened_disks import bumpy_disk, jumps, rim
 from holomorph import Cancelled, Surface, TopologyError, _native, conformal_structure, free_boundary_map, rectangle_map
 from holomorph.evening import evened
 from holomorph.quality import Quality
@@ -14,12 +15,6 @@ EXACT = 1e-12
 def flat_disk():
     points, faces = families.hexagonal_disk(9, jitter=0.25)
     return Surface(np.column_stack([points, 0 * points[:, 0]]), faces)
-
-
-def bumpy_disk(height=0.6):
-    points, faces = families.hexagonal_disk(12, jitter=0.15)
-    x, y = points.T
-    return Surface(np.column_stack([points, height * np.sin(4 * x) * np.cos(3 * y)]), faces)
 
 
 def of_disk(surface):
@@ -51,17 +46,6 @@ def case(name):
 
 def ratio(native, uv):
     return Quality.of(native, uv, 1).density_ratio
-
-
-def jumps(native, uv):
-    """(#, 2) of all corners: what uv has more than at the first corner of its vertex."""
-    vertices, first = np.unique(native.corner_vertices, return_index=True)
-    return uv - uv[first[np.searchsorted(vertices, native.corner_vertices)]]
-
-
-def rim(native):
-    edges = native.edges[np.bincount(native.triangle_edges.ravel(), minlength=len(native.edges)) == 1]
-    return np.unique(edges)
 
 
 @everywhere

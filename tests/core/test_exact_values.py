@@ -1,30 +1,16 @@
 """Discretisation: period matrices against exact values, and the order at which they converge."""
 
-import json
-
 import families
 import lawson
 import numpy as np
 import pytest
 from equivalence import distance_or_mirrored, gram_of, isometries, omega_of
 from holomorph import Surface, conformal_structure
-from shared_data import shared_folder
+from shared_data import complex_matrix, reference_surface, reference_values
 from solved import surface_of
 
 EXACT = 1e-12  # where the symmetry of the mesh alone fixes Omega, only rounding is left
 LEAST_ORDER = 1.8
-
-
-def reference_values():
-    return json.loads((shared_folder("reference") / "values.json").read_text())
-
-
-def reference_surface(name):
-    path = shared_folder("reference") / "meshes" / name
-    if path.suffix == ".npz":
-        with np.load(path) as arrays:
-            return Surface.from_edge_lengths(arrays["faces"], arrays["edge_lengths"])
-    return Surface.read(path)
 
 
 def error(surface, omega):
@@ -74,13 +60,6 @@ def test_jittered_torus_of_revolution_converges(radii):
 
 
 # ---- the reference meshes ------------------------------------------------------------------------
-
-
-def complex_matrix(entry):
-    if "Re" in entry:
-        return np.array(entry["Re"]) + 1j * np.array(entry["Im"])
-    factor = {"i/3": 1j / 3, "i/sqrt(3)": 1j / np.sqrt(3)}[entry["times"]]
-    return factor * np.array(entry["matrix"])
 
 
 @pytest.mark.parametrize("level", range(4))

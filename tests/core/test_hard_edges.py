@@ -4,36 +4,11 @@ import families
 import numpy as np
 import pytest
 from holomorph import Surface, free_boundary_map, islands, log_map
+from island_checks import assert_same_faces, is_rigid
+from solids import bracket, can, cone
 from solved import surface_of
-from test_islands import assert_same_faces, is_rigid
 
 ANGLE = 40  # degrees
-
-
-def around(n, radius, height):
-    turn = 2 * np.pi * np.arange(n) / n
-    return np.stack([radius * np.cos(turn), radius * np.sin(turn), np.full(n, height)], axis=1)
-
-
-def cone(n=32):
-    """As Blender makes it: triangles to the tip, vertex n, and a base of one face."""
-    sides = [[i, (i + 1) % n, n] for i in range(n)]
-    return Surface(np.concatenate([around(n, 1, -1), [[0, 0, 1]]]), [*sides, list(range(n))[::-1]])
-
-
-def can(n=32):
-    """A cylinder with one face for each cap."""
-    sides = [[i, (i + 1) % n, n + (i + 1) % n, n + i] for i in range(n)]
-    points = np.concatenate([around(n, 1, -1), around(n, 1, 1)])
-    return Surface(points, [*sides, list(range(n))[::-1], list(range(n, 2 * n))])
-
-
-def bracket():
-    """Two plates at a right angle, with a square hole in one."""
-    cells = np.ones((4, 4, 4), bool)
-    cells[1:, :, 1:] = False
-    cells[0, 1:3, 2] = False
-    return surface_of(families.voxel_surface(cells, ((0, 0),)))
 
 
 def test_a_cone_is_too_coarse_for_one_map_and_fits_in_islands():

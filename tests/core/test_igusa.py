@@ -11,9 +11,9 @@ from equivalence import random_symplectic
 from holomorph import TopologyError, conformal_structure, igusa_invariants
 from holomorph.igusa import enclosed, invariants
 from holomorph.siegel import moved, siegel_reduction
+from known_matrices import BOLZA, LAWSON
+from shared_data import complex_matrix, reference_surface, reference_values
 from solved import surface_of
-from test_equivalence import BOLZA, LAWSON
-from test_exact_values import complex_matrix, reference_surface, reference_values
 
 BOLZA_CURVE, LAWSON_CURVE, DECAGON_CURVE = [1, 0, 0, 0, -1, 0], [1, 0, 0, 0, 0, 0, -1], [1, 0, 0, 0, 0, -1]
 

@@ -6,8 +6,8 @@ import pytest
 from flint import arb
 from holomorph import _native, conformal_structure
 from interval_energies import is_positive, of_doubles
+from small_families import SMALL
 from solved import surface_of
-from test_certified_bounds import SMALL
 
 WIDER = 1 + 1e-9  # than the bounds of the same functions without rounding; 1.5 is asked for
 ROUNDING = 1e-12  # relative

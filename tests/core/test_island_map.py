@@ -7,8 +7,8 @@ import pytest
 from holomorph import Surface
 from holomorph.edges import polygon_sides
 from holomorph.island_map import island_map
+from solids import around, bracket, can, cone
 from solved import surface_of
-from test_hard_edges import around, bracket, can, cone
 
 EXACT = 1e-9
 

@@ -3,38 +3,13 @@
 import families
 import numpy as np
 import pytest
-from holomorph import FreeBoundaryMap, Surface, TopologyError, free_boundary_map, islands
+from boundaries import boundary_mask
+from holomorph import FreeBoundaryMap, Surface, TopologyError, islands
+from island_checks import ISOMETRIC, assert_same_faces, free, is_rigid, sides, stretches
+from plane_meshes import flat, ring
 from solved import surface_of
-from test_disk import boundary_mask, flat, ring
 
-ISOMETRIC = 1e-10  # relative
 SECOND_ORDER, FIRST_ORDER = 3.0, 1.8  # least factors of an error from one level to the next, twice as fine
-
-
-def free(surface, **options):
-    return free_boundary_map(surface, **options)
-
-
-def sides(surface):
-    """(3 #T, 2) polygon corners at the ends of each triangle's sides."""
-    corners = surface.triangle_corners
-    return np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2)
-
-
-def stretches(surface, uv):
-    """Length in the map over that in space of each triangle's sides."""
-    ends = sides(surface)
-    in_space = surface.vertices[surface.corner_vertices[ends]]
-    return np.linalg.norm(np.diff(uv[ends], axis=1)[:, 0], axis=1) / np.linalg.norm(
-        np.diff(in_space, axis=1)[:, 0], axis=1
-    )
-
-
-def is_rigid(surface):
-    structure = free(surface)
-    uv = structure.uv()
-    isometric = np.abs(stretches(surface, uv) - 1).max() < ISOMETRIC
-    return isometric and not structure.quality(uv).flipped.any()
 
 
 def seams_where(surface, chosen):
@@ -164,14 +139,6 @@ def test_refusals_of_a_free_boundary(mesh, words):
 
 
 # ---- cuts --------------------------------------------------------------------------------------------------------
-
-
-def assert_same_faces(surface, parts):
-    """The parts have each face once, and their indices lead to its vertices and corners."""
-    assert np.array_equal(np.sort(np.concatenate([part.face_index for part in parts])), surface.face_index)
-    for part in parts:
-        assert np.array_equal(part.vertices, surface.vertices[part.vertex_index])
-        assert np.array_equal(part.vertex_index[part.corner_vertices], surface.corner_vertices[part.corner_index])
 
 
 def test_a_cube_falls_into_its_sides():

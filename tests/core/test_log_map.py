@@ -6,15 +6,12 @@ import pytest
 from forms import edge_forms
 from holomorph import Cancelled, Surface, TopologyError, conformal_structure, log_map
 from solved import CLOSED, surface_of
-from test_uv import corner_sides, jumps
+from stars import mean_angle_off_the_stars, neighbours, star_triangles, triangulation, vertex_at
+from uv_jumps import corner_sides, jumps
 
 EXACT = 1e-12
 SOLVER = 1e-8
 TAU = 2 * np.pi
-
-
-def vertex_at(mesh, point):
-    return int(np.argmin(np.linalg.norm(mesh.vertices - point, axis=1)))
 
 
 RING = families.square_ring(5)
@@ -44,27 +41,6 @@ def solved(name):
 def first(structure):
     """UVs of theta_0 alone, as complex numbers."""
     return structure.uv(np.eye(len(structure.holomorphic_forms))[0]) @ [1, 1j]
-
-
-def triangulation(structure):
-    """Triangles and their corners of the structure's own triangulation."""
-    return structure._triangulation.triangles, structure._triangulation.triangle_corners
-
-
-def star_triangles(structure):
-    return np.isin(triangulation(structure)[0], structure.poles).any(axis=1)
-
-
-def neighbours(structure, pole):
-    """The link of a pole, counter-clockwise."""
-    triangles, _ = triangulation(structure)
-    rows, place = np.nonzero(triangles == pole)
-    after = {triangles[t][(i + 1) % 3]: triangles[t][(i + 2) % 3] for t, i in zip(rows, place, strict=True)}
-    link = [min(after)]
-    while after[link[-1]] != link[0]:
-        link.append(after[link[-1]])
-    assert len(link) == len(after)
-    return np.array(link)
 
 
 # ---- what a differential of the third kind is --------------------------------------------------------------------
@@ -406,15 +382,6 @@ def test_sphere_map_needs_a_sphere_with_two_poles():
 
 
 # ---- real meshes and higher genus --------------------------------------------------------------------------------
-
-
-def mean_angle_off_the_stars(structure):
-    quality = structure.quality(structure.uv(structure.balanced_coefficients()))
-    triangles, _ = triangulation(structure)
-    p = structure.surface.vertices[triangles]
-    area = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
-    off = ~star_triangles(structure)
-    return (quality.angle * area)[off].sum() / area[off].sum()
 
 
 @pytest.mark.parametrize(

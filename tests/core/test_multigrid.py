@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from holomorph import Cancelled, conformal_structure
 from solved import CLOSED, FLAT, surface_of
+from thin_meshes import needles
 
 SOLVER = 1e-8  # relative residual that a result may have
 
@@ -62,15 +63,6 @@ def high_valence(count):
     low, high = chain[:-1], chain[1:]
     fans = [np.stack([low, high, np.full(count, c)], axis=1), np.stack([high, low, np.full(count, d)], axis=1)]
     return families.uniform(points, np.concatenate([np.delete(faces, pair, axis=0), *fans]))
-
-
-def needles(width):
-    """A torus in which vertices nearly meet: triangles so thin that weights reach 1 / width."""
-    mesh = families.torus(60, 40, shape="triangles")
-    points = mesh.vertices.copy()
-    for triangle in mesh.corners.reshape(-1, 3)[::7]:
-        points[triangle[0]] = (1 - width) * points[triangle[1]] + width * points[triangle[0]]
-    return families.uniform(points, mesh.corners.reshape(-1, 3))
 
 
 def in_runs(mesh, length):

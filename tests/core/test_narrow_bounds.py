@@ -7,9 +7,8 @@ import pytest
 from equivalence import distance_or_mirrored
 from holomorph import TopologyError, conformal_structure
 from holomorph.narrow_bounds import narrow
-from shared_data import shared_folder
+from shared_data import complex_matrix, reference_values, shared_folder
 from solved import surface_of
-from test_exact_values import complex_matrix, reference_values
 
 SQUARE_MINUS_SQUARE = 10.234092569368052  # its capacity, see test_boundary_values
 

@@ -5,6 +5,7 @@ from functools import cache
 import families
 import numpy as np
 import pytest
+from conjugate_gradients import gradient_steps
 from forms import edge_weights
 from holomorph import (
     BoundedStructure,
@@ -17,7 +18,6 @@ from holomorph import (
 )
 from repository import SHARED
 from solved import BOUNDED, surface_of
-from test_paper_solver import gradient_steps
 
 LARGE = {
     "torus with 3 holes": families.punched(families.torus(90, 50, shape="triangles", jitter=0.25), 3),

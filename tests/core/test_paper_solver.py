@@ -6,12 +6,15 @@ from functools import cache
 import families
 import numpy as np
 import pytest
+from command_runs import run
+from computed_bits import assert_same_bits
+from conjugate_gradients import gradient_steps
 from forms import EdgeForms, edge_forms, edge_weights, on_triangle_sides
 from holomorph import Cancelled, InvalidMesh, ProgressiveMesh, SolverError, Surface, conformal_structure
+from mesh_files import write_obj
 from repository import SHARED
 from solved import CLOSED, surface_of
-from test_multigrid import needles
-from test_running import assert_same_bits, run, write_obj
+from thin_meshes import needles
 
 
 def doubled_diagonal():
@@ -179,29 +182,6 @@ def iterations_from_zero(structure, scaled):
     flux = weights * np.rint(integer)
     b = np.stack([np.bincount(tail, f, n) - np.bincount(head, f, n) for f in flux])
     return gradient_steps(edges, weights, b, scaled)
-
-
-def gradient_steps(edges, weights, b, scaled):
-    """Iterations of conjugate gradients from zero, down to a relative residual of 1e-10 for every row of b."""
-    n, head, tail = b.shape[1], edges[:, 1], edges[:, 0]
-
-    def apply(x):
-        y = weights * (x[:, head] - x[:, tail])
-        return np.stack([np.bincount(head, f, n) - np.bincount(tail, f, n) for f in y])
-
-    diagonal = np.bincount(head, weights, n) + np.bincount(tail, weights, n) if scaled else 1.0
-    r = b.copy()
-    p = r / diagonal
-    rz = (r * p).sum(axis=1)
-    count, goal = 0, 1e-10 * np.linalg.norm(b, axis=1)
-    while (np.linalg.norm(r, axis=1) > goal).any():
-        q = apply(p)
-        r -= (rz / (p * q).sum(axis=1))[:, None] * q
-        z = r / diagonal
-        before, rz = rz, (r * z).sum(axis=1)
-        p = z + (rz / before)[:, None] * p
-        count += 1
-    return count
 
 
 def potentials(structure):

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from boundaries import boundary_edges, boundary_sides, handles_of, least_eigenvalue, signed_area, size
 from forms import determinant
 from holomorph import BoundedStructure, Surface, conformal_structure
 from shared_data import REAL, real_file
-from test_bounded import boundary_edges, boundary_sides, handles_of, least_eigenvalue, signed_area, size
 
 SOLVER = 1e-8
 

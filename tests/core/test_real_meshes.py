@@ -7,7 +7,7 @@ import pytest
 from forms import edge_forms, on_triangle_sides
 from holomorph import Surface, conformal_structure
 from shared_data import REAL, by_component, real_file
-from test_uv import jumps, triangle_areas
+from uv_jumps import jumps, triangle_areas
 
 SOLVER = 1e-8
 

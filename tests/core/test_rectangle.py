@@ -4,28 +4,12 @@ import families
 import numpy as np
 import pytest
 from holomorph import RectangleMap, Surface, TopologyError, rectangle_map
+from plane_meshes import corners_of, grid, wavy
 from solved import surface_of
 
 EXACT = 1e-12
 SOLVER = 1e-8
 TRAPEZOID = 1.2792616  # in eight digits, as published
-
-
-def grid(n, m, place=lambda x, y: np.stack([x, y, 0 * x], axis=1), shape="quads"):
-    """n x m cells of the unit square, placed in space: vertex (i, j) has index i (m + 1) + j."""
-    quads = families.grid_quads(n + 1, m + 1).reshape(n + 1, m + 1, 4)[:-1, :-1].reshape(-1, 4)
-    i, j = np.divmod(np.arange((n + 1) * (m + 1)), m + 1)
-    faces = quads if shape == "quads" else families.cut_quads(quads, alternate=True)
-    return families.uniform(place(i / n, j / m), faces, ((0, 1),))
-
-
-def corners_of(n, m):
-    """Corners of `grid`, in order with the surface on the left, from (0, 0) along x."""
-    return [0, n * (m + 1), n * (m + 1) + m, m]
-
-
-def wavy(x, y):
-    return np.stack([2 * x, y + 0.1 * np.sin(5 * x), 0.2 * np.cos(4 * x * y)], axis=1)
 
 
 def trapezoid(n):

@@ -12,26 +12,12 @@ import families
 import holomorph
 import numpy as np
 import pytest
+from command_runs import run
+from computed_bits import assert_same_bits
 from holomorph import Cancelled, Error, Surface, TopologyError, conformal_structure
-from mesh_files import obj
+from mesh_files import obj, write_obj
 from repository import ROOT, SUPPORT
-from solved import CLOSED, RESULTS, solved, surface_of
-
-
-def all_arrays(structure):
-    c = structure.balanced_coefficients()
-    uv = structure.uv(c)
-    quality = structure.quality(uv)
-    single = [getattr(structure, name) for name in RESULTS]
-    numbers = np.array([quality.mean_angle, quality.density_ratio, *vars(structure.residuals).values()])
-    return [*single, *structure.homology_basis, *structure.period_bounds, c, uv, quality.angle, quality.area, numbers]
-
-
-def assert_same_bits(one, other):
-    for a, b in zip(all_arrays(one), all_arrays(other), strict=True):
-        assert a.dtype == b.dtype
-        assert a.tobytes() == b.tobytes()
-
+from solved import CLOSED, solved, surface_of
 
 # ---- same input, same bits ----------------------------------------------------------------------------------------
 
@@ -54,7 +40,7 @@ ANOTHER_PROCESS = """
 import hashlib, json, sys
 sys.path[:0] = json.loads(sys.argv[1])
 from solved import solved
-from test_running import all_arrays
+from computed_bits import all_arrays
 arrays = all_arrays(solved("genus 3 block"))
 print(hashlib.sha256(b"".join(array.tobytes() for array in arrays)).hexdigest())
 """
@@ -302,22 +288,6 @@ def test_options_have_names():
 
 
 # ---- the command --------------------------------------------------------------------------------------------------
-
-
-def run(*arguments):
-    package = str(Path(holomorph.__file__).parents[1])
-    return subprocess.run(
-        [sys.executable, "-m", "holomorph", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        env=os.environ | {"PYTHONPATH": package},
-    )
-
-
-def write_obj(path, mesh):
-    path.write_bytes(obj(mesh))
-    return path
 
 
 def test_command_reports_every_component(tmp_path):

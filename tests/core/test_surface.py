@@ -5,7 +5,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import InvalidMesh, Surface, TopologyError, conformal_structure
-from test_families import FLAT, MESHES
+from small_families import FLAT, MESHES
 
 ROUNDING = 1e-12  # relative: sums of a few thousand numbers of order 1
 

@@ -5,7 +5,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import ProgressiveMesh, SolverError, Surface, Tiler, conformal_structure, log_map
-from test_thin_triangles import glued, layout
+from thin_meshes import glued, layout
 
 PROMISED = 1e-6  # relative error of a form in energy
 EACH_SOLVER = pytest.mark.parametrize("solver", ["direct", "multigrid"])

@@ -7,39 +7,11 @@ import families
 import numpy as np
 import pytest
 from holomorph import SolverError, Surface, conformal_structure
-from test_degenerate import square_with
+from thin_meshes import glued, layout, square_with
 
 ROUNDING = 1e-13  # error of a flat surface's modulus, in any triangulation
 SOLVERS = [{"solver": "direct"}, {"solver": "multigrid"}, {"solver": "direct", "boundary": "double_cover"}]
 every_solver = pytest.mark.parametrize("options", SOLVERS, ids=lambda options: " ".join(options.values()))
-
-
-def layout(n, m, width, jitter=0.0, cut="random", seed=0, straight=False):
-    """A strip 1 long and `width` high of n x m quads, cut along diagonals of any direction: the vertices' grid
-    indices (#T, 3, 2) and their positions in the plane. The vertices between the two sides are moved up and down, if
-    not `straight`; those of each row along by `jitter` of a step."""
-    noise = np.random.default_rng(seed).uniform(-0.4, 0.4, (2, n, m + 1))
-    inner = (np.arange(m + 1) > 0) & (np.arange(m + 1) < m) & (not straight)
-    u = (np.arange(n)[:, None] + jitter * noise[0]) / n
-    v = (np.arange(m + 1) + 0.8 * inner * noise[1]) * width / m
-    i, j = np.divmod(np.arange(n * m), m)
-    a, b, c, d = (np.stack([i + x, j + y], axis=1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1)))
-    flipped = (cut == "random") * np.random.default_rng(seed).integers(2, size=n * m)[:, None, None] > 0
-    grid = np.stack(
-        [
-            np.where(flipped, np.stack(p, 1), np.stack(q, 1))
-            for p, q in (([a, b, d], [a, b, c]), ([b, c, d], [a, c, d]))
-        ],
-        1,
-    ).reshape(-1, 3, 2)
-    wrapped = grid[..., 0] % n, grid[..., 1]
-    return grid, np.stack([u[wrapped] + (grid[..., 0] == n), v[wrapped]], axis=-1)
-
-
-def glued(faces, corners):
-    """An intrinsic surface of triangles laid out in the plane, (#T, 3, 2)."""
-    sides = np.roll(corners, -1, axis=1) - np.roll(corners, -2, axis=1)
-    return Surface.from_edge_lengths(faces, np.hypot(*np.moveaxis(sides, -1, 0)))
 
 
 def ring(width, m=3, **keywords):

@@ -6,33 +6,14 @@ import numpy as np
 import pytest
 from holomorph import Cancelled, InvalidMesh, Tiler, TopologyError, automatic_structure, place_poles
 from solved import surface_of
-from tiled_families import CASES, DISK, DOUBLE, SPHERE, TORUS, tiling
+from tiled_families import CASES, DISK, DOUBLE, EXACT, SPHERE, TORUS, jumps, tiling
 
-EXACT = 1e-12
 everywhere = pytest.mark.parametrize("name", CASES)
 
 
 def basis(options):
     a, b = holomorph.tiling_options.LATTICES[options.get("lattice", "square")]
     return np.array([[a.real, complex(b).real], [complex(a).imag, complex(b).imag]])
-
-
-def jumps(mesh, uv, poles):
-    """(#E, 2, 2) differences of the UVs of the two polygons at each inner edge, at both of its ends; without edges that
-    end at a pole."""
-    sizes = np.diff(mesh.offsets)
-    first = np.repeat(mesh.offsets[:-1], sizes)
-    here = np.arange(len(mesh.corners))
-    after = first + (here - first + 1) % np.repeat(sizes, sizes)
-    start, end = mesh.corners[here], mesh.corners[after]
-    key, back = start * len(mesh.vertices) + end, end * len(mesh.vertices) + start
-    order = np.argsort(key)
-    place = np.searchsorted(key[order], back)
-    found = (place < len(key)) & (key[order][np.minimum(place, len(key) - 1)] == back)
-    found &= (start < end) & ~np.isin(start, poles) & ~np.isin(end, poles)
-    other = order[place[found]]
-    mine = here[found]
-    return np.stack([uv[mine] - uv[after[other]], uv[after[mine]] - uv[other]], axis=1)
 
 
 @everywhere

@@ -4,7 +4,7 @@ import families
 import numpy as np
 import pytest
 from holomorph import Cancelled, Surface, Tiler
-from test_tiling import EXACT, jumps
+from tiled_families import EXACT, jumps
 
 HANDLES = 10, 10
 STEPS_PER_INTEGER = 500  # of the reductions

@@ -7,6 +7,7 @@ import pytest
 from forms import edge_forms, wedge_matrix
 from holomorph import conformal_structure
 from solved import CLOSED, FLAT, solved, surface_of
+from uv_jumps import corner_sides, jumps, triangle_areas
 
 SOLVER = 1e-8  # of the largest UV edge or period
 embedded = pytest.mark.parametrize("name", CLOSED)
@@ -17,35 +18,6 @@ def some_coefficients(structure, seed=4):
     g = len(structure.period_matrix)
     random = np.random.default_rng(seed)
     return random.normal(size=g) + 1j * random.normal(size=g)
-
-
-def corner_sides(surface):
-    """Every polygon corner and the next one in its polygon."""
-    following = np.arange(1, len(surface.corner_vertices) + 1)
-    following[surface.face_offsets[1:] - 1] = surface.face_offsets[:-1]
-    return np.arange(len(following)), following
-
-
-def pairs_of_sides(surface):
-    """(#E, 2) corners at which the two sides of every polygon edge start, and the edge's ends by key."""
-    start, end = corner_sides(surface)
-    ends = np.sort(np.stack([surface.corner_vertices[start], surface.corner_vertices[end]], axis=1), axis=1)
-    keys = ends.astype(np.int64) @ [len(surface.vertices), 1]
-    order = np.argsort(keys, kind="stable").reshape(-1, 2)
-    return order, keys[order[:, 0]]
-
-
-def jumps(surface, uv):
-    """(#E, 2, 2): difference of the UVs on the two sides of every polygon edge, at both of its ends."""
-    order, keys = pairs_of_sides(surface)
-    _, following = corner_sides(surface)
-    near, far = order.T
-    same = (
-        surface.corner_vertices[near] == surface.corner_vertices[far]
-    )  # sides read in the same direction: repaired faces
-    at_start = uv[np.where(same, far, following[far])] - uv[near]
-    at_end = uv[np.where(same, following[far], far)] - uv[following[near]]
-    return np.stack([at_start, at_end], axis=1), keys
 
 
 # ---- what a UV map is ----------------------------------------------------------------------------
@@ -126,13 +98,6 @@ def test_uv_and_uv_of_agree(name):
     periods = edge_forms(structure).integrals(structure.holomorphic_forms, structure.homology_basis).T @ c
     step = structure.uv(c) - structure.uv_of(periods.real, periods.imag)
     assert np.abs(step - step[0]).max() < SOLVER * np.abs(structure.uv(c)).max()
-
-
-def triangle_areas(surface, uv):
-    """Signed UV area of each triangle."""
-    p = uv[surface.triangle_corners]
-    a, b = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
-    return (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
 
 
 @everywhere

@@ -26,8 +26,8 @@ from holomorph import (
     rectangle_map,
     triangle_map,
 )
+from solids import can
 from solved import BOUNDED, CLOSED, FLAT, solved, surface_of
-from test_island_map import can
 
 LONGEST_REPR = 240
 OF_SURFACES = [

@@ -1,7 +1,7 @@
 """The verdict on UV maps: thresholds one by one, words, the report and the exit status of the command."""
 
 import json
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import families
 import numpy as np
@@ -10,26 +10,12 @@ from holomorph import Surface, automatic_structure, form_map, overall, verdict
 from holomorph.__main__ import main
 from holomorph.report import part_report, whole_report
 from holomorph.verdicts import LEVELS, LOST, OVERLAPPING, SHEARED, UNEVEN
+from measured import Measured
 from mesh_files import obj
 from solved import solved, surface_of
 
 POINTS, TRIANGLES = families.hexagonal_disk(6)
 FLAT_PIECE = np.pad(POINTS, ((0, 0), (0, 1)))
-
-
-@dataclass
-class Measured:
-    """What a verdict reads of a `Quality`; by default of a map without any distortion."""
-
-    density_ratio: float = 1.0
-    capped_mean_angle: float = 1.0
-    lost_part: float = 0.0
-    long_part: float = 0.0
-    mean_angle: float = 1.0
-    overlapping_part: float | None = None
-    unseen_angle: float = 0.0
-    flipped: tuple = (False,)
-    collapsed: tuple = (False,)
 
 
 def disk():

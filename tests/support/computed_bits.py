@@ -6,7 +6,7 @@ import families
 import numpy as np
 from holomorph import ProgressiveMesh, Surface, Tiler, automatic_structure
 from mesh_files import off
-from solved import surface_of
+from solved import RESULTS, surface_of
 
 TORUS = families.torus(97, 85, shape="triangles", jitter=0.2)  # just large enough for its loops to be shared out
 
@@ -43,3 +43,18 @@ TINY = {
     "levels": (bits_of_levels, families.torus(6, 5), {}),
     "file": (bits_of_file, families.torus(6, 5), {}),
 }
+
+
+def all_arrays(structure):
+    c = structure.balanced_coefficients()
+    uv = structure.uv(c)
+    quality = structure.quality(uv)
+    single = [getattr(structure, name) for name in RESULTS]
+    numbers = np.array([quality.mean_angle, quality.density_ratio, *vars(structure.residuals).values()])
+    return [*single, *structure.homology_basis, *structure.period_bounds, c, uv, quality.angle, quality.area, numbers]
+
+
+def assert_same_bits(one, other):
+    for a, b in zip(all_arrays(one), all_arrays(other), strict=True):
+        assert a.dtype == b.dtype
+        assert a.tobytes() == b.tobytes()

@@ -131,3 +131,8 @@ TRIANGLE_FILES = {
     "binary that says solid.stl": stl_binary(TRIANGLES, head=b"solid facet"),
     "padded.stl": stl_binary(TRIANGLES, tail=b"\0\0"),
 }
+
+
+def write_obj(path, mesh):
+    path.write_bytes(obj(mesh))
+    return path

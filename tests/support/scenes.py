@@ -314,3 +314,22 @@ def linked(folder):
     (obj,) = target.objects
     bpy.context.scene.collection.objects.link(obj)
     return obj
+
+
+def moebius():
+    count = 12
+    angle = np.pi * np.arange(count) / count
+    edge = np.stack([np.cos(angle), np.sin(angle), 0 * angle], -1)
+    around = np.stack([np.cos(2 * angle), np.sin(2 * angle), 0 * angle], -1)
+    side = around * edge[:, :1] * 0.3 + np.array([0, 0, 0.3]) * edge[:, 1:2]
+    vertices = np.concatenate([around - side, around + side])
+    faces = [(i, i + 1, count + i + 1, count + i) for i in range(count - 1)]
+    faces.append((count - 1, count, 0, 2 * count - 1))
+    return mesh_object("Bad", vertices, faces)
+
+
+def duplicate(obj):
+    """Linked: another object with the same mesh."""
+    copy = obj.copy()
+    bpy.context.scene.collection.objects.link(copy)
+    return copy

@@ -1,9 +1,12 @@
 """Folders of the shared data beside the repository: tests of them are skipped where they are absent."""
 
 import gzip
+import json
 import re
 
+import numpy as np
 import pytest
+from holomorph import Surface
 from repository import SHARED
 
 
@@ -42,3 +45,22 @@ def by_component(text):
         return None
     parts = [part.strip().split("b") for part in text.split("+")]
     return sorted((int(part[0]), int(part[1]) if len(part) > 1 else 0) for part in parts)
+
+
+def reference_values():
+    return json.loads((shared_folder("reference") / "values.json").read_text())
+
+
+def reference_surface(name):
+    path = shared_folder("reference") / "meshes" / name
+    if path.suffix == ".npz":
+        with np.load(path) as arrays:
+            return Surface.from_edge_lengths(arrays["faces"], arrays["edge_lengths"])
+    return Surface.read(path)
+
+
+def complex_matrix(entry):
+    if "Re" in entry:
+        return np.array(entry["Re"]) + 1j * np.array(entry["Im"])
+    factor = {"i/3": 1j / 3, "i/sqrt(3)": 1j / np.sqrt(3)}[entry["times"]]
+    return factor * np.array(entry["matrix"])

@@ -71,3 +71,24 @@ def same_points(a, b, distance):
     """Whether each point of one list is near one of the other: as many in both."""
     between = np.linalg.norm(a[:, None] - b, axis=2)
     return len(a) == len(b) and max(between.min(axis=0).max(), between.min(axis=1).max()) < distance
+
+
+EXACT = 1e-12
+
+
+def jumps(mesh, uv, poles):
+    """(#E, 2, 2) differences of the UVs of the two polygons at each inner edge, at both of its ends; without edges that
+    end at a pole."""
+    sizes = np.diff(mesh.offsets)
+    first = np.repeat(mesh.offsets[:-1], sizes)
+    here = np.arange(len(mesh.corners))
+    after = first + (here - first + 1) % np.repeat(sizes, sizes)
+    start, end = mesh.corners[here], mesh.corners[after]
+    key, back = start * len(mesh.vertices) + end, end * len(mesh.vertices) + start
+    order = np.argsort(key)
+    place = np.searchsorted(key[order], back)
+    found = (place < len(key)) & (key[order][np.minimum(place, len(key) - 1)] == back)
+    found &= (start < end) & ~np.isin(start, poles) & ~np.isin(end, poles)
+    other = order[place[found]]
+    mine = here[found]
+    return np.stack([uv[mine] - uv[after[other]], uv[after[mine]] - uv[other]], axis=1)
