@@ -1,4 +1,5 @@
-// Loaded before all other libraries, by tests/core/test_faults.py: lets one request for memory, or for a thread, fail.
+// Loaded before all other libraries, by tests/core/base/test_faults.py: lets one request for memory, or for a
+// thread, fail.
 #include <dlfcn.h>
 #include <pthread.h>
 

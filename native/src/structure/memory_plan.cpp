@@ -9,7 +9,7 @@
 namespace holomorph::structure {
 namespace {
 
-// Bytes, as measured and rounded up: tests/core/test_memory_limit.py holds the sum against the peak.
+// Bytes, as measured and rounded up: tests/core/structure/test_memory_limit.py holds the sum against the peak.
 // Half-edges twice, lengths, weights, integer classes twice, fundamental domain, Laplacian, not all of them at the same
 // time: per edge.
 constexpr double kPerEdge = 200;

@@ -1,4 +1,4 @@
-"""What a user may write, for type checkers: tests/core/test_types.py. `assert_type` fails where a type is not that."""
+"""What a user may write, for type checkers: test_types.py beside it. `assert_type` fails where a type is not that."""
 
 from typing import Any, assert_type
 
