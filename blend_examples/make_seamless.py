@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the files of blend_examples/seamless: examples with a finished seamless tiling, to be looked at as they open.
-Run it with Blender 3.4, after scripts/build (scripts/seamless_examples does):
+Run it with Blender 3.4, after scripts/build (scripts/seamless-examples does):
 
 blender -b --factory-startup --python-exit-code 1 --python blend_examples/make_seamless.py -- PICTURES [name...]
 

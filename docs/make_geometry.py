@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A picture of geometry on a tiling: scripts/geometry_picture puts several together.
+"""A picture of geometry on a tiling: scripts/geometry-picture puts several together.
 
 blender -b EXAMPLE.blend --factory-startup --python-exit-code 1 --python docs/make_geometry.py -- \
     PICTURE PIECE TILES COLUMNS [scatter]

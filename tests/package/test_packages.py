@@ -76,7 +76,7 @@ def test_the_legacy_zip_installs_and_works(dist, blender, tmp_path):
 
 
 def test_the_same_sources_give_the_same_extension(dist, tmp_path):
-    run(sys.executable, ROOT / "scripts" / "make_zips.py", tmp_path, *sorted(dist.glob("*.whl")))
+    run(sys.executable, ROOT / "scripts" / "make-zips.py", tmp_path, *sorted(dist.glob("*.whl")))
     assert extension(tmp_path).read_bytes() == extension(dist).read_bytes()
 
 

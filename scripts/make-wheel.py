@@ -1,4 +1,4 @@
-"""Put the files of a package compiled for another platform into a wheel: make_wheel.py STAGE TAG FOLDER.
+"""Put the files of a package compiled for another platform into a wheel: make-wheel.py STAGE TAG FOLDER.
 
 STAGE has the package, TAG is that of the wheel's name, as in cp311-cp311-win_amd64.
 """

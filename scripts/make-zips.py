@@ -1,4 +1,4 @@
-"""Put the add-on and its wheels into the zips that Blender installs, one a platform: make_zips.py FOLDER WHEEL..."""
+"""Put the add-on and its wheels into the zips that Blender installs, one a platform: make-zips.py FOLDER WHEEL..."""
 
 import io
 import re
@@ -42,12 +42,12 @@ def addon_files():
 def with_wheels(manifest, platform, wheels):
     """The manifest of one platform, naming its wheels in the same table, which comes before any other."""
     if re.search(r"^wheels\s*=", manifest, re.MULTILINE):
-        raise SystemExit("make_zips.py: blender_manifest.toml lists wheels; the list is written here")
+        raise SystemExit("make-zips.py: blender_manifest.toml lists wheels; the list is written here")
     names = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
     lines = f'platforms = ["{platform}"]\nwheels = [\n{names}]'
     manifest, found = re.subn(r"^platforms = \[[^]]*\]$", lines, manifest, flags=re.MULTILINE)
     if found != 1:
-        raise SystemExit("make_zips.py: blender_manifest.toml does not list the platforms")
+        raise SystemExit("make-zips.py: blender_manifest.toml does not list the platforms")
     return manifest
 
 
