@@ -13,12 +13,11 @@ from mathutils import Euler
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "support"))
 from objects import maps, part_report, pick
-from running import run
+from running import run, wait_until
 from screen import area, click, enter, hover, inside, picture, region, window
 from sidebar import open_sidebar, press_button
 
 ROOT = Path(__file__).resolve().parents[2]
-PATIENCE = 120  # seconds for a map
 SOLE, END = 0.12, 0.06  # shares of the height and the length: what is beyond them may have poles
 BAKED = 1024  # pixels
 MUG = 1.15  # distance from which the mug is seen, over that at which it fills the view
@@ -81,10 +80,7 @@ def set_dials(**values):
 
 
 def wait_for_maps(obj):
-    for _ in range(10 * PATIENCE):
-        yield 0.1
-        if maps(obj.name):
-            break
+    yield from wait_until(lambda: maps(obj.name))
     yield 1
 
 
@@ -229,12 +225,5 @@ def baked():
 PARTS = (one_button, add_poles, hide_poles, levels, islands, baked, dials)
 
 
-def steps():
-    wanted = sys.argv[sys.argv.index("--") + 2 :]
-    yield from prepare()
-    for part in PARTS:
-        if not wanted or part.__name__ in wanted:
-            yield from part()
-
-
-run(steps(), seen)
+wanted = sys.argv[sys.argv.index("--") + 2 :]
+run([prepare, *(part for part in PARTS if not wanted or part.__name__ in wanted)], seen)

@@ -4,10 +4,10 @@ import json
 
 import bpy
 from objects import look_at, pick
+from running import wait_until
 from screen import area, enter, inside, picture
 from sidebar import open_sidebar, press_button
 
-PATIENCE = 30  # seconds for an object
 seen = {}
 
 
@@ -26,11 +26,7 @@ def report_of(name):
 
 def wait_for(name, before=None):
     """Until there is another report on the object."""
-    for _ in range(10 * PATIENCE):
-        yield 0.1
-        found = report_of(name)
-        if found is not None and found != before:
-            break
+    yield from wait_until(lambda: report_of(name) not in (None, before))
     yield 1
 
 

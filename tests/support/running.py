@@ -1,17 +1,28 @@
 """Runs the steps of a script one after the other, writes down what they saw, and ends Blender."""
 
+import itertools
 import json
 import os
 import sys
+import time
 import traceback
 
 import bpy
 from screen import FOLDER, SCRIPT
 
+PATIENCE = 120  # seconds
 
-def run(steps, seen):
-    """`steps` is a generator: each `yield` is a wait in seconds, while Blender handles events and draws. The dictionary
+
+def wait_until(is_so):
+    start = time.monotonic()
+    while not is_so() and time.monotonic() - start < PATIENCE:
+        yield 0.05
+
+
+def run(parts, seen):
+    """Each part is a function that yields waits in seconds, in which Blender handles events and draws. The dictionary
     `seen` at the end, with the traceback of an error, is left in the folder, in a file of the script's name."""
+    steps = itertools.chain.from_iterable(part() for part in parts)
 
     def finish():
         (FOLDER / SCRIPT.with_suffix(".json").name).write_text(json.dumps(seen, indent=1))

@@ -51,6 +51,14 @@ def tap(kind, **keys):
     event(kind, "RELEASE", **keys)
 
 
+def undo(again=False):
+    """By the keys, with the pointer over the 3D view; or what was undone is done again."""
+    hover(area("VIEW_3D"))
+    yield 0.3
+    tap("Z", ctrl=True, shift=again)
+    yield 2
+
+
 def hover(owner):
     move(owner.x + owner.width * 0.3, owner.y + owner.height * 0.3)
 

@@ -1,13 +1,10 @@
 """Runs inside Blender with a window and simulated events: bakes a tiling, once cancelled, once to the end, undone."""
 
-import time
-
 import bpy
 from objects import clear, pick, torus
-from running import run
+from running import run, wait_until
 from screen import area, hover, inside, tap
 
-PATIENCE = 120  # seconds for a bake
 NAME = "Ring"
 seen = {}
 
@@ -25,7 +22,7 @@ def begin():
         return list(bpy.ops.object.holomorphic_bake("INVOKE_DEFAULT", texels=40.0))
 
 
-def steps():
+def bakes():
     clear()
     torus(NAME, 24, 12, 0)
     pick(NAME)
@@ -40,9 +37,7 @@ def steps():
     yield 3
     seen["after ESC"] = state()
     begin()
-    start = time.monotonic()
-    while not state()[0] and time.monotonic() - start < PATIENCE:
-        yield 0.1
+    yield from wait_until(lambda: state()[0])
     yield 1
     seen["baked"] = state()
     with inside(area("VIEW_3D")):
@@ -51,4 +46,4 @@ def steps():
     seen["undone"] = state()
 
 
-run(steps(), seen)
+run([bakes], seen)

@@ -50,6 +50,14 @@ def take_steps(folder, tmp_path_factory):
             )
         written = folder / f"{name}.json"
         assert written.exists(), log_file.read_text(errors="replace")[-3000:]
-        return json.loads(written.read_text())
+        seen = json.loads(written.read_text())
+        assert "traceback" not in seen, seen["traceback"]
+        return seen
 
     return take
+
+
+@pytest.fixture(scope="module")
+def seen(take_steps, request):
+    """What the steps of a test saw: those of test_NAME.py are taken by NAME_steps.py."""
+    return take_steps(f"{request.module.__name__.removeprefix('test_')}_steps")

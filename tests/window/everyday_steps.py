@@ -19,14 +19,16 @@ def mug():
     wanted.objects[0].name = "Mug"
 
 
-def steps():
-    yield from prepare()
+def cube():
     yield from press("cube", "Cube")
     yield from then("cube tiled", "Cube", bpy.ops.uv.holomorphic_tile)
+
+
+def mug_and_monkey():
     for make, name in ((mug, "Mug"), (bpy.ops.mesh.primitive_monkey_add, "Suzanne")):
         with inside(area("VIEW_3D")):
             make()
         yield from press(name.lower(), name)
 
 
-run(steps(), seen)
+run((prepare, cube, mug_and_monkey), seen)

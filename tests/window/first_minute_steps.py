@@ -4,11 +4,10 @@ import json
 
 import bpy
 from objects import clear, look_at, maps, pick, spikes
-from running import run
+from running import run, wait_until
 from screen import area, enter, inside, picture
 from sidebar import open_sidebar, press_button
 
-PATIENCE = 60  # seconds for a tiling
 seen = {}
 
 
@@ -31,10 +30,7 @@ def the_button():
     yield 1
     picture("first_before.png")
     yield from press_button("VIEW_3D")
-    for _ in range(10 * PATIENCE):
-        yield 0.1
-        if maps("Suzanne"):
-            break
+    yield from wait_until(lambda: maps("Suzanne"))
     yield 2
     seen["shading after the button"] = [shading().type, shading().color_type]
     picture("first_after.png")
@@ -60,9 +56,4 @@ def materials_restored():
     picture("first_restored.png")
 
 
-def steps():
-    for part in (prepare, the_button, coarse_places, materials_restored):
-        yield from part()
-
-
-run(steps(), seen)
+run((prepare, the_button, coarse_places, materials_restored), seen)

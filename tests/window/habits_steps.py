@@ -98,9 +98,4 @@ def skin():
     seen["objects"] = sorted(bpy.data.objects.keys())
 
 
-def steps():
-    for part in (prepare, tools, pie, selected_faces, skin):
-        yield from part()
-
-
-run(steps(), seen)
+run((prepare, tools, pie, selected_faces, skin), seen)

@@ -137,9 +137,4 @@ def without_the_addon():
     look_at_heat("enabled again")
 
 
-def steps():
-    for part in (prepare, heat_maps, changes, poles, without_the_addon):
-        yield from part()
-
-
-run(steps(), seen)
+run((prepare, heat_maps, changes, poles, without_the_addon), seen)

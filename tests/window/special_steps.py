@@ -44,9 +44,4 @@ def letters():
     yield from then("text in islands", "Text", bpy.ops.uv.holomorphic_islands)
 
 
-def steps():
-    for part in (prepare, figure_of_bones, ground_and_pipe, letters):
-        yield from part()
-
-
-run(steps(), seen)
+run((prepare, figure_of_bones, ground_and_pipe, letters), seen)

@@ -3,15 +3,6 @@
 import pytest
 
 
-@pytest.fixture(scope="module")
-def seen(take_steps):
-    return take_steps("bake_steps")
-
-
-def test_every_step_was_taken(seen):
-    assert "traceback" not in seen, seen["traceback"]
-
-
 def test_a_bake_shows_its_images(seen):
     images, material, maps, others = seen["baked"]
     assert seen["begin"] == ["RUNNING_MODAL"]

@@ -5,15 +5,6 @@ import pytest
 PICTURES = ["first_before.png", "first_after.png", "first_coarse.png", "first_restored.png"]
 
 
-@pytest.fixture(scope="module")
-def seen(take_steps):
-    return take_steps("first_minute_steps")
-
-
-def test_every_step_was_taken(seen):
-    assert "traceback" not in seen, seen["traceback"]
-
-
 def test_the_view_shows_the_texture_and_goes_back(seen):
     assert seen["shading after the button"] == ["SOLID", "TEXTURE"]
     assert seen["shading at the end"] == ["SOLID", "MATERIAL"]

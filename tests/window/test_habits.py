@@ -5,15 +5,6 @@ import pytest
 PICTURES = ["pie_object.png", "pie_edit.png", "faces.png", "tools.png", "skin.png", "skin_mapped.png"]
 
 
-@pytest.fixture(scope="module")
-def seen(take_steps):
-    return take_steps("habits_steps")
-
-
-def test_every_step_was_taken(seen):
-    assert "traceback" not in seen, seen["traceback"]
-
-
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_the_pie_menu_makes_maps(seen, mode):
     assert seen[f"pie in {mode}"][0] == "Holomorphic" and seen[f"removed in {mode}"] == []

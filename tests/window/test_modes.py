@@ -6,15 +6,6 @@ BOTH_MAPS = ["Holomorphic", "Holomorphic 1"]
 PAINTED = ["Small in TEXTURE_PAINT", "Large in SCULPT"]
 
 
-@pytest.fixture(scope="module")
-def seen(take_steps):
-    return take_steps("mode_steps")
-
-
-def test_every_step_was_taken(seen):
-    assert "traceback" not in seen, seen["traceback"]
-
-
 @pytest.mark.parametrize("step", PAINTED)
 def test_the_mode_stays_with_the_map_and_without_it(seen, step):
     mode = step.split()[-1]

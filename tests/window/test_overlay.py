@@ -7,17 +7,8 @@ NEAR = 10 / 255  # difference of a colour on the screen
 PICTURES = ["heat_nothing.png", "heat_density.png", "heat_angle.png", "heat_stretched.png", "with_poles.png"]
 
 
-@pytest.fixture(scope="module")
-def seen(take_steps):
-    return take_steps("overlay_steps")
-
-
 def near(first, second):
     return np.abs(np.subtract(first, second)).max() < NEAR
-
-
-def test_every_step_was_taken(seen):
-    assert "traceback" not in seen, seen["traceback"]
 
 
 @pytest.mark.parametrize("name", ["density", "angle", "stretched"])

@@ -6,15 +6,6 @@ PICTURES = ["tiled.png", "tile_redo_panel.png", "tile_presets.png", "tile_preset
 PICTURES += ["drag_hovered.png", "drag_followed.png", "drag_kept.png"]
 
 
-@pytest.fixture(scope="module")
-def seen(take_steps):
-    return take_steps("tile_steps")
-
-
-def test_every_step_was_taken(seen):
-    assert "traceback" not in seen, seen["traceback"]
-
-
 def test_the_button_tiles_in_the_background(seen):
     assert "seamless" in seen["tiled"]
 

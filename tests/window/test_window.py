@@ -7,15 +7,6 @@ PICTURES = ["panel.png", "button.png", "redo_panel.png", "edit_mode.png", "recta
 PICTURES += ["running.png", "modal.png", "levels.png"]
 
 
-@pytest.fixture(scope="module")
-def seen(take_steps):
-    return take_steps("steps")
-
-
-def test_every_step_was_taken(seen):
-    assert "traceback" not in seen, seen["traceback"]
-
-
 @pytest.mark.parametrize("kind", ["VIEW_3D", "IMAGE_EDITOR"])
 def test_the_tab_is_in_both_sidebars(seen, kind):
     assert seen.get(f"tab in {kind}")

@@ -8,11 +8,10 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from objects import clear, part_report, pick, torus
-from running import run
-from screen import area, click, enter, event, hover, inside, move, picture, region, tap
+from running import run, wait_until
+from screen import area, click, enter, event, inside, move, picture, region, tap, undo
 from sidebar import open_sidebar, press_button
 
-PATIENCE = 60  # seconds for the texture to follow
 seen = {}
 NAME = "Ring"
 
@@ -53,12 +52,6 @@ def on_screen(vertex):
     point = addon("scene.mesh_io").world_points(obj(), [vertex])[0]
     place = location_3d_to_region_2d(view, area("VIEW_3D").spaces.active.region_3d, point)
     return view.x + place.x, view.y + place.y
-
-
-def wait_until(is_so):
-    start = time.perf_counter()
-    while not is_so() and time.perf_counter() - start < PATIENCE:
-        yield 0.1
 
 
 def prepare():
@@ -146,19 +139,10 @@ def dragging():
     seen["pole is where it was put"] = poles()[pole] == place
     seen["added distortion after dragging"] = part_report(NAME)["tiling"]["added_distortion"]
     picture("drag_kept.png")
-    hover(area("VIEW_3D"))
-    yield 0.3
-    tap("Z", ctrl=True)
-    yield 1
+    yield from undo()
     seen["map as before after undo"] = bool(np.array_equal(uv(), before)) and poles() == old
-    tap("Z", ctrl=True, shift=True)
-    yield 1
+    yield from undo(again=True)
     seen["pole is there after redo"] = poles()[pole] == place
 
 
-def steps():
-    for part in (prepare, tiling, redo_panel, dragging):
-        yield from part()
-
-
-run(steps(), seen)
+run((prepare, tiling, redo_panel, dragging), seen)

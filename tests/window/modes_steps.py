@@ -1,17 +1,16 @@
 """Runs inside Blender with a window and simulated events: the button while an object is sculpted or painted, and in
 local view.
 
-Leaves FOLDER/mode_steps.json and pictures.
+Leaves FOLDER/modes_steps.json and pictures.
 """
 
 import bpy
 import numpy as np
 from objects import clear, maps, pick, torus
-from running import run
-from screen import area, enter, event, hover, inside, move, picture, tap
+from running import run, wait_until
+from screen import area, enter, event, inside, move, picture, undo
 from sidebar import open_sidebar, press_button
 
-PATIENCE = 60  # seconds for a map
 seen = {}
 
 
@@ -24,10 +23,7 @@ def prepare():
 
 
 def wait_for_maps(name):
-    for _ in range(10 * PATIENCE):
-        if maps(name):
-            break
-        yield 0.1
+    yield from wait_until(lambda: maps(name))
     yield 1
 
 
@@ -44,13 +40,6 @@ def begin(name, mode):
 def state(name):
     obj = bpy.data.objects[name]
     return [obj.mode, maps(name)]
-
-
-def undo(**keys):
-    hover(area("VIEW_3D"))
-    yield 0.3
-    tap("Z", ctrl=True, **keys)
-    yield 1.5
 
 
 def heights(name):
@@ -70,7 +59,7 @@ def painted(name, mode):
     yield 0.5
     yield from undo()
     seen[f"{step}, undone"] = state(name)
-    yield from undo(shift=True)
+    yield from undo(again=True)
     seen[f"{step}, done again"] = state(name)
     yield from undo()
     with inside(area("VIEW_3D")):
@@ -129,12 +118,9 @@ def local_view():
     seen["local view"] = [maps("Small"), maps("Large")]
 
 
-def steps():
-    yield from prepare()
+def both_modes():
     for name, mode in (("Small", "TEXTURE_PAINT"), ("Large", "SCULPT")):
         yield from painted(name, mode)
-    yield from a_stroke_before_the_button()
-    yield from local_view()
 
 
-run(steps(), seen)
+run((prepare, both_modes, a_stroke_before_the_button, local_view), seen)

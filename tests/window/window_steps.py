@@ -1,7 +1,6 @@
 """Runs inside Blender with a window and simulated events: uses the add-on as an artist does, writes down what happened.
 
-blender --factory-startup --enable-event-simulate --addons holomorph --python steps.py -- FOLDER
-Leaves FOLDER/steps.json (name of the step: what was seen) and pictures.
+Leaves FOLDER/window_steps.json (name of the step: what was seen) and pictures.
 """
 
 import importlib
@@ -10,11 +9,10 @@ import time
 
 import bpy
 from objects import clear, maps, part_report, pick, pick_vertices, sheet, torus
-from running import run
-from screen import area, click, enter, hover, inside, picture, region, tap
+from running import run, wait_until
+from screen import area, click, enter, hover, inside, picture, region, tap, undo
 from sidebar import count_draws, drawn, open_tab, press_button
 
-PATIENCE = 90  # seconds for a solve
 seen = {}
 
 
@@ -51,18 +49,6 @@ def hold_back_the_worker():
     return let_go
 
 
-def wait_until(called):
-    start = time.perf_counter()
-    while not called and time.perf_counter() - start < PATIENCE:
-        yield 0.02
-
-
-def wait_for_maps(name):
-    start = time.monotonic()
-    while not maps(name) and time.monotonic() - start < PATIENCE:
-        yield 0.1
-
-
 def prepare():
     yield from enter("UV Editing")
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -84,7 +70,6 @@ def prepare():
 
 
 def small_mesh():
-    view = area("VIEW_3D")
     yield from open_tab("VIEW_3D", seen)
     picture("panel.png")
     yield 0.5
@@ -92,13 +77,9 @@ def small_mesh():
     yield 2
     seen["button"] = maps("Small")
     picture("button.png")
-    hover(view)
-    yield 0.3
-    tap("Z", ctrl=True)
-    yield 1
+    yield from undo()
     seen["undo"] = maps("Small")
-    tap("Z", ctrl=True, shift=True)
-    yield 1
+    yield from undo(again=True)
     seen["redo"] = maps("Small")
 
 
@@ -145,10 +126,7 @@ def edit_mode():
     yield 2
     seen["button in edit mode"] = maps("Small")
     picture("edit_mode.png")
-    hover(view)
-    yield 0.3
-    tap("Z", ctrl=True)
-    yield 1
+    yield from undo()
     seen["undo in edit mode"] = maps("Small")
     seen["mode after undo"] = bpy.data.objects["Small"].mode
     with inside(view):
@@ -184,30 +162,26 @@ def big_mesh():
     ended, shown = note("_end_modal"), note("_show_progress")
     let_go = hold_back_the_worker()
     yield from press_button("VIEW_3D")
-    yield from wait_until(shown)
+    yield from wait_until(lambda: shown)
     yield 0.2  # for it to be drawn
     seen["no maps while it runs"] = maps("Big")
     picture("running.png")
     start = time.perf_counter()
     tap("ESC")
-    yield from wait_until(ended)
+    yield from wait_until(lambda: ended)
     seen["seconds to cancel"] = ended[0] - start
     yield 0.5
     let_go()
     yield 0.5
     seen["after ESC"] = maps("Big")
     yield from press_button("VIEW_3D")
-    yield from wait_for_maps("Big")
+    yield from wait_until(lambda: maps("Big"))
     yield 1
     seen["modal run"] = maps("Big")
     picture("modal.png")
-    hover(view)
-    yield 0.3
-    tap("Z", ctrl=True)
-    yield 2
+    yield from undo()
     seen["undo of the modal run"] = maps("Big")
-    tap("Z", ctrl=True, shift=True)
-    yield 2
+    yield from undo(again=True)
     seen["redo of the modal run"] = maps("Big")
 
 
@@ -228,23 +202,13 @@ def levels_of_detail():
     seen["levels after ESC"] = level_names()
     with inside(view):
         bpy.ops.object.holomorphic_levels("INVOKE_DEFAULT", levels=2, hidden=False)
-    start = time.monotonic()
-    while not level_names() and time.monotonic() - start < PATIENCE:
-        yield 0.1
+    yield from wait_until(level_names)
     yield 1
     seen["levels"] = level_names()
     seen["maps of a level"] = maps("Big_LOD2")
     picture("levels.png")
-    hover(view)
-    yield 0.3
-    tap("Z", ctrl=True)
-    yield 2
+    yield from undo()
     seen["undo of the levels"] = level_names()
 
 
-def steps():
-    for part in (prepare, small_mesh, redo_panel, image_editor, edit_mode, chosen_vertices, big_mesh, levels_of_detail):
-        yield from part()
-
-
-run(steps(), seen)
+run((prepare, small_mesh, redo_panel, image_editor, edit_mode, chosen_vertices, big_mesh, levels_of_detail), seen)
