@@ -68,6 +68,7 @@ WORDS = {
     r"\bgiven ?mesh\b": "input",
 }
 BARE_OF = re.compile(r'^\s*(?://[/!]?|#|""")<?\s*Of\b', re.MULTILINE)  # a comment that begins so is no sentence
+BESIDE_ROOMS = {"automatic_map", "command_line", "files", "python", "repository"}  # in tests/core
 COMMENTED = ("native/holomorph", "addon", "tests", "benchmarks", "blend_examples", "docs")
 HEADER_LINES = 110
 FILE_LINES = 250
@@ -299,6 +300,12 @@ def test_others_import_at_the_top():
 def test_only_mesh_io_touches_mesh_arrays():
     touching = {path.stem for path in python_files(ADDON) if re.search(r"\bforeach_[gs]et\b", path.read_text("utf-8"))}
     assert touching <= {"mesh_io"}
+
+
+def test_tests_lie_in_the_room_of_what_they_test():
+    for suite, ending, others in (("core", "py", BESIDE_ROOMS), ("native", "cpp", {"native"})):
+        files = (ROOT / "tests" / suite).rglob(f"test_*.{ending}")
+        assert not [identify(path) for path in files if path.parent.name not in {*ROOM_BELOW, *others}]
 
 
 def test_tests_share_what_is_in_support():
