@@ -8,18 +8,19 @@ import zipfile
 
 import pytest
 from conftest import extension, run, run_extension_program
-from repository import ROOT
+from repository import ROOT, VERSION
 
 SUBSCRIBE = ROOT / "tests" / "package" / "subscribe.py"
+NEXT = VERSION.rpartition(".")[0] + f".{int(VERSION.rpartition('.')[2]) + 1}"
 
 
 def with_next_version(old, new):
-    """A copy of the extension whose manifest says 0.1.1."""
+    """A copy of the extension whose manifest says the next version."""
     with zipfile.ZipFile(old) as archive, zipfile.ZipFile(new, "w") as copy:
         for info in archive.infolist():
             data = archive.read(info)
             if info.filename.endswith("blender_manifest.toml"):
-                data = data.replace(b'\nversion = "0.1.0"\n', b'\nversion = "0.1.1"\n')
+                data = data.replace(f'\nversion = "{VERSION}"\n'.encode(), f'\nversion = "{NEXT}"\n'.encode())
             copy.writestr(info, data)
 
 
@@ -50,4 +51,4 @@ def test_blender_subscribes_installs_and_updates(repositories, address, bpy_pyth
     settings = tmp_path / "settings"
     settings.mkdir()
     output = run(bpy_python, SUBSCRIBE, *repositories, address, BLENDER_USER_RESOURCES=settings)
-    assert 'installed: version = "0.1.0"' in output and 'updated: version = "0.1.1"' in output, output
+    assert f'installed: version = "{VERSION}"' in output and f'updated: version = "{NEXT}"' in output, output

@@ -9,7 +9,7 @@ import mach_o
 import pytest
 import tomllib
 from conftest import PLATFORMS, PYTHONS, extension, run, wheels
-from repository import ROOT
+from repository import ROOT, VERSION
 
 BLENDER = ROOT / "build" / "venv" / "bpy-4.2" / "bin" / "python"  # as a Python module
 MOST_MEGABYTES = 3.0
@@ -43,7 +43,7 @@ def test_the_extension_is_small_and_complete(repository, platform, tmp_path):
     assert megabytes < MOST_MEGABYTES
     found = wheels(path, tmp_path)
     assert {wheel.name for wheel in found.values()} == {
-        f"holomorph-0.1.0-{t}-{t}-{TAGS[platform]}.whl" for t in PYTHONS
+        f"holomorph-{VERSION}-{t}-{t}-{TAGS[platform]}.whl" for t in PYTHONS
     }
     with zipfile.ZipFile(path) as archive:
         manifest = tomllib.loads(archive.read("holomorph_addon/blender_manifest.toml").decode())

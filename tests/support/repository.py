@@ -1,11 +1,13 @@
 """Where the repository is, the modules that its tests share, and the data beside it."""
 
+import re
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SUPPORT = Path(__file__).resolve().parent
 SHARED = ROOT.parent / "shared"  # not part of the project
+VERSION = re.search(r'(?m)^version = "(.+)"$', (ROOT / "pyproject.toml").read_text(encoding="utf-8"))[1]
 
 
 def find_package():
