@@ -20,11 +20,12 @@ constexpr int kManyForms = 64;                     // and so all where there are
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 14, 16};
-constexpr double kEvened = 2.75, kHopefulEvened = 1.2 * kEvened;  // spread of the evened density
-constexpr double kAllowed = 3;                                    // of it, where hiding and a mirror cost some
-constexpr double kUsualValues = 30;                               // of the objective, in the last descent
-constexpr double kMirrorCosts = 1.25, kMirrorPoles = 1.5;         // at most, of the (evened) ratio, and of poles
-constexpr int kFewMirrored = 8;                                   // so many poles that do are not compared with others
+constexpr double kEvenedWithout = 2.85, kEvened = 2.75;  // spread of the evened density
+constexpr double kHopefulEvened = 1.2 * kEvened;
+constexpr double kAllowed = 3;                             // of it, where hiding and a mirror cost some
+constexpr double kUsualValues = 30;                        // of the objective, in the last descent
+constexpr double kMirrorCosts = 1.25, kMirrorPoles = 1.5;  // at most, of the (evened) ratio, and of poles
+constexpr int kFewMirrored = 8;                            // so many poles that do are not compared with others
 constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
 
 // Every so many-th of the samples is used in a search for so many poles.
@@ -50,7 +51,7 @@ MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& 
   for (const int count : kCountsEvened) {
     if (options.mirror && count % 2 == 1) continue;  // which would ask for a pole on the plane
     PoleSearch& search = count <= kFew ? few : more;
-    if (least <= kEvened || !search.add(added, count)) break;
+    if (least <= (best.poles.empty() ? kEvenedWithout : kEvened) || !search.add(added, count)) break;
     search.sweep(added);
     if (count == *std::rbegin(kCountsEvened) || evened(search.spread_of(added)) < kHopefulEvened)
       added = search.settled(std::move(added), enough);

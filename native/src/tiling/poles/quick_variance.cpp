@@ -60,7 +60,7 @@ void QuickVariance::descend(VectorXd& x, int most_steps, const std::function<voi
 
 ArrayXd QuickVariance::density(const VectorXd& x) const { return squares(M_ * x.cast<float>()).cast<double>(); }
 
-// Of the derivatives alone of the logarithms (Gauss and Newton).
+// The curvature is that of the derivatives of the logarithms alone (Gauss and Newton).
 MatrixXd QuickVariance::inverse_curvature(const VectorXd& x) const {
   const VectorXf A = M_ * x.cast<float>();
   const Index count = A.size() / 2;

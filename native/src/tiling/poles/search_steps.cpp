@@ -51,7 +51,8 @@ double SearchSteps::price(const MeromorphicForm& form) const {
   return form.objective + weight_ * seen / static_cast<double>(form.poles.size());
 }
 
-// Of hiding a pole there. On the plane of a mirror, where it is seen in the middle of a face, places are few.
+// What hiding a pole there is worth. On the plane of a mirror, where it is seen in the middle of a face, places are
+// few.
 double SearchSteps::worth_of(int vertex) const {
   return options_.mirror && options_.mirror->is_on_plane(vertex) ? kWorthOnPlane : 1;
 }
