@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -46,6 +46,14 @@ class Distortion:
         return f"{self.density_ratio:.0f}" if self.density_ratio >= 100 else f"{self.density_ratio:.3g}"
 
 
+class WorstPlace(NamedTuple):
+    """Where a map is worst in one respect."""
+
+    face: int
+    position: tuple[float, ...]  # mean of the polygon's corners
+    value: float
+
+
 def fans(face_offsets: Integers) -> tuple[Integers, Integers]:
     """((#T, 3) corners, (#T,) polygon) of the triangles between the first corner of a polygon and the others."""
     counts = np.diff(face_offsets) - 2
@@ -74,6 +82,29 @@ def measure(mesh: Polygons, uv: Reals) -> Distortion:
     kept = angle < MOST_ANGLE
     mean = np.average(angle[kept], weights=face_area[kept]) if face_area[kept].any() else 1.0
     return Distortion(octaves, angle, float(high / low) if low > 0 else np.inf, float(mean))
+
+
+def worst_places(mesh: Polygons, uv: Reals, poles: Integers) -> dict[str, WorstPlace]:
+    """The polygons of a (#C, 2) map that an eye finds first, apart from those at poles (vertices): "largest" and
+    "smallest" squares, whose value is a side over that at the median density, and "sheared" ones, s1 / s2. Empty where
+    all polygons are at poles."""
+    starts = mesh.face_offsets[:-1]
+    kept = np.flatnonzero(~np.logical_or.reduceat(np.isin(mesh.corner_vertices, poles), starts))
+    if not len(kept):
+        return {}
+    found = measure(mesh, uv)
+    side, angle = 2.0 ** (-found.density[kept] / 2), found.angle[kept]
+    places = {}
+    for name, values, at in (
+        ("largest", side, side.argmax()),
+        ("smallest", side, side.argmin()),
+        ("sheared", angle, angle.argmax()),
+    ):
+        face = int(kept[at])
+        corners = mesh.corner_vertices[mesh.face_offsets[face] : mesh.face_offsets[face + 1]]
+        position = tuple(mesh.vertices[corners].mean(axis=0).tolist())
+        places[name] = WorstPlace(face, position, float(values[at]))
+    return places
 
 
 def drawn_densities(mesh: Polygons, uv: Reals) -> tuple[float, float, float]:

@@ -15,7 +15,7 @@ from .appearance import cost
 from .array_types import Complexes, Integers, Progress, Reals
 from .automatic_structure import AnyStructure
 from .checks import checked_evenness
-from .distortion import drawn_densities
+from .distortion import WorstPlace, drawn_densities, worst_places
 from .evened_forms import evened_uv
 from .island_map import Islands
 from .mixed import Mixed
@@ -142,6 +142,13 @@ class Map(Value):
         if self.surface.vertices is not None:
             return drawn_densities(self.surface, self.uv)
         return 1.0, self.quality.median_density, self.quality.density_ratio
+
+    @cached_property
+    def worst_places(self) -> dict[str, WorstPlace]:
+        """Where an eye finds the map worst, apart from its poles: `face`, `position` and `value` of the "largest" and
+        the "smallest" squares (a side over that at the median density) and of the most "sheared" ones (s1 / s2).
+        Empty for an intrinsic surface, and where all faces are at poles."""
+        return {} if self.surface.vertices is None else worst_places(self.surface, self.uv, self.poles)
 
     @property
     def unit_length(self) -> float:

@@ -56,6 +56,7 @@ def part_report(made: Map) -> dict[str, Any]:
     """The `component_report` of the part of a `Map`, with what kind of map it is, and of a tiling, or of the
     tilings of its pieces, poles and certificates; vertices are those of the mesh as given."""
     about = {"kind": made.kind, "why": made.why, "evenness": made.evenness}
+    about["worst_places"] = {name: place._asdict() for name, place in made.worst_places.items()}
     main_map = map_report(made.coefficients, made.quality, made.verdict) | about
     entry = component_report(made.surface, made.structure, main_map)
     entry["forms"] = made.structure.form_count

@@ -193,7 +193,7 @@ double descend(const SampledParts& parts, Coefficients kind, VectorXd& x, const 
           tick();
           return objective(at, gradient);
         },
-        x, most_steps);
+        x, {.most_steps = most_steps});
     x.normalize();  // the variance does not depend on the scale
   }
   return variance;

@@ -6,20 +6,24 @@
 
 namespace holomorph::uv {
 
+/// When to stop.
+struct Minimising {
+  int most_steps = 200;
+  double progress = 1e-9;   ///< a step that lowers the value by less than this part of it was the last
+  double shortest = 1e-12;  ///< step, relative to the full one
+};
+
 /// @param objective double(const VectorXd& x, VectorXd& gradient)
 /// @param x start in, minimum out. @return the least value
-/// It ends when a step lowers the value by less than 1e-9 of it, or after `most_steps`.
+/// @param H an inverse Hessian to begin with; empty: none is known
 template <class Objective>
-double minimise(const Objective& objective, Eigen::VectorXd& x, int most_steps = 200) {
-  constexpr double kDecrease = 1e-4;   // Armijo
-  constexpr double kSmallest = 1e-12;  // shortest step, relative to the full one
-  constexpr double kProgress = 1e-9;
+double minimise(const Objective& objective, Eigen::VectorXd& x, const Minimising& until, Eigen::MatrixXd H = {}) {
+  constexpr double kDecrease = 1e-4;  // Armijo
   const auto n = x.size();
-  Eigen::MatrixXd H = Eigen::MatrixXd::Identity(n, n);  // inverse Hessian
   Eigen::VectorXd gradient, new_gradient;
   double value = objective(x, gradient);
-  H *= x.norm() / std::max(gradient.norm(), 1e-300);
-  for (int step = 0; step < most_steps; ++step) {
+  if (H.size() == 0) H = Eigen::MatrixXd::Identity(n, n) * (x.norm() / std::max(gradient.norm(), 1e-300));
+  for (int step = 0; step < until.most_steps; ++step) {
     Eigen::VectorXd direction = -(H * gradient);
     double slope = gradient.dot(direction);
     if (!(slope < 0)) {
@@ -30,12 +34,12 @@ double minimise(const Objective& objective, Eigen::VectorXd& x, int most_steps =
     }
     double length = 1, new_value = INFINITY;
     Eigen::VectorXd candidate;
-    for (; length > kSmallest; length /= 2) {
+    for (; length > until.shortest; length /= 2) {
       candidate = x + length * direction;
       new_value = objective(candidate, new_gradient);
       if (new_value <= value + kDecrease * length * slope) break;
     }
-    if (!(length > kSmallest)) break;
+    if (!(length > until.shortest)) break;
     const Eigen::VectorXd s = candidate - x, y = new_gradient - gradient;
     const double sy = s.dot(y);
     if (sy > 1e-14 * s.norm() * y.norm()) {
@@ -46,7 +50,7 @@ double minimise(const Objective& objective, Eigen::VectorXd& x, int most_steps =
     x = candidate;
     value = new_value;
     gradient = new_gradient;
-    if (before - value < kProgress * std::abs(before)) break;
+    if (before - value < until.progress * std::abs(before)) break;
   }
   return value;
 }

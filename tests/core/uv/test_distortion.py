@@ -8,6 +8,7 @@ import pytest
 from families import torus
 from holomorph import coarse_places, distortion
 from holomorph.edges import boundary_edges
+from holomorph.report import part_report
 from plane_meshes import grid
 from solved import surface_of
 
@@ -29,6 +30,37 @@ def test_triangles_have_the_quality_of_the_structure():
     assert np.allclose(2**found.density, expected.area / expected.median_density, rtol=1e-9)
     assert found.mean_angle == pytest.approx(expected.mean_angle, rel=1e-9)
     assert found.density_ratio == pytest.approx(expected.density_ratio, rel=1e-9)
+
+
+def row_of_squares(*shapes):
+    """Unit squares side by side, and their UVs."""
+    count = len(shapes)
+    below = np.array([(i, 0, 0) for i in range(count + 1)])
+    faces = [(i, i + 1, i + count + 2, i + count + 1) for i in range(count)]
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
+    mesh = SimpleNamespace(
+        vertices=np.concatenate([below, below + (0, 1, 0)]).astype(float),
+        corner_vertices=np.concatenate(faces),
+        face_offsets=np.arange(count + 1) * 4,
+    )
+    return mesh, np.concatenate([square * shape for shape in shapes])
+
+
+def test_the_worst_places_are_named():
+    mesh, uv = row_of_squares(1, 1, 1, 1, 0.5, 2, (3, 1 / 3), 1, 8)
+    found = distortion.worst_places(mesh, uv, poles=np.array([9]))  # at the last square
+    assert {name: place.face for name, place in found.items()} == {"largest": 4, "smallest": 5, "sheared": 6}
+    assert found["largest"].value == pytest.approx(2) and found["smallest"].value == pytest.approx(0.5)
+    assert found["sheared"].value == pytest.approx(9) and found["sheared"].position == pytest.approx((6.5, 0.5, 0))
+    assert distortion.worst_places(mesh, uv, poles=np.arange(20)) == {}
+
+
+def test_a_map_names_its_worst_places():
+    made = holomorph.automatic_map(surface_of(torus(24, 12)), main="balanced")
+    worst = made.worst_places
+    assert worst["largest"].value >= 1 >= worst["smallest"].value and worst["sheared"].value >= 1
+    told = part_report(made)["main_map"]["worst_places"]
+    assert told["sheared"]["face"] == worst["sheared"].face
 
 
 def test_density_is_in_octaves_of_the_median():

@@ -15,8 +15,9 @@ namespace {
 constexpr double kApart = 0.06;  // poles are this far from each other, in square roots of the area
 constexpr int kSpread = 200;     // candidates all over the surface
 constexpr int kOnPlane = 40;     // more of them on the plane of a mirror
-constexpr int kNear = 40;        // candidates around a pole, in each of the balls with these radii:
-constexpr double kBalls[] = {0.3, 0.15, 0.08, 0.04};
+// Around a pole some of the vertices within each radius: of so many of all. Poles near to each other, and a pole that
+// moved, so have candidates in common, and few systems are solved.
+constexpr std::pair<int, double> kAround[] = {{600, 0.15}, {1800, 0.08}, {5400, 0.04}};
 
 std::vector<int> evenly(const std::vector<int>& list, int count) {
   if (static_cast<int>(list.size()) <= count) return list;
@@ -123,16 +124,16 @@ bool PoleCandidates::may_replace(int vertex, int by) const {
 }
 
 std::vector<int> PoleCandidates::near(int vertex) {
-  std::vector<int> all;
   const auto& distance = distances(vertex);
-  for (const double ball : kBalls) {
-    std::vector<int> inside;
+  const bool on_plane = options_.mirror && options_.mirror->is_on_plane(vertex);
+  const auto count = static_cast<int>(distance.size());
+  std::vector<int> all;
+  for (const auto& [most, ball] : kAround) {
     const double radius = ball * std::sqrt(basis_.area());
-    for (int v = 0; v < static_cast<int>(distance.size()); ++v) {
-      if (distance[v] < radius && is_allowed(v) && may_replace(vertex, v)) inside.push_back(v);
+    const int step = on_plane ? 1 : 1 + (count - 1) / most;
+    for (int v = 0; v < count; v += step) {
+      if (distance[v] < radius && is_allowed(v) && may_replace(vertex, v)) all.push_back(v);
     }
-    const auto some = evenly(inside, kNear);
-    all.insert(all.end(), some.begin(), some.end());
   }
   return all;
 }

@@ -30,7 +30,7 @@ class PoleCandidates {
   std::vector<int> first();
   /// Some 200 all over the surface, ascending.
   std::vector<int> everywhere(const std::vector<int>& others);
-  /// Those, and some in balls of several sizes around `vertex`, which is none of them; ascending. With a mirror all are
+  /// Those, and some around `vertex`, the more the nearer, which is none of them; ascending. With a mirror all are
   /// on the plane, or none, as the vertex is.
   std::vector<int> for_move(int vertex, const std::vector<int>& others);
 

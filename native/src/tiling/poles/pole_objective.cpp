@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tiling/poles/orbits.h"
+#include "tiling/poles/quick_variance.h"
 
 namespace holomorph::tiling {
 
@@ -42,10 +43,10 @@ bool PoleObjective::has_many_forms() const { return theta_.cols() >= kManyForms;
 bool PoleObjective::has_jacobian(Index poles) const { return jacobian_ && poles >= theta_.cols(); }
 
 void PoleObjective::optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const {
-  if (!has_many_forms()) return fit(form, floors, tick);
+  if (!has_many_forms()) return descend_quickly(theta_, form, floors, tick);
   const VectorXcd c = form.coefficients;
   form.coefficients = VectorXcd::Ones(1);
-  descend(theta_ * c, form, floors, kSteps, tick);
+  descend_quickly(theta_ * c, form, floors, tick);
   form.coefficients = form.coefficients[0] * c;
 }
 
@@ -66,6 +67,22 @@ void PoleObjective::descend(const MatrixXcd& forms, MeromorphicForm& form, const
     set(uv::as_complex(x, kind_), form);
   }
   density = (parts.M * unknowns(form)).cwiseAbs2().array();
+  const MatrixXcd metric = jacobian_metric(density, form.residues.size());
+  form.objective = unevenness(density) + jacobian_term(form.poles, form.residues, metric);
+}
+
+void PoleObjective::descend_quickly(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors,
+                                    const Tick& tick) const {
+  QuickVariance variance(columns(forms, form.poles).cast<std::complex<float>>(), kind_);
+  VectorXd x = uv::as_unknowns(unknowns(form), kind_);
+  x.normalize();
+  ArrayXd density = variance.density(x);
+  for (const double floor : floors) {
+    variance.set_floor(floor * median(density) / density.mean());
+    variance.descend(x, kSteps, tick);
+    density = variance.density(x);
+  }
+  set(uv::as_complex(x, kind_), form);
   const MatrixXcd metric = jacobian_metric(density, form.residues.size());
   form.objective = unevenness(density) + jacobian_term(form.poles, form.residues, metric);
 }

@@ -26,11 +26,12 @@ class PoleObjective {
 
   /// Whether `optimise` keeps the ratios of the coefficients, as each costs as much as a pole; `fit` does not.
   bool has_many_forms() const;
-  /// The best form with these poles, from the coefficients given, and its objective; for each of the floors of the
-  /// density in turn. @pre `prepare` was called for the poles, here and below
+  /// The best form with these poles, from the coefficients given, and its objective, as a search needs it
+  /// (quick_variance.h); for each of the floors of the density in turn. @pre `prepare` was called for the poles, here
+  /// and below
   /// @param tick called every few milliseconds; it may throw
   void optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
-  /// The same, with all coefficients free.
+  /// The same to double precision, with all coefficients free.
   void fit(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
 
   /// A on the samples used.
@@ -45,6 +46,8 @@ class PoleObjective {
   MatrixXcd columns(const MatrixXcd& forms, const std::vector<int>& vertices) const;
   void descend(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors, int steps,
                const Tick& tick) const;
+  void descend_quickly(const MatrixXcd& forms, MeromorphicForm& form, const std::vector<double>& floors,
+                       const Tick& tick) const;
   VectorXcd unknowns(const MeromorphicForm& form) const;
   void set(const VectorXcd& x, MeromorphicForm& form) const;
 

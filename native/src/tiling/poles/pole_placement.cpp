@@ -19,16 +19,22 @@ constexpr int kEvery = 3;                          // more of them by every thir
 constexpr int kManyForms = 64;                     // and so all where there are so many forms
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
-constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 16};
-constexpr double kEvened = 2.85, kHopefulEvened = 1.5 * kEvened;  // spread of the evened density
-constexpr double kUsualValues = 30;                               // of the objective, in the last descent
-constexpr double kMirrorCosts = 1.25;                             // at most, of the ratio of the density
+constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 14, 16};
+constexpr double kEvenedWithout = 2.85, kEvened = 2.75;  // spread of the evened density
+constexpr double kHopefulEvened = 1.2 * kEvened;
+constexpr double kAllowed = 3;                             // of it, where hiding and a mirror cost some
+constexpr double kUsualValues = 30;                        // of the objective, in the last descent
+constexpr double kMirrorCosts = 1.25, kMirrorPoles = 1.5;  // at most, of the (evened) ratio, and of poles
+constexpr int kFewMirrored = 8;                            // so many poles that do are not compared with others
 constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
 
 // Every so many-th of the samples is used in a search for so many poles.
 int thinning(const GreensFunctions& greens, int count) {
   return count <= kFew && greens.basis().form_count() < kManyForms ? 1 : kEvery;
 }
+
+// What spread of the density evening leaves.
+double evened(double spread) { return std::pow(spread, evening::power_of_density(evening::kUsualEvenness)); }
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
   form = search.settled(std::move(form));
@@ -38,21 +44,21 @@ MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
 // Places are polished only where that may be enough, and so for few counts.
 MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
   PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
-  const double power = evening::power_of_density(evening::kUsualEvenness);
-  const auto evened = [&](const MeromorphicForm& form) { return std::pow(few.spread_of(form), power); };
+  const double enough = std::pow(kEvened, 1 / evening::power_of_density(evening::kUsualEvenness));
   MeromorphicForm added = few.begin(), best = added;
   if (options.mirror && added.poles.empty()) return added;
-  double least = evened(best);
+  double least = evened(few.spread_of(best));
   for (const int count : kCountsEvened) {
     if (options.mirror && count % 2 == 1) continue;  // which would ask for a pole on the plane
     PoleSearch& search = count <= kFew ? few : more;
-    if (least <= kEvened || !search.add(added, count)) break;
+    if (least <= (best.poles.empty() ? kEvenedWithout : kEvened) || !search.add(added, count)) break;
     search.sweep(added);
-    if (evened(added) < kHopefulEvened) added = search.settled(std::move(added));
-    if (const double spread = evened(added); spread < least) {
-      least = spread;
-      best = added;
-    }
+    if (count == *std::rbegin(kCountsEvened) || evened(search.spread_of(added)) < kHopefulEvened)
+      added = search.settled(std::move(added), enough);
+    const double spread = evened(search.spread_of(added));
+    if (spread >= least && added.objective > kWorth * best.objective) continue;
+    least = spread;
+    best = added;
   }
   best = (std::ssize(best.poles) <= kFew ? few : more).hidden(std::move(best));
   return optimised(greens, options.kind, options.mirror, std::move(best), execution);
@@ -90,15 +96,25 @@ MeromorphicForm so_many(GreensFunctions& greens, const PlaceOptions& options, in
   return optimised(greens, options.kind, options.mirror, std::move(form), execution);
 }
 
-// What `place` finds, mirrored where that is hardly less even. @param options without the mirror, afterwards, where not
+// What `place` finds, mirrored where that is hardly less even and takes hardly more poles.
+// @param options without the mirror, afterwards, where not
 MeromorphicForm mirrored_or_not(GreensFunctions& greens, PlaceOptions& options,
                                 const std::function<MeromorphicForm()>& place) {
   MeromorphicForm mirrored = place();
+  if (!options.mirror) return mirrored;
+  const bool does = options.evened && !mirrored.poles.empty() && std::ssize(mirrored.poles) <= kFewMirrored &&
+                    evened(spread(density(mirrored, greens))) <= kAllowed;
+  if (does) return mirrored;
   const Mirror* mirror = std::exchange(options.mirror, nullptr);
-  if (!mirror) return mirrored;
   MeromorphicForm other = place();
-  const auto ratio = [&](const MeromorphicForm& form) { return density_ratio(density(form, greens)); };
-  if (mirrored.poles.empty() || ratio(mirrored) > kMirrorCosts * ratio(other)) return other;
+  const auto ratio = [&](const MeromorphicForm& form) {
+    const double conformal = density_ratio(density(form, greens));
+    return options.evened ? evened(conformal) : conformal;
+  };
+  const auto count = [](const MeromorphicForm& form) { return static_cast<double>(form.poles.size()); };
+  if (mirrored.poles.empty() || ratio(mirrored) > kMirrorCosts * ratio(other) ||
+      count(mirrored) > kMirrorPoles * count(other))
+    return other;
   options.mirror = mirror;
   return mirrored;
 }

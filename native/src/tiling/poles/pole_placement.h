@@ -17,7 +17,7 @@ MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int
 
 /// As many as the density asks for: none where its spread is at most 3 without; else the first of 2, 4, 8, 12, 16 with
 /// which it is at most 5, or the last with which it fell. Where maps will be evened, the first of more numbers with
-/// which the spread of the evened map is at most 3.
+/// which the spread of the evened map is less than 3.
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution);
 
 /// The same poles with the best coefficients and residues near those given. @param mirror null, or of these poles

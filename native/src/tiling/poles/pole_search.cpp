@@ -8,10 +8,17 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr int kRounds = 3, kSweeps = 5;
-constexpr int kSpare = 4;  // so many more poles are placed, and taken away again
+constexpr int kRelocated = 8;  // poles that are taken away and added anew, at most
+constexpr int kSpare = 4;      // so many more poles are placed, and taken away again
 // By what part the objective may grow where poles are hidden, and what it is worth that none is seen.
 constexpr double kHiding = 0.1, kWorth = 1;
 const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor};
+
+// The first pole of a form that another one has not.
+int lost(const MeromorphicForm& form, const MeromorphicForm& other) {
+  return *std::ranges::find_if(form.poles,
+                               [&](int v) { return std::ranges::find(other.poles, v) == other.poles.end(); });
+}
 
 }  // namespace
 
@@ -60,9 +67,9 @@ bool PoleSearch::sweep(MeromorphicForm& form) {
   return moved;
 }
 
-MeromorphicForm PoleSearch::settled(MeromorphicForm form) {
+MeromorphicForm PoleSearch::settled(MeromorphicForm form, double enough) {
   sweep_to_the_end(form);
-  for (int round = 1; round < kRounds && relocate(form); ++round) sweep_to_the_end(form);
+  for (int round = 1; round < kRounds && spread_of(form) > enough && relocate(form); ++round) sweep_to_the_end(form);
   return form;
 }
 
@@ -72,15 +79,9 @@ MeromorphicForm PoleSearch::pruned(MeromorphicForm form) {
   add(other, static_cast<int>(count) + kSpare);
   sweep(other);
   while (other.poles.size() > count) {
-    std::vector<MeromorphicForm> tried;
-    for (Index i = 0; i < other.residues.size();) {
-      const Index size = first_to_last(other, options_.mirror);  // each becomes the last one once
-      i += size;
-      if (!is_fixed(other.poles.back()) && other.poles.size() >= count + size)
-        tried.push_back(without_last(other, size, basis_.closed()));
-    }
-    if (tried.empty()) return form;
-    other = best_optimised(std::move(tried), kFromNear);
+    auto fewer = least_missed(other, options_.fixed, static_cast<Index>(count));
+    if (!fewer) return form;
+    other = std::move(*fewer);
   }
   sweep_to_the_end(other);
   const auto ratio = [&](const MeromorphicForm& each) { return density_ratio(density(each, greens_)); };
@@ -116,24 +117,40 @@ void PoleSearch::sweep_to_the_end(MeromorphicForm& form) {
   }
 }
 
-// Takes each pole away and adds one where it does best, with a residue of its own. @return whether that was better
+// Takes those poles away that matter least, one by one, and adds one where it does best, with a residue of its own.
+// @return whether that was better
 bool PoleSearch::relocate(MeromorphicForm& form) {
-  const auto count = static_cast<Index>(form.poles.size());
+  const std::size_t count = form.poles.size();
   bool moved = false;
-  for (Index i = 0; i < count;) {
-    const Index size = first_to_last(form, options_.mirror);  // each becomes the last one once
-    i += size;
-    if (is_fixed(form.poles.back()) || count - size < least_count(basis_)) continue;
-    MeromorphicForm other = without_last(form, size, basis_.closed());
-    objective_.optimise(other, kFromNear, tick_);
+  std::vector<int> stay = options_.fixed;
+  for (int i = 0; i < kRelocated; ++i) {
+    const auto least = least_missed(form, stay, least_count(basis_));
+    if (!least) break;
+    MeromorphicForm other = *least;
+    stay.push_back(lost(form, other));
     fill(other, static_cast<int>(count));
-    if (other.residues.size() < count) continue;
-    exchange(other, count - size);
+    if (other.poles.size() < count) continue;
+    exchange(other, std::ssize(least->poles));
     if (other.objective > form.objective * (1 - kGain)) continue;
     form = std::move(other);
     moved = true;
   }
   return moved;
+}
+
+// The form without the pole, or the pair, that it is most even without. @param least poles are left
+std::optional<MeromorphicForm> PoleSearch::least_missed(MeromorphicForm form, const std::vector<int>& stay,
+                                                        Index least) {
+  std::vector<MeromorphicForm> tried;
+  const auto count = static_cast<Index>(form.poles.size());
+  for (Index i = 0; i < count;) {
+    const Index size = first_to_last(form, options_.mirror);  // each becomes the last one once
+    i += size;
+    if (count - size >= least && std::ranges::find(stay, form.poles[count - size]) == stay.end())
+      tried.push_back(without_last(form, size, basis_.closed()));
+  }
+  if (tried.empty()) return std::nullopt;
+  return best_optimised(std::move(tried), kFromNear);
 }
 
 }  // namespace holomorph::tiling

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "tiling/poles/search_steps.h"
@@ -22,8 +23,9 @@ class PoleSearch : private SearchSteps {
   bool add(MeromorphicForm& form, int count);
   /// Moves each pole in turn to where it does best beside the others. @return whether one moved
   bool sweep(MeromorphicForm& form);
-  /// Moves poles, and takes them away and adds them anew, until nothing is gained; their number stays.
-  MeromorphicForm settled(MeromorphicForm form);
+  /// Moves poles, and takes those away that matter least and adds them anew, until nothing is gained, or the spread is
+  /// no more than enough; their number stays.
+  MeromorphicForm settled(MeromorphicForm form, double enough = 0);
   /// Places extra poles and keeps the best, where that is more even: another optimum, which relocating one pole after
   /// the other does not reach. @pre more than a few poles
   MeromorphicForm pruned(MeromorphicForm form);
@@ -38,6 +40,7 @@ class PoleSearch : private SearchSteps {
   void fill(MeromorphicForm& form, int count);
   void sweep_to_the_end(MeromorphicForm& form);
   bool relocate(MeromorphicForm& form);
+  std::optional<MeromorphicForm> least_missed(MeromorphicForm form, const std::vector<int>& stay, Index least);
 };
 
 }  // namespace holomorph::tiling

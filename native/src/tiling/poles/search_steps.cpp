@@ -16,6 +16,7 @@ constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
 const std::vector<double> kWithTrial = {0.03, uv::kDensityFloor};
 
+constexpr double kWorthOnPlane = 3;    // of hiding a pole there, beside others
 constexpr int kThinning = 3;           // a third of the samples tells what is worth a trial
 constexpr double kUsualValues = 3000;  // of the objective, in a search
 
@@ -46,8 +47,14 @@ double SearchSteps::price(const MeromorphicForm& form) const {
   if (!exposure_) return form.objective;
   if (form.objective > limit_) return INFINITY;
   double seen = 0;
-  for (const int v : form.poles) seen += (*exposure_)(v);
+  for (const int v : form.poles) seen += worth_of(v) * (*exposure_)(v);
   return form.objective + weight_ * seen / static_cast<double>(form.poles.size());
+}
+
+// What hiding a pole there is worth. On the plane of a mirror, where it is seen in the middle of a face, places are
+// few.
+double SearchSteps::worth_of(int vertex) const {
+  return options_.mirror && options_.mirror->is_on_plane(vertex) ? kWorthOnPlane : 1;
 }
 
 // Scores all candidates for pole i with everything else as it is, and optimises the best ones.
@@ -58,7 +65,7 @@ bool SearchSteps::exchange(MeromorphicForm& form, Index i) {
   others.erase(others.begin() + i, others.begin() + i + size);
   const std::vector<int> candidates = candidates_.for_move(form.poles[i], others);
   if (candidates.empty()) return false;
-  limit_ = form.objective + share_ * static_cast<double>(size);
+  limit_ = form.objective + share_ * worth_of(form.poles[i]) * static_cast<double>(size);
   if (exposure_) exposure_->prepare(with_images(candidates, options_.mirror), execution_.workers());
   const Index k = form.residues.size();
   objective_.prepare(with_images(candidates, options_.mirror), k, execution_);
@@ -72,10 +79,9 @@ bool SearchSteps::exchange(MeromorphicForm& form, Index i) {
   run_throwing(execution_.workers(), static_cast<int>(candidates.size()), [&](int j) {
     std::vector<int> vertices = form.poles;
     vertices[i] = candidates[j];
-    const double seen = exposure_ ? weight_ * (*exposure_)(candidates[j]) * static_cast<double>(size) / k : 0;
-    scores[j] = {
-        scores_(candidates[j], form.residues[i]) + objective_.jacobian_term(vertices, form.residues, metric) + seen,
-        candidates[j]};
+    const int v = candidates[j];
+    const double seen = exposure_ ? weight_ * worth_of(v) * (*exposure_)(v) * static_cast<double>(size) / k : 0;
+    scores[j] = {scores_(v, form.residues[i]) + objective_.jacobian_term(vertices, form.residues, metric) + seen, v};
   });
   std::sort(scores.begin(), scores.end());
   std::vector<MeromorphicForm> tried;

@@ -54,6 +54,7 @@ class SearchSteps {
   };
 
   double price(const MeromorphicForm& form) const;
+  double worth_of(int vertex) const;
   std::vector<Trial> trials_everywhere(const MeromorphicForm& form);
   std::vector<MeromorphicForm> all_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);
 
