@@ -40,13 +40,15 @@ void add_along(const HalfEdges& half_edges, const ClosedForms& forms, HalfedgeHa
 template <int N>
 using Maxima = std::array<Row<N>, 2>;  // per form: largest |sum|, and largest scale that it is relative to
 
-// Faces: |sum around| against the largest value.
+// The faces that are first met at these half-edges, as neighbours in their order are near in memory: |sum around|
+// against the largest value.
 template <int N>
 void measure_faces(const HalfEdges& half_edges, const ClosedForms& forms, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
   Row<N> sum(n), value(n);
-  for (int f = begin; f < end; ++f) {
-    HalfedgeHandle h = half_edges.halfedge_handle(mesh::FaceHandle(f));
+  for (int first = begin; first < end; ++first) {
+    HalfedgeHandle h(first);
+    if (half_edges.is_boundary(h) || !mesh::is_first_of_face(half_edges, h)) continue;
     sum.setZero();
     for (int i = 0; i < 3; ++i, h = next(half_edges, h)) {
       value.setZero();
@@ -145,7 +147,7 @@ Residuals residuals_of(const HalfEdges& half_edges, std::span<const double> weig
   const auto vertices = [&](int begin, int end, Maxima<N>& maxima) {
     measure_vertices<N>(half_edges, weights, forms, natural, is_fixed, begin, end, maxima);
   };
-  return {relative_maximum<N>(half_edges.n_faces(), n, execution, 0.0, 0.5, faces),
+  return {relative_maximum<N>(half_edges.n_halfedges(), n, execution, 0.0, 0.5, faces),
           relative_maximum<N>(half_edges.n_vertices(), n, execution, 0.5, 1.0, vertices)};
 }
 

@@ -24,6 +24,12 @@ Discretisation on_input(const Surface& surface, HalfEdges half_edges, Execution&
   return discretised(intrinsic_triangulation(surface, std::move(half_edges), execution.workers()), execution);
 }
 
+Discretisation on_input_with_errors(const Surface& surface, HalfEdges half_edges, Execution& execution) {
+  auto triangulation = given_triangulation(surface, std::move(half_edges), execution.workers());
+  if (triangulation.degenerate) mollify(triangulation, execution.workers());
+  return discretised(std::move(triangulation), execution);
+}
+
 Discretisation on_delaunay(const Surface& surface, HalfEdges half_edges, Execution& execution) {
   auto triangulation = given_triangulation(surface, std::move(half_edges), execution.workers());
   make_delaunay(triangulation, execution);

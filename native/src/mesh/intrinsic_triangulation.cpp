@@ -124,6 +124,16 @@ bool lengthen(IntrinsicTriangulation& t, const Chosen& chosen, Workers& workers)
   return true;
 }
 
+IntrinsicTriangulation without_errors(const Surface& surface, HalfEdges half_edges, Workers& workers) {
+  IntrinsicTriangulation result;
+  result.half_edges = std::move(half_edges);
+  result.lengths.resize(surface.edge_lengths.size());
+  for_rows(workers, static_cast<int>(result.lengths.size()),
+           [&](int e) { result.lengths[e] = surface.edge_lengths[e]; });
+  result.degenerate = set_all_cotangents(result, workers);
+  return result;
+}
+
 }  // namespace
 
 void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
@@ -137,12 +147,7 @@ void set_cotangents(IntrinsicTriangulation& t, HalfedgeHandle h) {
 }
 
 IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
-  IntrinsicTriangulation result;
-  result.half_edges = std::move(half_edges);
-  result.lengths.resize(surface.edge_lengths.size());
-  for_rows(workers, static_cast<int>(result.lengths.size()),
-           [&](int e) { result.lengths[e] = surface.edge_lengths[e]; });
-  result.degenerate = set_all_cotangents(result, workers);
+  IntrinsicTriangulation result = without_errors(surface, std::move(half_edges), workers);
   result.metric_errors = metric_errors(result.metric(), surface, workers);
   return result;
 }
@@ -159,7 +164,7 @@ void mollify_needles(IntrinsicTriangulation& t, Workers& workers) {
 }
 
 IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers) {
-  IntrinsicTriangulation result = given_triangulation(surface, std::move(half_edges), workers);
+  IntrinsicTriangulation result = without_errors(surface, std::move(half_edges), workers);
   if (result.degenerate) mollify(result, workers);
   return result;
 }

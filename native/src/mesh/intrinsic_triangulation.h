@@ -50,7 +50,7 @@ bool mollify(IntrinsicTriangulation& triangulation, Workers& workers);
 /// The same of triangles with a side without length alone.
 void mollify_needles(IntrinsicTriangulation& triangulation, Workers& workers);
 
-/// given_triangulation, mollified.
+/// given_triangulation, mollified, without the errors of the metric: for what is not bounded.
 IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers);
 
 /// By what intrinsic_triangulation lengthens edges; 0 if no triangle is degenerate.

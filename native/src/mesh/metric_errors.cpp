@@ -92,12 +92,15 @@ Array<FaceError> metric_errors(const Metric& t, const Surface& surface, Workers&
   Array<FaceError> errors(t.half_edges.n_faces());
   const bool given = !surface.metric_errors.empty();
   const double of_length = surface.intrinsic() ? kOfGivenLength : kOfDistance;
-  for_rows(workers, static_cast<int>(errors.size()), [&](int f) {
+  for_rows(workers, static_cast<int>(t.half_edges.n_halfedges()), [&](int i) {
+    const HalfedgeHandle h(i);
+    if (t.half_edges.is_boundary(h) || !is_first_of_face(t.half_edges, h)) return;
+    const int f = t.half_edges.face_handle(h).idx();
     if (given) {
       errors[f] = {surface.metric_errors[f], surface.metric_errors[f]};
       return;
     }
-    const auto [a, b, c] = sides_at(t, t.half_edges.halfedge_handle(FaceHandle(f)));
+    const auto [a, b, c] = sides_at(t, h);
     const double error = energy_growth({{{a, of_length * a}, {b, of_length * b}, {c, of_length * c}}});
     errors[f] = {error, error};
   });

@@ -21,7 +21,7 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
   result.topology = structure::find_topology(*result.surface, half_edges, execution, levels->bases);
 
   execution.stage("Laplacian", 0.2, 0.3);
-  const auto input = mesh::on_input(*result.surface, std::move(half_edges), execution);
+  const auto input = mesh::on_input_with_errors(*result.surface, std::move(half_edges), execution);
   record.mollification = input.mollification;
   const PaperSolver* paper = nullptr;
   const auto make = [&](solver::Laplacian&& L) {

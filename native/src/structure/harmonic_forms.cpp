@@ -18,10 +18,11 @@ HarmonicForms harmonic_forms(const mesh::Surface& surface, const Topology& topol
   return measured(surface, topology, discretisation, classes, std::move(functions), execution);
 }
 
-forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver, Execution& execution) {
+forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver,
+                                         const forms::RowMajorMatrix& near, Execution& execution) {
   const auto& discretisation = solver.discretisation();
   const auto classes = classes_on(topology, discretisation.half_edges, discretisation.flips);
-  auto functions = solver.solve(classes, topology.families.natural, execution);
+  auto functions = solver.solve(classes, topology.families.natural, execution, near);
   add_loop_indicators(topology, functions);
   return functions;
 }

@@ -151,7 +151,7 @@ SurfaceWithPoles surface_with_poles(std::shared_ptr<const mesh::Surface> given, 
   result.surface = flipped;
 
   execution.stage("residues", 0.05, 0.1);
-  made.discretisation = mesh::on_input(*flipped, mesh::half_edges(*flipped, execution), execution);
+  made.discretisation = mesh::on_input_with_errors(*flipped, mesh::half_edges(*flipped, execution), execution);
   result.record.mollification = made.discretisation.mollification;
   auto stars = mesh::stars(made.discretisation.half_edges, made.discretisation.lengths, vertices, labels);
   if (residues.empty()) poles.residues = default_residues(*given, half_edges, vertices, closed, execution);

@@ -73,7 +73,6 @@ PoleBasis::PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structu
 
 void PoleBasis::solve(const structure::Options& options, Execution& execution) {
   discretisation_ = mesh::on_input(surface(), mesh::half_edges(surface(), execution), execution);
-  discretisation_.errors = {};  // no bounds are wanted
   uncertain_ = uncertain_vertices(surface(), weights());
   vertex_share_ = mesh::vertex_areas(surface(), lengths());
   for (const double a : vertex_share_) area_ += a;
