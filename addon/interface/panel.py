@@ -35,16 +35,10 @@ class _HolomorphPanel(_Panel):
             if context.mode == "OBJECT":
                 _draw_modifiers(column, context, obj)
                 layout.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
-                column = layout.column(align=True)
-                column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
-                column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
-                column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
-                layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
             _draw_result(layout, context, obj)
         elif obj is not None and obj.type in CONVERTIBLE:
             lines.draw(column, context, CONVERT, "INFO")
         if context.mode == "OBJECT":
-            layout.operator(compare.HOLOMORPH_OT_compare.bl_idname, icon="ARROW_LEFTRIGHT")
             _draw_overlays(layout, context)
 
 
@@ -68,6 +62,24 @@ class _DetailsPanel(_Panel):
         column = self.layout.column(align=True)
         for line in stored.summary(context.active_object[report.PROPERTY]):
             lines.draw(column, context, line, indent=INDENT)
+
+
+class _ThingsPanel(_Panel):
+    """What is made of a tiling."""
+
+    bl_label = "Things"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return not native.problem() and context.mode == "OBJECT"
+
+    def draw(self, _context):
+        column = self.layout.column(align=True)
+        column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
+        column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
+        column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
+        self.layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
 
 
 class _ToolsPanel(_Panel):
@@ -147,7 +159,12 @@ def _panels(name, space):
         settings = {"bl_space_type": space} | ({"bl_parent_id": name} if end else {})
         return type(name + end, (base, bpy.types.Panel), settings)
 
-    return [made(_HolomorphPanel), made(_DetailsPanel, "_details"), made(_ToolsPanel, "_tools")]
+    return [
+        made(_HolomorphPanel),
+        made(_DetailsPanel, "_details"),
+        made(_ThingsPanel, "_things"),
+        made(_ToolsPanel, "_tools"),
+    ]
 
 
 _register_panels, _unregister_panels = bpy.utils.register_classes_factory(
