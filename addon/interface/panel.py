@@ -4,7 +4,7 @@
 import bpy
 
 from .. import native
-from ..operators import bake, carry, compare, drag, geometry, lod, submit, texel_operators, tools
+from ..operators import assets, bake, carry, compare, drag, geometry, lod, submit, texel_operators, tools
 from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..overlays import overlay
@@ -97,6 +97,7 @@ class _ToolsPanel(_Panel):
         column.operator(tools.HOLOMORPH_OT_select_bad.bl_idname)
         column.operator(tools.HOLOMORPH_OT_repair.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
+        column.operator(assets.HOLOMORPH_OT_assets.bl_idname)
         submit.draw(column)
         if self.bl_space_type == "VIEW_3D":
             column = self.layout.column(align=True)
