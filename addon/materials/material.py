@@ -92,8 +92,8 @@ def _showing_own(map_name, is_attribute, look):
         ours = (m for m in bpy.data.materials if m.get(SHOWS) == shows and m.library is None and m.node_tree)
         material = next(ours, None) or bpy.data.materials.new("")
         if OURS not in material:
-            own_nodes.build_image(material, block, map_name, is_attribute)
-        own_nodes.adjust(material.node_tree, look.repeats, own)
+            own_nodes.build_image(material, map_name, is_attribute, look.repeats, own)
+        own_nodes.adjust(material, look.repeats, own)
     if OURS not in material:
         material.name = f"{map_name} {own.name}"
         material[OURS], material[SHOWS] = True, shows

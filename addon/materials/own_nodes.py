@@ -6,23 +6,31 @@ from .nodes import HEIGHT_NODE, IMAGE_NODE, REPEATS_NODE, Tree
 SHIFT_NODE = "Row Shift"
 ROUGHNESS = 0.6
 LEFT = -900  # of what is added to the user's nodes, from the leftmost of them, in the editor's units
+TANGENTS = {"NORMAL_MAP", "TANGENT"}  # types of nodes whose vectors are those of a UV map
 UNLINKED = {"TEX_IMAGE"}  # types of nodes that read the active UV map where nothing is linked
 
 
-def build_image(material, image, map_name, is_attribute):
-    """The image, laid on by the map; see `adjust`."""
+def build_image(material, map_name, is_attribute, repeats, own):
+    """The image, laid on by the map."""
     tree = Tree.of(material)
-    picture = tree.node("ShaderNodeTexImage", -360, 200, IMAGE_NODE, image=image)
-    tree.link(_places(tree, tree.map_vector(map_name, is_attribute)), picture.inputs["Vector"])
+    picture = tree.node("ShaderNodeTexImage", -360, 200, IMAGE_NODE, image=own.block)
+    tree.link(_places(tree, tree.map_vector(map_name, is_attribute), repeats, own), picture.inputs["Vector"])
     tree.link(picture.outputs[0], tree.shader(ROUGHNESS).inputs["Base Color"])
     tree.show_in_solid_view(picture)
 
 
-def adjust(tree, repeats, own):
-    """Numbers in the nodes of `_places`, where the user has not rebuilt them."""
-    for name, value in ((REPEATS_NODE, repeats), (HEIGHT_NODE, own.height), (SHIFT_NODE, own.shift)):
-        if name in tree.nodes:
-            tree.nodes[name].outputs[0].default_value = value
+def adjust(material, repeats, own):
+    """The image and numbers of what `build_image` made, where the user has not rebuilt them."""
+    nodes = material.node_tree.nodes
+    if IMAGE_NODE in nodes:
+        nodes[IMAGE_NODE].image = own.block
+    for name, value in _numbers(repeats, own).items():
+        if name in nodes:
+            nodes[name].outputs[0].default_value = value
+
+
+def _numbers(repeats, own):
+    return {REPEATS_NODE: repeats, HEIGHT_NODE: own.height, SHIFT_NODE: own.shift}
 
 
 def redirect(tree, map_name, is_attribute, repeats, own):
@@ -34,6 +42,8 @@ def redirect(tree, map_name, is_attribute, repeats, own):
                 groups[node.node_tree] = node.node_tree.copy()
                 redirect(groups[node.node_tree], map_name, is_attribute, repeats, own)
             node.node_tree = groups[node.node_tree]
+        elif node.type in TANGENTS:
+            node.uv_map = map_name
     for socket in _reading(tree):
         if places is None:
             places = _places_in(tree, map_name, is_attribute, repeats, own)
@@ -60,24 +70,22 @@ def _gives_uvs(link):
 
 def _places_in(tree, map_name, is_attribute, repeats, own):
     """The socket of `_places`, left of the user's nodes."""
-    left = min(node.location.x for node in tree.nodes)
-    added = Tree(tree, left + LEFT)
-    places = _places(added, added.map_vector(map_name, is_attribute, label=""))
-    adjust(tree, repeats, own)
-    return places
+    added = Tree(tree, min(node.location.x for node in tree.nodes) + LEFT)
+    return _places(added, added.map_vector(map_name, is_attribute, label=""), repeats, own)
 
 
-def _places(tree, vector):
+def _places(tree, vector, repeats, own):
     """The socket of UVs in images: v over their height, and each row of images moved beside the one below it."""
-    repeats, height, shift = (
-        tree.node("ShaderNodeValue", -900, -120 - 100 * k, name)
-        for k, name in enumerate((REPEATS_NODE, HEIGHT_NODE, SHIFT_NODE))
-    )
+    sockets = []
+    for row, (name, value) in enumerate(_numbers(repeats, own).items()):
+        sockets.append(tree.node("ShaderNodeValue", -900, -120 - 100 * row, name).outputs[0])
+        sockets[-1].default_value = value
+    times, height, shift = sockets
     apart = tree.node("ShaderNodeSeparateXYZ", -740, 100)
-    tree.link(tree.scaled(vector, repeats.outputs[0], -820, 200), apart.inputs[0])
-    up = tree.number("DIVIDE", apart.outputs["Y"], height.outputs[0], x=-680)
+    tree.link(tree.scaled(vector, times, -820, 200), apart.inputs[0])
+    up = tree.number("DIVIDE", apart.outputs["Y"], height, x=-680)
     row = tree.number("FLOOR", up, x=-620)
-    moved = tree.number("MULTIPLY", row, shift.outputs[0], x=-560)
+    moved = tree.number("MULTIPLY", row, shift, x=-560)
     along = tree.number("SUBTRACT", apart.outputs["X"], moved, x=-500)
     places = tree.node("ShaderNodeCombineXYZ", -440, 100)
     for value, name in ((along, "X"), (up, "Y")):

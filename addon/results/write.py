@@ -32,10 +32,11 @@ class WriteOptions:
 
 
 def options_of(dials):
-    """The `WriteOptions` in a stored report."""
+    """The `WriteOptions` in a stored report; the checker where a texture of the user's is gone."""
     values = {one.name: dials[one.name] for one in fields(WriteOptions) if one.name in dials}
     if values.get("own"):
-        values["own"] = Own(**{name: stored.as_tuple(value) for name, value in values["own"].items()})
+        own = Own(**{name: stored.as_tuple(value) for name, value in values["own"].items()})
+        values |= {"own": own} if own.block else {"own": None, "texture": material.CHECKER}
     return WriteOptions(**values)
 
 

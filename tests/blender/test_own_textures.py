@@ -47,6 +47,7 @@ def mine(picture, name="Mine"):
     second.image = picture
     inner.links.new(place.outputs["UV"], second.inputs["Vector"])
     tree.nodes.new("ShaderNodeGroup").node_tree = inner
+    tree.nodes.new("ShaderNodeNormalMap").uv_map = "Artist"
     return made
 
 
@@ -188,6 +189,17 @@ def test_a_material_is_copied_and_reads_the_map():
         (reader,) = [node for node in tree.nodes if node.type == "TEX_IMAGE"]
         assert uv.uv_map == "Holomorphic" and reader.inputs["Vector"].is_linked and reader.image == picture
         assert values(tree)["Image Height"] == 0.5
+    assert [node.uv_map for node in shown(obj).node_tree.nodes if node.type == "NORMAL_MAP"] == ["Holomorphic"]
+    assert [node.uv_map for node in user.node_tree.nodes if node.type == "NORMAL_MAP"] == ["Artist"]
+
+
+def test_nodes_of_the_same_names_stay():
+    obj = torus()
+    user = mine(image(bricks()))
+    number = user.node_tree.nodes.new("ShaderNodeValue")
+    number.name, number.outputs[0].default_value = "Image Height", 7.0
+    tile(texture="MATERIAL", source="Mine")
+    assert values(shown(obj).node_tree) == {"Image Height": 7, "Repeats": 1, "Image Height.001": 0.5, "Row Shift": 0}
 
 
 def test_copies_of_a_material_do_not_gather():
@@ -276,6 +288,25 @@ def test_poles_are_dragged_under_an_image():
     before, translations = shown(obj), lattice(obj)
     assert bpy.ops.uv.holomorphic_drag_poles(moves="0:5") == {"FINISHED"}
     assert shown(obj) == before and are_whole(obj, translations)
+
+
+def test_a_texture_that_is_gone_when_poles_are_dragged():
+    obj = torus()
+    user = mine(image(bricks()))
+    tile(texture="MATERIAL", source="Mine", pole_count=2)
+    bpy.data.materials.remove(user)
+    assert bpy.ops.uv.holomorphic_drag_poles(moves="0:5") == {"FINISHED"}
+    assert shown(obj).name.startswith("Holomorphic Checker")
+
+
+def test_an_image_that_was_loaded_anew():
+    obj = torus()
+    for _ in range(2):
+        picture = image(bricks())
+        tile(texture="IMAGE", source="Wall")
+        assert [n.image for n in shown(obj).node_tree.nodes if n.type == "TEX_IMAGE"] == [picture]
+        bpy.data.images.remove(picture)
+    assert len([m for m in bpy.data.materials if m.name.startswith("Holomorphic Wall")]) == 1
 
 
 def test_cells_follow_the_lattice():
