@@ -10,6 +10,7 @@ import bpy
 
 from .. import compatibility, native
 from ..scene import image_io
+from . import own_nodes
 from .nodes import OURS
 
 IMAGE, MATERIAL = "IMAGE", "MATERIAL"  # kinds
@@ -72,7 +73,8 @@ def _told(own, lattice, height, text):
 
 
 def _of_material(own, material, lattice):
-    """A material repeats with its images, as high as these are; finer lattices are those of all of them."""
+    """A material repeats with its images, as high as these are; by a finer lattice where it is that of all of them, and
+    nothing else reads UVs."""
     if OURS in material:
         raise ValueError(f"{own.name} shows a texture of this menu: choose that")
     if not compatibility.has_nodes(material):
@@ -85,8 +87,9 @@ def _of_material(own, material, lattice):
     if lattice != AUTOMATIC:
         return _told(own, lattice, height, text)
     alike = {_as_tuple(one.lattice) for one in found}
-    is_finer = len(alike) == 1 and not any(node.type == "MAPPING" for node in material.node_tree.nodes)
-    return Own(own.kind, own.name, alike.pop() if is_finer else ((1.0, 0.0), (0.0, height)), height, text=text)
+    if len(alike) == 1 and own_nodes.only_images_read(material.node_tree):
+        return Own(own.kind, own.name, alike.pop(), height, text=text)
+    return Own(own.kind, own.name, ((1.0, 0.0), (0.0, height)), height, text=text.split(";")[0])
 
 
 def _text(found):

@@ -56,6 +56,13 @@ def groups(tree):
     return inside.union(*map(groups, inside))
 
 
+def only_images_read(tree):
+    """Whether UVs go nowhere but to images, in its groups as well."""
+    inside = [node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree is not None]
+    own = all(link.to_node.type == "TEX_IMAGE" for link in tree.links if _gives_uvs(link))
+    return own and all(map(only_images_read, inside))
+
+
 def _reading(tree):
     """The inputs that take UVs: of links from nodes that give some, and of images without a link."""
     given = [link.to_socket for link in tree.links if _gives_uvs(link)]

@@ -228,9 +228,10 @@ def test_restore_brings_everything_back():
 def test_a_material_with_a_mapping_or_without_images_is_taken_as_it_is():
     obj = torus()
     user = mine(image(bricks()))
-    user.node_tree.nodes.new("ShaderNodeMapping")
+    place, mapping = user.node_tree.nodes.new("ShaderNodeUVMap"), user.node_tree.nodes.new("ShaderNodeMapping")
+    user.node_tree.links.new(place.outputs[0], mapping.inputs["Vector"])
     tile(texture="MATERIAL", source="Mine")
-    assert np.allclose(lattice(obj), [[1, 0], [0, 0.5]])
+    assert np.allclose(lattice(obj), [[1, 0], [0, 0.5]]) and stored_report(obj)["dials"]["own"]["text"] == "Tiles"
     plain = bpy.data.materials.new("Plain")
     module("compatibility").enable_nodes(plain)
     tile(texture="MATERIAL", source="Plain")
