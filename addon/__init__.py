@@ -7,7 +7,7 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .interface import panel, presets, shortcuts
-from .operators import bake, carry, compare, drag, geometry, lod, mapping, submit, texel_operators, tools
+from .operators import assets, bake, carry, compare, drag, geometry, lod, mapping, submit, texel_operators, tools
 from .overlays import overlay
 
 bl_info = {
@@ -31,6 +31,7 @@ MODULES = (
     compare,
     carry,
     bake,
+    assets,
     overlay,
     tools,
     submit,

@@ -78,6 +78,11 @@ def enable_nodes(material):
     return material.node_tree
 
 
+def has_nodes(material):
+    """Whether the material is made of nodes; from 5.0 all are."""
+    return material.node_tree is not None and (bpy.app.version >= (5, 0, 0) or material.use_nodes)
+
+
 def set_specular(shader, value):
     """Sets the dielectric reflection of a Principled node, renamed in 4.0."""
     for name in ("Specular IOR Level", "Specular"):

@@ -13,6 +13,7 @@ from .. import native
 from ..levels import source
 from ..levels.level_objects import Presentation
 from ..levels.levels import LevelOptions
+from ..materials import own
 from ..operators.run import Run
 from ..results import report, stored
 from ..writing import transaction
@@ -96,13 +97,20 @@ def _make_maps(options):
     """The `outcome.Outcome`. @throws UsageError"""
     found = sources.collect(options)
     try:
-        run = Run(options, found)
+        run = Run(options, found, _own_texture(options))
     except ValueError as error:
         raise UsageError(str(error)) from error
     job = run.job()
     job.run()
     with transaction.one_step(bpy.context, run.objects) as step:
         return run.write(step, job)
+
+
+def _own_texture(options):
+    """The `own.Own`, of the file where its name is that of no image. @throws ValueError"""
+    if options.texture == own.IMAGE and options.source not in bpy.data.images and Path(options.source).is_file():
+        options.source = bpy.data.images.load(str(Path(options.source).resolve())).name
+    return own.chosen(options)
 
 
 def _add_levels(options, outcome):

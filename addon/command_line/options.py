@@ -49,7 +49,7 @@ def parse(arguments):
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
-    _add_properties(parser, SharedProperties, *DIALS, "texture", "seams")
+    _add_properties(parser, SharedProperties, *DIALS, "texture", "source", "size", "seams")
     _add_properties(parser, MapProperties, "main", "forms", "shown", "density", "margin", "rotation")
     _add_properties(parser, MapProperties, "checker_scale", "shape")
     text = "each object fills the UV square, instead of equal texels per metre"

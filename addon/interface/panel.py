@@ -4,7 +4,7 @@
 import bpy
 
 from .. import native
-from ..operators import bake, carry, compare, drag, geometry, lod, submit, texel_operators, tools
+from ..operators import assets, bake, carry, compare, drag, geometry, lod, submit, texel_operators, tools
 from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..overlays import overlay
@@ -35,16 +35,10 @@ class _HolomorphPanel(_Panel):
             if context.mode == "OBJECT":
                 _draw_modifiers(column, context, obj)
                 layout.operator(lod.HOLOMORPH_OT_levels.bl_idname, text="Levels of Detail", icon="MOD_DECIM")
-                column = layout.column(align=True)
-                column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
-                column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
-                column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
-                layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
             _draw_result(layout, context, obj)
         elif obj is not None and obj.type in CONVERTIBLE:
             lines.draw(column, context, CONVERT, "INFO")
         if context.mode == "OBJECT":
-            layout.operator(compare.HOLOMORPH_OT_compare.bl_idname, icon="ARROW_LEFTRIGHT")
             _draw_overlays(layout, context)
 
 
@@ -70,6 +64,24 @@ class _DetailsPanel(_Panel):
             lines.draw(column, context, line, indent=INDENT)
 
 
+class _ThingsPanel(_Panel):
+    """What is made of a tiling."""
+
+    bl_label = "Things"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return not native.problem() and context.mode == "OBJECT"
+
+    def draw(self, _context):
+        column = self.layout.column(align=True)
+        column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
+        column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
+        column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
+        self.layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
+
+
 class _ToolsPanel(_Panel):
     bl_label = "Tools"
     bl_options = {"DEFAULT_CLOSED"}
@@ -85,6 +97,7 @@ class _ToolsPanel(_Panel):
         column.operator(tools.HOLOMORPH_OT_select_bad.bl_idname)
         column.operator(tools.HOLOMORPH_OT_repair.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
+        column.operator(assets.HOLOMORPH_OT_assets.bl_idname)
         submit.draw(column)
         if self.bl_space_type == "VIEW_3D":
             column = self.layout.column(align=True)
@@ -147,7 +160,12 @@ def _panels(name, space):
         settings = {"bl_space_type": space} | ({"bl_parent_id": name} if end else {})
         return type(name + end, (base, bpy.types.Panel), settings)
 
-    return [made(_HolomorphPanel), made(_DetailsPanel, "_details"), made(_ToolsPanel, "_tools")]
+    return [
+        made(_HolomorphPanel),
+        made(_DetailsPanel, "_details"),
+        made(_ThingsPanel, "_things"),
+        made(_ToolsPanel, "_tools"),
+    ]
 
 
 _register_panels, _unregister_panels = bpy.utils.register_classes_factory(

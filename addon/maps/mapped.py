@@ -136,6 +136,8 @@ class Mapper:
         return replace(wanted, tiles=share * wanted.tiles)
 
     def _asked(self, wanted):
+        if wanted.density:
+            return wanted.density
         return wanted.tiles / self._area if wanted.tiles and self._area else self._wanted
 
     def equalised(self, results):

@@ -24,7 +24,7 @@ class TileOptions:
     tiles: float = 0.0  # tiles over the whole object; 0 lets the library choose
     density: float = 0.0  # tiles for an area, instead; 0 for their number
     poles: object = "auto"  # or a number for each part, or a tuple of vertices of the object
-    lattice: str = "square"
+    lattice: object = "square"  # a name, or its (2, 2) matrix as tuples
     direction: object = "upright"  # or a vector in the frame of the solved polygons, or None
     boundary: str = "automatic"
     turn: float = 0.0  # radians by which the texture is rotated

@@ -14,7 +14,7 @@ def build(name, map_name, images):
     """A new material; images by channel. A height stands beside the others, linked to nothing."""
     made = bpy.data.materials.new(name)
     made[material.OURS] = True
-    tree = nodes.Tree(made)
+    tree = nodes.Tree.of(made)
     vector, shader = tree.map_vector(map_name, is_attribute=False), tree.shader(ROUGHNESS)
     for row, (channel, image) in enumerate(images.items()):
         picture = tree.node("ShaderNodeTexImage", -600, 400 - ROWS * row, channel.title(), image=image)

@@ -12,26 +12,33 @@ import numpy as np
 
 from ..compatibility import Values
 from ..scene import mesh_io
-from . import nodes, textures
+from . import nodes, own_nodes, textures
+from .nodes import OURS
+from .own import IMAGE, MATERIAL, Own
 from .patterns import TEXTURES
 
 CHECKER = "CHECKER"
 CHECKER_ACROSS = 32  # squares that span an object where no number is asked for
 CHECKER_CELLS = 2  # squares of the checker after which it repeats
+OWN_ACROSS = 8  # images of the user's that span an object where no number is asked for
 REPLACED = "holomorph_replaced_materials"  # custom property: slot index -> material linked to the object before
 BEFORE_BAKE = "holomorph_before_bake"  # custom property: slot index -> material that a baked one took the place of
 EMPTY = 0  # instead of a material: the slot was linked to the object, and empty
-OURS = "holomorph_checker"  # custom property that tells our materials
+SHOWS = "holomorph_shows"  # custom property of those that show a texture of the user's: which one, and of which map
 BAKED = "holomorph_baked_of"  # and those of them that show baked images: name of the object
 
 
 def cells(texture):
     """How many squares, bricks, scales ... there are across an image of a texture."""
+    if texture in (IMAGE, MATERIAL):
+        return 1
     return CHECKER_CELLS if texture == CHECKER else TEXTURES[texture].cells
 
 
 def across(texture):
     """How many squares, bricks, scales ... span an object where no number is asked for."""
+    if texture in (IMAGE, MATERIAL):
+        return OWN_ACROSS
     return CHECKER_ACROSS if texture == CHECKER else TEXTURES[texture].across
 
 
@@ -39,19 +46,23 @@ def across(texture):
 class Look:
     """What is shown of a map."""
 
-    texture: str  # CHECKER or one of `patterns.TEXTURES`
+    texture: str  # CHECKER, one of `patterns.TEXTURES`, or the kind of `own`
     cells: float  # squares, bricks, scales ... across a UV unit
     unit_length: float  # on the surface, of a UV unit
     is_tiling: bool = False  # whether the map is cut by whole units: such a map has a material of its own
+    own: Own | None = None  # the texture of the user's
 
     @property
     def repeats(self):
         """Images per UV unit: whole numbers, so that they fit where a map is cut by whole units."""
-        return max(1, round(self.cells / TEXTURES[self.texture].cells))
+        return max(1, round(self.cells / cells(self.texture)))
 
 
 def showing(map_name, is_attribute, look):
-    """The material that shows `map_name`; made once, then adjusted."""
+    """The material that shows `map_name`; made once, then adjusted. One that shows a material of the user's is a copy
+    of that as it is now."""
+    if look.own is not None:
+        return _showing_own(map_name, is_attribute, look)
     name = f"{map_name} {textures.label(look.texture)}" + (" (attribute)" if is_attribute else "")
     name += " (tiling)" if look.is_tiling else ""
     material = bpy.data.materials.get((name, None))
@@ -68,6 +79,34 @@ def showing(map_name, is_attribute, look):
             nodes.build_texture(material, look.texture, map_name, is_attribute)
         nodes.adjust_texture(material, look.texture, look.repeats, look.unit_length)
     return material
+
+
+def _showing_own(map_name, is_attribute, look):
+    own, block = look.own, look.own.block
+    shows = f"{own.kind} {own.name} {map_name} {is_attribute} {look.is_tiling}"
+    if own.kind == MATERIAL:
+        material = block.copy()
+        material.use_fake_user = False
+        own_nodes.redirect(material.node_tree, map_name, is_attribute, look.repeats, own)
+    else:
+        ours = (m for m in bpy.data.materials if m.get(SHOWS) == shows and m.library is None and m.node_tree)
+        material = next(ours, None) or bpy.data.materials.new("")
+        if OURS not in material:
+            own_nodes.build_image(material, map_name, is_attribute, look.repeats, own)
+        own_nodes.adjust(material, look.repeats, own)
+    if OURS not in material:
+        material.name = f"{map_name} {own.name}"
+        material[OURS], material[SHOWS] = True, shows
+    return material
+
+
+def unused_copies():
+    """Copies of materials of the user's, and the groups of their nodes, that no object shows any more."""
+    copies = {m for m in bpy.data.materials if m.get(SHOWS, "").startswith(MATERIAL) and m.library is None}
+    for obj in bpy.data.objects if copies else ():
+        copies -= {slot.material for slot in obj.material_slots}
+        copies -= {*getattr(obj.data, "materials", ()), *dict(obj.get(BEFORE_BAKE, {})).values()}
+    return [block for material in copies for block in (material, *own_nodes.groups(material.node_tree))]
 
 
 def cover(obj, material):

@@ -5,6 +5,7 @@ from .. import compatibility
 from . import textures
 from .patterns import TEXTURES
 
+OURS = "holomorph_checker"  # custom property that tells our materials
 LIGHT = (0.72, 0.68, 0.60)  # linear RGB, warm white
 DARK = (0.03, 0.11, 0.15)  # linear RGB, deep teal
 SCALE_NODE = "Checker Scale"
@@ -13,19 +14,26 @@ IMAGE_NODE = "Checker Image"
 SQUARES_NODE = "Squares in Image"
 REPEATS_NODE = "Repeats"
 RELIEF_NODE = "Relief"
+HEIGHT_NODE = "Image Height"  # of an image of the user's, in its width
 PREVIEW_NODE = "Preview"
 
 
 class Tree:
-    """A node tree while it is built."""
+    """A node tree while it is built; `left` is where its middle is, in the editor's units."""
 
-    def __init__(self, material):
-        self.tree = compatibility.enable_nodes(material)
-        self.tree.nodes.clear()
+    def __init__(self, tree, left=0):
+        self.tree, self._left = tree, left
+
+    @classmethod
+    def of(cls, material):
+        """That of a material, emptied."""
+        made = cls(compatibility.enable_nodes(material))
+        made.tree.nodes.clear()
+        return made
 
     def node(self, kind, x, y, label="", **settings):
         created = self.tree.nodes.new(kind)
-        created.location = (x, y)
+        created.location = (self._left + x, y)
         if label:
             created.name = created.label = label
         for name, value in settings.items():
@@ -35,12 +43,19 @@ class Tree:
     def link(self, source, target):
         self.tree.links.new(source, target)
 
-    def map_vector(self, map_name, is_attribute):
+    def map_vector(self, map_name, is_attribute, label=MAP_NODE):
         """The socket that gives a map's UVs."""
         if is_attribute:  # a UV Map node finds UV maps only
-            source = self.node("ShaderNodeAttribute", -900, 100, MAP_NODE, attribute_name=map_name)
+            source = self.node("ShaderNodeAttribute", -900, 100, label, attribute_name=map_name)
             return source.outputs["Vector"]
-        return self.node("ShaderNodeUVMap", -900, 100, MAP_NODE, uv_map=map_name).outputs[0]
+        return self.node("ShaderNodeUVMap", -900, 100, label, uv_map=map_name).outputs[0]
+
+    def number(self, operation, *values, x):
+        """The socket of an operation on sockets."""
+        node = self.node("ShaderNodeMath", x, -100, operation=operation)
+        for value, socket in zip(values, node.inputs):
+            self.link(value, socket)
+        return node.outputs[0]
 
     def scaled(self, vector, factor, x, y):
         """The socket of a vector times a value."""
@@ -66,7 +81,7 @@ class Tree:
 
 def build_checker(material, map_name, is_attribute):
     """Procedural squares, and an image of them for views without shading; one value node scales both."""
-    tree = Tree(material)
+    tree = Tree.of(material)
     vector = tree.map_vector(map_name, is_attribute)
     scale = tree.node("ShaderNodeValue", -900, -120, SCALE_NODE)
     checker = tree.node("ShaderNodeTexChecker", -360, 200)
@@ -95,7 +110,7 @@ def adjust_checker(material, squares):
 def build_texture(material, texture, map_name, is_attribute):
     """The images of a texture, repeated a whole number of times; the relief by bumps, which need no tangents and so
     show no seam where the map is cut."""
-    tree = Tree(material)
+    tree = Tree.of(material)
     vector = tree.map_vector(map_name, is_attribute)
     repeats = tree.node("ShaderNodeValue", -900, -120, REPEATS_NODE)
     at = tree.scaled(vector, repeats.outputs[0], -720, 100)
@@ -146,7 +161,14 @@ def build_plain(material, shown):
     nodes = shown.node_tree.nodes
     image = next(nodes[name].image for name in (PREVIEW_NODE, IMAGE_NODE) if name in nodes)
     shader = next(node for node in nodes if node.type == "BSDF_PRINCIPLED")
-    tree = Tree(material)
+    tree = Tree.of(material)
     picture = tree.node("ShaderNodeTexImage", -480, 200, image=image)
-    tree.link(tree.map_vector(shown_map(shown), is_attribute=False), picture.inputs["Vector"])
+    vector = tree.map_vector(shown_map(shown), is_attribute=False)
+    if HEIGHT_NODE in nodes:  # an image of the user's
+        places = tree.node("ShaderNodeMapping", -720, 100)
+        along, height = (nodes[name].outputs[0].default_value for name in (REPEATS_NODE, HEIGHT_NODE))
+        places.inputs["Scale"].default_value = (along, along / height, 1)
+        tree.link(vector, places.inputs["Vector"])
+        vector = places.outputs[0]
+    tree.link(vector, picture.inputs["Vector"])
     tree.link(picture.outputs[0], tree.shader(shader.inputs["Roughness"].default_value).inputs["Base Color"])

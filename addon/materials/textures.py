@@ -6,7 +6,7 @@ import functools
 import bpy
 import numpy as np
 
-from ..scene import mesh_io
+from ..scene import image_io
 from .patterns import SIZE, TEXTURES
 
 OURS = "holomorph_image"  # custom property that tells our images: what is on it
@@ -81,7 +81,7 @@ _packed = {}  # files of images by key: the redo panel undoes what it made befor
 def _fill(image, pixels):
     opaque = np.ones((*pixels.shape[:2], 4), np.float32)
     opaque[..., :3] = pixels
-    mesh_io.write_pixels(image, opaque)
+    image_io.write_pixels(image, opaque)
     image.pack()
 
 

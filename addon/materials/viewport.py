@@ -4,19 +4,21 @@
 from . import material
 
 WITHOUT_TEXTURE = {"SOLID", "WIREFRAME"}  # kinds of shading
-SHOWN = ("SOLID", "TEXTURE")  # kind of shading, and what its colour is
+IMAGE, MATERIAL = "SOLID", "MATERIAL"  # kinds that show an image over the UV square, and a material as it is
+COLOUR = "TEXTURE"  # what the colour of `IMAGE` is
 BEFORE = "holomorph_shading"  # custom property of a screen: index of an area -> kind and colour as they were
 
 
-def show(window):
-    """Textured solid shading in those views that would not show a texture; the others stay."""
+def show(window, shown=IMAGE):
+    """One of these kinds of shading in those views that would not show a texture; the others stay."""
     before = dict(window.screen.get(BEFORE, {}))
     for index, shading in _views(window):
         kind = shading.type
-        if kind in WITHOUT_TEXTURE and (kind, shading.color_type) != SHOWN:
-            shading.type = SHOWN[0]  # first: the colours that there are depend on it
-            before[index] = [kind, shading.color_type]
-            shading.color_type = SHOWN[1]
+        if kind in WITHOUT_TEXTURE and (shown, kind, shading.color_type) != (IMAGE, IMAGE, COLOUR):
+            shading.type = IMAGE  # first: the colours that there are depend on it
+            before[index] = before.get(index) or [kind, shading.color_type]
+            shading.color_type = COLOUR
+            shading.type = shown
     if before:
         window.screen[BEFORE] = before
 
@@ -25,7 +27,8 @@ def restore(window):
     """What `show` changed, but for views whose shading was chosen anew since."""
     before = dict(window.screen.get(BEFORE, {}))
     for index, shading in _views(window):
-        if index in before and (shading.type, shading.color_type) == SHOWN:
+        if index in before and (shading.type == MATERIAL or (shading.type, shading.color_type) == (IMAGE, COLOUR)):
+            shading.type = IMAGE
             shading.color_type = before[index][1]
             shading.type = before[index][0]
     if before:

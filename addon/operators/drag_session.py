@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A tiling while its poles are dragged: what there was, what comes of a move, and its end. No events in here."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -34,8 +34,7 @@ class Session:
         if asked is None or self.target.refused or self._map not in obj.data.uv_layers:
             raise ValueError(f"{obj.name}: there is no tiling whose poles could be dragged; {AGAIN}")
         self._asked = replace(asked, allowed=tile_choices.allowed(asked.pole_group, obj))
-        dials = stored.parsed(text)["dials"]
-        self._write_options = write.WriteOptions(**{one.name: dials[one.name] for one in fields(write.WriteOptions)})
+        self._write_options = write.options_of(stored.parsed(text)["dials"])
         self._task = targets.tasks([self.target])[0]
         self.mapped = None
         self.mapped = self.made({})

@@ -4,6 +4,8 @@
 import math
 
 from ..maps.options import MapOptions, TileOptions, dials
+from ..materials import material
+from ..materials.own import IMAGE, MATERIAL
 from ..results.write import WriteOptions
 from ..solving import choices
 
@@ -26,8 +28,9 @@ def request(properties):
     )
 
 
-def options(properties, _target):
-    """The `options.MapOptions`, the same for every object."""
+def options(properties, _target, own=None):
+    """The `options.MapOptions`, the same for every object, with the `own.Own` that is the texture."""
+    lattice = {} if own is None else {"lattice": own.lattice}
     return MapOptions(
         properties.forms,
         properties.density,
@@ -36,10 +39,22 @@ def options(properties, _target):
         tuple(properties.turns),
         properties.margin,
         properties.main,
-        tiling=TileOptions(**dials(properties)),
+        tiling=TileOptions(density=density(properties.size, 1), **lattice, **dials(properties)),
     )
 
 
-def write_options(properties):
-    show = properties.shown, properties.checker, properties.texture, properties.checker_scale
-    return WriteOptions(*show, properties.seams, properties.shape)
+def write_options(properties, own=None):
+    texture = shown_texture(properties.texture, own)
+    show = properties.shown, properties.checker, texture, properties.checker_scale
+    return WriteOptions(*show, properties.seams, properties.shape, size=properties.size, own=own)
+
+
+def density(size, repeats):
+    """UV units for an area with images of the texture so wide, of which so many are side by side in a unit; 0 where no
+    size is asked for."""
+    return 1 / (size * repeats) ** 2 if size else 0.0
+
+
+def shown_texture(texture, own):
+    """The checker where the user's own texture is not yet chosen."""
+    return material.CHECKER if texture in (IMAGE, MATERIAL) and own is None else texture

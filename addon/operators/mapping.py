@@ -20,7 +20,20 @@ class _MapsOperator(OnMeshes, WorkOperator):
         from . import run
 
         objects, request = gathering.mesh_objects(context), self.choices().request(self)
-        self._run = run.Run(self, targets.collect(objects, request))
+        self._own = self._own_texture()
+        self._run = run.Run(self, targets.collect(objects, request), self._own)
+
+    def _own_texture(self):
+        """The `own.Own`. Where it cannot be had the redo panel says why, and must not vanish: the checker is shown."""
+        from ..materials import own
+
+        try:
+            chosen = own.chosen(self)
+        except ValueError as error:
+            self.found = native.sentence(error)
+            return None
+        self.found = chosen.text if chosen else ""
+        return chosen
 
     def make_work(self, progress):
         return self._run.job(progress)
@@ -40,7 +53,9 @@ class _MapsOperator(OnMeshes, WorkOperator):
     def finish(self, step, work, time_has_passed):
         outcome = self._run.write(step, work, time_has_passed)
         self.form_count, self.tile_count = outcome.forms, outcome.tiles
-        self.show(step.context, outcome, self.checker)
+        if self._own is None and self.found:
+            outcome.problems.append(self.found)
+        self.show(step.context, outcome, self.checker, self._own is not None)
         return self.tell(outcome)
 
 

@@ -75,13 +75,13 @@ class WorkOperator(Explained):
         self._work.cancel()
         self._end_modal(context)
 
-    def show(self, context, outcome, has_texture):
-        """Switches the window's 3D views so that the texture of what was done is seen."""
+    def show(self, context, outcome, has_texture, is_own=False):
+        """Switches the window's 3D views so that the texture of what was done is seen, or the user's own material."""
         from .. import preferences
         from ..materials import viewport
 
         if outcome.done and has_texture and context.window is not None and preferences.shows_in_viewport(context):
-            viewport.show(context.window)
+            viewport.show(context.window, viewport.MATERIAL if is_own else viewport.IMAGE)
 
     def _work_here(self, context):
         manager = context.window_manager

@@ -4,6 +4,7 @@
 import functools
 import math
 
+import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, StringProperty
 
 from .. import native
@@ -54,13 +55,19 @@ TEXTURES = items(
     WEAVE="Woven cloth",
     PLANKS="Wooden boards",
     HEXAGONS="Glazed hexagonal tiles",
+    IMAGE="An image of yours; one that is not square in pixels is not squeezed",
+    MATERIAL="A material of yours, of which a copy reads the map. It is taken to repeat with its images",
 )
+OWN_TEXTURES = {"IMAGE": "images", "MATERIAL": "materials"}  # where Blender has them
 OF_ISLANDS = {"hard_edges", "most_stretch"}
 ABOUT = {
     "modifiers": "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result "
     "becomes an object of its own and the object is hidden",
     "checker": "Show the map by a material; the mesh's own materials stay and can be brought back",
     "texture": "What the material shows",
+    "source": "Its name. It is not changed",
+    "size": "How wide an image of the texture is on the surface. Seamless maps have it within a tenth, for whole tiles "
+    "must fit. 0: as the number of tiles or squares says",
     "evenness": "0: squares keep their angles, and differ in size. 1: they have one size, and are sheared. Nothing is "
     "placed anew when it changes",
     "seams": "Mark the edges where the maps are cut as seams; existing seams are kept",
@@ -128,6 +135,9 @@ class SharedProperties:
     modifiers: BoolProperty(name="With Modifiers", description=ABOUT["modifiers"], default=False, options=ONCE)
     checker: BoolProperty(name="Show Texture", description=ABOUT["checker"], default=True)
     texture: EnumProperty(name="Texture", description=ABOUT["texture"], items=TEXTURES, default="CHECKER")
+    source: StringProperty(name="Source", description=ABOUT["source"], default="")
+    size: FloatProperty(name="Size", description=ABOUT["size"], default=0.0, min=0.0, subtype="DISTANCE", precision=3)
+    found: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
     evenness: FloatProperty(
         name="Evenness", description=ABOUT["evenness"], default=TileOptions.evenness, min=0.0, max=1.0
     )
@@ -135,12 +145,19 @@ class SharedProperties:
     form_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
     tile_count: IntProperty(options={"HIDDEN", "SKIP_SAVE"})
 
+    def is_drawn(self, name):
+        return name != "source" or self.texture in OWN_TEXTURES
+
     def draw_options(self, layout, obj):
         for group in self.drawn:
             column = layout.column()
             for name in filter(self.is_drawn, group):
                 if name == "pole_group" and obj is not None:
                     column.prop_search(self, name, obj, "vertex_groups")
+                elif name == "source":
+                    column.prop_search(self, name, bpy.data, OWN_TEXTURES[self.texture], text=self.texture.title())
+                    if self.found:
+                        column.label(text=self.found)
                 else:
                     column.prop(self, name)
 
@@ -150,7 +167,7 @@ class MapProperties(SharedProperties):
 
     drawn = (
         ("main", *DIALS, "hard_edges", "most_stretch", "density", "equal", "margin", "rotation", "forms", "shown"),
-        ("checker", "texture", "checker_scale", "seams", "shape"),
+        ("checker", "texture", "source", "size", "checker_scale", "seams", "shape"),
         ("use_selection", "modifiers", "residues", "cut_at_seams", "boundary", "solver"),
     )
     main: main_property("AUTOMATIC")
@@ -190,7 +207,7 @@ class MapProperties(SharedProperties):
         return self.main != "BALANCED"
 
     def is_drawn(self, name):
-        return name not in OF_ISLANDS or self.main == "ISLANDS"
+        return super().is_drawn(name) and (name not in OF_ISLANDS or self.main == "ISLANDS")
 
     def draw_options(self, layout, obj):
         super().draw_options(layout, obj)

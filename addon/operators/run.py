@@ -11,12 +11,15 @@ from ..solving import jobs
 
 class Run:
     """What is asked for by properties of an operator, or by the headless command under the same names, of these
-    `targets.Target`s. @throws ValueError there is nothing of what is asked for on one of them"""
+    `targets.Target`s. @throws ValueError there is nothing of what is asked for on one of them
 
-    def __init__(self, properties, found):
-        self.tasks, self._found, self._properties = targets.tasks(found), found, properties
+    own : the `own.Own` that is their texture, None for one of ours
+    """
+
+    def __init__(self, properties, found, own=None):
+        self.tasks, self._found, self._properties, self._own = targets.tasks(found), found, properties, own
         self._choices, self._mapper = properties.choices(), mapped.Mapper(properties.equal)
-        self._options = [self._choices.options(properties, target) for target in found if not target.refused]
+        self._options = [self._choices.options(properties, target, own) for target in found if not target.refused]
 
     def job(self, progress=None):
         """The `jobs.Job` that solves and maps."""
@@ -31,5 +34,5 @@ class Run:
     def write(self, step, job, time_has_passed=False):
         """Writes what the job gave, in a `transaction.Step` of the objects; the `outcome.Outcome`."""
         results = targets.align(self._found, self._mapper.equalised(job.results))
-        options = self._choices.write_options(self._properties)
+        options = self._choices.write_options(self._properties, self._own)
         return write.write(step, self._found, results, options, time_has_passed)

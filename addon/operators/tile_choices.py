@@ -8,14 +8,19 @@ import numpy as np
 
 from ..maps.options import TILING, MapOptions, TileOptions, dials
 from ..materials import material
+from ..materials.own import AUTOMATIC
 from ..results import report, stored
 from ..results.write import WriteOptions
 from ..scene import mesh_io
 from ..solving import choices
+from . import map_choices
 
 AXES = "XYZ"
 ALLOWING = 0.5  # weight of a vertex above which a pole may be there
 SQUARES = 4  # of the checker, across an image
+# Lattices that quarter turns of a map that is made leave as they are, and so the texture whole. On others it is turned
+# before its jumps are rounded.
+QUARTERED = ("square", ((1.0, 0.0), (0.0, 1.0)))
 
 
 def request(properties):
@@ -25,16 +30,20 @@ def request(properties):
     return choices.Choices(faces=faces, modifiers=properties.modifiers)
 
 
-def options(properties, target):
-    """The `options.MapOptions` for a `targets.Target`. @throws ValueError there is nothing of what is asked for"""
+def options(properties, target, own=None):
+    """The `options.MapOptions` for a `targets.Target` and the `own.Own` that is its texture.
+
+    @throws ValueError there is nothing of what is asked for on one of them"""
     obj = target.find()
     if target.makes_object and _are_on_the_mesh(properties):
         raise ValueError(f"{obj.name}: poles and edges are chosen on the mesh itself, not on what its modifiers make")
-    quarters = written_quarters(properties)
+    lattice = _lattice(properties, own)
+    quarters = properties.quarters if lattice in QUARTERED else 0
     tiling = TileOptions(
-        tiles=float(properties.tiles),
+        tiles=0.0 if properties.size else float(properties.tiles),
+        density=map_choices.density(properties.size, properties.repeats),
         poles=_poles(properties, obj),
-        lattice=properties.lattice,
+        lattice=lattice,
         direction=_direction(properties, obj),
         boundary=properties.boundary,
         turn=(properties.quarters - quarters) * math.pi / 2 + properties.turn,
@@ -46,16 +55,17 @@ def options(properties, target):
     return MapOptions(forms=0, main=TILING, tiling=tiling)
 
 
-def write_options(properties):
-    texture = properties.texture
+def write_options(properties, own=None):
+    texture = map_choices.shown_texture(properties.texture, own)
     cells = properties.repeats * (SQUARES if texture == material.CHECKER else material.cells(texture))
-    return WriteOptions(0, properties.checker, texture, cells, properties.seams, empties=properties.empties)
+    more = {"empties": properties.empties, "size": properties.size, "own": own}
+    return WriteOptions(0, properties.checker, texture, cells, properties.seams, **more)
 
 
-def written_quarters(properties):
-    """Quarter turns of a map that is made: they leave only the square lattice as it is, and so the texture whole. On
-    other lattices it is turned before its jumps are rounded."""
-    return properties.quarters if properties.lattice == "square" else 0
+def _lattice(properties, own):
+    if own is not None:
+        return own.lattice
+    return "square" if properties.lattice == AUTOMATIC else properties.lattice
 
 
 def _are_on_the_mesh(properties):

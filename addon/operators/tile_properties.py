@@ -21,6 +21,7 @@ POLES = (
     ("SELECTED", "Selected Vertices", "The selected vertices; automatic on parts without any"),
 )
 LATTICES = (
+    ("automatic", "Automatic", "That of an image of yours, where its cells are alike; else square"),
     ("square", "Square", "The texture repeats in rows and columns"),
     ("brick", "Brick", "Each row is shifted by half a tile"),
     ("hex", "Hexagonal", "The texture repeats in three directions, 60 degrees apart"),
@@ -59,14 +60,14 @@ class TileProperties(SharedProperties):
     drawn = (
         ("tiles", *DIALS, "equal", "modifiers", "poles", "pole_count", "pole_group"),
         ("lattice", "direction", "turn", "quarters", "boundary"),
-        ("checker", "texture", "repeats", "seams", "empties"),
+        ("checker", "texture", "source", "size", "repeats", "seams", "empties"),
     )
     tiles: IntProperty(name="Tiles", description=ABOUT["tiles"], default=0, min=0, soft_max=2000)
     poles: EnumProperty(name="Poles", description=ABOUT["poles"], items=POLES, default="AUTOMATIC")
     pole_count: IntProperty(name="Number of Poles", description="On each part", default=8, min=0, max=MOST_POLES)
     pole_group: StringProperty(name="Pole Group", description=ABOUT["pole_group"], default="", options=ONCE)
     equal: BoolProperty(name="Equal Density", description=ABOUT["equal"], default=True)
-    lattice: EnumProperty(name="Lattice", description=ABOUT["lattice"], items=LATTICES, default="square")
+    lattice: EnumProperty(name="Lattice", description=ABOUT["lattice"], items=LATTICES, default="automatic")
     direction: EnumProperty(name="Direction", description=ABOUT["direction"], items=DIRECTIONS, default="UPRIGHT")
     turn: FloatProperty(
         name="Rotation",
@@ -91,7 +92,8 @@ class TileProperties(SharedProperties):
         return True
 
     def is_drawn(self, name):
-        return name != "pole_count" or self.poles == "COUNT"
+        hidden = {"pole_count": self.poles != "COUNT", "tiles": self.size > 0}
+        return super().is_drawn(name) and not hidden.get(name, False)
 
     def draw_options(self, layout, obj):
         draw_tiling(layout, obj)

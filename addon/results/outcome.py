@@ -7,6 +7,7 @@ import numpy as np
 
 from .. import compatibility, native
 from ..maps import coarse
+from ..materials import material
 from ..scene import uv_maps
 from . import report, stored
 
@@ -26,11 +27,19 @@ class Outcome:
     entries: list = field(default_factory=list)
     forms: int = 0
     looks: dict = field(default_factory=dict)  # `material.Look` of tilings (True) and of other maps, for all objects
+    coverings: dict = field(default_factory=dict)  # materials by what they show
 
     @property
     def tiles(self):
         """How many tiles all tilings have, a whole number."""
         return round(sum(tiling["tiles"] for entry in self.entries for tiling in stored.tilings_of(entry)))
+
+    def covering(self, shown, look):
+        """The material that shows a `uv_maps.WrittenMap`, the same for all objects."""
+        key = shown.name, shown.kind, look
+        if key not in self.coverings:
+            self.coverings[key] = material.showing(shown.name, shown.kind == "attribute", look)
+        return self.coverings[key]
 
     def refuse(self, name, sentence):
         self.problems.append(f"{name}: {sentence}")

@@ -50,11 +50,12 @@ def asked(stored):
     """The `options.TileOptions` that a tiling was made with, but for where its poles may be; None where there are
     none."""
     values = parsed(stored).get("asked")
-    return None if values is None else TileOptions(**{name: _as_tuple(value) for name, value in values.items()})
+    return None if values is None else TileOptions(**{name: as_tuple(value) for name, value in values.items()})
 
 
-def _as_tuple(value):
-    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value
+def as_tuple(value):
+    """A list of JSON, and those in it, as tuples; anything else as it is."""
+    return tuple(map(as_tuple, value)) if isinstance(value, list) else value
 
 
 def verdict(entry):

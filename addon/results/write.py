@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The end of a run, in Blender's main thread: maps are written to the objects and reported."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from .. import native
 from ..maps import forms, packing
 from ..maps.options import ISLANDS
 from ..materials import material
+from ..materials.own import Own
 from ..scene import faces, mesh_io, uv_maps
 from ..writing import transaction
 from . import empties, heat, report, restore, stand_in, stored
@@ -26,6 +27,17 @@ class WriteOptions:
     seams: bool = False
     shape: bool = False  # the conformal image in space
     empties: bool = False  # at poles and branch points
+    size: float = 0.0  # width of an image of the texture on the surface; 0 for the number of squares
+    own: object | None = None  # `own.Own`: the texture is one of the user's
+
+
+def options_of(dials):
+    """The `WriteOptions` in a stored report; the checker where a texture of the user's is gone."""
+    values = {one.name: dials[one.name] for one in fields(WriteOptions) if one.name in dials}
+    if values.get("own"):
+        own = Own(**{name: stored.as_tuple(value) for name, value in values["own"].items()})
+        values |= {"own": own} if own.block else {"own": None, "texture": material.CHECKER}
+    return WriteOptions(**values)
 
 
 def write(step, targets, results, options, time_has_passed=False):
@@ -47,6 +59,8 @@ def write(step, targets, results, options, time_has_passed=False):
                 _write_object(step, outcome, target, result, options)
     if outcome.done:
         report.store_text(outcome.entries)
+        step.discard(material.unused_copies())
+        outcome.notes += [f"{options.own.name}: {options.own.text}"] if options.own else []
     return outcome
 
 
@@ -72,7 +86,7 @@ def _write_object(step, outcome, target, made, options):
         shown = _shown(written, options)
         look = _look(made, options, shown is written[0] and bool(made.tiled))
         look = outcome.looks.setdefault(look.is_tiling, look)
-        covering = material.showing(shown.name, shown.kind == "attribute", look)
+        covering = outcome.covering(shown, look)
         for each in (obj, *target.find_sharers()):
             material.cover(each, covering)
     heat.refresh(obj)
@@ -116,8 +130,11 @@ def _look(made, options, is_tiling):
     if is_tiling:
         cells = material.cells(options.texture)
         cells *= max(1, round(options.checker_scale / cells))
-        return material.Look(options.texture, cells, made.unit_length, is_tiling=True)
+        return material.Look(options.texture, cells, made.unit_length, is_tiling=True, own=options.own)
     plain = made.of_forms()
     across, arrangement = material.across(options.texture), made.options.arrangement
-    cells = options.checker_scale or forms.squares_that_fit(plain.part_maps, arrangement, across)
-    return material.Look(options.texture, cells, plain.unit_length)
+    cells = options.checker_scale
+    if options.size and plain.unit_length:
+        cells = material.cells(options.texture) * plain.unit_length / options.size
+    cells = cells or forms.squares_that_fit(plain.part_maps, arrangement, across)
+    return material.Look(options.texture, cells, plain.unit_length, own=options.own)

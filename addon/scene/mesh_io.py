@@ -77,11 +77,6 @@ def write_values(values, array):
     values.elements.foreach_set(values.name, np.ascontiguousarray(array, values.dtype).ravel())
 
 
-def write_pixels(image, pixels):
-    """Writes (height, width, 4) float32, the lowest row first, in the image's own colour space."""
-    image.pixels.foreach_set(np.ascontiguousarray(pixels, np.float32).ravel())
-
-
 def read_indices(values):
     """Vertices, loops or lengths as int32, which they fit: Blender has at most 2^31 of each."""
     return read_values(values).view(np.int32)

@@ -4,6 +4,7 @@
 # Attributes of points: where they are on the surface. See `parts.surface_values`.
 POSITION = "position"
 VERTICES = ("vertex_a", "vertex_b", "vertex_c")
+CORNERS = ("corner_a", "corner_b", "corner_c")  # of the triangle, as the mesh numbers them
 BARYCENTRIC = "barycentric"
 
 
@@ -36,6 +37,15 @@ class Followed:
         products = [tree.number("MULTIPLY", *pair) for pair in zip(self._weights, weights)]
         return tree.number("ADD", tree.number("ADD", *products[:2]), products[2])
 
+    def uv(self, name):
+        """In a UV map, whose name is a socket; modifiers keep its corners, too."""
+        tree, field = self._tree, self._tree.attribute(name, "FLOAT_VECTOR")
+        corners = [tree.attribute(corner, "INT") for corner in CORNERS]
+        return tree.combined(self._weights, self._sampled(field, corners, "FLOAT_VECTOR", domain="CORNER"))
+
     def _at_vertices(self, field, kind):
-        sample = "GeometryNodeSampleIndex"
-        return [self._tree.node(sample, self._surface, field, vertex, data_type=kind) for vertex in self._vertices]
+        return self._sampled(field, self._vertices, kind)
+
+    def _sampled(self, field, indices, kind, **settings):
+        sample, settings = "GeometryNodeSampleIndex", settings | {"data_type": kind}
+        return [self._tree.node(sample, self._surface, field, index, **settings) for index in indices]

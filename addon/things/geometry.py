@@ -24,12 +24,17 @@ def source(obj):
     polygons = mesh_io.read_polygons(obj.data, gathering.linear(obj))
     if not polygons.face_count:
         raise ValueError(f"{obj.name}: it has no faces")
-    name = uv_maps.main_map(obj.data) or getattr(obj.data.uv_layers.active, "name", "")
+    name = main_map(obj)
     if not name:
         raise ValueError(f"{obj.name}: it has no UV map: press Seamless Tiling first")
     asked = stored.asked(obj.get(report.PROPERTY))
     uv = uv_maps.read_corners(obj.data, polygons, name).astype(np.float64)
     return polygons, uv, asked.lattice if asked else "square"
+
+
+def main_map(obj):
+    """The name of the map that is taken for its tiling, "" without any."""
+    return uv_maps.main_map(obj.data) or getattr(obj.data.uv_layers.active, "name", "")
 
 
 def write_pieces(step, obj, values, piece, cell):
@@ -49,6 +54,7 @@ def write_pieces(step, obj, values, piece, cell):
         _put_away(step.context, own)
         dials = {"Tilt": shipped.tilt, "Rows Lean in Turn": shipped.is_alternating, "Height": shipped.above}
         piece = own
+    dials["UV Map of Image"] = main_map(obj)
     kind = "Object" if isinstance(piece, bpy.types.Object) else "Collection"
     _add_nodes(made, obj, placing.group(), dials | {kind: piece})
     tags.put(made, PIECES_OF, obj)

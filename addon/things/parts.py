@@ -50,9 +50,12 @@ def surface_values(points):
     what `following.Followed` needs to find them again."""
     surface = points.tiled.surface
     vertices = surface.vertex_index[surface.triangles[points.triangles]]
+    corners = surface.triangle_corners[points.triangles]
+    corners = corners if surface.is_whole else surface.corner_index[corners]
     return {
         following.POSITION: points.positions,
         **{name: vertices[:, k] for k, name in enumerate(following.VERTICES)},
+        **{name: corners[:, k] for k, name in enumerate(following.CORNERS)},
         following.BARYCENTRIC: points.barycentric,
     }
 

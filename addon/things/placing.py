@@ -5,7 +5,7 @@ from .following import Followed
 from .tree import Dial, angle, made_once, number
 
 NAME = "Holomorphic Geometry on Tiling"
-VERSION = 1  # of what follows
+VERSION = 2  # of what follows
 ANY = 1_000_000  # more pieces than a collection has: which one is counted on from the first again
 LEAST_SHOWN = 0.02  # of its size: what has shrunk below is left out
 TINY = 1e-6
@@ -34,6 +34,11 @@ DIALS = {
     "Random Tilt": angle(0.0),
     "Seed": Dial("Int"),
     "Vertex Group": Dial("String"),
+    "Image": Dial("Image"),
+    "Image Masks": Dial("Bool"),
+    "Image Chooses": Dial("Bool"),
+    "UV Map of Image": Dial("String"),
+    "UV Units of Image": number(1.0, 0.001, 1000.0),
     "Least Size": number(0.4, 0.0),
     "Most Size": number(1.5, 0.0),
     "Around Poles": number(0.5, 0.0),
@@ -66,10 +71,11 @@ def _build(tree):
         (TANGENT, along, "FLOAT_VECTOR"),
     ):
         points = _stored(tree, points, name, value, kind)
-    part = _part_of_size(tree, surface)
+    value = _image_value(tree, surface)
+    part = tree.number("MULTIPLY", _part_of_size(tree, surface), _where(tree, "Image Masks", value))
     rotation = _rotation(tree, along, across, normal)
     scale = _scale(tree, tree.number("MULTIPLY", size, part), stretch)
-    tree.finish(_instances(tree, points, part, rotation, scale))
+    tree.finish(_instances(tree, points, part, rotation, scale, value))
 
 
 def _row_and_size(tree, positions):
@@ -93,6 +99,19 @@ def _part_of_size(tree, surface):
     for factor in (least, poles, mask):
         part = tree.number("MULTIPLY", part, factor)
     return part
+
+
+def _image_value(tree, surface):
+    """The brightness of the image at each place, from 0 to 1."""
+    unit = tree.number("DIVIDE", 1.0, tree.dial("UV Units of Image"))
+    place = tree.times(surface.uv(tree.dial("UV Map of Image")), unit)
+    color = tree.node("GeometryNodeImageTexture", named={"Image": tree.dial("Image"), "Vector": place})
+    return tree.number("ADD", color, 0.0, use_clamp=True)
+
+
+def _where(tree, dial, value):
+    """The value where the dial is on, else 1."""
+    return tree.switch(tree.dial(dial), 1.0, value, "FLOAT")
 
 
 def _faded(tree, value, threshold):
@@ -140,8 +159,17 @@ def _stored(tree, points, name, value, kind):
     return tree.node("GeometryNodeStoreNamedAttribute", points, named=named, data_type=kind, domain="POINT")
 
 
-def _instances(tree, points, part, rotation, scale):
-    """The object and those of the collection are chosen from together: one of the two is empty."""
+def _by_value(tree, pieces, value):
+    """The place in a row of instances."""
+    size = tree.node("GeometryNodeAttributeDomainSize", pieces, component="INSTANCES").node
+    count = size.outputs["Instance Count"]
+    last = tree.number("SUBTRACT", count, 1.0)
+    return tree.number("MINIMUM", tree.number("FLOOR", tree.number("MULTIPLY", value, count)), last)
+
+
+def _instances(tree, points, part, rotation, scale, value):
+    """The object and those of the collection are chosen from together: one of the two is empty. By the value the first
+    is chosen from 0 on, the last up to 1."""
     one = tree.node("GeometryNodeObjectInfo", tree.dial("Object"), True, transform_space="ORIGINAL").node
     several = tree.node("GeometryNodeCollectionInfo", tree.dial("Collection"), True, True)
     pieces = tree.node("GeometryNodeJoinGeometry")
@@ -152,6 +180,7 @@ def _instances(tree, points, part, rotation, scale):
     )
     in_turn = tree.attribute(PIECE_INDEX, "INT")
     index = tree.switch(tree.dial("By Chance"), in_turn, chance, "INT")
+    index = tree.switch(tree.dial("Image Chooses"), index, _by_value(tree, pieces, value), "INT")
     is_shown = tree.node("FunctionNodeCompare", part, LEAST_SHOWN, data_type="FLOAT", operation="GREATER_THAN")
     return tree.node(
         "GeometryNodeInstanceOnPoints",

@@ -36,6 +36,7 @@ from .equivalence import Equivalence, conformally_equivalent
 from .fundamental_domain import FundamentalDomain
 from .holes import punch_holes
 from .igusa import IgusaInvariants, igusa_invariants
+from .image_lattice import ImageLattice, image_lattice
 from .island_map import Islands, island_map
 from .islands import islands
 from .levels import LevelOfDetail
@@ -82,6 +83,7 @@ __all__ = [
     "FundamentalDomain",
     "Hyperelliptic",
     "IgusaInvariants",
+    "ImageLattice",
     "Islands",
     "InvalidMesh",
     "LevelOfDetail",
@@ -137,6 +139,7 @@ __all__ = [
     "free_boundary_map",
     "hyperelliptic",
     "igusa_invariants",
+    "image_lattice",
     "island_map",
     "islands",
     "layout",

@@ -10,7 +10,7 @@ from scenes import grid_arrays, mesh_io, mesh_object, select, sphere_arrays, tor
 
 names = ("cut", "following", "geometry", "pieces", "placing", "tree")
 cut, following, geometry, pieces, placing, tree = (module(f"things.{name}") for name in names)
-compatibility = module("compatibility")
+compatibility, image_io = module("compatibility"), module("scene.image_io")
 
 SINGLE = 1e-5  # what the single precision of Blender's positions leaves
 
@@ -261,6 +261,73 @@ def test_the_mask_is_a_vertex_group():
     found = instances(made)
     assert 0 < len(found) < len(made.data.vertices)
     assert found[:, 0, 3].min() > -0.3
+
+
+def picture(values):
+    """An image of (h, w) greys, not interpolated where they are alike."""
+    values = np.asarray(values, float)
+    made = bpy.data.images.new("Picture", values.shape[1], values.shape[0], float_buffer=True)
+    made.colorspace_settings.name = "Non-Color"
+    image_io.write_pixels(made, np.dstack([values] * 3 + [np.ones_like(values)]))
+    made.pack()
+    return made
+
+
+def shares(made):
+    """(n, 2) of a UV unit: where the places lie in it."""
+    polygons, uv, _ = geometry.source(bpy.data.objects["Torus"])
+    corners = np.stack([attribute(made, name) for name in following.CORNERS], axis=1)
+    return np.einsum("ni,nix->nx", attribute(made, following.BARYCENTRIC), uv[corners]) % 1
+
+
+def nearest(points, found):
+    """(k,) the point that each of the found ones is."""
+    return np.linalg.norm(points[None] - found[:, None], axis=2).argmin(axis=1)
+
+
+@pytest.mark.parametrize("of_another", [False, True])
+def test_the_mask_is_an_image(of_another):
+    """On the tiling itself, in which it repeats, or on a map of the artist's."""
+    obj = torus()
+    if of_another:
+        layer = obj.data.uv_layers.new(name="Painted")
+        values = np.array([obj.data.vertices[loop.vertex_index].co.x > 0.3 for loop in obj.data.loops], float)
+        layer.data.foreach_set("uv", np.stack([0.2 + 0.6 * values, 0 * values + 0.5], axis=1).ravel())
+    made = put(tiled(obj), piece="RIVET", columns=4)
+    black_and_white = picture(np.repeat([[0.0, 1.0]], 16, axis=1).repeat(4, axis=0))
+    named = {"UV Map of Image": "Painted"} if of_another else {}
+    compatibility.set_node_inputs(made.modifiers[0], {"Image": black_and_white, "Image Masks": True} | named)
+    made.update_tag()
+    found = instances(made)
+    is_shown = np.isin(np.arange(len(places(made))), nearest(places(made), found[:, :3, 3]))
+    assert 0 < len(found) < len(is_shown)
+    if of_another:
+        side = places(made)[:, 0]
+        assert is_shown[side > 0.8].all() and not is_shown[side < -0.1].any()
+    else:
+        along = shares(made)[:, 0]
+        clear = np.abs((along % 0.5) - 0.25) < 0.2
+        assert np.array_equal(is_shown[clear], along[clear] > 0.5)
+
+
+def test_an_image_chooses_from_a_collection():
+    """Black the first of them, white the last."""
+    obj = tiled(torus())
+    collection_of(block("A"), block("B"), block("C"))
+    made = put(obj, piece="COLLECTION", source="Pieces", columns=3)
+    greys = picture(np.repeat([[0.0, 0.5, 1.0]], 16, axis=1).repeat(4, axis=0))
+    set_dials(made, Image=greys, Image_Chooses=True)
+    shown = bpy.context.evaluated_depsgraph_get().object_instances
+    placed = [(i.object.name, np.array(i.matrix_world), i.parent.original) for i in shown if i.is_instance]
+    names, points = zip(*[(name, matrix[:3, 3]) for name, matrix, parent in placed if parent == made])
+    third = (3 * shares(made)[nearest(places(made), np.array(points))][:, 0]) % 3
+    clear = np.abs(third % 1 - 0.5) < 0.4
+    assert np.array_equal(np.array(names)[clear], np.array(["A", "B", "C"])[third[clear].astype(int)])
+
+
+def test_without_an_image_nothing_is_masked():
+    made = put(tiled(torus()), piece="STUD", columns=2)
+    assert len(instances(made)) == len(made.data.vertices)
 
 
 def test_pieces_shrink_at_poles():

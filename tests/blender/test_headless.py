@@ -256,6 +256,36 @@ def test_the_main_map_and_the_tiling_of_the_command_line(tmp_path):
     assert len(reported(report)["tiling"]["poles"]) == 6
 
 
+def test_an_image_of_the_users_on_the_command_line(tmp_path, torus_file):
+    """In a glTF file, too, where it is laid on as high as it is."""
+    rows = np.indices((32, 64)).sum(axis=0) // 8 % 2
+    image = bpy.data.images.new("Rows", 64, 32)
+    image.pixels.foreach_set(np.dstack([rows, rows, rows, 1 + 0 * rows]).astype(np.float32).ravel())
+    image.filepath_raw, image.file_format = str(tmp_path / "rows.png"), "PNG"
+    image.save()
+    report, made = tmp_path / "report.json", tmp_path / "made.glb"
+    options = ("--seamless", "--texture", "image", "--source", tmp_path / "rows.png", "--size", 0.5, "--poles", 0)
+    done = headless(torus_file, "--report", report, "--output", made, "--export-texture", *options)
+    assert done.returncode == 0, done.stderr
+    own = json.loads(report.read_text())["objects"][0]["dials"]["own"]
+    assert own["text"].startswith("Tiles; ") and own["height"] == 0.5
+    assert b'"scale":[1,2]' in made.read_bytes().replace(b" ", b"").replace(b".0", b"")
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        (("--texture", "image"), "Choose an image"),
+        (("--texture", "image", "--source", "absent.png"), "no image 'absent.png'"),
+        (("--texture", "material", "--source", "Absent"), "no material 'Absent'"),
+        (("--size", -1), "-1 is not from 0"),
+    ],
+)
+def test_textures_that_are_not_there(options, word, torus_file):
+    done = headless(torus_file, *options)
+    assert done.returncode == 1 and len(our_lines(done)) == 1 and word in our_lines(done)[0], our_lines(done)
+
+
 def test_tiles_are_over_all_objects_of_a_file(tmp_path):
     for scale in (1.0, 2.0):
         mesh_object(f"Limb {scale}", *limb_arrays()).scale = (scale, scale, scale)

@@ -12,7 +12,7 @@ from scenes import (
     uv_maps,
 )
 
-patterns, textures = module("materials.patterns"), module("materials.textures")
+own, patterns, textures = (module(f"materials.{name}") for name in ("own", "patterns", "textures"))
 SIZE = 512  # pixels of a drawing here
 LINES = {  # columns and rows of cells, whose borders are alike
     "NUMBERED": (8, 8),
@@ -56,7 +56,7 @@ def layers(pattern):
 
 def test_the_properties_name_every_texture():
     names = [name for name, *_ in module("operators.properties").TEXTURES]
-    assert names == [module("materials.material").CHECKER, *patterns.TEXTURES]
+    assert names == [module("materials.material").CHECKER, *patterns.TEXTURES, own.IMAGE, own.MATERIAL]
 
 
 def test_values_are_colours_and_heights(texture):

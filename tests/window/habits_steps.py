@@ -12,7 +12,7 @@ from running import run
 from screen import area, click, enter, hover, inside, move, picture, region, tap
 from sidebar import open_sidebar
 
-TOOLS = 218  # pixels from the top of the sidebar to the header of Tools, before there is a result
+TOOLS = 244  # pixels from the top of the sidebar to the header of Tools, before there is a result
 seen = {}
 
 
