@@ -7,7 +7,7 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .interface import panel, presets, shortcuts
-from .operators import bake, carry, compare, drag, geometry, lod, mapping, submit, texel_operators, tools
+from .operators import bake, carry, compare, drag, geometry, lod, mapping, relief, submit, texel_operators, tools
 from .overlays import overlay
 
 bl_info = {
@@ -27,6 +27,7 @@ MODULES = (
     drag,
     lod,
     geometry,
+    relief,
     texel_operators,
     compare,
     carry,

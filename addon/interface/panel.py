@@ -4,7 +4,7 @@
 import bpy
 
 from .. import native
-from ..operators import bake, carry, compare, drag, geometry, lod, submit, texel_operators, tools
+from ..operators import bake, carry, compare, drag, geometry, lod, relief, submit, texel_operators, tools
 from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..overlays import overlay
@@ -39,6 +39,7 @@ class _HolomorphPanel(_Panel):
                 column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
                 column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
                 column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
+                column.operator(relief.HOLOMORPH_OT_relief.bl_idname, icon="RNDCURVE")
                 layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
             _draw_result(layout, context, obj)
         elif obj is not None and obj.type in CONVERTIBLE:
