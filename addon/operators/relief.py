@@ -12,6 +12,7 @@ ABOUT = {
     "image": "Whose white is raised, once in every tile; of colours it is the brightness",
     "depth": "Of white over black, in millimetres: of the scene's units, or one in a unit where it has none. 0 for a"
     " tenth of a tile",
+    "repeats": "How often the image lies across a tile; 0 for as often as the material shows it",
     "level": "Grey that stays on the surface: 0 raises, 1 engraves",
     "tolerance": "Height by which triangles may be off, from 0 to 1",
     "most_triangles": "Where the picture asks for more, those that are farthest off are halved first",
@@ -30,6 +31,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
     depth: FloatProperty(
         name="Depth (mm)", description=ABOUT["depth"], default=0.0, min=0.0, soft_max=100.0, precision=3
     )
+    repeats: IntProperty(name="Repeats", description=ABOUT["repeats"], default=0, min=0, soft_max=16, max=1000)
     level: FloatProperty(name="Level", description=ABOUT["level"], default=0.0, min=0.0, max=1.0)
     tolerance: FloatProperty(name="Tolerance", description=ABOUT["tolerance"], default=0.02, min=0.0, max=1.0)
     most_triangles: IntProperty(
@@ -39,21 +41,23 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
 
     def draw_options(self, layout, _obj):
         layout.prop_search(self, "image", bpy.data, "images")
-        for name in ("depth", "level", "tolerance", "most_triangles", "pole_fade"):
+        for name in ("depth", "repeats", "level", "tolerance", "most_triangles", "pole_fade"):
             layout.prop(self, name)
 
     def prepare(self, context):
+        from ..materials import heights
         from ..scene import mesh_io
         from ..things import geometry, relief
 
         super().prepare(context)
         obj = context.view_layer.objects.active
-        image = bpy.data.images.get(self.image) if self.image else geometry.height_image(obj)
+        shown, repeats = heights.shown(obj.active_material)
+        image = bpy.data.images.get(self.image) if self.image else shown
         if image is None:
             raise ValueError("choose the image that is to be raised")
-        self.image = image.name
+        self._repeats = self.repeats or (repeats if image == shown else 1)
         try:
-            self._heights = relief.heights_of(mesh_io.read_pixels(image))
+            self._heights = relief.heights_of(mesh_io.read_pixels(image), heights.weights(image))
         except ValueError as error:
             raise ValueError(f"{image.name}: {error}") from error
         self._millimetres = _millimetres(context.scene.unit_settings)
@@ -74,7 +78,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
             progress,
             heights=self._heights,
             depth=self.depth / self._millimetres,
-            options={name: getattr(self, name) for name in names},
+            options={name: getattr(self, name) for name in names} | {"repeats": self._repeats},
         )
 
     def finish(self, step, work, time_has_passed):

@@ -160,14 +160,3 @@ def _piece_mesh(shape):
     mesh = mesh_io.new_mesh("Piece", vertices, np.array([v for face in faces for v in face], np.int32), offsets)
     mesh_io.shade_smooth(mesh, SHARP)
     return mesh
-
-
-def height_image(obj):
-    """The image that the object's active material takes as heights, by a Bump or Displacement node; else None."""
-    tree = getattr(obj.active_material, "node_tree", None)
-    for node in tree.nodes if tree else ():
-        if node.type in ("BUMP", "DISPLACEMENT") and node.inputs["Height"].is_linked:
-            source = node.inputs["Height"].links[0].from_node
-            if source.type == "TEX_IMAGE" and source.image is not None:
-                return source.image
-    return None

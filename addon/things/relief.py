@@ -8,16 +8,16 @@ import numpy as np
 from .. import native
 from . import parts
 
-BRIGHTNESS = np.array([0.2126, 0.7152, 0.0722])  # of red, green and blue, as Rec. 709 has it
 AUTOMATIC_DEPTH = 0.1  # in sides of a tile
 
 
-def heights_of(pixels):
-    """(h, w) heights, the top row first, of (h, w, channels) pixels, the lowest row first. @throws ValueError"""
+def heights_of(pixels, weights):
+    """(h, w) heights, the top row first, of (h, w, channels) pixels, the lowest row first, and what red, green and blue
+    count. @throws ValueError"""
     if not pixels.size:
         raise ValueError("it has no pixels: is its file there?")
     colours = pixels[::-1, :, :3].astype(np.float64)
-    heights = colours @ BRIGHTNESS if colours.shape[2] == 3 else colours[:, :, 0]
+    heights = colours @ weights if colours.shape[2] == 3 else colours[:, :, 0]
     if not np.isfinite(heights).all():
         raise ValueError("some of its pixels are no numbers")
     return native.load().relief.checked_heights(np.clip(heights, 0, 1))

@@ -139,7 +139,9 @@ def plain(surface: Surface) -> Relief:
     )
 
 
-def raised(tiled: TiledSurface, heights, depth, level, tolerance, most_triangles, pole_fade, progress) -> Relief:
+def raised(
+    tiled: TiledSurface, heights, depth, repeats, level, tolerance, most_triangles, pole_fade, progress
+) -> Relief:
     """See `TiledSurface.relief`."""
     surface = tiled.surface
     pixels = checked_heights(heights)
@@ -150,7 +152,7 @@ def raised(tiled: TiledSurface, heights, depth, level, tolerance, most_triangles
     most = int(min(real_number(most_triangles, "most_triangles", positive=True), MOST_TRIANGLES))
     found = _native.relief(
         surface._native,
-        tiled._coordinates(),
+        tiled._coordinates(((repeats, 0), (0, repeats))),
         normals=vertex_normals(surface),
         shares=_shares(tiled, real_number(pole_fade, "pole_fade", positive=True)),
         pixels=np.ascontiguousarray(pixels[::-1]),
@@ -159,7 +161,7 @@ def raised(tiled: TiledSurface, heights, depth, level, tolerance, most_triangles
         most_triangles=most,
         progress=progress,
     )
-    tiles = found.tiles.reshape(-1, 2)
+    tiles = found.tiles.reshape(-1, 2) / repeats
     return Relief(
         base=found.positions,
         heights=found.heights,

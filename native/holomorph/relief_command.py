@@ -48,6 +48,7 @@ def _parser():
     parser.add_argument("--output", metavar="FILE", required=True, help="what is written: .3mf, .stl or .obj")
     parser.add_argument("--depth", required=True, help=f"of white over black, such as 1.2mm; units: {', '.join(UNITS)}")
     parser.add_argument("--tiles", type=float, help="over the whole mesh (default: as the map suits it)")
+    parser.add_argument("--repeats", type=int, default=1, help="how often the picture lies across a tile (default 1)")
     parser.add_argument("--unit", choices=UNITS, default="mm", help="of the mesh's coordinates; mm are written")
     parser.add_argument("--level", type=float, default=0.0, help="grey that stays: 0 raises (default), 1 engraves")
     text = "height by which triangles may be off, from 0 to 1 (default 0.02)"
@@ -84,7 +85,7 @@ def _made(options, depth):
     parts = surface.components
     maps = automatic_maps(parts, main="seamless", tiles=options.tiles, threads=options.threads)
     reasons = [f"{found.why}" if isinstance(found, Map) else str(found) for found in maps]
-    choices = {name: getattr(options, name) for name in ("level", "tolerance", "most_triangles")}
+    choices = {name: getattr(options, name) for name in ("repeats", "level", "tolerance", "most_triangles")}
     reliefs, refused = [], []
     for part, found, reason in zip(parts, maps, reasons):
         if isinstance(found, Map) and found.tiling:

@@ -162,6 +162,7 @@ class TiledSurface(Value):
         heights: ArrayLike,
         depth: float,
         *,
+        repeats: int = 1,
         level: float = 0.0,
         tolerance: float = 0.02,
         most_triangles: int = 1_000_000,
@@ -172,6 +173,7 @@ class TiledSurface(Value):
         `Relief`. As tiles are whole, it closes up everywhere.
 
         heights : (rows, columns) from 0 to 1, the top row first, over a tile, bilinear between the middles of pixels
+        repeats : how often the picture lies in a tile, along each of its sides
         depth : by which a height of 1 is raised, in the unit of the positions, on the side from which triangles are
             counter-clockwise
         level : the height that stays on the surface: 0 raises all, 1 engraves all
@@ -182,7 +184,8 @@ class TiledSurface(Value):
         Raises ValueError for others, a picture with the same height everywhere, or a depth above the size of the mesh;
         Cancelled. Cost: n log n in the triangles that are made.
         """
-        return raised(self, heights, depth, level, tolerance, most_triangles, pole_fade, progress)
+        count = _count(repeats, "repeats")
+        return raised(self, heights, depth, count, level, tolerance, most_triangles, pole_fade, progress)
 
     def _coordinates(self, steps=((1, 0), (0, 1)), origin=(0.0, 0.0)):
         return _native.tile_coordinates(

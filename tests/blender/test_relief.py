@@ -7,9 +7,11 @@ from conftest import module
 from scenes import mesh_io, select, torus
 from test_geometry import tiled
 
-geometry, parts, relief = (module(f"things.{name}") for name in ("geometry", "parts", "relief"))
+geometry, relief = (module(f"things.{name}") for name in ("geometry", "relief"))
+heights = module("materials.heights")
 
 SIZE = 16
+UNITS = [("METRIC", 0.001, 0.05), ("NONE", 0.5, 0.05), ("METRIC", 2.0, 100.0)]  # mm for 5 % of a unit
 
 
 def picture(name="Dots", size=SIZE):
@@ -72,9 +74,7 @@ def test_a_new_closed_object_of_the_chosen_depth():
     assert made.data.uv_layers[0].name == obj.data.uv_layers[0].name
 
 
-@pytest.mark.parametrize(
-    ("system", "scale", "depth"), [("METRIC", 0.001, 0.05), ("NONE", 0.5, 0.05), ("METRIC", 2.0, 100.0)]
-)
+@pytest.mark.parametrize(("system", "scale", "depth"), UNITS)
 def test_millimetres_are_those_of_the_scene(system, scale, depth):
     picture()
     obj = tiled(torus())
@@ -129,8 +129,24 @@ def test_the_picture_is_that_of_the_material():
     links.new(texture.outputs["Color"], bump.inputs["Height"])
     obj.data.materials.clear()
     obj.data.materials.append(material)
-    assert geometry.height_image(obj) == image
+    assert heights.shown(material) == (image, 1)
     assert is_closed(raise_on(obj, image=""))
+
+
+def test_a_texture_of_ours_is_raised_as_often_as_it_is_shown():
+    obj = torus()
+    shown = dict(poles="COUNT", pole_count=0, checker=True, texture="SCALES")
+    assert bpy.ops.uv.holomorphic_tile(tiles=12, **shown) == {"FINISHED"}
+    image, repeats = heights.shown(obj.active_material)
+    assert image.name == "Holomorph Scales Relief"
+    assert heights.weights(image) == heights.TWO_CHANNELS
+    nodes = obj.active_material.node_tree.nodes
+    nodes["Repeats"].outputs[0].default_value = 2
+    twice, once = (raise_on(obj, image="", repeats=count) for count in (0, 1))
+    assert repeats >= 1
+    assert is_closed(once)
+    with pytest.raises(ReferenceError):
+        twice.name  # noqa: B018  replaced
 
 
 def test_what_cannot_be_is_one_sentence():
@@ -165,8 +181,9 @@ def test_it_is_cancelled():
     picture()
     obj = tiled(torus())
     polygons, uv, lattice = geometry.source(obj)
-    heights = relief.heights_of(mesh_io.read_pixels(bpy.data.images["Dots"]))
-    work = relief.RaisingWork(polygons, uv, lattice, None, lambda fraction, stage: None, heights=heights)
+    pixels = mesh_io.read_pixels(bpy.data.images["Dots"])
+    found = relief.heights_of(pixels, heights.BRIGHTNESS)
+    work = relief.RaisingWork(polygons, uv, lattice, None, lambda fraction, stage: None, heights=found)
     work.cancel()
     work.run()
     assert type(work.error).__name__ == "Cancelled"

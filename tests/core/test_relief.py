@@ -196,6 +196,18 @@ def test_as_many_triangles_as_are_allowed():
     assert made[0].error >= made[1].error >= made[2].error > 0.02
 
 
+def test_a_picture_twice_in_a_tile_is_that_of_two_by_two():
+    on = grid_torus(14, 11, 7, 5)
+    twice, once = on.relief(waves(16), DEPTH, repeats=2), on.relief(np.tile(waves(16), (2, 2)), DEPTH)
+    assert np.abs(twice.heights - sampled(np.tile(waves(16), (2, 2)), twice.uv)[_first_corner(twice)]).max() < EXACT
+    assert twice.volume == pytest.approx(once.volume, rel=1e-3)
+
+
+def _first_corner(made):
+    """(#V,) a corner at each vertex."""
+    return np.unique(made.corner_vertices, return_index=True)[1]
+
+
 def test_the_level_stays():
     engraved, both = (raised("torus without poles", level=level) for level in (1, 0.5))
     assert engraved.heights.max() <= 0
@@ -285,6 +297,7 @@ BAD = {
     "one height": ({"heights": np.full((9, 9), 0.3)}, "the height 0.3 everywhere"),
     "heights above 1": ({"heights": 2 * waves()}, "from 0 to 1"),
     "a pixel that is no number": ({"heights": np.where(waves() > 0.9, np.nan, waves())}, "finite numbers"),
+    "no repeats": ({"repeats": 0}, "repeats has 0"),
     "level": ({"level": 1.5}, "level is 1.5"),
     "tolerance": ({"tolerance": -0.1}, "tolerance is -0.1"),
     "no triangles": ({"most_triangles": 0}, "most_triangles is 0"),
