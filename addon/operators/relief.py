@@ -37,7 +37,9 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
     most_triangles: IntProperty(
         name="Most Triangles", description=ABOUT["most_triangles"], default=1_000_000, min=1, soft_max=10_000_000
     )
-    pole_fade: FloatProperty(name="Fade at Poles", description=ABOUT["pole_fade"], default=1.0, min=0.01, soft_max=10.0)
+    pole_fade: FloatProperty(
+        name="Fade at Poles", description=ABOUT["pole_fade"], default=0.25, min=0.01, soft_max=10.0
+    )
 
     def draw_options(self, layout, _obj):
         layout.prop_search(self, "image", bpy.data, "images")

@@ -166,7 +166,7 @@ class TiledSurface(Value):
         level: float = 0.0,
         tolerance: float = 0.02,
         most_triangles: int = 1_000_000,
-        pole_fade: float = 1.0,
+        pole_fade: float = 0.25,
         progress: Progress | None = None,
     ) -> Relief:
         """The surface raised along its normals by a picture in every tile, refined where that asks for it: see

@@ -122,7 +122,7 @@ def test_the_picture_is_that_of_the_material():
     image = picture()
     obj = tiled(torus())
     material = bpy.data.materials.new("Bumpy")
-    material.use_nodes = True
+    module("compatibility").enable_nodes(material)
     nodes, links = material.node_tree.nodes, material.node_tree.links
     texture, bump = nodes.new("ShaderNodeTexImage"), nodes.new("ShaderNodeBump")
     texture.image = image
