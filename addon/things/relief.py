@@ -81,6 +81,7 @@ def sentence(relief, millimetres, skipped):
         told.append(f"up to {relief.error * relief.depth * millimetres:.2g} mm off: more triangles follow the picture")
     if len(relief.crossings):
         safe = relief.safe_depth * millimetres
-        least = f"up to {safe:.2g} mm it does not" if safe else "so does the mesh itself"
-        told.append(f"it crosses itself in {len(np.unique(relief.crossings)):,} triangles: {least}")
+        least = relief.depth * native.load().relief.LEAST_PART * millimetres
+        told_of = f"up to {safe:.2g} mm it does not" if safe else f"at {least:.2g} mm it does, too"
+        told.append(f"it crosses itself in {len(np.unique(relief.crossings)):,} triangles: {told_of}")
     return "; ".join(told)

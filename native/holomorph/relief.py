@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 LONGEST = 2.0  # of the vectors by which vertices are moved, for a height of 1: at sharper corners they are shorter
 PARTS = 64  # of the depth, among which a safe one is found
+LEAST_PART = 1 / PARTS
 MOST_TRIANGLES = 2**30
 
 
@@ -79,7 +80,8 @@ class Relief(Value):
 
     @cached_property
     def safe_depth(self) -> float:
-        """The largest depth, in 64ths of `depth`, at which no triangles cross; 0 where they do without any."""
+        """The largest depth, in 64ths of `depth`, at which no triangles cross; 0 where they do at `LEAST_PART` of it,
+        as where the surface itself does."""
         steps, pairs = PARTS, self.crossings
         while len(pairs) and steps:
             steps = self._safe_steps(self.triangles[np.unique(pairs)], steps)

@@ -8,7 +8,7 @@ from . import Error, Map, Surface, automatic_maps, printing, whole_file
 from .checks import check_options
 from .console import Parser, failed, tell
 from .height_image import height_image
-from .relief import checked_depth, checked_heights, joined, plain, volume
+from .relief import LEAST_PART, checked_depth, checked_heights, joined, plain, volume
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "um": 0.001}  # millimetres
@@ -131,7 +131,7 @@ def _faults(made, parts, depth):
     if len(made.crossings):
         at = made.vertices[made.triangles[made.crossings[0, 0]]].mean(axis=0)
         safe = made.safe_depth
-        least = f"up to {safe:.2g} mm it does not" if safe > 0 else "so does the mesh itself"
+        least = f"up to {safe:.2g} mm it does not" if safe > 0 else f"at {LEAST_PART * depth:.2g} mm it does, too"
         place = ", ".join(f"{x:.4g}" for x in at)
         count = len(np.unique(made.crossings))
         sentences.append(f"it crosses itself in {count:,} triangles, the first near ({place}): {least}")

@@ -172,7 +172,8 @@ class TiledSurface(Value):
         """The surface raised along its normals by a picture in every tile, refined where that asks for it: see
         `Relief`. As tiles are whole, it closes up everywhere.
 
-        heights : (rows, columns) from 0 to 1, the top row first, over a tile, bilinear between the middles of pixels
+        heights : (rows, columns) from 0 to 1, the top row first, bilinear between the middles of pixels: over a tile,
+            which is a parallelogram where the lattice is no square one
         repeats : how often the picture lies in a tile, along each of its sides
         depth : by which a height of 1 is raised, in the unit of the positions, on the side from which triangles are
             counter-clockwise

@@ -88,6 +88,14 @@ def test_it_tells_that_it_crosses_itself(folder, capsys):
     assert "mm it does not" in told
 
 
+def test_it_tells_that_the_mesh_itself_crosses(folder, capsys):
+    torus = Surface.read("torus.obj")
+    both = np.concatenate([torus.vertices, torus.vertices + (15, 3, 1)])
+    Surface(both, np.concatenate([torus.triangles, torus.triangles + len(torus.vertices)])).write("two.obj")
+    assert run(mesh="two.obj") == 0
+    assert "mm it does, too" in capsys.readouterr().out
+
+
 def test_it_tells_how_far_triangles_are_off(folder, capsys):
     assert run("--most-triangles", "2000") == 0
     assert "no more triangles were allowed" in capsys.readouterr().out
