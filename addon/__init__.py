@@ -7,7 +7,20 @@ import what needs these inside their functions.
 
 from . import native, preferences
 from .interface import panel, presets, shortcuts
-from .operators import assets, bake, carry, compare, drag, geometry, lod, mapping, submit, texel_operators, tools
+from .operators import (
+    assets,
+    bake,
+    carry,
+    compare,
+    drag,
+    geometry,
+    lod,
+    mapping,
+    relief,
+    submit,
+    texel_operators,
+    tools,
+)
 from .overlays import overlay
 
 bl_info = {
@@ -27,6 +40,7 @@ MODULES = (
     drag,
     lod,
     geometry,
+    relief,
     texel_operators,
     compare,
     carry,

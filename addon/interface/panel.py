@@ -4,7 +4,7 @@
 import bpy
 
 from .. import native
-from ..operators import assets, bake, carry, compare, drag, geometry, lod, submit, texel_operators, tools
+from ..operators import assets, bake, carry, compare, drag, geometry, lod, relief, submit, texel_operators, tools
 from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..overlays import overlay
@@ -79,6 +79,7 @@ class _ThingsPanel(_Panel):
         column.operator(geometry.HOLOMORPH_OT_geometry.bl_idname, icon="MOD_ARRAY")
         column.operator(geometry.HOLOMORPH_OT_lines.bl_idname, icon="MOD_WIREFRAME")
         column.operator(geometry.HOLOMORPH_OT_cells.bl_idname, icon="MESH_GRID")
+        column.operator(relief.HOLOMORPH_OT_relief.bl_idname, icon="RNDCURVE")
         self.layout.operator(bake.HOLOMORPH_OT_bake.bl_idname, icon="RENDER_STILL")
 
 

@@ -10,6 +10,7 @@ from ..scene import image_io
 from .patterns import SIZE, TEXTURES
 
 OURS = "holomorph_image"  # custom property that tells our images: what is on it
+RELIEF = " relief"  # ends it where that are heights
 CHECKER_SIZE = 256  # pixels, about: a whole number of them for each square
 MOST_REPEATS = 32  # in a preview
 GRID = 8  # the sides of drawings are multiples of it, for every pattern to have whole cells
@@ -30,7 +31,7 @@ def relief_image(texture):
     if not TEXTURES[texture].relief:
         return None
     name = f"Holomorph {label(texture)} Relief"
-    return _image(name, f"{texture} relief", lambda: _two_channels(_drawn(texture).height), "Non-Color")
+    return _image(name, texture + RELIEF, lambda: _two_channels(_drawn(texture).height), "Non-Color")
 
 
 def preview_image(texture, repeats):

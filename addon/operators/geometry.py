@@ -54,8 +54,8 @@ def _check_rows(are_shifted, count):
         raise ValueError("shifted rows close up where a tile has an even number of them")
 
 
-class _OnTiling(WorkOperator):
-    """What these operators share. Each defines
+class OnTiling(WorkOperator):
+    """What operators share that make something of the tiling of the active mesh. Each defines
 
     find() : what is looked for, a function of a `holomorph.TiledSurface`
     write(step, obj, found) : makes objects of what was found on the parts; the sentence that tells of it
@@ -101,7 +101,7 @@ class _OnTiling(WorkOperator):
         return {"FINISHED"}
 
 
-class HOLOMORPH_OT_geometry(_OnTiling, bpy.types.Operator):
+class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
     """Put scales, bricks, chain mail or pieces of your own on the active mesh, one in every cell of its seamless
     tiling. They are instances by Geometry Nodes, and follow the mesh; the modifier has their size, tilt, chance and
     mask"""
@@ -161,7 +161,7 @@ class HOLOMORPH_OT_geometry(_OnTiling, bpy.types.Operator):
         return f"{made.name}: {len(made.data.vertices):,} pieces; its modifier has the dials"
 
 
-class HOLOMORPH_OT_lines(_OnTiling, bpy.types.Operator):
+class HOLOMORPH_OT_lines(OnTiling, bpy.types.Operator):
     """Make wires along the lines between the tiles of the active mesh's seamless tiling. They follow the mesh; the
     modifier has their thickness"""
 
@@ -190,7 +190,7 @@ class HOLOMORPH_OT_lines(_OnTiling, bpy.types.Operator):
         return f"{made.name}: {values['count'].sum():,} lines; its modifier has their thickness"
 
 
-class HOLOMORPH_OT_cells(_OnTiling, bpy.types.Operator):
+class HOLOMORPH_OT_cells(OnTiling, bpy.types.Operator):
     """Make a mesh of the tiles of the active mesh's seamless tiling, a polygon each, with their UVs: to extrude bricks
     and panels, or as quads"""
 

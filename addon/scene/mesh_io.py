@@ -40,10 +40,9 @@ class Polygons:
 
     def share(self, surface):
         """Takes the arrays of the surface that was made of these, where they are equal: one copy of them is left."""
-        if not surface.is_whole:
-            return
-        self.vertices, self.corner_vertices = surface.vertices, surface.corner_vertices
-        self.face_offsets = surface.face_offsets
+        if surface.is_whole:
+            self.vertices, self.corner_vertices = surface.vertices, surface.corner_vertices
+            self.face_offsets = surface.face_offsets
 
     def has_faces_of(self, other):
         """Whether the faces are the same, as where modifiers move vertices alone."""
@@ -88,16 +87,13 @@ def read_polygons(mesh, linear):
     The object's rotation and translation do not change angles, its scale and shear do. The library
     checks the arrays: Blender's own ``validate`` would change the mesh.
     """
-    positions, corner_vertices = compatibility.polygon_values(mesh)
-    positions, corner_vertices = read_values(positions), read_indices(corner_vertices)
-    vertices, linear = positions.astype(np.float64), np.asarray(linear, np.float64)
+    positions, corners = compatibility.polygon_values(mesh)
+    vertices, corner_vertices = read_values(positions).astype(np.float64), read_indices(corners)
     if not np.array_equal(linear, np.eye(3)):
         with np.errstate(all="ignore"):  # the library names the vertex of a NaN
-            vertices = vertices @ linear.T
-    starts = read_indices(Values(mesh.polygons, "loop_start", np.uint32))
-    sizes = read_indices(Values(mesh.polygons, "loop_total", np.uint32))
-    offsets = np.zeros(len(starts) + 1, np.int32)
-    np.cumsum(sizes, out=offsets[1:])
+            vertices = vertices @ np.asarray(linear, np.float64).T
+    starts, sizes = (read_indices(Values(mesh.polygons, f"loop_{name}", np.uint32)) for name in ("start", "total"))
+    offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     loops = None
     if not np.array_equal(starts, offsets[:-1]) or offsets[-1] != len(corner_vertices):
         loops = np.repeat(starts - offsets[:-1], sizes) + np.arange(offsets[-1], dtype=np.int32)
@@ -160,8 +156,7 @@ def read_seams(mesh):
 
 def add_seams(mesh, vertex_pairs):
     """Marks the edges with these (#S,2) vertices as seams, keeps every seam there is; returns how many are new."""
-    wanted = _edges_between(mesh, vertex_pairs)
-    before = read_seams(mesh)
+    wanted, before = _edges_between(mesh, vertex_pairs), read_seams(mesh)
     write_values(_marks(mesh, "use_seam"), before | wanted)
     return int(np.count_nonzero(wanted & ~before))
 

@@ -15,7 +15,9 @@ from ..results import report, stored, tags
 from ..scene import attributes, gathering, mesh_io, uv_maps
 from . import following, pieces, placing, wires
 
-PIECES_OF, WIRES_OF, CELLS_OF = (f"holomorph_{kind}_of" for kind in ("geometry", "lines", "cells"))  # custom properties
+PIECES_OF, WIRES_OF, CELLS_OF, RELIEF_OF = (  # custom properties
+    f"holomorph_{kind}_of" for kind in ("geometry", "lines", "cells", "relief")
+)
 SHARP = math.radians(35)  # angle of a piece's faces above which their edge is seen
 
 
@@ -74,7 +76,7 @@ def write_wires(step, obj, values):
 def write_cells(step, obj, cut):
     """The polygons of a `cut.CutMesh`; their object."""
     step.remove(_earlier(obj, CELLS_OF))
-    cut = cut.mirrored() if _is_mirrored(obj) else cut
+    cut = cut.mirrored() if is_mirrored(obj) else cut
     polygons = mesh_io.Polygons(_in_world(obj, cut.vertices), cut.corner_vertices, cut.face_offsets, None)
     mesh = mesh_io.new_mesh(f"{obj.name} Cells", polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
     uv_maps.write_map(mesh, polygons, uv_maps.MAIN_MAP, cut.uv.astype(np.float32))
@@ -84,6 +86,21 @@ def write_cells(step, obj, cut):
     if obj.active_material is not None:
         made.data.materials.append(obj.active_material)
     tags.put(made, CELLS_OF, obj)
+    return made
+
+
+def write_relief(step, obj, relief):
+    """The triangles of a `holomorph.Relief`; their object, with the materials of the surface."""
+    step.remove(_earlier(obj, RELIEF_OF))
+    triangles = mesh_io.Polygons(_in_world(obj, relief.vertices), relief.corner_vertices, relief.face_offsets, None)
+    mesh = mesh_io.new_mesh(f"{obj.name} Relief", triangles.vertices, triangles.corner_vertices, triangles.face_offsets)
+    uv_maps.write_map(mesh, triangles, uv_maps.MAIN_MAP, relief.uv.astype(np.float32))
+    for slot in obj.material_slots:
+        mesh.materials.append(slot.material)
+    of_faces = mesh_io.read_values(Values(obj.data.polygons, "material_index", np.int32))
+    mesh_io.write_values(Values(mesh.polygons, "material_index", np.int32), of_faces[relief.faces])
+    made = _object(step, obj, mesh.name, mesh)
+    tags.put(made, RELIEF_OF, obj)
     return made
 
 
@@ -115,10 +132,10 @@ def _put_away(context, made):
 def _add_nodes(made, obj, group, dials):
     modifier = made.modifiers.new(group.name, "NODES")
     modifier.node_group = group
-    compatibility.set_node_inputs(modifier, {"Surface": obj, "Other Side": _is_mirrored(obj)} | dials)
+    compatibility.set_node_inputs(modifier, {"Surface": obj, "Other Side": is_mirrored(obj)} | dials)
 
 
-def _is_mirrored(obj):
+def is_mirrored(obj):
     """Whether faces are seen from outside against their direction: Blender then turns normals over."""
     return obj.matrix_world.determinant() < 0
 

@@ -9,6 +9,7 @@ from .. import native
 from ..solving import jobs
 from . import following
 
+FOUND = 0.7  # part of the work until something is found on all parts
 NO_TILING = "its UV map is no seamless tiling: press Seamless Tiling first"
 
 
@@ -32,17 +33,27 @@ class PartsWork(jobs.Work):
         library, refusals = native.load(), []
         components = self.polygons.surface(strict=False).components
         for done, part in enumerate(components):
-            if not self.ask(done / len(components), "tiles"):
+            ask = library.progress.scaled(
+                self.ask, done / len(components) * FOUND, (done + 1) / len(components) * FOUND
+            )
+            if not ask(0.0, "tiles"):
                 raise library.Cancelled("cancelled while tiles were looked for")
             uv = self.uv if part.is_whole else self.uv[part.corner_index]
             try:
                 tiled = library.TiledSurface(part, uv, self.lattice)
             except library.TopologyError as error:
                 refusals.append(native.sentence(error))
+                self.skip(part)
                 continue
-            self.found.append(self.find(tiled))
-        if not self.found:
+            self.found.append(self.look(tiled, ask))
+        if len(refusals) == len(components):
             self.problem = f"{NO_TILING} ({refusals[0]})" if refusals else NO_TILING
+
+    def look(self, tiled, _ask):
+        return self.find(tiled)
+
+    def skip(self, part):
+        """What is done with a `holomorph.Surface` that has no tiling: nothing is found there."""
 
 
 def surface_values(points):

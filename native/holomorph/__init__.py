@@ -34,6 +34,7 @@ from .disk_islands import disk_islands
 from .double import double_cover, symmetrised
 from .equivalence import Equivalence, conformally_equivalent
 from .fundamental_domain import FundamentalDomain
+from .height_image import height_image
 from .holes import punch_holes
 from .igusa import IgusaInvariants, igusa_invariants
 from .image_lattice import ImageLattice, image_lattice
@@ -51,6 +52,7 @@ from .plane_maps import DiskMap, FreeBoundaryMap, RectangleMap, TriangleMap
 from .pole_structure import PoleStructure
 from .progressive import ProgressiveMesh
 from .quality import Quality
+from .relief import Relief
 from .repairs import Cut, Refused, Repairs
 from .siegel import SiegelReduction, siegel_reduction
 from .solver_report import MemoryPlan, Residuals, SolverReport
@@ -100,6 +102,7 @@ __all__ = [
     "RectangleMap",
     "Refinement",
     "Refused",
+    "Relief",
     "Repairs",
     "Residuals",
     "Rounding",
@@ -137,6 +140,7 @@ __all__ = [
     "form_map",
     "frame",
     "free_boundary_map",
+    "height_image",
     "hyperelliptic",
     "igusa_invariants",
     "image_lattice",

@@ -1,4 +1,5 @@
-"""python -m holomorph MESHFILE --output out.glb --report report.json; ... batch SOURCE... --out DIR; ... compare A B"""
+"""python -m holomorph MESHFILE --output out.glb --report report.json; ... batch SOURCE... --out DIR; ... compare A B;
+... relief MESHFILE IMAGE --depth 1mm --output out.3mf"""
 
 import argparse
 import json
@@ -13,6 +14,7 @@ from .checks import SOLVERS, check_options, check_thresholds
 from .compare_command import compare
 from .console import Parser, ended, failed, tell
 from .map_choice import MAIN_MAPS
+from .relief_command import relief
 from .report import repairs_report, whole_report
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
@@ -33,6 +35,8 @@ def main(arguments=None):
         return batch(arguments[1:])
     if arguments[:1] == ["compare"]:
         return compare(arguments[1:])
+    if arguments[:1] == ["relief"]:
+        return relief(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
         whole_file.check_places(options.mesh, options.output, [options.report], options.overwrite)
@@ -50,7 +54,8 @@ def _parser():
     parser = Parser(
         prog="python -m holomorph",
         description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help. "
-        "Two surfaces are compared by: holomorph compare --help",
+        "Two surfaces are compared by: holomorph compare --help. A picture is raised on one, to be printed, by: "
+        "holomorph relief --help",
     )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")

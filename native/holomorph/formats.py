@@ -61,11 +61,11 @@ def npz(surface, arrays):
 
 def obj(surface, uv=None):
     """Wavefront OBJ: polygons as they are, 17 digits, which are all that there are."""
-    text = _lines("v %.17g %.17g %.17g\n", surface.vertices)
+    text = text_of("v %.17g %.17g %.17g\n", surface.vertices)
     corners, entry = surface.corner_vertices + 1, " %d"
     if uv is not None:
         values, places = _distinct(uv)
-        text += _lines("vt %.17g %.17g\n", values)
+        text += text_of("vt %.17g %.17g\n", values)
         corners, entry = np.column_stack([corners, places + 1]), " %d/%d"
     sizes = np.diff(surface.face_offsets)
     faces = [entry * size for size in range(int(sizes.max()) + 1)]
@@ -98,7 +98,8 @@ WRITERS = {"obj": obj, "ply": ply, "glb": glb}
 TEXTURED = ("glb",)
 
 
-def _lines(template, rows):
+def text_of(template, rows):
+    """The text of all rows of an array, each as the template has it."""
     return template * len(rows) % tuple(rows.ravel().tolist())
 
 

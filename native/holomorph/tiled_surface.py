@@ -12,11 +12,12 @@ from numpy.typing import ArrayLike
 
 from . import _native, arrays
 from ._native import TopologyError
-from .array_types import Integers, Reals
+from .array_types import Integers, Progress, Reals
 from .cells import Cells
 from .checks import check_options, check_type
 from .lines import Lines
 from .places import Places
+from .relief import Relief, raised
 from .surface import Surface
 from .tiling_options import generators
 from .value import Value, counted
@@ -155,6 +156,37 @@ class TiledSurface(Value):
             tiled=self,
             _is_needed=arrays.frozen(found.is_needed.astype(bool)),
         )
+
+    def relief(
+        self,
+        heights: ArrayLike,
+        depth: float,
+        *,
+        repeats: int = 1,
+        level: float = 0.0,
+        tolerance: float = 0.02,
+        most_triangles: int = 1_000_000,
+        pole_fade: float = 0.25,
+        progress: Progress | None = None,
+    ) -> Relief:
+        """The surface raised along its normals by a picture in every tile, refined where that asks for it: see
+        `Relief`. As tiles are whole, it closes up everywhere.
+
+        heights : (rows, columns) from 0 to 1, the top row first, bilinear between the middles of pixels: over a tile,
+            which is a parallelogram where the lattice is no square one
+        repeats : how often the picture lies in a tile, along each of its sides
+        depth : by which a height of 1 is raised, in the unit of the positions, on the side from which triangles are
+            counter-clockwise
+        level : the height that stays on the surface: 0 raises all, 1 engraves all
+        tolerance : of heights; triangles are halved until they are off by less, or their sides are below a pixel
+        most_triangles : where that takes more, those that are farthest off are halved first
+        pole_fade : in tiles: around a pole, whose triangles stay as they are, heights rise to their own over so much
+
+        Raises ValueError for others, a picture with the same height everywhere, or a depth above the size of the mesh;
+        Cancelled. Cost: n log n in the triangles that are made.
+        """
+        count = _count(repeats, "repeats")
+        return raised(self, heights, depth, count, level, tolerance, most_triangles, pole_fade, progress)
 
     def _coordinates(self, steps=((1, 0), (0, 1)), origin=(0.0, 0.0)):
         return _native.tile_coordinates(

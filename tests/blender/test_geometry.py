@@ -6,19 +6,13 @@ import bpy
 import numpy as np
 import pytest
 from conftest import module
-from scenes import grid_arrays, mesh_io, mesh_object, select, sphere_arrays, torus, torus_arrays, tube_arrays
+from scenes import grid_arrays, mesh_io, mesh_object, select, sphere_arrays, tiled, torus, torus_arrays, tube_arrays
 
 names = ("cut", "following", "geometry", "pieces", "placing", "tree")
 cut, following, geometry, pieces, placing, tree = (module(f"things.{name}") for name in names)
 compatibility, image_io = module("compatibility"), module("scene.image_io")
 
 SINGLE = 1e-5  # what the single precision of Blender's positions leaves
-
-
-def tiled(obj, tiles=12, **options):
-    without = dict(poles="COUNT", pole_count=0, checker=False)
-    assert bpy.ops.uv.holomorphic_tile(tiles=tiles, **without, **options) == {"FINISHED"}
-    return obj
 
 
 def put(obj, **options):

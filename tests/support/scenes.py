@@ -283,6 +283,13 @@ def straightness(part, values):
     return np.abs(v[:, 0] - v[:, 1]).max()
 
 
+def tiled(obj, tiles=12, **options):
+    """The object, with a seamless tiling without poles."""
+    without = dict(poles="COUNT", pole_count=0, checker=False)
+    assert bpy.ops.uv.holomorphic_tile(tiles=tiles, **without, **options) == {"FINISHED"}
+    return obj
+
+
 def everything(obj):
     """All that belongs to an artist's mesh object, for comparison bit for bit."""
     mesh = obj.data

@@ -3,9 +3,12 @@
 
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
+#include "bindings/callback.h"
+#include "mesh/crossings.h"
 #include "tiles/cells.h"
 #include "tiles/lines.h"
 #include "tiles/places.h"
+#include "tiles/relief.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -16,6 +19,7 @@ using tiles::Cells;
 using tiles::Lines;
 using tiles::Locations;
 using tiles::Places;
+using tiles::Relief;
 using tiles::TileCoordinates;
 
 // The facade has checked the shapes.
@@ -46,6 +50,40 @@ Cells cells(const Surface& surface, const TileCoordinates& coordinates, bool bri
   const auto pattern = bricks ? tiles::Pattern::bricks : tiles::Pattern::grid;
   const tiles::EdgeNodes nodes = tiles::edge_nodes(surface, coordinates, execution);
   return tiles::cells(tiles::pieces(surface, coordinates, nodes, pattern, execution));
+}
+
+Relief relief(const Surface& surface, const TileCoordinates& coordinates, const Contiguous<double>& normals,
+              const Contiguous<double>& shares, const Contiguous<double>& pixels, double level, double tolerance,
+              int most_triangles, const py::object& progress) {
+  std::vector<tiles::ReliefSite> sites(surface.vertex_count);
+  for (int v = 0; v < surface.vertex_count; ++v) {
+    sites[v] = {Eigen::Vector3d(surface.polygons.vertices[v].data()), Eigen::Vector3d(normals.data(v, 0)),
+                shares.at(v)};
+  }
+  using Pixels = tiles::HeightImage::Pixels;
+  Pixels copied = Eigen::Map<const Pixels>(pixels.data(), pixels.shape(0), pixels.shape(1));
+  Execution execution(1, callback(progress));
+  const py::gil_scoped_release unlocked;
+  execution.stage("refining", 0, 1);
+  const tiles::HeightImage image(std::move(copied));
+  const tiles::ReliefOptions options{.level = level, .tolerance = tolerance, .most_triangles = most_triangles};
+  Relief made = tiles::relief(surface, coordinates, sites, image, options, execution);
+  execution.finish();
+  return made;
+}
+
+py::array crossings(const Contiguous<double>& vertices, const Contiguous<int>& triangles, int threads) {
+  const auto points = rows<double, 3>(vertices);
+  const auto corners = rows<int, 3>(triangles);
+  std::vector<mesh::Pair> pairs;
+  {
+    const py::gil_scoped_release unlocked;
+    Execution execution(threads);
+    pairs = mesh::crossings(points, corners, execution);
+  }
+  py::array_t<int> result({static_cast<py::ssize_t>(pairs.size()), py::ssize_t{2}});
+  if (!pairs.empty()) std::memcpy(result.mutable_data(), pairs.data(), pairs.size() * sizeof(mesh::Pair));
+  return read_only(std::move(result));
 }
 
 // A view of a list.
@@ -94,6 +132,18 @@ void bind_tiles(py::module_& m) {
       .def_property_readonly("barycentric", member(&Places::barycentric))
       .def_property_readonly("numbers", member(&Places::numbers))
       .def_readonly("flipped", &Places::flipped);
+  py::class_<Relief>(m, "Relief")
+      .def_property_readonly("positions", member(&Relief::positions))
+      .def_property_readonly("offsets", member(&Relief::offsets))
+      .def_property_readonly("heights", member(&Relief::heights))
+      .def_property_readonly("triangles", member(&Relief::triangles))
+      .def_property_readonly("tiles", member(&Relief::tiles))
+      .def_property_readonly("parents", member(&Relief::parents))
+      .def_readonly("error", &Relief::error)
+      .def_readonly("is_full", &Relief::is_full);
+  m.def("relief", &relief, "surface"_a, "coordinates"_a, py::kw_only(), "normals"_a, "shares"_a, "pixels"_a, "level"_a,
+        "tolerance"_a, "most_triangles"_a, "progress"_a);
+  m.def("crossings", &crossings, "vertices"_a, "triangles"_a, py::kw_only(), "threads"_a);
   m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
   m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a);
   m.def("tile_coordinates", &tile_coordinates, "surface"_a, "uv"_a, py::kw_only(), "inverse_lattice"_a, "origin"_a,

@@ -56,12 +56,12 @@ bool meets_box(const Vector3d& start, const Vector3d& inverse, const Eigen::Alig
 
 }  // namespace
 
-TriangleTree::TriangleTree(const Surface& surface) {
+TriangleTree::TriangleTree(std::span<const std::array<double, 3>> vertices, std::span<const Triple> triangles) {
   std::vector<Corners> corners;
   std::vector<std::array<double, 3>> centres;
-  for (const Triple& t : surface.triangles) {
+  for (const Triple& t : triangles) {
     Corners& own = corners.emplace_back();
-    for (int i = 0; i < 3; ++i) own[i] = Vector3d(surface.polygons.vertices[t[i]].data());
+    for (int i = 0; i < 3; ++i) own[i] = Vector3d(vertices[t[i]].data());
     const Vector3d centre = (own[0] + own[1] + own[2]) / 3;
     centres.push_back({centre[0], centre[1], centre[2]});
   }
@@ -107,6 +107,23 @@ std::pair<int, double> TriangleTree::nearest(const Vector3d& point) const {
     stack[height++] = low_first ? low : high;
   }
   return {order_[best.first], std::sqrt(best.second)};
+}
+
+void TriangleTree::find_near(const Eigen::AlignedBox3d& box, std::vector<int>& found) const {
+  std::array<std::size_t, kDeepest> stack;
+  std::size_t height = 0;
+  stack[height++] = 0;
+  while (height > 0) {
+    const std::size_t n = stack[--height];
+    const Node& node = nodes_[n];
+    if (!node.box.intersects(box)) continue;
+    if (node.end - node.first > kLeaf) {
+      stack[height++] = 2 * n + 2;
+      stack[height++] = 2 * n + 1;
+      continue;
+    }
+    found.insert(found.end(), order_.begin() + node.first, order_.begin() + node.end);
+  }
 }
 
 bool TriangleTree::meets(const Vector3d& start, const Vector3d& direction, double begin) const {

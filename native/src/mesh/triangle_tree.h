@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace holomorph::mesh {
 
 class TriangleTree {
  public:
-  /// @pre the surface has positions, which are copied, and a triangle. Cost: O(#T log #T)
-  explicit TriangleTree(const Surface& surface);
+  /// @pre there are positions, which are copied, and a triangle. Cost: O(#T log #T)
+  explicit TriangleTree(const Surface& surface) : TriangleTree(surface.polygons.vertices, surface.triangles) {}
+  TriangleTree(std::span<const std::array<double, 3>> vertices, std::span<const Triple> triangles);
 
   /// The triangle nearest to a point, of several the first along the curve of `spatial_order`, and its distance.
   /// Cost: O(log #T) near the surface
@@ -20,6 +22,9 @@ class TriangleTree {
 
   /// Whether a ray, of any length, meets a triangle farther than `begin` times the direction from where it starts.
   bool meets(const Eigen::Vector3d& start, const Eigen::Vector3d& direction, double begin) const;
+
+  /// Appends the triangles that may meet a box: those of leaves whose boxes do.
+  void find_near(const Eigen::AlignedBox3d& box, std::vector<int>& found) const;
 
  private:
   struct Node {

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The operator that raises a picture on the tiles of a surface, to be printed or sculpted."""
+
+import bpy
+from bpy.props import FloatProperty, IntProperty, StringProperty
+
+from .geometry import OnTiling
+from .properties import ONCE
+
+MILLIMETRES = 1000.0  # in a metre
+ABOUT = {
+    "image": "Whose white is raised, once in every tile; of colours it is the brightness",
+    "depth": "Of white over black, in millimetres: of the scene's units, or one in a unit where it has none. 0 for a"
+    " tenth of a tile",
+    "repeats": "How often the image lies across a tile; 0 for as often as the material shows it",
+    "level": "Grey that stays on the surface: 0 raises, 1 engraves",
+    "tolerance": "Height by which triangles may be off, from 0 to 1",
+    "most_triangles": "Where the picture asks for more, those that are farthest off are halved first",
+    "pole_fade": "Around a pole the picture fades out over so many tiles",
+}
+
+
+class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
+    """Make a mesh of the active one on which an image is raised, once in every tile of its seamless tiling. It is
+    refined to where the image asks for it, closes up around every limb, and is as closed as the mesh"""
+
+    bl_idname = "object.holomorphic_relief"
+    bl_label = "Relief"
+
+    image: StringProperty(name="Image", description=ABOUT["image"], options=ONCE)
+    depth: FloatProperty(
+        name="Depth (mm)", description=ABOUT["depth"], default=0.0, min=0.0, soft_max=100.0, precision=3
+    )
+    repeats: IntProperty(name="Repeats", description=ABOUT["repeats"], default=0, min=0, soft_max=16, max=1000)
+    level: FloatProperty(name="Level", description=ABOUT["level"], default=0.0, min=0.0, max=1.0)
+    tolerance: FloatProperty(name="Tolerance", description=ABOUT["tolerance"], default=0.02, min=0.0, max=1.0)
+    most_triangles: IntProperty(
+        name="Most Triangles", description=ABOUT["most_triangles"], default=1_000_000, min=1, soft_max=10_000_000
+    )
+    pole_fade: FloatProperty(
+        name="Fade at Poles", description=ABOUT["pole_fade"], default=0.25, min=0.01, soft_max=10.0
+    )
+
+    def draw_options(self, layout, _obj):
+        layout.prop_search(self, "image", bpy.data, "images")
+        for name in ("depth", "repeats", "level", "tolerance", "most_triangles", "pole_fade"):
+            layout.prop(self, name)
+
+    def prepare(self, context):
+        from ..materials import heights
+        from ..scene import image_io
+        from ..things import geometry, relief
+
+        super().prepare(context)
+        obj = context.view_layer.objects.active
+        shown, repeats = heights.shown(obj.active_material)
+        image = bpy.data.images.get(self.image) if self.image else shown
+        if image is None:
+            raise ValueError("choose the image that is to be raised")
+        self._repeats = self.repeats or (repeats if image == shown else 1)
+        try:
+            self._heights = relief.heights_of(image_io.read_pixels(image), heights.weights(image))
+        except ValueError as error:
+            raise ValueError(f"{image.name}: {error}") from error
+        self._millimetres = _millimetres(context.scene.unit_settings)
+        self._is_turned = geometry.is_mirrored(obj)
+
+    def make_work(self, progress):
+        from ..things import relief
+
+        polygons, uv, lattice = self._source
+        if self._is_turned:
+            polygons, uv = relief.turned_over(polygons, uv)
+        names = ("level", "tolerance", "most_triangles", "pole_fade")
+        return relief.RaisingWork(
+            polygons,
+            uv,
+            lattice,
+            None,
+            progress,
+            heights=self._heights,
+            depth=self.depth / self._millimetres,
+            options={name: getattr(self, name) for name in names} | {"repeats": self._repeats},
+        )
+
+    def finish(self, step, work, time_has_passed):
+        self._skipped = work.skipped
+        return super().finish(step, work, time_has_passed)
+
+    def write(self, step, obj, found):
+        from ..things import geometry, relief
+
+        made = geometry.write_relief(step, obj, found[0])
+        return f"{made.name}: {relief.sentence(found[0], self._millimetres, self._skipped)}"
+
+
+def _millimetres(units):
+    """In a unit of Blender's."""
+    return 1.0 if units.system == "NONE" else MILLIMETRES * units.scale_length
+
+
+register, unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_relief])

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The surface of an object raised by a picture that repeats in its tiles. No bpy here: it runs in a worker thread."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from .. import native
+from . import parts
+
+AUTOMATIC_DEPTH = 0.1  # in sides of a tile
+
+
+def heights_of(pixels, weights):
+    """(h, w) heights, the top row first, of (h, w, channels) pixels, the lowest row first, and what red, green and blue
+    count. @throws ValueError"""
+    if not pixels.size:
+        raise ValueError("it has no pixels: is its file there?")
+    colours = pixels[::-1, :, :3].astype(np.float64)
+    heights = colours @ weights if colours.shape[2] == 3 else colours[:, :, 0]
+    if not np.isfinite(heights).all():
+        raise ValueError("some of its pixels are no numbers")
+    return native.load().relief.checked_heights(np.clip(heights, 0, 1))
+
+
+def turned_over(polygons, uv):
+    """`mesh_io.Polygons` and (#C, 2) UVs with the corners of each face the other way round, as a mirrored object shows
+    them."""
+    starts, ends = polygons.face_offsets[:-1], polygons.face_offsets[1:]
+    back = np.repeat(starts + ends - 1, ends - starts) - np.arange(len(polygons.corner_vertices))
+    return replace(polygons, corner_vertices=polygons.corner_vertices[back], loops=None), uv[back]
+
+
+@dataclass
+class RaisingWork(parts.PartsWork):
+    """Raises every part that has a tiling, others stay as they are; then `found` is the one `holomorph.Relief` of all.
+    `find` is not needed."""
+
+    heights: np.ndarray = None  # (h, w)
+    depth: float = 0.0  # 0 for `AUTOMATIC_DEPTH`
+    options: dict = field(default_factory=dict)  # of `holomorph.TiledSurface.relief`
+    skipped: int = 0
+
+    def look(self, tiled, ask):
+        self.depth = self.depth or AUTOMATIC_DEPTH * _side(tiled)
+        try:
+            return tiled.relief(self.heights, self.depth, progress=ask, **self.options)
+        except ValueError as error:
+            self.problem = str(error)
+            return None
+
+    def skip(self, part):
+        self.skipped += 1
+        self.found.append(native.load().relief.plain(part))
+
+    def work(self):
+        super().work()
+        if self.problem:
+            return
+        made = native.load().relief.joined(self.found)
+        if not self.ask(parts.FOUND, "crossings"):
+            raise native.load().Cancelled("cancelled while triangles were looked for that cross")
+        made.safe_depth  # noqa: B018  which is kept
+        self.found = [made]
+
+
+def _side(tiled):
+    """The side of a tile of the middle size, in the unit of the positions."""
+    corners = tiled.uv[tiled.surface.triangle_corners]
+    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    area = np.abs(ax * by - ay * bx).sum() / 2
+    return float(np.sqrt(tiled.surface.area / area)) if area > 0 else 0.0
+
+
+def sentence(relief, millimetres, skipped):
+    """What is told of it. millimetres : in a unit of its positions"""
+    told = [f"{len(relief.triangles):,} triangles, {relief.depth * millimetres:.3g} mm deep"]
+    if skipped:
+        told.append(f"{skipped} parts without a tiling stay plain")
+    if relief.is_full:
+        told.append(f"up to {relief.error * relief.depth * millimetres:.2g} mm off: more triangles follow the picture")
+    if len(relief.crossings):
+        safe = relief.safe_depth * millimetres
+        least = relief.depth * native.load().relief.LEAST_PART * millimetres
+        told_of = f"up to {safe:.2g} mm it does not" if safe else f"at {least:.2g} mm it does, too"
+        told.append(f"it crosses itself in {len(np.unique(relief.crossings)):,} triangles: {told_of}")
+    return "; ".join(told)

@@ -1,0 +1,138 @@
+"""python -m holomorph relief MESH HEIGHTS --tiles 200 --depth 1.2mm --output part.3mf"""
+
+import re
+
+import numpy as np
+
+from . import Error, Map, Surface, automatic_maps, printing, whole_file
+from .checks import check_options
+from .console import Parser, failed, tell
+from .height_image import height_image
+from .relief import LEAST_PART, checked_depth, checked_heights, joined, plain, volume
+
+EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
+UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "um": 0.001}  # millimetres
+LENGTH = re.compile(r"\s*([-+]?[0-9.]+(?:e[-+]?[0-9]+)?|[-+]?(?:nan|inf\w*))\s*([a-zµ\"']*)\s*", re.IGNORECASE)
+
+
+def relief(arguments):
+    """Writes the mesh with a picture raised in every tile, and tells what it is; the exit status, other than 0 with one
+    sentence: 1 if nothing was done, 2 for options that cannot be, 3 with --strict where the result crosses itself or is
+    open."""
+    options = _parser().parse_args(arguments)
+    try:
+        depth = _millimetres(options.depth)
+        printing.of_path(options.output)
+        whole_file.check_places(options.mesh, options.output, [], options.overwrite)
+        check_options("auto", options.threads)
+    except (ValueError, OSError) as error:
+        return failed(EXIT_USAGE, error)
+    try:
+        made, told, faults = _made(options, depth)
+        whole_file.write(options.output, printing.content(options.output, made))
+    except (Error, OSError, ValueError) as error:
+        return failed(EXIT_REFUSED, error)
+    tell("".join(f"{sentence}\n" for sentence in told + faults))
+    return failed(EXIT_STRICT, faults[0]) if options.strict and faults else 0
+
+
+def _parser():
+    parser = Parser(
+        prog="python -m holomorph relief",
+        description="Raises a picture of heights on a mesh, once in every tile of a seamless tiling, for printing: "
+        "the pattern closes up around every limb, and the mesh stays as closed as it was.",
+        epilog="Exit status: 1 nothing was done, one sentence says why; 2 the command was misspelled; 3 with --strict.",
+    )
+    parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
+    parser.add_argument("heights", metavar="image", help="picture whose white is raised; it repeats in every tile")
+    parser.add_argument("--output", metavar="FILE", required=True, help="what is written: .3mf, .stl or .obj")
+    parser.add_argument("--depth", required=True, help=f"of white over black, such as 1.2mm; units: {', '.join(UNITS)}")
+    parser.add_argument("--tiles", type=float, help="over the whole mesh (default: as the map suits it)")
+    parser.add_argument("--repeats", type=int, default=1, help="how often the picture lies across a tile (default 1)")
+    parser.add_argument("--unit", choices=UNITS, default="mm", help="of the mesh's coordinates; mm are written")
+    parser.add_argument("--level", type=float, default=0.0, help="grey that stays: 0 raises (default), 1 engraves")
+    text = "height by which triangles may be off, from 0 to 1 (default 0.02)"
+    parser.add_argument("--tolerance", type=float, default=0.02, help=text)
+    parser.add_argument("--most-triangles", type=int, default=1_000_000, help="that are made (default 1000000)")
+    parser.add_argument("--overwrite", action="store_true", help="let --output be the file that is read")
+    parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
+    parser.add_argument("--strict", action="store_true", help="end with 3 where the result crosses itself or is open")
+    return parser
+
+
+def _millimetres(text):
+    """A length in millimetres, which are meant where no unit stands. @throws ValueError"""
+    match = LENGTH.fullmatch(text)
+    if match is None:
+        raise ValueError(f"--depth is {text}: a length such as 1.2mm is needed")
+    number, unit = match.groups()
+    if unit and unit.lower() not in UNITS:
+        raise ValueError(f"--depth is {text}: the units are {', '.join(UNITS)}")
+    try:
+        depth = float(number) * UNITS[unit.lower() or "mm"]
+    except ValueError as error:
+        raise ValueError(f"--depth is {text}: {number} is no number") from error
+    if not 0 < depth < np.inf:
+        raise ValueError(f"--depth is {text}: it is more than 0 and finite; --level 1 engraves")
+    return depth
+
+
+def _made(options, depth):
+    """(the `Relief`, what is told of it, what is wrong with it)."""
+    heights = checked_heights(height_image(options.heights))
+    surface = _outward(_scaled(Surface.read(options.mesh), UNITS[options.unit]))
+    checked_depth(depth, surface.vertices)
+    parts = surface.components
+    maps = automatic_maps(parts, main="seamless", tiles=options.tiles, threads=options.threads)
+    reasons = [f"{found.why}" if isinstance(found, Map) else str(found) for found in maps]
+    choices = {name: getattr(options, name) for name in ("repeats", "level", "tolerance", "most_triangles")}
+    reliefs, refused = [], []
+    for part, found, reason in zip(parts, maps, reasons):
+        if isinstance(found, Map) and found.tiling:
+            reliefs.append(found.tiled.relief(heights, depth, **choices))
+        else:
+            refused.append(reason)
+            reliefs.append(plain(part))
+    if len(refused) == len(parts):
+        raise ValueError(f"{options.mesh}: it has no seamless tiling: {refused[0]}")
+    made = joined(reliefs)
+    return made, _told(made, refused, parts, depth), _faults(made, parts, depth)
+
+
+def _scaled(surface, factor):
+    if factor == 1 or surface.vertices is None:
+        return surface
+    return Surface.from_polygons(surface.vertices * factor, surface.corner_vertices, surface.face_offsets, strict=False)
+
+
+def _outward(surface):
+    """The surface, the other way round where it is closed and its volume negative."""
+    if any(part.boundary_count for part in surface.components) or volume(surface.vertices, surface.triangles) >= 0:
+        return surface
+    starts, ends = surface.face_offsets[:-1], surface.face_offsets[1:]
+    back = np.repeat(starts + ends - 1, ends - starts) - np.arange(len(surface.corner_vertices))
+    return Surface.from_polygons(surface.vertices, surface.corner_vertices[back], surface.face_offsets, strict=False)
+
+
+def _told(made, refused, parts, depth):
+    sentences = [f"{len(made.triangles):,} triangles, {depth:.4g} mm deep, {made.volume / 1000:.4g} cm3"]
+    if refused:
+        sentences.append(f"{len(refused)} of {len(parts)} parts stay plain: {refused[0]}")
+    if made.is_full:
+        off = made.error * depth
+        sentences.append(f"no more triangles were allowed: they are up to {off:.2g} mm off; see --most-triangles")
+    return sentences
+
+
+def _faults(made, parts, depth):
+    sentences = []
+    if any(part.boundary_count for part in parts):
+        sentences.append("the mesh is open, and so is the relief: it has no volume")
+    if len(made.crossings):
+        at = made.vertices[made.triangles[made.crossings[0, 0]]].mean(axis=0)
+        safe = made.safe_depth
+        least = f"up to {safe:.2g} mm it does not" if safe > 0 else f"at {LEAST_PART * depth:.2g} mm it does, too"
+        place = ", ".join(f"{x:.4g}" for x in at)
+        count = len(np.unique(made.crossings))
+        sentences.append(f"it crosses itself in {count:,} triangles, the first near ({place}): {least}")
+    return sentences

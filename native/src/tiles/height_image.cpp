@@ -1,0 +1,90 @@
+#include "tiles/height_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace holomorph::tiles {
+namespace {
+
+using Index = Eigen::Index;
+
+// Where x lies among `count` pixels, from 0 to 1 around the tile.
+Index cell(double x, Index count) {
+  const double turn = x - std::floor(x);
+  return std::min(static_cast<Index>(turn * static_cast<double>(count)), count - 1);
+}
+
+// The two pixels whose middles x lies between, and how near it is to the second.
+struct Between {
+  Index first, second;
+  double part;
+};
+
+Between between(double x, Index count) {
+  const double place = (x - std::floor(x)) * static_cast<double>(count) - 0.5, low = std::floor(place);
+  const Index first = (static_cast<Index>(low) + count) % count;
+  return {first, first + 1 == count ? 0 : first + 1, place - low};
+}
+
+// The highest of each pixel and its neighbours.
+HeightImage::Pixels widened(const HeightImage::Pixels& pixels) {
+  const Index rows = pixels.rows(), columns = pixels.cols();
+  HeightImage::Pixels wide = pixels, result = pixels;
+  for (const Index d : {Index{1}, columns - 1}) {
+    for (Index j = 0; j < columns; ++j) wide.col(j) = wide.col(j).max(pixels.col((j + d) % columns));
+  }
+  result = wide;
+  for (const Index d : {Index{1}, rows - 1}) {
+    for (Index i = 0; i < rows; ++i) result.row(i) = result.row(i).max(wide.row((i + d) % rows));
+  }
+  return result;
+}
+
+double middle(Index i, Index count) { return (static_cast<double>(i) + 0.5) / static_cast<double>(count); }
+
+}  // namespace
+
+HeightImage::HeightImage(Pixels pixels) {
+  Level finest{std::move(pixels), {}, {}};
+  finest.rest = Pixels::Zero(finest.mean.rows(), finest.mean.cols());
+  levels_.push_back(std::move(finest));
+  while (levels_.back().mean.size() > 1) levels_.push_back(halved(levels_.back()));
+}
+
+double HeightImage::rest(const Point& tile, int level) const {
+  const Pixels& values = levels_[level].around;
+  return values(cell(tile[1], values.rows()), cell(tile[0], values.cols()));
+}
+
+double HeightImage::bilinear(const Pixels& pixels, double u, double v) {
+  const Between x = between(u, pixels.cols()), y = between(v, pixels.rows());
+  const double low = std::lerp(pixels(y.first, x.first), pixels(y.first, x.second), x.part);
+  const double high = std::lerp(pixels(y.second, x.first), pixels(y.second, x.second), x.part);
+  return std::lerp(low, high, y.part);
+}
+
+HeightImage::Level HeightImage::halved(const Level& fine) {
+  const Index rows = (fine.mean.rows() + 1) / 2, columns = (fine.mean.cols() + 1) / 2;
+  Level coarse{Pixels(rows, columns), Pixels::Zero(rows, columns), {}};
+  const double x = 0.25 / static_cast<double>(columns), y = 0.25 / static_cast<double>(rows);
+  for (Index i = 0; i < rows; ++i) {
+    for (Index j = 0; j < columns; ++j) {
+      const double u = middle(j, columns), v = middle(i, rows);
+      coarse.mean(i, j) = (bilinear(fine.mean, u - x, v - y) + bilinear(fine.mean, u + x, v - y) +
+                           bilinear(fine.mean, u - x, v + y) + bilinear(fine.mean, u + x, v + y)) /
+                          4;
+    }
+  }
+  for (Index i = 0; i < fine.mean.rows(); ++i) {
+    for (Index j = 0; j < fine.mean.cols(); ++j) {
+      const double u = middle(j, fine.mean.cols()), v = middle(i, fine.mean.rows());
+      double& rest = coarse.rest(cell(v, rows), cell(u, columns));
+      rest = std::max(rest, fine.rest(i, j) + std::abs(fine.mean(i, j) - bilinear(coarse.mean, u, v)));
+    }
+  }
+  coarse.around = widened(coarse.rest);
+  return coarse;
+}
+
+}  // namespace holomorph::tiles

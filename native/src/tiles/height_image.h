@@ -1,0 +1,41 @@
+// A picture of heights that repeats in every tile, and how much of it is lost at coarser scales.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tiles/orientation.h"
+
+namespace holomorph::tiles {
+
+class HeightImage {
+ public:
+  using Pixels = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// @param pixels rows from below, at least one pixel, finite. Cost: linear
+  explicit HeightImage(Pixels pixels);
+
+  double columns() const { return static_cast<double>(levels_[0].mean.cols()); }
+  double rows() const { return static_cast<double>(levels_[0].mean.rows()); }
+  int level_count() const { return static_cast<int>(levels_.size()); }
+
+  /// The height at a point in tiles: bilinear between the middles of pixels, of the picture halved `level` times.
+  double at(const Point& tile, int level = 0) const { return bilinear(levels_[level].mean, tile[0], tile[1]); }
+
+  /// How far at most the picture is from what `at` gives for this level, as far from a point as its pixels are wide.
+  double rest(const Point& tile, int level) const;
+
+ private:
+  struct Level {
+    Pixels mean;
+    Pixels rest;    // in each of its pixels
+    Pixels around;  // the most of it in a pixel and those around it
+  };
+
+  static double bilinear(const Pixels& pixels, double u, double v);
+  static Level halved(const Level& fine);
+
+  std::vector<Level> levels_;  // down to a single pixel
+};
+
+}  // namespace holomorph::tiles

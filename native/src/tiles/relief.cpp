@@ -1,0 +1,229 @@
+#include "tiles/relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <tuple>
+
+namespace holomorph::tiles {
+namespace {
+
+constexpr int kNone = -1, kReported = 4096;
+constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side between which heights are looked at
+
+// Side i runs from corner i to corner i + 1.
+struct Triangle {
+  std::array<int, 3> vertices;
+  std::array<int, 3> across;  // the triangle at each side, or none
+  std::array<Point, 3> tiles;
+  int parent;
+  int version = 0;  // how often it was split
+};
+
+struct Candidate {
+  double error;
+  int triangle, version;
+
+  bool operator<(const Candidate& other) const {
+    return std::tie(error, other.triangle) < std::tie(other.error, triangle);  // the lower number first
+  }
+};
+
+std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+class Refining {
+ public:
+  Refining(const mesh::Surface& surface, const TileCoordinates& coordinates, std::vector<ReliefSite> sites,
+           const HeightImage& image, const ReliefOptions& options)
+      : image_(image), options_(options), sites_(std::move(sites)), heights_(sites_.size(), 0.0) {
+    const int count = static_cast<int>(surface.triangles.size());
+    triangles_.resize(count);
+    std::vector<int> first(surface.edges.size(), kNone);  // 3 t + i of the first side at each edge
+    for (int t = 0; t < count; ++t) {
+      Triangle& own = triangles_[t];
+      own = {surface.triangles[t], {kNone, kNone, kNone}, {}, t};
+      for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 2; ++k) own.tiles[i][k] = coordinates.points[t][i][k] / coordinates.unit;
+        heights_[own.vertices[i]] = height(sites_[own.vertices[i]].share, own.tiles[i]);
+        int& other = first[surface.triangle_edges[t][i]];
+        if (other != kNone) {
+          own.across[i] = other / 3;
+          triangles_[other / 3].across[other % 3] = t;
+        }
+        other = 3 * t + i;
+      }
+    }
+  }
+
+  Relief run(Execution& execution) {
+    for (int t = 0; t < std::ssize(triangles_); ++t) look_at(t);
+    bool is_full = false;
+    for (std::size_t i = 0; !candidates_.empty() && !is_full; ++i) {
+      const Candidate next = candidates_.top();
+      if (triangles_[next.triangle].version == next.version) is_full = !split(next.triangle);
+      if (!is_full) candidates_.pop();
+      if (i % kReported == 0) execution.report(static_cast<double>(triangles_.size()) / options_.most_triangles);
+    }
+    return result(is_full);
+  }
+
+ private:
+  double height(double share, const Point& tile) const {
+    return share == 0 ? 0 : share * (image_.at(tile) - options_.level);
+  }
+
+  void look_at(int t) {
+    const double error = error_of(triangles_[t]);
+    if (error > options_.tolerance)
+      candidates_.push({error, t, triangles_[t].version});
+    else
+      error_ = std::max(error_, error);
+  }
+
+  // How far the triangle is from the picture at a grid of its points: of the picture so coarse that no pixel is missed.
+  double error_of(const Triangle& t) const {
+    const auto& [a, b, c] = t.vertices;
+    if (sites_[a].share == 0 && sites_[b].share == 0 && sites_[c].share == 0) return 0;
+    double longest = 0;  // in pixels
+    for (int i = 0; i < 3; ++i) {
+      const Point &from = t.tiles[i], &to = t.tiles[(i + 1) % 3];
+      longest = std::max(longest, std::hypot((to[0] - from[0]) * image_.columns(), (to[1] - from[1]) * image_.rows()));
+    }
+    if (longest < options_.finest_pixels) return 0;
+    const int parts = static_cast<int>(std::clamp(std::ceil(longest) + 1, double{kFewest}, double{kMost}));
+    const double step = longest / parts;
+    const int level = step <= 1 ? 0 : std::min(std::ilogb(step) + 1, image_.level_count() - 1);
+    double error = 0;
+    for (int i = 0; i <= parts; ++i) {
+      for (int j = 0; i + j <= parts; ++j) {
+        const double y = static_cast<double>(i) / parts, z = static_cast<double>(j) / parts, x = 1 - y - z;
+        const Point at{x * t.tiles[0][0] + y * t.tiles[1][0] + z * t.tiles[2][0],
+                       x * t.tiles[0][1] + y * t.tiles[1][1] + z * t.tiles[2][1]};
+        const double share = x * sites_[a].share + y * sites_[b].share + z * sites_[c].share;
+        const double flat = x * heights_[a] + y * heights_[b] + z * heights_[c];
+        const double off = std::abs(share * (image_.at(at, level) - options_.level) - flat);
+        error = std::max(error, off + (level > 0 ? share * image_.rest(at, level) : 0));
+      }
+    }
+    return error;
+  }
+
+  double squared_length(int a, int b) const { return (sites_[a].position - sites_[b].position).squaredNorm(); }
+
+  // An order of all sides, the same from both triangles.
+  std::tuple<double, int, int> key(const Triangle& t, int i) const {
+    const auto [low, high] = std::minmax(t.vertices[i], t.vertices[(i + 1) % 3]);
+    return {squared_length(low, high), low, high};
+  }
+
+  int longest_side(const Triangle& t) const {
+    int longest = 0;
+    for (int i = 1; i < 3; ++i) {
+      if (key(t, longest) < key(t, i)) longest = i;
+    }
+    return longest;
+  }
+
+  // The side of a triangle from one vertex to another.
+  static int side(const Triangle& t, int from, int to) {
+    int i = 0;
+    while (t.vertices[i] != from || t.vertices[(i + 1) % 3] != to) ++i;
+    return i;
+  }
+
+  // Splits t at its longest side, and before that those across which need it; false where that are too many. It ends:
+  // along the way sides get longer.
+  bool split(int t) {
+    for (const int version = triangles_[t].version; triangles_[t].version == version;) {
+      int at = t, i = longest_side(triangles_[t]);
+      for (;;) {
+        const int next = triangles_[at].across[i];
+        if (next == kNone) break;
+        const int j = longest_side(triangles_[next]);
+        if (triangles_[next].across[j] == at) break;
+        at = next;
+        i = j;
+      }
+      if (std::ssize(triangles_) + 2 > options_.most_triangles) return false;
+      halve_side(at, i);
+    }
+    return true;
+  }
+
+  void halve_side(int t, int i) {
+    const Triangle& own = triangles_[t];
+    const int a = own.vertices[i], b = own.vertices[(i + 1) % 3], other = own.across[i];
+    const int middle = static_cast<int>(sites_.size());
+    sites_.push_back({(sites_[a].position + sites_[b].position) / 2, (sites_[a].normal + sites_[b].normal) / 2,
+                      (sites_[a].share + sites_[b].share) / 2});
+    const Point &p = own.tiles[i], &q = own.tiles[(i + 1) % 3];
+    heights_.push_back(height(sites_[middle].share, {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2}));
+    const int second = halve(t, i, middle);
+    if (other != kNone) {
+      const int fourth = halve(other, side(triangles_[other], b, a), middle);
+      join(t, fourth);
+      join(second, other);
+      look_at(other);
+      look_at(fourth);
+    }
+    look_at(t);
+    look_at(second);
+  }
+
+  // (a, b, c) becomes (a, m, c), and (m, b, c), whose number is given; the halves of the side are their sides 0.
+  int halve(int t, int i, int middle) {
+    const int second = static_cast<int>(triangles_.size());
+    Triangle& first = triangles_[t];
+    const auto turned = [i](const auto& values) {
+      return std::array{values[i], values[(i + 1) % 3], values[(i + 2) % 3]};
+    };
+    const auto [a, b, c] = turned(first.vertices);
+    const auto [p, q, r] = turned(first.tiles);
+    const int right = turned(first.across)[1], left = turned(first.across)[2], version = first.version + 1;
+    const Point m{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2};
+    const int parent = first.parent;
+    first = {{a, middle, c}, {kNone, second, left}, {p, m, r}, parent, version};
+    triangles_.push_back({{middle, b, c}, {kNone, right, t}, {m, q, r}, parent});
+    if (right != kNone) triangles_[right].across[side(triangles_[right], c, b)] = second;
+    return second;
+  }
+
+  void join(int s, int t) {
+    triangles_[s].across[0] = t;
+    triangles_[t].across[0] = s;
+  }
+
+  Relief result(bool is_full) {
+    Relief made;
+    for (std::size_t v = 0; v < sites_.size(); ++v) {
+      made.positions.push_back(array_of(sites_[v].position));
+      made.offsets.push_back(array_of(heights_[v] * sites_[v].normal));
+    }
+    for (const Triangle& t : triangles_) {
+      made.triangles.push_back(t.vertices);
+      made.parents.push_back(t.parent);
+      made.tiles.push_back({t.tiles[0][0], t.tiles[0][1], t.tiles[1][0], t.tiles[1][1], t.tiles[2][0], t.tiles[2][1]});
+    }
+    made.heights = std::move(heights_);
+    made.error = is_full ? candidates_.top().error : error_;
+    made.is_full = is_full;
+    return made;
+  }
+
+  const HeightImage& image_;
+  const ReliefOptions& options_;
+  std::vector<ReliefSite> sites_;  // #V
+  std::vector<double> heights_;    // #V
+  std::vector<Triangle> triangles_;
+  std::priority_queue<Candidate> candidates_;  // those that are off by more than the tolerance, and earlier versions
+  double error_ = 0;                           // of the others
+};
+
+}  // namespace
+
+Relief relief(const mesh::Surface& surface, const TileCoordinates& coordinates, const std::vector<ReliefSite>& sites,
+              const HeightImage& image, const ReliefOptions& options, Execution& execution) {
+  return Refining(surface, coordinates, sites, image, options).run(execution);
+}
+
+}  // namespace holomorph::tiles

@@ -1,0 +1,43 @@
+// A surface refined to where a picture of heights on its tiles asks for it.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "tiles/height_image.h"
+#include "tiles/tile_coordinates.h"
+
+namespace holomorph::tiles {
+
+/// What is linear on every triangle of the surface, at its vertices.
+struct ReliefSite {
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;  ///< by which a height of 1 moves the surface
+  double share = 1;        ///< of the height; 0 at all vertices of triangles at poles, where UVs do not fit together
+};
+
+struct ReliefOptions {
+  double level = 0;          ///< the height that stays on the surface
+  double tolerance = 0;      ///< of heights: triangles are split until none is off by more
+  int most_triangles = 0;    ///< beyond which none is split, though it is off by more
+  double finest_pixels = 1;  ///< triangles whose sides are shorter are not split
+};
+
+struct Relief {
+  std::vector<std::array<double, 3>> positions;  ///< #V on the surface, its own vertices first
+  std::vector<std::array<double, 3>> offsets;    ///< #V by which each is moved, for a depth of 1
+  std::vector<double> heights;                   ///< #V of the picture, less the level, times the share
+  std::vector<std::array<int, 3>> triangles;     ///< #T
+  std::vector<std::array<double, 6>> tiles;      ///< #T tile coordinates of the corners
+  std::vector<int> parents;                      ///< #T triangle of the surface in which each lies
+  double error = 0;                              ///< height by which a triangle is off at most, where it was measured
+  bool is_full = false;                          ///< triangles were too many to be split further
+};
+
+/// Halves longest sides, each time of both triangles there, the one first that is farthest off: the mesh fits together,
+/// and no angle gets below half the smallest (Rivara 1984, doi:10.1002/nme.1620200412). Heights are those of the tiles,
+/// so that seams of the map are edges as any others. The same at any number of threads: it uses one.
+/// @param sites #V. Cost: O(#T log #T) for the triangles that are made.
+Relief relief(const mesh::Surface& surface, const TileCoordinates& coordinates, const std::vector<ReliefSite>& sites,
+              const HeightImage& image, const ReliefOptions& options, Execution& execution);
+
+}  // namespace holomorph::tiles
