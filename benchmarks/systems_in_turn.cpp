@@ -74,7 +74,7 @@ struct System {
     Workers workers;
     solver::BlockSolve<kRightHandSides> block(L, hierarchy, kResidual, workers);
     const std::vector<solver::Condition> conditions(kRightHandSides, solver::Condition::natural);
-    block.solve(B, conditions, 0, kRightHandSides, X, false, [&](double) { report(); });
+    block.solve(B, conditions, 0, kRightHandSides, X, [&](double) { report(); });
     return block.iterations();
   }
 };

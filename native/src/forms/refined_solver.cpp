@@ -60,9 +60,8 @@ RefinedSolver::RefinedSolver(const mesh::HalfEdges& half_edges, std::span<const 
       solver_(std::move(solver)) {}
 
 RowMajorMatrix RefinedSolver::solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
-                                    const Terms& terms, Execution& execution, RowMajorMatrix start) {
-  RowMajorMatrix functions = start.size() > 0 ? solver_->improve(std::move(start), B, conditions, execution)
-                                              : solver_->solve(B, conditions, execution);
+                                    const Terms& terms, Execution& execution) {
+  RowMajorMatrix functions = solver_->solve(B, conditions, execution);
   refine(functions, conditions, terms, execution);
   return functions;
 }

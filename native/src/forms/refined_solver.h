@@ -36,10 +36,9 @@ class RefinedSolver {
 
   /// #V x #rhs, as solver::LaplaceSolver has it; refined where that is not enough.
   /// @param terms of which B are the fluxes
-  /// @param start a near solution, or empty
   /// @throws SolverError, Cancelled
   RowMajorMatrix solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions, const Terms& terms,
-                       Execution& execution, RowMajorMatrix start = {});
+                       Execution& execution);
   RowMajorMatrix solve(const Eigen::MatrixXd& B, solver::Condition condition, const Terms& terms,
                        Execution& execution) {
     return solve(B, std::vector<solver::Condition>(B.cols(), condition), terms, execution);

@@ -43,13 +43,6 @@ class LaplaceSolver {
     return solve(B, std::vector<Condition>(B.cols(), condition), execution);
   }
 
-  /// The same, to the same accuracy, from a near solution, at which multigrid begins.
-  /// @param start #V x #rhs; its values at fixed vertices do not matter
-  virtual Solution improve(Solution /*start*/, const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                           Execution& execution) {
-    return solve(B, conditions, execution);
-  }
-
   /// A rough solution by an operator that is always the same, symmetric and positive (natural: semi-) definite: what
   /// minimisers take for the inverse of a matrix that is like L. Multigrid runs one V-cycle.
   virtual Solution precondition(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,

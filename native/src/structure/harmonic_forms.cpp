@@ -18,11 +18,10 @@ HarmonicForms harmonic_forms(const mesh::Surface& surface, const Topology& topol
   return measured(surface, topology, discretisation, classes, std::move(functions), execution);
 }
 
-forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver,
-                                         const forms::RowMajorMatrix& near, Execution& execution) {
+forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver, Execution& execution) {
   const auto& discretisation = solver.discretisation();
   const auto classes = classes_on(topology, discretisation.half_edges, discretisation.flips);
-  auto functions = solver.solve(classes, topology.families.natural, execution, near);
+  auto functions = solver.solve(classes, topology.families.natural, execution);
   add_loop_indicators(topology, functions);
   return functions;
 }

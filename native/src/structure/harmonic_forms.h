@@ -14,9 +14,7 @@ HarmonicForms harmonic_forms(const mesh::Surface& surface, const Topology& topol
                              Execution& execution);
 
 /// The functions alone, #V x #forms, those of the loops' harmonic measures 1 on their loops.
-/// @param near those of another triangulation of the surface, where the solver may begin
 /// @throws SolverError, Cancelled
-forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver,
-                                         const forms::RowMajorMatrix& near, Execution& execution);
+forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver, Execution& execution);
 
 }  // namespace holomorph::structure

@@ -55,37 +55,34 @@ HarmonicSolver::HarmonicSolver(const mesh::Discretisation& discretisation, int r
                      Boundary::natural, execution) {}
 
 void HarmonicSolver::solve_in_blocks(const topology::IntegerForms& classes, int natural, Execution& execution,
-                                     const TakeFunctions& take, const forms::RowMajorMatrix& near) {
+                                     const TakeFunctions& take) {
   const int count = classes.form_count;
   const auto both =
       double_ ? extended(discretisation_.half_edges, double_->cover, classes, natural) : topology::IntegerForms();
   const topology::IntegerForms& solved = double_ ? both : classes;
-  const bool begins_near = !double_ && near.size() > 0;
   for (int first = 0; first < count; first += plan_.block) {
     const int width = std::min(plan_.block, count - first);
     execution.part(static_cast<double>(first) / count, static_cast<double>(first + width) / count);
     auto functions = systems_.solve(
         forms::codifferentials(half_edges(), weights(), solved, first, width, execution.workers()),
         conditions(double_ ? width : natural - first, width), [&] { return forms::class_terms(solved, first, width); },
-        execution, begins_near ? near.middleCols(first, width) : forms::RowMajorMatrix());
+        execution);
     if (double_) functions = symmetrised(functions, double_->cover, std::clamp(natural - first, 0, width));
     take(first, std::move(functions));
   }
 }
 
-forms::RowMajorMatrix HarmonicSolver::solve(const topology::IntegerForms& classes, int natural, Execution& execution,
-                                            const forms::RowMajorMatrix& near) {
+forms::RowMajorMatrix HarmonicSolver::solve(const topology::IntegerForms& classes, int natural, Execution& execution) {
   const auto rows = static_cast<Eigen::Index>(discretisation_.half_edges.n_vertices());
   forms::RowMajorMatrix all(rows, 0);
-  const auto take = [&](int first, forms::RowMajorMatrix&& functions) {
+  solve_in_blocks(classes, natural, execution, [&](int first, forms::RowMajorMatrix&& functions) {
     if (functions.cols() == classes.form_count) {
       all = std::move(functions);
       return;
     }
     if (first == 0) all.resize(rows, classes.form_count);
     all.middleCols(first, functions.cols()) = functions;
-  };
-  solve_in_blocks(classes, natural, execution, take, near);
+  });
   return all;
 }
 

@@ -39,13 +39,11 @@ class HarmonicSolver {
 
   /// Solves for as many forms at a time as the plan says, in order, and hands each block on.
   /// @param classes on the discretisation. @param natural how many of them are; the others are Dirichlet
-  /// @param near near functions of all classes, or empty; those of the surface do not help on the double
   /// @throws SolverError, Cancelled
   void solve_in_blocks(const topology::IntegerForms& classes, int natural, Execution& execution,
-                       const TakeFunctions& take, const forms::RowMajorMatrix& near = {});
+                       const TakeFunctions& take);
   /// The functions of all classes, #V x #forms.
-  forms::RowMajorMatrix solve(const topology::IntegerForms& classes, int natural, Execution& execution,
-                              const forms::RowMajorMatrix& near = {});
+  forms::RowMajorMatrix solve(const topology::IntegerForms& classes, int natural, Execution& execution);
 
   const mesh::Discretisation& discretisation() const { return discretisation_; }
   const MemoryPlan& plan() const { return plan_; }

@@ -74,8 +74,8 @@ class KeptForms final : public UvForms {
     const auto own = on_own_triangles(*structure_.surface, execution);
     execution.stage("harmonic forms of the input triangulation", 0.2, 1.0);
     HarmonicSolver solver(own, structure_.record.memory, options_.boundary, execution);
-    functions_ = std::make_shared<const forms::RowMajorMatrix>(
-        harmonic_functions(structure_.topology, solver, *functions_, execution));
+    functions_ =
+        std::make_shared<const forms::RowMajorMatrix>(harmonic_functions(structure_.topology, solver, execution));
     report_ = solver.report();
   }
 

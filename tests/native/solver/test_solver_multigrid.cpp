@@ -152,31 +152,6 @@ TEST_P(MultigridSolverOf, HasTheBitsOfOneThread) {
   EXPECT_TRUE(same_bits(solved(GetParam()), solved(1)));
 }
 
-TEST_P(MultigridSolverOf, ImprovesANearSolution) {
-  const Laplacian L = grid_laplacian(150, 131);
-  const std::vector<int> fixed{3, 700, 9000};
-  const Eigen::MatrixXd B = centred(random_values(L.size(), 3, 16));
-  const std::vector<Condition> conditions{Condition::natural, Condition::dirichlet, Condition::natural};
-  Execution execution(GetParam());
-  const auto near = make_multigrid_solver(copy_of(L), fixed, kResidual, execution);
-  Solution start = near->solve(B, conditions, execution);
-  const Eigen::MatrixXd noise = random_values(L.size(), 3, 17);
-  start += 1e-5 * start.norm() / noise.norm() * noise;  // at fixed vertices, too
-  const auto solver = make_multigrid_solver(copy_of(L), fixed, kResidual, execution);
-  const Solution X = solver->improve(start, B, conditions, execution);
-  EXPECT_LE(solver->residual(), kResidual);
-  EXPECT_LT(solver->iterations(), near->iterations());
-  for (Eigen::Index column = 0; column < B.cols(); ++column) {
-    const std::vector<int> none;
-    const bool natural = conditions[column] == Condition::natural;
-    EXPECT_LE(relative_residual(L, X.col(column), B.col(column), natural ? none : fixed), 1.01 * kResidual);
-  }
-  for (const int v : fixed) EXPECT_EQ(X(v, 1), 0);
-  const auto again = make_multigrid_solver(copy_of(L), fixed, kResidual, execution);
-  again->improve(X, B, conditions, execution);
-  EXPECT_EQ(again->iterations(), 0);
-}
-
 TEST(MultigridSolver, IsCancelledInTheMiddle) {
   const Laplacian L = grid_laplacian(150, 131);
   const Eigen::MatrixXd B = centred(random_values(L.size(), 8, 15));

@@ -85,10 +85,8 @@ RightHandSides<K> BlockSolve<K>::right_hand_sides(const Eigen::MatrixXd& B, cons
 
 template <int K>
 void BlockSolve<K>::solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first,
-                          int width, Solution& X, bool begun, const Report& report) {
-  const RightHandSides<K> b = right_hand_sides(B, conditions, first, width);
-  if (begun) begin_at(X, first, width, b);
-  correct_until_solved(b, report);
+                          int width, Solution& X, const Report& report) {
+  correct_until_solved(right_hand_sides(B, conditions, first, width), report);
   for_rows(workers_, n_, [&](int i) { X.row(i).segment(first, width) = x_[i].head(width); });
 }
 
@@ -143,17 +141,6 @@ void BlockSolve<K>::begin(RightHandSides<K>& b) {
   norm_r_ = norm_b_;
   reached_ = largest_relative(norm_r_, norm_b_);
   iterations_ = 0;
-}
-
-// X and its residual. What fills the block is the first column again.
-template <int K>
-void BlockSolve<K>::begin_at(const Solution& X, Eigen::Index first, int width, const RightHandSides<K>& b) {
-  for_rows(workers_, n_, [&](int i) {
-    Sums<K> here = Sums<K>::Constant(X(i, first));
-    here.head(width) = X.row(i).segment(first, width).transpose();
-    x_[i] = b.masked(i, here);
-  });
-  update_residual(b);
 }
 
 // The residual of X, from differences and in double precision.

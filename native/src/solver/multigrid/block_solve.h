@@ -27,10 +27,9 @@ class BlockSolve {
 
   /// Solves for the columns first .. first + width - 1 of B, width <= K, and writes the same columns of X.
   /// @param conditions of all columns
-  /// @param begun whether X is where to begin; else at 0
   /// @throws SolverError after 300 iterations or two corrections without success; what `report` throws
   void solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first, int width,
-             Solution& X, bool begun, const Report& report);
+             Solution& X, const Report& report);
 
   /// Writes M B for the same columns, M one V-cycle.
   void run_cycle(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Eigen::Index first, int width,
@@ -44,7 +43,6 @@ class BlockSolve {
   RightHandSides<K> right_hand_sides(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
                                      Eigen::Index first, int width);
   void begin(RightHandSides<K>& b);
-  void begin_at(const Solution& X, Eigen::Index first, int width, const RightHandSides<K>& b);
   void correct_until_solved(const RightHandSides<K>& b, const Report& report);
   void update_residual(const RightHandSides<K>& b);
   void conjugate_gradients(const Report& report);

@@ -25,15 +25,7 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   Solution solve(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) override {
-    return improve({}, B, conditions, execution);
-  }
-
-  Solution improve(Solution start, const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                   Execution& execution) override {
-    if (!order_.empty() && start.size() > 0) start = Solution(start(order_, Eigen::all));
-    return in_order(B, [&](const Eigen::MatrixXd& ordered) {
-      return solve_in_order(std::move(start), ordered, conditions, execution);
-    });
+    return in_order(B, [&](const Eigen::MatrixXd& ordered) { return solve_in_order(ordered, conditions, execution); });
   }
 
   Solution precondition(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
@@ -90,12 +82,10 @@ class MultigridSolver final : public LaplaceSolver {
     });
   }
 
-  // @param start may be empty
-  Solution solve_in_order(Solution start, const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
-                          Execution& execution) {
+  Solution solve_in_order(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions, Execution& execution) {
     if (!direct_) {
       try {
-        return solve_by_multigrid(std::move(start), B, conditions, execution);
+        return solve_by_multigrid(B, conditions, execution);
       } catch (const SolverError& error) {
         fall_back(error, execution);
       }
@@ -112,17 +102,14 @@ class MultigridSolver final : public LaplaceSolver {
     direct_ = make_direct_solver(std::move(L_), fixed_, execution);
   }
 
-  Solution solve_by_multigrid(Solution X, const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
+  Solution solve_by_multigrid(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
                               Execution& execution) {
-    const bool begun = X.size() > 0;
-    if (!begun) {
-      X.resize(B.rows(), B.cols());
-      advise_large_pages(X.data(), X.size() * sizeof(double));
-    }
+    Solution X(B.rows(), B.cols());
+    advise_large_pages(X.data(), X.size() * sizeof(double));
     int iterations = 0;
     double residual = 0;
     for_blocks(B.cols(), execution.workers(), [&](auto& block, Eigen::Index first, int width) {
-      block.solve(B, conditions, first, width, X, begun, [&](double reached) {
+      block.solve(B, conditions, first, width, X, [&](double reached) {
         const double columns = static_cast<double>(first) + part_of_digits(reached, kResidual) * width;
         execution.report(kSetUp + (1 - kSetUp) * columns / static_cast<double>(B.cols()));
       });
