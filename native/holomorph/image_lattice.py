@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from . import arrays
 from .array_types import Reals
+from .value import Value
 
 LEAST_CONTINUED = 16  # lines of a reduced image, from which on borders are compared: fewer say nothing
 JUMP = 1.5  # most that an image jumps across its border, over the largest jump inside: equal in the mean where it tiles
@@ -21,8 +22,8 @@ LIKE_HEXAGONS = 0.02  # relative difference of a cell's height from that of regu
 BORDERS = ("left and right", "lower and upper")
 
 
-@dataclass(frozen=True)
-class ImageLattice:
+@dataclass(frozen=True, eq=False, repr=False)
+class ImageLattice(Value):
     """What `image_lattice` found.
 
     tiles : whether opposite borders continue each other
@@ -42,6 +43,9 @@ class ImageLattice:
     def cells(self) -> int:
         """How many cells of the lattice an image has."""
         return round(1 / float(np.linalg.det(self.translations)))
+
+    def _facts(self) -> list[str]:
+        return [self.text]
 
 
 def image_lattice(pixels: ArrayLike) -> ImageLattice:
