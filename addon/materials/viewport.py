@@ -6,7 +6,7 @@ from . import material
 WITHOUT_TEXTURE = {"SOLID", "WIREFRAME"}  # kinds of shading
 IMAGE, MATERIAL = "SOLID", "MATERIAL"  # kinds that show an image over the UV square, and a material as it is
 COLOUR = "TEXTURE"  # what the colour of `IMAGE` is
-BEFORE = "holomorph_shading"  # custom property of a screen: index of an area -> kind and colour as they were
+BEFORE = "holomorph_shading"  # custom property of a screen: index of an area -> kind and colour as they were, kind now
 
 
 def show(window, shown=IMAGE):
@@ -16,7 +16,7 @@ def show(window, shown=IMAGE):
         kind = shading.type
         if kind in WITHOUT_TEXTURE and (shown, kind, shading.color_type) != (IMAGE, IMAGE, COLOUR):
             shading.type = IMAGE  # first: the colours that there are depend on it
-            before[index] = before.get(index) or [kind, shading.color_type]
+            before[index] = [*(before.get(index) or [kind, shading.color_type])[:2], shown]
             shading.color_type = COLOUR
             shading.type = shown
     if before:
@@ -27,10 +27,11 @@ def restore(window):
     """What `show` changed, but for views whose shading was chosen anew since."""
     before = dict(window.screen.get(BEFORE, {}))
     for index, shading in _views(window):
-        if index in before and (shading.type == MATERIAL or (shading.type, shading.color_type) == (IMAGE, COLOUR)):
+        kind, colour, shown = before.get(index, [None] * 3)
+        if shading.type == shown and (shown == MATERIAL or shading.color_type == COLOUR):
             shading.type = IMAGE
-            shading.color_type = before[index][1]
-            shading.type = before[index][0]
+            shading.color_type = colour
+            shading.type = kind
     if before:
         del window.screen[BEFORE]
 
