@@ -68,7 +68,8 @@ def write_wires(step, obj, values):
     step.remove(_earlier(obj, WIRES_OF))
     kept = {name: array for name, array in values.items() if name not in ("edges", "side", "count")}
     made = _object(step, obj, f"{obj.name} Lines", _points_mesh(obj, kept, values["edges"]))
-    _add_nodes(made, obj, wires.group(), {"Radius": wires.THICKNESS * float(np.median(values["side"]))})
+    radius = wires.THICKNESS * float(np.median(values["side"]))
+    _add_nodes(made, obj, wires.group(), {"Radius": radius, "Material": obj.active_material})
     tags.put(made, WIRES_OF, obj)
     return made
 

@@ -8,7 +8,7 @@ from .following import POSITION, Followed
 from .tree import Dial, made_once, number
 
 NAME = "Holomorphic Lines on Tiling"
-VERSION = 1  # of the nodes
+VERSION = 2  # of the nodes
 THICKNESS = 0.06  # radius of a wire, in sides of a tile
 DIRECTIONS = {"U": ["u"], "V": ["v"], "BOTH": ["u", "v"]}
 
@@ -18,6 +18,7 @@ DIALS = {
     "Height": number(),
     "Sides": Dial("Int", {"default_value": 8, "min_value": 3, "max_value": 64}),
     "Other Side": Dial("Bool"),
+    "Material": Dial("Material"),
 }
 
 
@@ -72,4 +73,5 @@ def _build(tree):
         "GeometryNodeCurvePrimitiveCircle", named={"Resolution": tree.dial("Sides"), "Radius": radius}, mode="RADIUS"
     )
     named = {"Curve": curves, "Profile Curve": profile, "Fill Caps": True}
-    tree.finish(tree.node("GeometryNodeSetShadeSmooth", tree.node("GeometryNodeCurveToMesh", named=named)))
+    smooth = tree.node("GeometryNodeSetShadeSmooth", tree.node("GeometryNodeCurveToMesh", named=named))
+    tree.finish(tree.node("GeometryNodeSetMaterial", smooth, named={"Material": tree.dial("Material")}))

@@ -457,6 +457,21 @@ def evaluated(made):
     return mesh_io.read_values(compatibility.position_values(shown.data)), len(shown.data.polygons)
 
 
+def test_lines_have_the_material_of_the_surface_and_another_by_their_dial():
+    own, other = (bpy.data.materials.new(name) for name in ("Own", "Other"))
+    obj = tiled(torus())
+    obj.data.materials.append(own)
+    assert bpy.ops.object.holomorphic_lines() == {"FINISHED"}
+    made = bpy.data.objects["Torus Lines"]
+    for material in (own, other):
+        if material == other:
+            set_dials(made, Material=other)
+        bpy.context.view_layer.update()
+        shown = made.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
+        used = {shown.materials[face.material_index].original for face in shown.polygons}
+        assert used == {material}
+
+
 @pytest.mark.parametrize(("direction", "least"), [("U", 2), ("V", 2), ("BOTH", 4)])
 def test_lines_are_wires_on_the_surface(direction, least):
     tiled(torus())
