@@ -24,6 +24,8 @@ namespace {
 
 // OpenBLAS's workspace of a call, in bytes: 128 MiB and what malloc adds. It is kept for later calls.
 constexpr std::size_t kWorkspace = std::size_t{130} << 20;
+// What malloc of two other threads may take between the question and the call: 128 MiB each for an arena of their own.
+constexpr std::size_t kArenas = std::size_t{256} << 20;
 
 std::mutex mutex;
 int users = 0, workspaces = 0, before = 1;
@@ -32,7 +34,7 @@ int users = 0, workspaces = 0, before = 1;
 // first. The first one is then taken at once, before anything else takes the memory.
 // @throws std::bad_alloc
 void take_workspace() {
-  void* const found = std::malloc(kWorkspace);
+  void* const found = std::malloc(kWorkspace + kArenas);
   if (found == nullptr) throw std::bad_alloc();
   std::free(found);
   if (workspaces++ > 0) return;
