@@ -87,26 +87,33 @@ def show(obj):
         view.view_distance = DISTANCE * float(((high - low) ** 2).sum() ** 0.5)
 
 
-def make(name, pictures):
+def save(obj, path):
+    """The file, opening at the object, without what it does not use."""
+    show(obj)
+    bpy.ops.outliner.orphans_purge(do_recursive=True)
+    bpy.context.preferences.filepaths.save_version = 0
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True, relative_remap=False)
+
+
+def make_all(files, folder, make):
+    """Each of the files that the command names, or all, and a picture of the objects that `make` returns."""
+    pictures, *wanted = sys.argv[sys.argv.index("--") + 1 :]
+    folder.mkdir(parents=True, exist_ok=True)
+    addon.register()
+    for name in wanted or files:
+        shown = make(name)
+        studio.render(shown, str(Path(pictures).resolve() / f"{name}.png"), RESOLUTION, SAMPLES)
+
+
+def make(name):
     obj = opened(name)
     texture, tiles = FILES[name]
     bpy.ops.uv.holomorphic_tile(texture=texture, tiles=tiles)
     share_images()
-    show(obj)
-    bpy.ops.outliner.orphans_purge(do_recursive=True)
-    bpy.context.preferences.filepaths.save_version = 0
-    path = FOLDER / f"{name}.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True, relative_remap=False)
-    studio.render([obj], str(pictures / f"{name}.png"), RESOLUTION, SAMPLES)
-
-
-def main():
-    pictures, *wanted = sys.argv[sys.argv.index("--") + 1 :]
-    TEXTURES.mkdir(parents=True, exist_ok=True)
-    addon.register()
-    for name in wanted or FILES:
-        make(name, Path(pictures).resolve())
+    save(obj, FOLDER / f"{name}.blend")
+    return [obj]
 
 
 if __name__ == "__main__":
-    main()
+    TEXTURES.mkdir(parents=True, exist_ok=True)
+    make_all(FILES, FOLDER, make)

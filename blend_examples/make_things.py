@@ -15,11 +15,9 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from make_seamless import HERE, RESOLUTION, SAMPLES, opened, show
+from make_seamless import HERE, make_all, opened, save
 
-import addon
 from addon import compatibility
-from addon.command_line import studio
 from addon.results import tags
 from addon.things import geometry
 
@@ -91,7 +89,7 @@ def paint(block, name, color, metallic):
     block.data.materials.append(made)
 
 
-def make(name, pictures):
+def make(name):
     example, tiles, put, color, below, metallic = FILES[name]
     obj = opened(example)
     bpy.ops.uv.holomorphic_tile(tiles=tiles, checker=False)
@@ -102,22 +100,9 @@ def make(name, pictures):
     if put is wicker:
         compatibility.set_node_inputs(made.modifiers[0], {"Material": made.active_material})
     paint(obj, "Surface", below, 0.0)
-    show(obj)
-    bpy.ops.outliner.orphans_purge(do_recursive=True)
-    bpy.context.preferences.filepaths.save_version = 0
-    path = FOLDER / f"{name}.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True, relative_remap=False)
-    shown = [made] if obj.hide_render else [obj, made]
-    studio.render(shown, str(pictures / f"{name}.png"), RESOLUTION, SAMPLES)
-
-
-def main():
-    pictures, *wanted = sys.argv[sys.argv.index("--") + 1 :]
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    addon.register()
-    for name in wanted or FILES:
-        make(name, Path(pictures).resolve())
+    save(obj, FOLDER / f"{name}.blend")
+    return [made] if obj.hide_render else [obj, made]
 
 
 if __name__ == "__main__":
-    main()
+    make_all(FILES, FOLDER, make)

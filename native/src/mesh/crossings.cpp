@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRounding = 1e-14;  // of a determinant, relative to the sum of its terms' sizes: some ten units
+// Rounding of a determinant, relative to the sum of its terms' sizes: some ten units.
+constexpr double kRounding = 1e-14;
 
 // The side of the plane (a, b, c) on which d lies; 0 where rounding decides.
 int side_of_plane(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {

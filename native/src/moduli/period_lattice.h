@@ -12,8 +12,8 @@ using lattice::IntegerMatrix;
 
 /// The lattice Z^n of integer classes, its quadratic form the energy of their harmonic forms, which is known between
 /// two bounds, and an antisymmetric integer pairing. Two closed surfaces of genus >= 1 are conformally equivalent just
-/// if their lattices are isometric by integers that keep the wedge product, n = 2g (Torelli). With boundary it is that
-/// of the Dirichlet forms, n = 2g + b - 1; int h^D_i ^ h^D_j tells a surface from its mirror image.
+/// if their lattices are isometric by integers that keep the wedge product, n = 2g (Torelli). With boundary the lattice
+/// belongs to the Dirichlet forms, n = 2g + b - 1; int h^D_i ^ h^D_j tells a surface from its mirror image.
 struct PeriodLattice {
   Eigen::MatrixXd lower, upper;  ///< n x n: lower <= energy <= upper, as quadratic forms
   Eigen::MatrixXd projected;     ///< n x n: the value between them
