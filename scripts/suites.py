@@ -1,0 +1,166 @@
+"""The suites of scripts/test: what each runs, and what it takes. A new suite is a row of SUITES."""
+
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILD = ROOT / "build"
+RESULTS = BUILD / "test"
+BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
+DEFAULT = ["lint", "native", "core", "batch", "blender-3.4", "bpy-5.2", "package", "window"]
+# The long ones first, so that two at a time end together.
+ALL = ["lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz", "tsan"]
+ALL += ["bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
+# The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
+# once, on small meshes; malformed files; cancelling in the middle; several Python threads at once.
+SANITIZED = [
+    *("base/test_threads.py", "files/test_read.py", "mesh/test_invalid_meshes.py"),
+    "progressive/test_progressive.py::test_deterministic",
+    "progressive/test_progressive.py::test_malformed_files_are_refused",
+    "progressive/test_progressive.py::test_damaged_splits_are_refused",
+    "progressive/test_progressive.py::test_damaged_files_are_refused_or_valid",
+    *("structure/test_bounded.py::test_certificates", "structure/test_truncated.py"),
+    "structure/test_log_map.py::test_solvers_agree_and_threads_do_not_matter",
+    "plane/test_rectangle.py::test_solvers_agree_and_threads_do_not_matter",
+    "solver/test_laplace.py::test_any_vertices_may_be_fixed",
+    "base/test_running.py::test_cancelling_at_any_call",
+    "multiresolution/test_levels.py::test_deterministic_at_any_number_of_threads",
+]
+
+
+class Suite(NamedTuple):
+    about: str
+    commands: list  # all are run, whatever the first finds
+    environment: str = "make_test_venv"  # what makes its Pythons, in the words of scripts/environment
+    preset: str = "release"  # what scripts/build compiles for it, if anything
+    blender: str = ""  # "wanted", or "needed": it is skipped without the program
+    python: str = ""  # the version without which it is skipped
+
+
+def run_in_environment(command, *arguments):
+    """The command line that runs shell commands after scripts/environment; "$@" are the arguments."""
+    return ["bash", "-euo", "pipefail", "-c", f". scripts/environment; {command}", "-", *arguments]
+
+
+def pytest_options(suite, timeout=900):
+    result = ["--junit-xml", RESULTS / f"{suite}.xml", "-o", f"junit_suite_name={suite}"]
+    return ["-p", "no:cacheprovider", "--timeout", str(timeout), *result]
+
+
+def pytest(suite, *tests, venv="test-cp311", library="cp311", timeout=900, **variables):
+    variables |= {"PYTHONPATH": BUILD / "lib" / library} if library else {}
+    python = BUILD / "venv" / venv / "bin" / "python"
+    settings = [f"{name}={value}" for name, value in variables.items()]
+    return ["env", *settings, python, "-m", "pytest", *pytest_options(suite, timeout), *tests]
+
+
+def native_tests(preset, suite):
+    program = BUILD / "cmake" / f"cp311-{preset}" / "tests" / "native" / "native_tests"
+    return [program, "--gtest_brief=1", f"--gtest_output=xml:{RESULTS / suite}.native.xml"]
+
+
+def in_blender(suite):
+    packages = f"HOLOMORPH_TEST_PYTHONPATH={BUILD / 'venv' / 'debian-pytest'}"
+    options = ["-b", "--factory-startup", "--python-exit-code", "9", "--python", "tests/blender/run_pytest.py", "--"]
+    return ["env", packages, BLENDER, *options, *pytest_options(suite), "tests/blender"]
+
+
+def sanitized(suite):
+    """Tests in C++, then in Python. CHOLMOD's OpenMP has threads all the same: the preset tsan goes without CHOLMOD."""
+    settings = ["env", "OPENBLAS_NUM_THREADS=1", "OMP_NUM_THREADS=1", "UBSAN_OPTIONS=print_stacktrace=1"]
+    tests = ["tests/native", *(f"tests/core/{name}" for name in SANITIZED)]
+    run = run_in_environment('with_sanitizer "$@"', suite, *pytest(suite, *tests, library=""))
+    return [[*settings, *native_tests(suite, suite)], run]
+
+
+def bpy(version, python):
+    name = f"bpy-{version}"
+    return Suite(
+        f"tests/blender in Blender {version} as a Python module.",
+        [pytest(name, "tests/blender", venv=name, library="")],
+        environment=f"make_bpy_venv {name}",
+        python=python,
+    )
+
+
+SUITES = {
+    "lint": Suite("Format and lint.", [["scripts/lint"]], environment=":", preset=""),
+    "native": Suite(
+        "tests/native: unit tests in C++, with assertions; tests/cpp: examples, built on the installed C++ library.",
+        [
+            native_tests("dev", "native"),
+            pytest("native", "tests/cpp", library="cp311-dev", HOLOMORPH_BUILD=BUILD / "cmake" / "cp311-dev"),
+        ],
+        preset="dev",
+    ),
+    "core": Suite(
+        "tests/core, with the assertions of the native core, without Blender.",
+        [
+            pytest(
+                *("core", "tests/core", "tests/fuzz"),
+                library="cp311-dev",
+                HOLOMORPH_FAILING_REQUESTS=BUILD
+                / "cmake"
+                / "cp311-dev"
+                / "tests"
+                / "native"
+                / "libfailing_requests.so",
+            )
+        ],
+        preset="dev",
+    ),
+    "batch": Suite(
+        "tests/batch: holomorph batch here, on a Dask cluster, under faults; its page in Chromium, where there is one.",
+        [pytest("batch", "tests/batch", venv="batch-cp311")],
+        environment="make_batch_venv",
+        blender="wanted",
+    ),
+    "blender-3.4": Suite(
+        "tests/blender in Debian's Blender.",
+        [in_blender("blender-3.4")],
+        environment="make_blender_folder pytest pytest-timeout",
+        blender="needed",
+    ),
+    "bpy-5.2": bpy("5.2", "3.13"),
+    "bpy-5.0": bpy("5.0", "3.11"),
+    "bpy-4.5": bpy("4.5", "3.11"),
+    "bpy-4.2": bpy("4.2", "3.11"),
+    "package": Suite(
+        "tests/package: the zips and wheels, installed in Blender 3.4, 4.2 and 5.2.",
+        [pytest("package", "tests/package")],
+        environment="make_test_venv; make_bpy_venv bpy-4.2; ! find_python 3.13 >/dev/null || make_bpy_venv bpy-5.2",
+        blender="wanted",
+    ),
+    "window": Suite(
+        "tests/window: clicks in a real window, on a display of its own.",
+        [pytest("window", "tests/window")],
+        blender="needed",
+    ),
+    "site": Suite(
+        "scripts/site, and tests/site: its pages in Chromium, the gallery, plots by PyVista, a notebook.",
+        [["scripts/site"], pytest("site", "tests/site", venv="site-test-cp311")],
+        environment="make_site_venv; make_site_test_venv",
+        blender="needed",
+    ),
+    "asan": Suite(
+        "Tests of native and some of core, with the sanitizers of addresses and undefined behaviour.",
+        sanitized("asan"),
+        preset="asan",
+    ),
+    "tsan": Suite("The same with the sanitizer of threads.", sanitized("tsan"), preset="tsan"),
+    "fuzz": Suite(
+        "tests/fuzz, then three minutes of mutated files and meshes. scripts/fuzz goes on for longer.",
+        [
+            run_in_environment('with_sanitizer "$@"', "asan", *pytest("fuzz", "tests/fuzz", library="")),
+            ["scripts/fuzz", "--minutes", "3"],
+        ],
+        preset="asan",
+    ),
+    "platforms": Suite(
+        "tests/platforms: the extensions of all platforms, under Wine and qemu. Compiles for an hour.",
+        [pytest("platforms", "-rA", "tests/platforms", timeout=7200, library="")],
+        environment="make_test_venv; make_bpy_venv bpy-4.2",
+        preset="",
+    ),
+}

@@ -1,0 +1,92 @@
+"""What scripts/test says of suites that fail, crash, take too long or cannot run."""
+
+import importlib.machinery
+import importlib.util
+import re
+import sys
+
+import pytest
+from repository import ROOT
+
+CRASH = "import faulthandler, os, signal; faulthandler.enable(); os.kill(os.getpid(), signal.SIGSEGV)"
+TESTS = "import pytest\ndef test_a(): pass\ndef test_b(): assert 0\ndef test_c(): pytest.skip('no')\n"
+
+
+@pytest.fixture
+def program(monkeypatch, tmp_path):
+    monkeypatch.syspath_prepend(ROOT / "scripts")
+    loader = importlib.machinery.SourceFileLoader("run_tests", str(ROOT / "scripts" / "test"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("run_tests", loader))
+    loader.exec_module(module)
+    monkeypatch.setattr(module, "RESULTS", tmp_path)
+    return module
+
+
+@pytest.fixture
+def run(program, monkeypatch):
+    """run(command, ...): the answer of a suite that has these commands."""
+
+    def run(*commands, **options):
+        suite = program.SUITES["lint"]._replace(commands=[list(command) for command in commands], **options)
+        monkeypatch.setitem(program.SUITES, "small", suite)
+        return program.run("small")
+
+    return run
+
+
+def python(code):
+    return [sys.executable, "-c", code]
+
+
+def test_tests_are_counted_and_failed_ones_named(run, tmp_path, capfd):
+    (tmp_path / "test_small.py").write_text(TESTS)
+    pytest_command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", tmp_path / "test_small.py"]
+    answer = run([*pytest_command, "--junit-xml", tmp_path / "small.xml"])
+    assert answer[:3] == (1, 1, 1) and re.fullmatch(r"small: FAILED \S*test_small::test_b", *answer[3])
+    lines = capfd.readouterr().out.splitlines()
+    assert lines[0] == answer[3][0] and lines[-1].startswith("small: 1 passed, 1 failed, 1 skipped, ")
+    assert (tmp_path / "small.log").read_text().splitlines()[-1] in lines
+
+
+def test_a_line_of_the_log_counts(run):
+    assert run(python("print('5 passed, 0 failed')")) == (5, 0, 0, [])
+    assert run(python("print('3 passed, 2 failed'); exit(1)"))[:3] == (3, 2, 0)
+
+
+def test_a_crash_is_a_failure_and_says_where(run, tmp_path):
+    folder = tmp_path / "tests"
+    folder.mkdir()
+    (folder / "test_crash.py").write_text(f"def crash():\n    {CRASH}\n\n\ncrash()\n")
+    passed, failed, skipped, lines = run(
+        [sys.executable, folder / "test_crash.py"], python("print('5 passed, 0 failed')")
+    )
+    assert (passed, failed, skipped) == (5, 1, 0)
+    assert lines[1] == "small: FAILED     at tests/test_crash.py:2 in crash"
+    assert re.fullmatch(r"small: FAILED ended with exit code 139: Segmentation fault", lines[0])
+
+
+def test_a_suite_that_takes_too_long_is_ended(program, run, monkeypatch):
+    monkeypatch.setattr(program, "MINUTES", 0)
+    assert run(python("import time; time.sleep(600)")) == (0, 1, 0, ["small: FAILED timed out"])
+
+
+def test_no_test_is_a_failure(run, tmp_path):
+    assert run(python("")) == (0, 1, 0, ["small: FAILED ran no test"])
+    broken = f"open({str(tmp_path / 'small.xml')!r}, 'w').write('<testsuites>')"
+    assert run(python(broken))[1] == 1
+    assert run(python("exit(7)")) == (0, 1, 0, ["small: FAILED ended with exit code 7"])
+
+
+def test_what_cannot_run_is_skipped(program, run, monkeypatch):
+    monkeypatch.setattr(program, "BLENDER", "no-such-program")
+    assert run(python("exit(1)"), blender="needed") == (0, 0, 1, [])
+    assert run(python("exit(1)"), python="9.9") == (0, 0, 1, [])
+
+
+def test_all_suites_have_a_row(program):
+    rows = set(program.SUITES)
+    assert set(program.DEFAULT) < set(program.ALL) == rows - {"platforms"}
+    assert program.chosen([]) == program.DEFAULT and program.chosen(["--all"]) == program.ALL
+    assert program.chosen(["--suite", "fuzz", "--suite", "lint"]) == ["fuzz", "lint"]
+    with pytest.raises(SystemExit, match="2"):
+        program.chosen(["--suite", "nothing"])
