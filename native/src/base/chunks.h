@@ -1,5 +1,5 @@
-// Loops over rows with the same bits at any number of threads: fixed chunks, each row written by one thread, sums per
-// chunk and then in the order of the chunks. Which thread does a chunk changes nothing.
+// Loops over rows that give the same bits at any number of threads. Chunks are fixed, and each row is written by one
+// thread. Sums are taken per chunk, then in the order of the chunks. Which thread does a chunk changes nothing.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ inline constexpr int kChunk = 4096;
 
 inline int chunk_count(int rows) { return (rows + kChunk - 1) / kChunk; }
 
-/// task(chunk), or task(thread, chunk), for each of `chunks` chunks, in parallel, where it may throw: what the first of
-/// them threw is thrown when all are done.
+/// Calls task(chunk), or task(thread, chunk), for each of `chunks` chunks, in parallel. The task may throw: the first
+/// exception is thrown again when all are done.
 template <class Task>
 void run_throwing(Workers& workers, int chunks, const Task& task, int too_few = Workers::kTooFew) {
   std::vector<std::exception_ptr> failures(chunks);

@@ -8,8 +8,8 @@ namespace holomorph {
 /// Page size of large arrays in bytes, where the system has it.
 inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
-/// Advice to the system to use large pages where whole ones lie in the memory: fewer misses of the address cache, and
-/// 512 times fewer page faults. Without effect where it is refused.
+/// Advises the system to use large pages where whole ones lie in the memory. This saves misses of the address cache,
+/// and 511 of 512 page faults. Has no effect where the system refuses.
 void advise_large_pages(void* memory, std::size_t bytes);
 
 /// Memory at a multiple of kLargePage, with any content, that goes back to the system as soon as it is freed. The heap

@@ -11,7 +11,7 @@
 
 namespace holomorph {
 
-/// Allocates large arrays on pages of 2 MB where the system has them, and leaves new elements as they are: filling with
+/// Allocates large arrays on pages of 2 MB where the system has them. New elements are not initialised: filling with
 /// zeros would be a pass over memory of its own.
 template <class T>
 struct PageAllocator {

@@ -9,8 +9,8 @@
 
 namespace holomorph {
 
-/// Tasks call it every few milliseconds: those of the calling thread report how far the loop has come, and once the
-/// caller has cancelled those of all threads end.
+/// Tasks call it every few milliseconds. Those of the calling thread report how far the loop has come. Once the caller
+/// has cancelled, the tasks of all threads end.
 class Watch {
  public:
   /// @param steps after about how many calls half of what is reported is done

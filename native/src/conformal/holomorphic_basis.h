@@ -13,8 +13,8 @@ namespace holomorph::conformal {
 /// Everything here is dense and small.
 ///
 /// The paper conjugates by averaging the face-wise star over the faces of an edge, which is not closed and tears. Here
-/// *h_i = sum_j C_ij h_j is found by the pairing (Gu & Yau 2003, doi:10.2312/SGP/SGP03/127-137), and projected so that
-/// C#^2 = -1: then Omega is symmetric, Im Omega > 0, and nothing depends on the basis.
+/// *h_i = sum_j C_ij h_j is found by the pairing (Gu & Yau 2003, doi:10.2312/SGP/SGP03/127-137). C is projected so that
+/// C#^2 = -1. Then Omega is symmetric, Im Omega > 0, and nothing depends on the basis.
 struct HolomorphicBasis {
   ProjectedStar star;              ///< in the given basis; with one family G_D# belongs to its conjugates
   Eigen::MatrixXcd differentials;  ///< #forms x n: column j is theta_j, written in the harmonic forms
@@ -32,8 +32,8 @@ HolomorphicBasis closed_basis(const Eigen::MatrixXd& G, const Eigen::MatrixXd& c
 /// theta_i = h^N_i + i sum_j C#_ij h^D_j. Real combinations of these are holomorphic forms whose imaginary part
 /// vanishes along the boundary, so that each loop becomes a straight line. Omega is that of the double, (i/2) Cap# on
 /// planar surfaces.
-/// @param gram n x n each, G_N and G_D of the natural and the Dirichlet forms: first those of the 2g handle classes,
-/// the same in both families, then those of the b - 1 loops
+/// @param gram n x n each, G_N and G_D of the natural and the Dirichlet forms. The 2g handle classes come first, the
+/// same in both families, then the b - 1 loops
 /// @param certain as in closed_basis
 /// @param W n x n, W_ij = int h^N_i ^ h^D_j
 HolomorphicBasis bounded_basis(const std::vector<Eigen::MatrixXd>& gram, const std::vector<Eigen::MatrixXd>& certain,

@@ -5,8 +5,8 @@
 
 namespace holomorph::conformal {
 
-/// A # B = A^(1/2) (A^(-1/2) B A^(-1/2))^(1/2) A^(1/2) of positive definite matrices, by Cholesky and one symmetric
-/// eigenproblem (the mean is invariant under congruence, so any root of A will do).
+/// The geometric mean A # B = A^(1/2) (A^(-1/2) B A^(-1/2))^(1/2) A^(1/2) of positive definite matrices, by Cholesky
+/// and one symmetric eigenproblem. The mean is invariant under congruence, so any root of A will do.
 /// @throws SolverError if a matrix is not positive definite, or too badly conditioned
 Eigen::MatrixXd geometric_mean(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
@@ -15,13 +15,13 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& A);
 /// (A + A^T) / 2
 Eigen::MatrixXd symmetric(const Eigen::MatrixXd& A);
 
-/// Two families of n harmonic forms that the star exchanges: *h^N_i = sum_j C_ij h^D_j and *h^D_j = sum_i D_ji h^N_i,
-/// found by the pairing W_ij = int h^N_i ^ h^D_j: C = G_N W^-T, D = -G_D W^-1 (Gu & Yau 2003,
-/// doi:10.2312/SGP/SGP03/127-137). They are conjugate, C D = -1, just if G_N = W G_D^-1 W^T; on a mesh
+/// Two families of n harmonic forms that the star exchanges: *h^N_i = sum_j C_ij h^D_j and *h^D_j = sum_i D_ji h^N_i.
+/// The pairing W_ij = int h^N_i ^ h^D_j gives C = G_N W^-T and D = -G_D W^-1 (Gu & Yau 2003,
+/// doi:10.2312/SGP/SGP03/127-137). They are conjugate, C D = -1, if and only if G_N = W G_D^-1 W^T. On a mesh
 ///     W G_D^-1 W^T <= G_exact <= G_N
-/// as quadratic forms, because both G are Dirichlet energies of admissible functions. The geometric mean of the two
-/// sides is taken for G_N: that is the polar projection of the star of the double. On a closed surface both families
-/// are the same, W is the wedge matrix, and this is the polar projection of C onto C^2 = -1.
+/// as quadratic forms, because both G are Dirichlet energies of admissible functions. G_N is replaced by the geometric
+/// mean of the two sides, the polar projection of the star of the double. On a closed surface both families are the
+/// same, W is the wedge matrix, and this is the polar projection of C onto C^2 = -1.
 struct ProjectedStar {
   Eigen::MatrixXd natural_gram;    ///< G_N# = G_N # (W G_D^-1 W^T)
   Eigen::MatrixXd dirichlet_gram;  ///< G_D# = W^T (G_N#)^-1 W

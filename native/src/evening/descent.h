@@ -13,8 +13,8 @@ namespace holomorph::evening {
 /// Symmetric and positive, about the inverse of the second derivatives.
 using Precondition = std::function<Function(const Function& gradient)>;
 
-/// A descent of StrainEnergy. While the energy falls quickly, each step is one of gradient descent with a
-/// preconditioner made where it begins; then the last of them serves several steps.
+/// A descent of StrainEnergy. While the energy falls quickly, each step of gradient descent makes its own
+/// preconditioner. Later the last one serves several steps.
 class Descent {
  public:
   /// @param make Precondition(delta). @param clear sets a function to 0 where it is to stay

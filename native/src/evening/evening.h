@@ -18,16 +18,16 @@ struct Kept {
 /// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.
 inline constexpr double kUsualEvenness = 0.5;
 
-/// The power of itself that evening makes of the density of a conformal map, as far as strain is small: so a ratio of
-/// densities can be foretold. 1 at evenness 0.
+/// Predicts ratios of densities: evening raises the density of a conformal map to this power, as far as strain is
+/// small. 1 at evenness 0.
 double power_of_density(double evenness);
 
 /// #V x 2, what is to be added at the vertices for the least StrainEnergy. Triangles that it flips are turned back
-/// until no more area is flipped than was. Where moving what is around them does not do that, size counts half as much,
-/// again and again, and at last nothing is added.
+/// until no more area is flipped than before. Where moving their neighbours is not enough, the weight of size is halved
+/// again and again. At last nothing is added.
 ///
-/// The method: steps of gradient descent with the Laplacian that is most like the second derivatives, made anew while
-/// the energy falls quickly, then limited-memory BFGS with the last of them.
+/// Method: gradient descent, preconditioned by the Laplacian closest to the second derivatives, which is made anew
+/// while the energy falls quickly. Then limited-memory BFGS with the last Laplacian.
 /// @param uv #C x 2, with translations for jumps. @param evenness from 0, which gives 0, to 1
 /// @param solver "auto", "direct" or "multigrid"
 /// @pre the surface is connected and has no isolated vertices. @throws SolverError, Cancelled

@@ -18,10 +18,11 @@ using Complex = std::complex<double>;
 /// #V, a function u + i v on the vertices.
 using Function = Array<Complex>;
 
-/// E(delta) = sum over triangles t of A_t ((1 - lambda) shear^2 + lambda size^2), where shear = ln s1 - ln s2 and
-/// size = ln s1 + ln s2 - 2 ln s0, for the singular values s1 >= s2 of the map uv + delta: the quadratic energy of the
-/// logarithmic strain (Neff, Eidel and Martin 2016, doi:10.1007/s00205-016-1007-x), which goes on as a parabola where
-/// s1 / s2 is large and where a triangle is flipped. s0 is the mean size of the map without delta. Areas add up to 1.
+/// E(delta) = sum over triangles t of A_t ((1 - lambda) shear^2 + lambda size^2), where shear = ln s1 - ln s2 and size
+/// = ln s1 + ln s2 - 2 ln s0, for the singular values s1 >= s2 of the map uv + delta. This is the quadratic energy of
+/// the logarithmic strain (Neff, Eidel and Martin 2016, doi:10.1007/s00205-016-1007-x). It is continued as a parabola
+/// where s1 / s2 is large and where a triangle is flipped. The size s0 is the mean size of the map without delta. Areas
+/// add up to 1.
 ///
 /// At a pole the map is infinite, and a triangle there stays as it is: its strain is that from the map without delta.
 /// Triangles without area do not count.
@@ -50,8 +51,8 @@ class StrainEnergy {
   /// Makes triangles count more that are flipped by delta.
   void emphasise_flipped(const Function& delta, Workers& workers);
 
-  /// A Laplacian that is like the second derivatives: where the map is conformal these lie between 2 (1 - lambda) times
-  /// it and twice it, and elsewhere it is larger by as much as they are.
+  /// A Laplacian close to the second derivatives. Where the map is conformal, they lie between 2 (1 - lambda) times it
+  /// and twice it. Elsewhere it grows with them.
   /// @return weights of the edges, #E of the surface
   Array<double> edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const;
   /// The lower triangle of its matrix on the first so many vertices.

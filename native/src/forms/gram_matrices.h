@@ -28,9 +28,9 @@ std::vector<GramMatrix> gram_matrices(const mesh::HalfEdges& half_edges, std::sp
                                       std::span<const double> errors, const ClosedForms& forms,
                                       const std::vector<int>& families, Execution& execution);
 
-/// By how much the energies of the forms eta_i + d f_i, f_i the very doubles, may be larger on the surface as given
-/// than `value` says: a positive definite matrix E, with G_exact <= value + E as quadratic forms. E bounds all
-/// errors together: those of the weights, of differences of functions and of the sums in any order.
+/// A positive definite matrix E with G_exact <= value + E as quadratic forms. G_exact has the energies on the surface
+/// as given, of the forms eta_i + d f_i with f_i as stored. E bounds all errors together: those of the weights, of
+/// differences of functions and of the sums in any order.
 Eigen::MatrixXd gram_errors(const GramMatrix& gram);
 
 }  // namespace holomorph::forms

@@ -15,8 +15,8 @@ namespace holomorph::forms {
 /// Adds the values of some forms along a half-edge. Several threads may call it at once.
 using AddValues = std::function<void(mesh::HalfedgeHandle, Eigen::VectorXd& values)>;
 
-/// The right-hand sides of systems L f_j = b_j in terms that stay small where weights are large: at each vertex the
-/// flux sum k (d f_j + eta_j) + k' eta'_j out of it, plus its source, is 0. What is left out is 0.
+/// The right-hand sides of systems L f_j = b_j, in terms that stay small where weights are large. At each vertex the
+/// outward flux, sum k (d f_j + eta_j) + k' eta'_j, plus the source is 0. What is left out is 0.
 struct FluxTerms {
   AddValues eta = {};
   AddValues outer_eta = {};

@@ -1,5 +1,5 @@
-// The linear systems on one triangulation, solved to what is promised of every form that is made of them: refined
-// where weights hide the residuals, and refused where that does not help.
+// Solves the linear systems on one triangulation to the promised accuracy of forms. Solutions are refined where weights
+// hide the residuals, and refused where that does not help.
 #pragma once
 
 #include <functional>
@@ -44,9 +44,9 @@ class RefinedSolver {
     return solve(B, std::vector<solver::Condition>(B.cols(), condition), terms, execution);
   }
 
-  /// Where weights are so large that a residual of 1e-10 of the right-hand side, or what rounding allows, does not mean
-  /// small errors, L^-1 r is added, r of harmonic_residuals, until |h - h_exact|^2 = r . L^-1 r is small enough, or as
-  /// small as the rounding of the functions allows. Elsewhere nothing is done.
+  /// Refines solutions where weights are so large that a small residual, 1e-10 of the right-hand side, does not mean
+  /// small errors. Adds L^-1 r, r of harmonic_residuals, until |h - h_exact|^2 = r . L^-1 r is small enough, or as
+  /// small as the rounding of the functions allows. Does nothing elsewhere.
   /// @throws SolverError where the error is not kEnergyError in the end; Cancelled
   void refine(RowMajorMatrix& functions, const std::vector<solver::Condition>& conditions, const Terms& terms,
               Execution& execution);

@@ -13,10 +13,10 @@ namespace holomorph::forms {
 /// Near a pole of residue 1 and total angle Theta, in polar coordinates (r, alpha) of its star, u_s = alpha/Theta
 /// and v_s = -log(r)/Theta: u_s + i v_s = 1 / (2 pi i) log z with z = (r e^(i alpha))^(2 pi/Theta).
 ///
-/// b_u, b_v: the fluxes of u_s, v_s out of the star through its link, tested with the hat functions; and the difference
-/// between u_s, v_s and their linear interpolants on the straight link edges, tested with the normal derivatives of the
-/// hat functions, which makes the result second order. Each column of b_u sums to 0 and of b_v to 1; both test linear
-/// functions exactly.
+/// b_u, b_v are the fluxes of u_s, v_s out of the star through its link, tested with the hat functions. They contain a
+/// second term, which makes the result second order: the difference between u_s, v_s and their linear interpolants on
+/// the straight link edges, tested with the normal derivatives of the hat functions. Each column of b_u sums to 0 and
+/// of b_v to 1; both test linear functions exactly.
 struct StarPart {
   std::vector<double> u, v;      ///< at the end of each link edge; u jumps by 1 at link[0]
   std::vector<double> b_u, b_v;  ///< the same

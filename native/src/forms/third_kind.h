@@ -1,7 +1,7 @@
 // Differentials of the third kind, theta = du + i dv with residues s / (2 pi i) at poles (paper § 11 names them).
 //
 // No face is cut out. In the stars the singular part (singular_part.h) is known. Outside, it is continued as any closed
-// form with the same values on the links, and u = u_s + df, v = v_s + g with f, g on all vertices of the whole mesh:
+// form with the same values on the links. Then u = u_s + df and v = v_s + g, with f and g on all vertices of the mesh:
 //
 //     L f = -d^T (k u_s) + b_u,   L g = -d^T (k d v_s) + b_v      (d^T over the faces outside the stars)
 #pragma once
@@ -44,8 +44,8 @@ struct PoleFunctions {
 PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const double> weights, const PoleForms& poles,
                              RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution);
 
-/// The function of sum_j p_j h_j + sum_i r_i (u_i + i v_i), the one form on a closed surface with these periods and
-/// residues alone: real and imaginary part of its function, #V x 2. The form is its differential + the same sum of the
+/// The real and imaginary parts, #V x 2, of the function of sum_j p_j h_j + sum_i r_i (u_i + i v_i). On a closed
+/// surface this is the only form with these periods and residues. The form is its differential + the same sum of the
 /// classes.
 /// @param natural classes of the h_j, on the triangulation that `solver` solves on
 /// @param p #natural, r #poles
@@ -61,8 +61,8 @@ RowMajorMatrix function_with_poles(const mesh::HalfEdges& half_edges, std::span<
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const PoleForms& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);
 
-/// The same where weights are large, from the u that were solved for, #V x m. Outside the stars <u_s, h_j> is <u, h_j>,
-/// as <df, h_j> is 0: a sum over all edges, of products of which both factors are small where the weight is not.
+/// The same where weights are large, from the u that were solved for, #V x m. Outside the stars <u_s, h_j> = <u, h_j>,
+/// because <df, h_j> = 0. In this sum over all edges, both factors of a product are small where the weight is large.
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                               const PoleForms& poles, const RowMajorMatrix& u, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);

@@ -11,9 +11,9 @@ namespace holomorph::islands {
 /// #E, whether a cut runs along an edge of a polygon: components with a boundary become disks, along short paths from
 /// boundary to boundary. Disks and closed components are not cut.
 ///
-/// A forest of shortest paths to the boundary and a spanning tree of the faces that crosses none of it, and prefers
-/// edges far from the boundary, leave 1 - chi edges of each component. These and the paths from their ends are the cut
-/// (Erickson and Har-Peled 2004, doi:10.1007/s00454-003-2948-z).
+/// A forest of shortest paths to the boundary is grown first. A spanning tree of the faces crosses none of its edges,
+/// and prefers edges far from the boundary. Both leave 1 - chi edges of each component. These and the paths from their
+/// ends are the cut (Erickson and Har-Peled 2004, doi:10.1007/s00454-003-2948-z).
 /// Cost: O(n log n).
 std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& execution);
 

@@ -6,8 +6,8 @@
 
 namespace holomorph::islands {
 
-/// The surface with one more polygon, at the end, in each small hole: of a component of genus 0 each boundary loop that
-/// is shorter than half its longest. Corners and polygons keep their numbers; diagonals may change.
+/// Fills small holes with a polygon each, appended at the end. A hole is small if its component has genus 0 and another
+/// loop of it is more than twice as long. Corners and polygons keep their numbers; diagonals may change.
 /// @throws Cancelled
 mesh::Surface filled(const mesh::Surface& surface, Execution& execution);
 

@@ -9,8 +9,8 @@
 
 namespace holomorph::islands {
 
-/// The two sides of polygons at one edge of the surface before it was cut open: corners at the start and end of the
-/// one, then of the other, each with its polygon on the left.
+/// The two polygon sides at one edge of the surface before it was cut open. Corners at the start and end of the one
+/// side, then of the other; each side has its polygon on the left.
 using Joint = std::array<int, 4>;
 
 /// Moves islands rigidly so that the sides of a joint coincide, one joint after the other. It does so where the sides

@@ -10,9 +10,9 @@ namespace holomorph::lattice {
 inline constexpr int kBlock = 48;
 inline constexpr int kMostRounds = 4;
 
-/// Every block of neighbouring columns is LLL-reduced where it is orthogonal to those before it, then blocks that begin
-/// in the middle of these, and again, a few times. Nearest planes are as those of LLL but that the R_jj fall more:
-/// across blocks a column is exchanged only with those near it, and nothing is size-reduced.
+/// LLL-reduces every block of neighbouring columns, projected orthogonally to the columns before it. Then it reduces
+/// blocks that begin in the middle of these, and repeats both a few times. Nearest planes are found as after LLL,
+/// though the R_jj fall more. Across blocks a column is exchanged only with near ones, and nothing is size-reduced.
 /// @param B m x n, as for `reduce`
 /// @param points m x p, to be rounded. Afterwards n x p: these and the basis, which is R, are in coordinates of the
 /// span of B, and Q = 1

@@ -8,9 +8,9 @@
 namespace holomorph::mesh {
 
 struct BoundaryLoops {
-  /// Loop 0 is the longest (of loops equally long to 1e-9 the one with the lowest vertex); the others follow by their
-  /// lowest vertex, at which each loop starts. Consecutive half-edges without a face: the hole on their left,
-  /// the surface on their right.
+  /// Loop 0 is the longest; of loops equally long to 1e-9 the one with the lowest vertex. The others follow by their
+  /// lowest vertex, at which each loop starts. Consecutive half-edges without a face: the hole on their left, the
+  /// surface on their right.
   std::vector<std::vector<HalfedgeHandle>> loops;
   std::vector<int> loop_of_vertex;  ///< #V; -1 in the interior
 

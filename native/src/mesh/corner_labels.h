@@ -18,8 +18,8 @@ struct CornerLabels {
 /// Cost: O(#C log #C).
 CornerLabels corner_labels(const std::vector<int>& vertices, const std::vector<int>& face_offsets);
 
-/// #V the first vertex at the same place, by coordinates rounded to single precision: what was one vertex before its
-/// copies went through a file or a matrix is one again. @pre finite coordinates
+/// #V the first vertex at the same place, by coordinates rounded to single precision. So copies of one vertex are found
+/// again after they went through a file or a matrix. @pre finite coordinates
 std::vector<int> first_at_place(const std::vector<std::array<double, 3>>& vertices);
 
 }  // namespace holomorph::mesh

@@ -25,8 +25,8 @@ struct CutSurface {
 /// As `make_surface`; but a mesh that this refuses is cut, by giving a vertex to each fan of faces. What is left out:
 /// faces with less than three vertices or with coordinates that are not finite, and parts without area.
 ///
-/// Where most sides of faces have no other beside them, sides that run between the same places in opposite directions
-/// are joined first, if that gives most of them a partner.
+/// Where most sides of faces have no neighbour, sides that run between the same places in opposite directions are
+/// joined first. This is done if it gives most of them a neighbour.
 /// @throws InvalidMesh where no face is left
 /// Cost: linear for a surface; else O(#C log #C).
 CutSurface cut_surface(Polygons polygons, Execution& execution);

@@ -1,5 +1,5 @@
-// Half-edges of a surface of triangles, built and walked by edge index: two edges may share both ends, and doubles and
-// intrinsic surfaces have such edges, and loops.
+// Half-edges of a surface of triangles, built and walked by edge index. Two edges may share both ends, and an edge may
+// be a loop: doubles and intrinsic surfaces have both.
 #pragma once
 
 #include <unordered_map>

@@ -41,9 +41,9 @@ struct IntrinsicTriangulation {
 /// most of them. @param half_edges of the surface
 IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers);
 
-/// Where triangles are degenerate, their lengths and those of triangles that become so grow by one amount, which leaves
-/// each a slack of 1e-6 times the mean length among them. (Sharp & Crane 2020, doi:10.1111/cgf.14069, section 4.5,
-/// lengthen every edge of the mesh.)
+/// All sides of degenerate triangles, and of triangles that become so, grow by one amount. It leaves each triangle a
+/// slack of 1e-6 times the mean length among them. (Sharp & Crane 2020, doi:10.1111/cgf.14069, section 4.5, lengthen
+/// every edge of the mesh.)
 /// @return whether there was one
 bool mollify(IntrinsicTriangulation& triangulation, Workers& workers);
 

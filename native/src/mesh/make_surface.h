@@ -8,7 +8,7 @@
 namespace holomorph::mesh {
 
 /// Checks, orients and triangulates a polygon mesh. Each polygon is cut along the diagonals that minimise the sum of
-/// its triangles' (a^2 + b^2 + c^2) / area, which for planar convex polygons is the Delaunay triangulation (Musin
+/// (a^2 + b^2 + c^2) / area over its triangles. For planar convex polygons this is the Delaunay triangulation (Musin
 /// 1997). At the boundary diagonals end at interior vertices where they can.
 /// @throws InvalidMesh, TopologyError (non-orientable), naming the first bad element.
 /// Cost: linear in the number of corners, cubic in the size of a polygon up to 64 corners.

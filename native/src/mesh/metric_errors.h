@@ -1,5 +1,5 @@
-// By how much the rounding of lengths may change the energies of forms, proven for every triangle, and the weights of
-// triangles so thin that it shows in twice the working precision.
+// Proven bounds, for every triangle, on how much the rounding of lengths changes the energies of forms. Weights of very
+// thin triangles, in twice the working precision.
 //
 // A triangulation with rounded lengths is a surface of its own. The map to the surface that it stands for, affine on
 // each triangle, changes metrics by a relative error there; flips compose such maps. A function on the rounded surface,
@@ -15,8 +15,8 @@
 
 namespace holomorph::mesh {
 
-/// By what part of itself the energy of a form on a face may be larger on the surface that the face stands for: its
-/// mean over the face, and the largest anywhere in it. 1 stands for what rounding leaves open altogether.
+/// Relative error of a form's energy on a face: how much larger it may be on the surface that the face stands for. The
+/// mean over the face, and the maximum in it. 1 stands for what rounding leaves open altogether.
 struct FaceError {
   double mean = 0, largest = 0;
 };
@@ -52,12 +52,12 @@ FacesBeside faces_beside(const Metric& metric, HalfedgeHandle h);
 std::array<FaceError, 2> errors_after_flip(const Metric& metric, HalfedgeHandle h, const FacesBeside& before,
                                            double error);
 
-/// The weights of the edges of thin triangles, anew: opposite obtuse angles, what cot + cot leaves has as many digits
-/// less as the cotangents are larger.
+/// Recomputes the weights of the edges of thin triangles: opposite obtuse angles, large cotangents cancel in cot + cot,
+/// and digits are lost.
 void sharpen_weights(const Metric& metric, Array<double>& weights, Workers& workers);
 
-/// #E numbers u: the energy of a form h on the surface as given is at most sum_e (k_e + u_e) h(e)^2, the rounding of
-/// the weights included; none where there are no errors. @param weights cotangent_weights
+/// #E numbers u, none where there are no errors. The energy of a form h on the surface as given is at most sum_e (k_e +
+/// u_e) h(e)^2, the rounding of the weights included. @param weights cotangent_weights
 Array<double> energy_errors(const Metric& metric, const Array<double>& weights, Workers& workers);
 
 /// The largest error of any face: with 1, energies are not bounded.

@@ -23,9 +23,9 @@ FaceFault fault_of_face(const GivenPolygons& polygons, int face);
 std::string fault_text(const Polygons& polygons, int face);
 std::string fault_text(const GivenPolygons& polygons, int face);
 
-/// Refuses, with the first bad element: no faces, offsets that do not fit, fewer than 3 corners, an index that is
-/// negative or too large, a vertex twice in a face, a position that is NaN, infinite or beyond
-/// kLargest, positions that are all below kSmallest, too many elements for 32 bits.
+/// Refuses bad polygons, naming the first bad element. Faces: none at all, offsets that do not fit, fewer than 3
+/// corners, a negative or too large index, a vertex twice. Positions: NaN, infinite or beyond kLargest, or all below
+/// kSmallest. Also too many elements for 32 bits.
 /// @throws InvalidMesh
 void check_polygons(const Polygons& polygons, Workers& workers);
 void check_polygons(const GivenPolygons& polygons, Workers& workers);

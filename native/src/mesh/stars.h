@@ -9,8 +9,8 @@
 
 namespace holomorph::mesh {
 
-/// The faces around one interior vertex in polar coordinates (r, alpha): r is the length of a spoke, alpha the sum of
-/// the corner angles, counter-clockwise from the end of link[0].
+/// The faces around one interior vertex in polar coordinates (r, alpha). The radius r is the length of a spoke; alpha
+/// sums the corner angles, counter-clockwise from the end of link[0].
 struct Star {
   int vertex = 0;
   std::vector<HalfedgeHandle> link;          ///< opposite the vertex in each of its faces, counter-clockwise
@@ -49,8 +49,8 @@ bool has_free_star(const Surface& surface, const HalfEdges& half_edges, int vert
 /// Marks the vertex and its neighbours along edges of polygons.
 void mark_star(const Surface& surface, const HalfEdges& half_edges, int vertex, std::vector<char>& taken);
 
-/// Flips the diagonals of polygons that end at one of the vertices, so that each polygon has one triangle there and
-/// every spoke is an edge of a polygon. Edges keep their indices.
+/// Flips the diagonals of polygons that end at one of the vertices. Then each polygon has one triangle there, and every
+/// spoke is an edge of a polygon. Edges keep their indices.
 /// @throws TopologyError if two of the vertices are corners of one polygon
 void flip_diagonals_away(Surface& surface, const std::vector<int>& vertices, const std::vector<int>& labels = {});
 

@@ -7,7 +7,7 @@
 
 namespace holomorph::mesh {
 
-/// A triangle is degenerate where its longest side is not shorter than the sum of the others by this fraction of it,
+/// A triangle is degenerate unless its longest side is shorter than the sum of the others by this fraction. It covers
 /// the rounding of lengths from rounded positions. (Then an angle is below 1.4e-6 rad.)
 inline constexpr double kDegenerateMargin = 1e-12;
 

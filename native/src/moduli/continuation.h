@@ -11,8 +11,8 @@
 
 namespace holomorph::moduli {
 
-/// A surface and n closed forms on its edges, n x #E, in which |sum of the squares of their integrals| is a metric that
-/// does not depend on the basis: L^-1 h for the Gram matrix L L^T of h.
+/// A surface and n closed forms on its edges, n x #E. They are L^-1 h for the Gram matrix L L^T of h, so that the sum
+/// of the squares of their integrals does not depend on the basis.
 struct FormSurface {
   const mesh::Surface& surface;
   const forms::RowMajorMatrix& forms;
@@ -34,9 +34,9 @@ struct ConformalImages {
 /// n x 2 #T: the two columns 2 t, 2 t + 1 are the change of the integrals along x and y of triangle t (mesh::corners).
 Eigen::MatrixXd slopes(const FormSurface& side, Execution& execution);
 
-/// The integrals of corresponding forms from the start are the same at corresponding points (Abel-Jacobi). From vertex
-/// to vertex along the edges of the first surface, nearest first: the image walks over the second until no direction
-/// brings its integrals nearer. What is left over shows a wrong start, or forms that do not correspond.
+/// The integrals of corresponding forms from the start are the same at corresponding points (Abel-Jacobi). Goes from
+/// vertex to vertex along the edges of the first surface, nearest first. The image walks over the second until no
+/// direction brings its integrals nearer. What is left over shows a wrong start, or forms that do not correspond.
 /// @param most_vertices of the first surface that are mapped @throws Cancelled
 /// Cost: O(#V n), and O(#T n) for the directions on the second surface.
 class Continuation {

@@ -22,10 +22,9 @@ struct Comparison {
   bool is_complete = true;  ///< false where a limit of steps ended a search that had to be complete
 };
 
-/// Part of the half-width of the bounds, the geometric mean of both, or the one's where the other is exact, to which
-/// projected periods have to agree. They are
-/// several times as accurate as the bounds, so that meshes of one surface agree to less, and little more can be told
-/// apart from it.
+/// Fraction of the half-width of the bounds to which projected periods have to agree. The half-width is the geometric
+/// mean of both, or that of one where the other is exact. Projected periods are several times as accurate as the
+/// bounds, so meshes of one surface agree to less than this.
 inline constexpr double kAgreement = 0.25;
 
 /// Equivalent, or mirror image: an integer matrix brings the projected periods of one surface to those of the other, to

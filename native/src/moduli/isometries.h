@@ -16,7 +16,7 @@ struct Isometry {
   /// distance of tau. The energies of corresponding classes differ at most by the factor exp(residual).
   double residual = 0;
   /// The bounds overlap just if this is <= 0. Else a map between the surfaces in the homotopy class of R stretches some
-  /// direction exp(excess) times as much as another: energies grow at most by a map's dilatation.
+  /// direction exp(excess) times as much as another. For energies grow at most by a map's dilatation.
   double excess = 0;
 };
 
@@ -35,10 +35,10 @@ struct SearchOptions {
   std::int64_t steps = kMostSteps;  ///< most steps of the search
 };
 
-/// All R whose excess is at most `slack`. The search goes row by row, in a reduced basis of b from short to long. The
-/// candidates are the lattice points near the one point that has the energy products with the rows before, and in the
-/// plane that has the wedge products with them. A candidate is dropped if the bounds exclude the block of rows so far.
-/// Nothing that the bounds allow is ever dropped.
+/// All R whose excess is at most `slack`. The search goes row by row, in a reduced basis of b from short to long.
+/// Candidates are the lattice points near the one point that has the right energy products with the rows before. They
+/// lie in the plane of points with the right wedge products. A candidate is dropped if the bounds exclude the block of
+/// rows so far. Nothing that the bounds allow is ever dropped.
 /// @throws SolverError, Cancelled, Error where integers leave 2^53
 Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options,
                       Execution& execution);

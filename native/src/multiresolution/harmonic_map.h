@@ -16,11 +16,11 @@ struct HarmonicMap {
 
 /// m UV maps made harmonic, with the same periods: the forms du, dv plus df as in Eq. 8 of the paper, with
 /// L f = -d* du. That is step 5(c) of its § 9 applied to a coarser level. With a boundary, v keeps its values there and
-/// u gets the natural condition, as for natural and Dirichlet forms. Free constants are chosen so that the map does not
-/// move on average: `moves` has the mean 0, each vertex weighted by a third of the area of its triangles.
+/// u gets the natural condition, as for natural and Dirichlet forms. Free constants are chosen so that the mean of
+/// `moves` is 0, each vertex weighted by a third of the area of its triangles.
 /// @param corner_values #C x 2m, columns u, v, u, v, ...
-/// @throws InvalidMesh naming the edge across which a map is not continued by a translation, or the boundary edge along
-/// which v changes; TopologyError unless the surface is connected and has handles or two boundary loops; SolverError;
+/// @throws InvalidMesh naming an edge across which the map is not continued by a translation, or a boundary edge along
+/// which v changes. TopologyError unless the surface is connected, with handles or two boundary loops. SolverError;
 /// Cancelled
 HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatrix& corner_values,
                          const structure::Options& options, Execution& execution);

@@ -10,7 +10,7 @@
 //   6  conjugate gradients on M
 //
 // Forms are kept as w = eta + df. Rule 5(b) is the pull-back by the map that takes each vertex to the one it was
-// collapsed into: eta remains an integer class, and f(v_t) = f(v_s).
+// collapsed into. So eta remains an integer class, and f(v_t) = f(v_s).
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
-// The surface and the levels of its progressive mesh as linear systems (paper § 9, steps 1 to 3 and 5). Those of a
-// surface with boundary are on the doubles of the levels (§ 8), with the symmetric extensions of the natural classes
-// and the antisymmetric ones of the others.
+// The surface and the levels of its progressive mesh as linear systems (paper § 9, steps 1 to 3 and 5). With boundary,
+// the forms live on the doubles of the levels (§ 8). Natural classes are extended symmetrically, the others
+// antisymmetrically.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ struct PaperLevels {
 /// the vertices of the surface as in mesh::double_cover.
 Eigen::Index row_count(const PaperLevels& levels);
 
-/// Steps 1 to 3: the progressive mesh in the order of quadric errors, homology and cohomology bases of M0, loops lifted
-/// to the surface and classes pulled back (step 5b), which is exact.
+/// Steps 1 to 3: the progressive mesh in the order of quadric errors, and homology and cohomology bases of M0. Loops
+/// are lifted to the surface and classes pulled back (step 5b), exactly.
 /// @pre connected, with harmonic forms, no isolated vertices
 /// @throws InvalidMesh for an intrinsic surface, and where no triangulation of the polygons is without double edges
 PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution);
@@ -47,8 +47,8 @@ struct LevelSystem {
   std::vector<int> row;  ///< #rows of the surface: row of the vertex that each one's vertex was collapsed into
 };
 
-/// Weights from the positions; triangles thinner than about 1 : 100 count as that thin: they would cost iterations,
-/// and a level gives only an initial guess.
+/// Weights from the positions. Triangles thinner than about 1 : 100 count as that thin: they would cost iterations, and
+/// a level gives only an initial guess.
 /// Cost: linear in the number of vertices of the surface.
 LevelSystem level_system(const PaperLevels& levels, int splits);
 

@@ -1,5 +1,5 @@
 // The paper's multiresolution algorithm as a whole (§ 9): the conformal structure of a surface by the levels of a
-// progressive mesh; with boundary by the doubles of the levels (§ 8).
+// progressive mesh. With boundary it uses the doubles of the levels (§ 8).
 #pragma once
 
 #include <optional>

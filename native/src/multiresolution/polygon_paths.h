@@ -6,8 +6,7 @@
 
 namespace holomorph::multiresolution {
 
-/// The values of closed forms on the diagonals that were flipped: the sum along the polygon from one end to the other,
-/// which no diagonal changes.
+/// The values of closed forms on the diagonals that were flipped: sums along the polygon from one end to the other.
 /// @param flipped the surface with other diagonals (progressive::with_single_edges), edges numbered alike
 /// @param forms on the edges of `flipped`; changed to those on the edges of `surface`
 void values_of_diagonals(const mesh::Surface& surface, const mesh::Surface& flipped, topology::IntegerForms& forms);

@@ -25,8 +25,8 @@ struct SurfaceOfMesh {
                                                 ///< of polygons, which come after, are no edges of the mesh
 };
 
-/// @param mesh any TriMesh_ArrayKernelT or PolyMesh_ArrayKernelT, points of three floats or doubles; faces stay
-/// polygons of any number of corners, which begin with halfedge_handle(face), as fv_range does
+/// @param mesh any TriMesh_ArrayKernelT or PolyMesh_ArrayKernelT, points of three floats or doubles. Faces stay
+/// polygons; their corners begin with halfedge_handle(face), as in fv_range
 /// @throws InvalidMesh for links or polygons that are none (see mesh::make_surface), and for two edges with the same
 /// ends. Where elements are left out, its message says that its numbers are the surface's. Cost: linear.
 template <class Mesh>

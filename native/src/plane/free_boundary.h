@@ -7,9 +7,8 @@
 
 namespace holomorph::plane {
 
-/// The conformal map to the plane that keeps lengths along the boundary: its scale factors e^u, u = 0 on
-/// the boundary, are those with the least Dirichlet energy of u, up to a constant. A surface that is flat already is
-/// mapped by a rigid motion.
+/// The conformal map to the plane that keeps lengths along the boundary. Its scale factors e^u, u = 0 on the boundary,
+/// have the least Dirichlet energy of u, up to a constant. A surface that is flat already is mapped by a rigid motion.
 ///
 /// The curvature asks L u = -K inside. The flattened boundary turns by k + L u at each vertex. The curve with these
 /// angles is closed, with the lengths nearest to those of the surface. Both coordinates are extended harmonically.

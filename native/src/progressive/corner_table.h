@@ -17,8 +17,8 @@ struct Side {
   int opposite;  ///< the same edge in the other triangle; -1 at a boundary
 };
 
-/// Each vertex keeps one side that leaves it; at the boundary the one without an opposite, so that a
-/// counter-clockwise walk from it visits all its triangles.
+/// Each vertex keeps one side that leaves it, at the boundary the one without an opposite. A counter-clockwise walk
+/// from it visits all triangles of the vertex.
 class CornerTable {
  public:
   /// @param triangles #T consistently oriented; `edges` #T edge of each side, numbers below `edge_count`

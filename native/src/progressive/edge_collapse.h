@@ -9,8 +9,8 @@
 
 namespace holomorph::progressive {
 
-/// One cache line. The quadric Q(x) = d.A d + 2 b.d + c, d = x - position, is the sum of area times squared distance
-/// over the planes of the triangles that v stands for. Taken about v itself, so that single precision keeps it.
+/// One cache line. The quadric Q(x) = d.A d + 2 b.d + c, d = x - position, sums area times squared distance over the
+/// planes of the triangles that v stands for. Taken about v itself, so that single precision keeps it.
 struct alignas(64) Vertex {
   float position[3];  ///< in [-1, 1]
   float c;            ///< Q(position)

@@ -6,9 +6,8 @@
 
 namespace holomorph::progressive {
 
-/// By rounds: in each, a maximal set of vertices that are pairwise not adjacent is collapsed, each along its shortest
-/// edge that keeps topology and normals.
-/// Reports the fraction of vertices removed. @throws Cancelled
+/// Works in rounds. Each collapses a maximal set of pairwise non-adjacent vertices, each along its shortest edge that
+/// keeps topology and normals. Reports the fraction of vertices removed. @throws Cancelled
 void collapse_independent_sets(EdgeCollapse& mesh, Execution& execution);
 
 }  // namespace holomorph::progressive

@@ -1,5 +1,5 @@
 // Progressive meshes (paper § 3; Hoppe 1996, doi:10.1145/237170.237216): a small base mesh and a sequence of vertex
-// splits that rebuilds the original exactly, positions, polygons and corners, with a valid mesh at every step.
+// splits. The splits rebuild positions, polygons and corners of the original exactly, with a valid mesh at every step.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@ namespace holomorph::progressive {
 
 using mesh::Triple;
 
-/// The vertex split {v_s, v_t, v_l, v_r, A}: v_t is the next vertex, the triangles {v_s, v_t, v_l} and {v_t, v_s, v_r}
-/// are the next triangles, and the triangles counter-clockwise from v_r to v_l around v_s move to v_t. v_s does not
-/// move: an edge collapse takes v_t to v_s.
+/// The vertex split {v_s, v_t, v_l, v_r, A}. It adds the vertex v_t and the triangles {v_s, v_t, v_l} and {v_t, v_s,
+/// v_r}. The triangles counter-clockwise from v_r to v_l around v_s move to v_t. The vertex v_s stays in place: an edge
+/// collapse takes v_t to v_s.
 struct Split {
   int v_s, v_l, v_r;            ///< v_l or v_r is -1 where the edge is on the boundary
   std::uint8_t slot_l, slot_r;  ///< corner of the left triangle that is v_s, of the right one that is v_t
   friend bool operator==(const Split&, const Split&) = default;
 };
 
-/// Vertices are numbered base first, then in the order of the splits, isolated vertices last; triangles base first,
-/// then in the order of the splits, the left one first. So the vertices and triangles of a level are the first ones of
-/// every finer level. Polygons: this is the progressive mesh of the surface's triangulation, and each corner of a
-/// triangle knows its corner of a polygon.
+/// Vertices are numbered base first, then in the order of the splits, isolated vertices last. Triangles are numbered
+/// base first, then in the order of the splits, the left one first. So the vertices and triangles of a level are the
+/// first ones of every finer level. Polygons: this is the progressive mesh of the surface's triangulation, and each
+/// corner of a triangle knows its corner of a polygon.
 struct ProgressiveMesh {
   mesh::Surface base;
   std::vector<Split> splits;

@@ -12,12 +12,12 @@ enum class Order {
   independent,  ///< by rounds; the vertices removed in one round are pairwise not adjacent
 };
 
-/// Collapses edges until none is left that can be collapsed: genus 0 ends with 4 triangles, genus 1 with at most 20,
-/// for there are no larger irreducible triangulations (Lawrencenko 1987). Collapses obey the link condition (Dey
-/// et al. 1999), so that every level has the topology of the original and no two edges with the same ends; boundary
-/// vertices move along the boundary only. As long as possible no normal rotates by more than 75 degrees. Where that
-/// would leave a base without any area, the last collapses are left out.
-/// A diagonal with the same ends as another edge is flipped first (with_single_edges).
+/// Collapses edges until none can be collapsed. Genus 0 ends with 4 triangles, genus 1 with at most 20: larger
+/// irreducible triangulations do not exist (Lawrencenko 1987). Collapses obey the link condition (Dey et al. 1999), so
+/// that every level has the topology of the original and no two edges with the same ends; boundary vertices move along
+/// the boundary only. As long as possible no normal rotates by more than 75 degrees. Where that would leave a base
+/// without any area, the last collapses are left out. A diagonal with the same ends as another edge is flipped first
+/// (with_single_edges).
 /// @throws InvalidMesh for an intrinsic surface, or if a flip gives another double edge; Cancelled. Deterministic, one
 /// thread, O(#T) apart from very large stars.
 ProgressiveMesh progressive_mesh(const mesh::Surface& surface, Order order, Execution& execution);

@@ -16,8 +16,8 @@ namespace holomorph::solver {
 /// be all of b, and says little of x. Forms are refined then (forms/refined_solver.h).
 inline constexpr double kResidual = 1e-10;
 
-/// Relative residual that multigrid goes on to while that helps. At a single vertex of a fine mesh the form may be a
-/// thousand times less harmonic than the residual of the whole right-hand side says.
+/// Relative residual that multigrid goes on to while that helps. At a single vertex of a fine mesh, the form may be a
+/// thousand times less harmonic than the whole residual says.
 inline constexpr double kGoal = 1e-12;
 
 /// Which problem is solved. A solver is made for one set of fixed vertices, mostly those of the boundary.
@@ -43,8 +43,8 @@ class LaplaceSolver {
     return solve(B, std::vector<Condition>(B.cols(), condition), execution);
   }
 
-  /// A rough solution by an operator that is always the same, symmetric and positive (natural: semi-) definite: what
-  /// minimisers take for the inverse of a matrix that is like L. Multigrid runs one V-cycle.
+  /// A rough solution, for minimisers that need an approximate inverse of L. The operator is always the same, symmetric
+  /// and positive definite (natural: semi-definite). Multigrid runs one V-cycle.
   virtual Solution precondition(const Eigen::MatrixXd& B, const std::vector<Condition>& conditions,
                                 Execution& execution) {
     return solve(B, conditions, execution);

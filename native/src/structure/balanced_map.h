@@ -10,8 +10,8 @@
 
 namespace holomorph::structure {
 
-/// One coefficient of each differential. Without poles those of uv::balanced_coefficients, real on a surface with
-/// boundary, scaled so that the UV area of the surface is 1; with poles theta_0 alone, so that its residues stay.
+/// One coefficient of each differential. Without poles: those of uv::balanced_coefficients, real on a surface with
+/// boundary, scaled so that the UV area of the surface is 1. With poles: theta_0 alone, so that its residues stay.
 /// @throws SolverError, Cancelled
 Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& forms, Execution& execution);
 

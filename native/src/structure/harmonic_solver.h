@@ -15,10 +15,9 @@
 
 namespace holomorph::structure {
 
-/// Set up before the classes are known. With Boundary::double_cover every form is solved for on the closed double, with
-/// the symmetric extension of each natural class and the antisymmetric one of each Dirichlet class. The solutions are
-/// symmetrised (Eq. 12) and restricted to the surface. They are those of the surface to solver accuracy, at twice the
-/// size.
+/// Set up before the classes are known. With Boundary::double_cover every form is solved for on the closed double.
+/// Natural classes are extended symmetrically, Dirichlet classes antisymmetrically. The solutions are symmetrised (Eq.
+/// 12) and restricted to the surface. They are those of the surface to solver accuracy, at twice the size.
 class HarmonicSolver {
  public:
   /// @param plan made for this discretisation, or for its double

@@ -1,4 +1,4 @@
-// One level of a nested refinement: the harmonic forms of given integer classes on a triangulation of a surface, and
+// One level of a nested refinement: the harmonic forms of given integer classes on a triangulation of a surface. Keeps
 // the Delaunay triangulation that they were solved on, to be refined further.
 #pragma once
 

@@ -16,8 +16,8 @@ struct Poles {
   std::vector<int> labels;  ///< #V what a vertex is called in messages; empty: its index
 };
 
-/// Two vertices far apart: the one farthest from vertex 0 along the edges, the one farthest from that, and on as long
-/// as the distance grows. Their stars are apart; ties go to the lower index.
+/// Two vertices far apart. Takes the vertex farthest from vertex 0 along the edges, then the one farthest from that,
+/// and goes on as long as the distance grows. Their stars are apart; ties go to the lower index.
 /// @throws TopologyError if no two stars are apart
 std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
 
@@ -32,8 +32,8 @@ int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edg
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                                                    const std::vector<int>& vertices, bool closed, Execution& execution);
 
-/// @throws TopologyError for vertices repeated or out of range, a single pole of a closed surface, a number of
-/// residues that is not theirs, a residue that is 0 or not finite, or a sum that is not 0 on a closed surface
+/// @throws TopologyError for vertices repeated or out of range, and for another number of residues than poles. A
+/// residue must be finite and not 0. A closed surface needs two poles at least, and residues that sum to 0
 void check_poles(const Poles& poles, int vertex_count, bool closed);
 
 }  // namespace holomorph::structure

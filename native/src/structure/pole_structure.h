@@ -21,10 +21,10 @@ SurfaceWithPoles surface_with_poles(std::shared_ptr<const mesh::Surface> surface
 /// Cuts a structure whose stars are known: sets its topology. @param discretisation on the surface's own triangles
 forms::PoleForms cut_at_poles(Structure& structure, const mesh::Discretisation& discretisation, Execution& execution);
 
-/// The structure of any connected surface with poles. theta_0 has the residues r_i / (2 pi i) at the poles; for real
-/// residues its imaginary part is single-valued, and 0 on the boundary. The holomorphic forms of the surface come after
-/// it. All of it belongs to the surface's own triangulation, its diagonals flipped away from the poles: the stars stay
-/// as they are.
+/// The structure of any connected surface with poles. The form theta_0 has the residues r_i / (2 pi i) at the poles.
+/// For real residues its imaginary part is single-valued, and 0 on the boundary. The holomorphic forms of the surface
+/// come after it. All of it belongs to the surface's own triangulation, its diagonals flipped away from the poles: the
+/// stars stay as they are.
 /// @param poles without any two far apart are taken on a closed surface, the deepest vertex on one with boundary;
 /// without residues the default ones
 /// @pre connected, no isolated vertices

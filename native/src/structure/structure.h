@@ -32,8 +32,8 @@ struct SolveRecord {
 };
 
 /// One connected surface of any kind: closed with handles, with boundary, with poles. A differential is a column of
-/// complex coefficients of the real harmonic forms, so that UVs, values on edges and balance are the same few products
-/// for all kinds.
+/// complex coefficients of the real harmonic forms. UVs, values on edges and balance are the same few products for all
+/// kinds.
 struct Structure {
   std::shared_ptr<const mesh::Surface> surface;  ///< diagonals that ended at poles are flipped
   Topology topology;

@@ -45,8 +45,8 @@ struct Topology {
 Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Execution& execution,
                        std::optional<topology::DualBases> given = {}, const std::vector<mesh::Star>& stars = {});
 
-/// The classes whose harmonic forms are solved for, on any triangulation of the same vertices: the natural ones, and
-/// with boundary the Dirichlet ones, those of the handles and d(1 on loop k, 0 elsewhere).
+/// The classes whose harmonic forms are solved for, on any triangulation of the same vertices. They are the natural
+/// ones, and with boundary the Dirichlet ones: those of the handles and d(1 on loop k, 0 elsewhere).
 /// @param half_edges,flips of that triangulation, flipped from the surface's own
 topology::IntegerForms classes_on(const Topology& topology, const mesh::HalfEdges& half_edges,
                                   const std::vector<mesh::Flip>& flips);

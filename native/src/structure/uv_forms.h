@@ -9,11 +9,11 @@
 
 namespace holomorph::structure {
 
-/// Invariants are sharpest on the intrinsic Delaunay triangulation, but its functions are linear on other triangles
-/// than the surface's own: across a sliver the UVs made of them may collapse or flip. The functions here are those of
-/// the same classes with the least conformal energy on the surface's own triangles. Where the intrinsic functions come
-/// within 1e-9 of that (relative; their energy on the surface's triangles bounds the gain from above), and where no
-/// edge was flipped, they are taken as they are. Each call may throw SolverError and Cancelled, and may be made again.
+/// Invariants are sharpest on the intrinsic Delaunay triangulation. But its functions are linear on other triangles
+/// than the surface's own, so UVs may collapse or flip across a sliver. The functions here are those of the same
+/// classes with the least conformal energy on the surface's own triangles. Where the intrinsic functions come within
+/// 1e-9 of that (relative; their energy on the surface's triangles bounds the gain from above), and where no edge was
+/// flipped, they are taken as they are. Each call may throw SolverError and Cancelled, and may be made again.
 class UvForms {
  public:
   virtual ~UvForms() = default;
@@ -34,7 +34,7 @@ class UvForms {
 };
 
 /// The UV forms of a structure, whose functions are shared. Where its plan keeps no forms, each call solves for what it
-/// is asked for; the factor or hierarchy is kept between calls, and samples are those of the intrinsic triangulation.
+/// is asked for, and keeps the factor or hierarchy for the next. Samples are those of the intrinsic triangulation.
 /// @param structure,options outlive the result
 std::unique_ptr<UvForms> uv_forms(const Structure& structure, const Options& options);
 

@@ -18,8 +18,9 @@ struct Cells {
 };
 
 /// The pieces of each tile joined, and the triangles of the star of a pole. Where that is no disk with a simple
-/// outline, as of a tile with a hole or one that meets itself around a limb, there are a few disks instead. So polygons
-/// fit side by side, and the Euler characteristic is that of the surface. Cost: nearly linear.
+/// outline, it is cut into a few disks. A tile may have a hole, or meet itself around a limb. So polygons fit side by
+/// side, and the Euler characteristic is that of the surface.
+/// Cost: nearly linear.
 Cells cells(const Pieces& pieces);
 
 }  // namespace holomorph::tiles

@@ -13,8 +13,8 @@ using Code = std::array<std::int64_t, 2>;
 
 inline bool is_line(std::int64_t code) { return code % 2 == 0; }
 
-/// The nodes on edge e are offsets[e] .. offsets[e + 1] - 1, in the order of side i of triangle t, 3 t + i = sides[e],
-/// the first one at the edge. An edge that ends at a pole has none.
+/// The nodes on edge e are offsets[e] .. offsets[e + 1] - 1. They follow side i of the first triangle t at the edge,
+/// with 3 t + i = sides[e]. An edge that ends at a pole has none.
 struct EdgeNodes {
   std::vector<int> sides;       ///< #E
   std::vector<int> offsets;     ///< #E + 1

@@ -20,8 +20,8 @@ struct Locations {
   }
 };
 
-/// Piece p has the sides offsets[p] .. offsets[p + 1] - 1, counter-clockwise as its triangle; each runs from a node to
-/// that of the next, along a segment that the piece on its other side has, too, unless it is on the boundary.
+/// Piece p has the sides offsets[p] .. offsets[p + 1] - 1, counter-clockwise as its triangle. Each runs from its node
+/// to that of the next side. The piece beyond it has the same segment, unless it is on the boundary.
 struct Pieces {
   Locations nodes;                                 ///< the vertices first
   std::vector<int> offsets{0};                     ///< #P + 1

@@ -33,9 +33,9 @@ struct Relief {
   bool is_full = false;                          ///< triangles were too many to be split further
 };
 
-/// Halves longest sides, each time of both triangles there, the one first that is farthest off: the mesh fits together,
-/// and no angle gets below half the smallest (Rivara 1984, doi:10.1002/nme.1620200412). Heights are those of the tiles,
-/// so that seams of the map are edges as any others. The same at any number of threads: it uses one.
+/// Halves longest sides, in both triangles at once, the triangle with the largest error first. The mesh stays
+/// conforming, and no angle gets below half the smallest (Rivara 1984, doi:10.1002/nme.1620200412). Heights are those
+/// of the tiles, so that seams of the map are edges as any others. The same at any number of threads: it uses one.
 /// @param sites #V. Cost: O(#T log #T) for the triangles that are made.
 Relief relief(const mesh::Surface& surface, const TileCoordinates& coordinates, const std::vector<ReliefSite>& sites,
               const HeightImage& image, const ReliefOptions& options, Execution& execution);

@@ -29,9 +29,8 @@ struct TileCoordinates {
 
 /// The same place of a vertex in all its triangles, up to whole tiles: rounded once, and moved by the jumps.
 /// @param uv #C x 2
-/// @throws TopologyError where they are no tiling's: not finite or too large, jumps that are no whole tiles at two
-/// neighbours or on the boundary, or at the two ends of an edge are different; naming it. SolverError for more tiles
-/// than memory is meant for
+/// @throws TopologyError where UVs are no tiling's, naming the place: not finite, too large, a jump that is no whole
+/// number of tiles, or one that differs at the two ends of an edge. SolverError for more tiles than memory is meant for
 TileCoordinates tile_coordinates(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv,
                                  const TileFrame& frame, Execution& execution);
 

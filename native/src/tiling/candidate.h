@@ -29,9 +29,8 @@ struct PoleMove {
   int vertex = 0;
 };
 
-/// The candidate with poles elsewhere: the residues stay, and so do the periods, but that a pole's way around a handle
-/// is taken for the shortest. On a closed surface with handles the other poles, where they were not chosen, move until
-/// the form is holomorphic again.
+/// The candidate with its poles moved. Residues and periods stay the same; each pole takes the shortest path. On a
+/// closed surface with handles the other poles, where they were not chosen, move until the form is holomorphic again.
 /// @throws TopologyError for poles that do not fit; SolverError; Cancelled
 Candidate with_poles_moved(const Placement& placement, const RoundingProblem& problem,
                            const std::vector<PoleMove>& moves, Candidate candidate, Execution& execution);

@@ -7,7 +7,7 @@
 // the shortest loops. This is the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a
 // root.
 //
-// With boundary: no boundary edge is crossed. T has all edges of each loop but one, e_k: the search for shortest paths
+// With boundary: no boundary edge is crossed. T has all edges of each loop but one, e_k. The search for shortest paths
 // runs along a loop at no cost, because the surface need not be cut there. Again 2g interior edges are left over.
 #pragma once
 

@@ -21,8 +21,8 @@ std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& half_ed
 IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain);
 
 /// Appends b - 1 classes: the signed crossings of the dual path that enters through e_k, runs in D and leaves through
-/// e_0, k = 1 .. b-1. The period of class k over boundary loop k, the hole on its left, is 1, over loop 0 it is -1,
-/// over the other loops and over the zeta 0.
+/// e_0, k = 1 .. b-1. Class k has the period 1 over boundary loop k, the hole on its left, and -1 over loop 0. Its
+/// periods over the other loops and the zeta are 0.
 void add_paths_between_loops(const HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms& forms);
 
 /// Appends b - 1 classes of H^1(M, dM): d(1 on loop k, 0 at all other vertices), k = 1 .. b-1. Any triangulation on the

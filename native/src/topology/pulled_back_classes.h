@@ -8,10 +8,10 @@
 
 namespace holomorph::topology {
 
-/// Rule 5(b) of the paper for all splits at once: the new edge v_s v_t gets 0, and an edge of v_t the value of the edge
-/// of v_s that it comes from. That is the pull-back by the simplicial map which takes each vertex to the one it was
-/// collapsed into: w(u -> v) = w_base(m(u) -> m(v)), 0 where m(u) = m(v). Closed forms remain closed, and the period
-/// over a loop is that over its image.
+/// Rule 5(b) of the paper for all splits at once. The new edge v_s v_t gets 0, and an edge of v_t gets the value of the
+/// edge of v_s that it comes from. That is the pull-back by the simplicial map which takes each vertex to the one it
+/// was collapsed into: w(u -> v) = w_base(m(u) -> m(v)), 0 where m(u) = m(v). Closed forms remain closed, and the
+/// period over a loop is that over its image.
 /// @param forms closed forms on the edges of `base`
 /// @param surface a finer level, or the original
 /// @param map #V of `surface` vertex of `base`
@@ -22,7 +22,7 @@ IntegerForms pull_back_classes(const mesh::Surface& base, const IntegerForms& fo
 /// where both ends have the same image. Real forms are pulled back by it, too.
 std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map);
 
-/// Closed loops of vertices of the base, lifted to the level with this many splits: where a split separates the two
+/// Lifts closed loops of vertices of the base to the level with this many splits. Where a split separates the two
 /// neighbours of v_s on a loop, the edge v_s v_t is inserted. The map above takes the lifted loops to the given ones.
 /// @throws InvalidMesh if a loop has two consecutive vertices without an edge between them
 std::vector<std::vector<int>> lift_loops(const progressive::ProgressiveMesh& mesh, int splits,

@@ -20,8 +20,8 @@ Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormS
                                        const Eigen::MatrixXcd& basis, Coefficients kind, Execution& execution);
 
 /// The search for them on the samples alone, without the shortcut for one form and the choice of the phase. The result
-/// depends on the space of the forms, not on their basis. Among the ends of the descents the one is taken whose map is
-/// even (95 % over 5 % quantile of the density), little sheared and not flipped.
+/// depends on the space of the forms, not on their basis. Of the ends of the descents it takes one whose map is even
+/// (95 % over 5 % quantile of the density), little sheared and not flipped.
 /// @param triangles where the samples are
 Eigen::VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& triangles,
                                  const SampledParts& parts, Coefficients kind, Execution& execution);

@@ -42,8 +42,8 @@ Eigen::VectorXcd as_complex(const Eigen::VectorXd& x, Coefficients kind);
 Eigen::VectorXd as_unknowns(const Eigen::VectorXcd& c, Coefficients kind);
 
 /// Variance over the samples of log(q / mean q + floor), q = |A|^2, plus 3 times the mean of
-/// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is nearly 0 for a
-/// good map; without it |A| may be even where B, the discretisation error, exceeds it and the map is flipped.
+/// r = |B|^2 / (|A|^2 + |B|^2 + floor mean q); and the gradient by (Re c, Im c). The second term is nearly 0 for a good
+/// map. Without it |A| may be even where B, the discretisation error, is larger and flips the map.
 class LogVariance {
  public:
   LogVariance(const SampledParts& parts, Coefficients kind);

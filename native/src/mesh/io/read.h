@@ -12,8 +12,8 @@ namespace holomorph::mesh {
 /// OFF: text, with normals, colours or texture coordinates skipped; 4D, nD and binary OFF are refused.
 /// PLY: text and binary of either byte order; elements and properties that are not polygons or positions are skipped.
 /// STL: text and binary; corners are welded (weld.h).
-/// Indices beyond the vertices, coordinates that are not finite and faces with fewer than 3 corners pass: they are
-/// the mesh's faults, and its validation names them.
+/// Passes indices beyond the vertices, coordinates that are not finite and faces with fewer than 3 corners. The
+/// validation of the mesh names these.
 /// @throws InvalidMesh if the file cannot be read or is malformed; the sentence names file and line, byte or element.
 /// Cost: linear in the file's size, which is kept in memory.
 GivenPolygons read(const std::filesystem::path& path);

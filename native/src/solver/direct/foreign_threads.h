@@ -19,8 +19,8 @@ class OneBlasThread {
 /// Whether this process was made by fork after the library was loaded.
 bool is_forked();
 
-/// work(), on a thread of its own in a process made by fork: there the calling thread may remember OpenMP threads, from
-/// an earlier factorisation, which only its parent has, and would wait for them for ever.
+/// Calls work(), on a thread of its own in a process made by fork. The calling thread may remember OpenMP threads of an
+/// earlier factorisation, which only the parent has. It would wait for them for ever.
 template <class Work>
 auto on_sound_thread(const Work& work) {
   return is_forked() ? std::async(std::launch::async, work).get() : work();

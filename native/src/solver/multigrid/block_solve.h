@@ -9,11 +9,11 @@
 
 namespace holomorph::solver {
 
-/// Corrects X by what preconditioned conjugate gradients find for the residual B - L X, which is computed in double
-/// precision from differences of X, until |B - L X| <= 1e-10 |B| for every right-hand side. Single precision is asked
-/// for a factor of 1e-4 at a time, so that its rounding does not matter; usually three corrections do.
+/// Corrects X by preconditioned conjugate gradients until |B - L X| <= 1e-10 |B| for every right-hand side. The
+/// residual B - L X is computed in double precision from differences of X. Single precision is asked for a factor of
+/// 1e-4 at a time, so that its rounding does not matter; usually three corrections do.
 ///
-/// A p is not computed but follows from A z, like p from z, and so does p.A p from z.A z (Chronopoulos and Gear 1989,
+/// A p is not computed: it follows from A z like p from z, and p.A p from z.A z (Chronopoulos and Gear 1989,
 /// doi:10.1016/0377-0427(89)90045-9). So all sums of an iteration are known at its end.
 template <int K>
 class BlockSolve {

@@ -6,8 +6,7 @@
 namespace holomorph::solver {
 
 /// The operator of a level: (A x)_i = sum_j w_ij (x_i - x_j), n x n. It is kept and applied as differences, never with
-/// a diagonal: in single precision the rows of a stored diagonal form do not sum to 0, and smooth functions drown in
-/// that.
+/// a diagonal. In single precision, rows with a stored diagonal do not sum to 0, an error that drowns smooth functions.
 struct Operator {
   SparseRows A;          ///< off-diagonal weights w_ij = -a_ij, of any signs
   Array<float> omega;    ///< n, the smoother's step: x += omega (r - A x); negative at a fixed vertex

@@ -6,10 +6,10 @@
 
 namespace holomorph::solver {
 
-/// z = M r for the symmetric positive semi-definite M of one V-cycle: a Jacobi step before and after the coarse-grid
-/// correction on each level, and the exact solution on the coarsest. Below one coarse level the cycle runs a second
-/// time, for the residual that the first leaves. A residual r is known by its jacobi_step() s = omega r alone, with
-/// which the cycle begins: a vector less to write and to read than with both.
+/// z = M r for the symmetric positive semi-definite M of one V-cycle. Each level has a Jacobi step before and after the
+/// coarse-grid correction; the coarsest is solved exactly. Below one coarse level the cycle runs a second time, for the
+/// residual that the first leaves. A residual r is given only as s = omega r, its jacobi_step(), with which the cycle
+/// begins. This saves writing and reading a vector.
 template <int K>
 class Cycle {
  public:
@@ -25,8 +25,8 @@ class Cycle {
   /// #V values between one run() and the next, which overwrites them.
   Block<K>* scratch() { return work_[0].t.data(); }
 
-  /// z from step(), and last(chunk, rows) for all chunks of the rows, which may read z at the neighbours of these rows
-  /// and write scratch() at these rows.
+  /// Computes z from step(), and calls last(chunk, rows) for all chunks of the rows. It may read z at the neighbours of
+  /// these rows and write scratch() at these rows.
   template <class Last>
   void run(const Last& last) {
     for (std::size_t k = 0; k < twice_; ++k) restrict_residual(k);

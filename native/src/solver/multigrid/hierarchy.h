@@ -1,9 +1,9 @@
 // The levels of the multigrid preconditioner: an algebraic relative of the paper's progressive mesh (§ 3).
 //
-// An F-point drawn onto the C-neighbour of largest weight is an edge collapse, and a step of coarsening a batch of
-// them: a progressive mesh read from its base, batch by batch of vertex splits. Two things differ. The steps see the
-// matrix alone, so no coarse mesh has to be valid. A coarse function is interpolated from several values (P) and not
-// from the parent's alone, with coarse operators P^T A P and not those of a coarse geometry.
+// Moving an F-point to the C-neighbour of largest weight is an edge collapse, and a step of coarsening is a batch of
+// them. So the hierarchy is a progressive mesh, read by batches of vertex splits. Two things differ. The steps see the
+// matrix alone, so no coarse mesh has to be valid. A value is interpolated from several coarse ones (P), not from the
+// parent's alone, and coarse operators are P^T A P.
 #pragma once
 
 #include "solver/laplacian.h"

@@ -5,10 +5,10 @@
 
 namespace holomorph::solver {
 
-/// Sums by column, and the columns in the order in which they came first. Between rows all sums are 0, so that a new
-/// column is told from its sum: adding is without a branch, which could not be predicted. Where a sum was 0 in between,
-/// its column is listed again, and is 0 when it is taken again.
-/// One per thread, aligned so that no two are on one cache line.
+/// Sums by column, and the columns in the order in which they came first. Between rows all sums are 0, so a sum tells
+/// whether its column is new. Adding needs no branch, which could not be predicted. Where a sum was 0 in between, its
+/// column is listed again, and is 0 when it is taken again. One per thread, aligned so that no two are on one cache
+/// line.
 template <class Scalar>
 class alignas(128) SparseAccumulator {
  public:

@@ -25,8 +25,8 @@ struct SparseRows {
   std::span<const Entry> operator[](int i) const { return {entries.data() + starts[i], entries.data() + ends[i]}; }
 };
 
-/// Rows of `each` entries, the largest weight first. Missing ones have weight 0 and the first one's column: it is in
-/// the cache already, and a loop of constant length is cheaper than one over what is there.
+/// Rows of `each` entries, the largest weight first. Missing ones have weight 0 and the first one's column, which is in
+/// the cache already. A loop of constant length is cheaper.
 struct EqualRows {
   int each = 1;
   Array<Entry> entries;
@@ -40,8 +40,8 @@ inline constexpr int kChunkRows = 512;
 
 inline int row_chunks(int rows) { return (rows + kChunkRows - 1) / kChunkRows; }
 
-/// body(thread, chunk, begin, end) for the rows begin .. end-1 of every chunk, in parallel; asks `execution` between
-/// batches of some 10 ms, so that cancelling is answered soon. @throws what the first body threw, Cancelled
+/// Calls body(thread, chunk, begin, end) for the rows begin .. end-1 of every chunk, in parallel. Asks `execution`
+/// whether to stop between batches of some 10 ms. @throws what the first body threw, Cancelled
 template <class Body>
 void for_row_chunks(int rows, Execution& execution, const Body& body) {
   constexpr int kBatch = 256;

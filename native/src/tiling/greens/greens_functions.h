@@ -25,8 +25,8 @@ class GreensFunctions {
   /// Solves for those at these vertices that are not there yet, kGreensBlock at a time. @throws SolverError, Cancelled
   void solve_at(const std::vector<int>& vertices, Execution& execution);
 
-  /// #samples x #vertices: A of the differentials with the residue 1 at each vertex and v single-valued; with boundary
-  /// v = 0 there; closed, the residue -1 is spread over the area, so that it cancels where residues sum to 0.
+  /// #samples x #vertices: A of the differentials with the residue 1 at each vertex and v single-valued. With boundary,
+  /// v = 0 there. Closed, the residue -1 is spread over the area, and cancels where residues sum to 0.
   /// @param every only so many-th samples are wanted. @pre solved for
   MatrixXcd at(const std::vector<int>& vertices, int every = 1) const;
   /// #samples x #free residues: the same; closed, each against the last vertex, whose residue is minus their sum.

@@ -7,9 +7,9 @@
 
 namespace holomorph::tiling {
 
-/// On a closed surface with handles. A closed form with the integer periods X besides its poles is
-/// sum_j c_j theta_j + sum_j t_j conj(theta_j), and t is what keeps it from being conformal. Moving a pole of residue
-/// r by dz (z along side 0 of its triangle) changes t by r tau dz.
+/// On a closed surface with handles. A closed form with the integer periods X besides its poles is sum_j c_j theta_j +
+/// sum_j t_j conj(theta_j). It is conformal if t = 0. Moving a pole of residue r by dz (z along side 0 of its triangle)
+/// changes t by r tau dz.
 class Jacobian {
  public:
   /// @pre the basis outlives this

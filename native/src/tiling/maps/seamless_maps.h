@@ -64,8 +64,9 @@ MatrixXd change_of_basis(const topology::IntegerForms& old, const structure::Str
 /// #V x 2: the function of the form, from those of the forms of `s`.
 uv::UvArray function_of(const structure::Structure& s, const SeamlessForm& form, Execution& execution);
 
-/// #C x 2: the UVs of the form with this function, moved by whole tiles to the middle of the plane, and on a grid of
-/// powers of two that single precision holds. So the two sides of a cut differ by their jump there, too, exactly.
+/// #C x 2: the UVs of the form with this function, moved by whole tiles to the middle of the plane. They are rounded to
+/// a grid of powers of two that single precision holds. So the two sides of a cut differ by their jump there, too,
+/// exactly.
 uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, uv::UvArray function,
                         Execution& execution);
 

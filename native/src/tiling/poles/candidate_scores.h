@@ -10,8 +10,8 @@
 
 namespace holomorph::tiling {
 
-/// Variances of the logarithm of a density in single precision, by a polynomial; the floor is a bound, below a median
-/// that is known to a quarter of an octave. Some 1e-3 from `unevenness`, at a tenth of its time.
+/// Variances of the logarithm of a density, in single precision, by a polynomial. The floor is a bound below the
+/// median, which is known to a quarter of an octave. Some 1e-3 from `unevenness`, at a tenth of its time.
 class CandidateScores {
  public:
   /// @param every of the samples every so many-th is used. @param mirror null, or each pole comes with its image

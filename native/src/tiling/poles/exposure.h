@@ -9,9 +9,9 @@
 
 namespace holomorph::tiling {
 
-/// The part of the directions above a vertex, weighted by their cosine with the normal, in which no triangle of the
-/// surface is met: 1 on a convex one, small in an armpit. By fixed rays: deterministic, and up to some 0.05 whatever
-/// the surface's position is.
+/// The fraction of directions above a vertex, weighted by their cosine with the normal, that meet no triangle of the
+/// surface. 1 on a convex surface, small in an armpit. By fixed rays: deterministic, and up to some 0.05 whatever the
+/// surface's position is.
 class Exposure {
  public:
   /// @pre the surface has positions and outlives this

@@ -26,18 +26,18 @@ ArrayXd density(const MeromorphicForm& form, const GreensFunctions& greens);
 /// The median; more than 0 even where the density falls below all numbers.
 double median(const ArrayXd& density);
 
-/// Variance of log(q / median q + uv::kDensityFloor). Not of the mean: beside one high peak all else would be below the
-/// floor, and so even, and a pole more, which fills a part of it, a loss.
+/// Variance of log(q / median q + uv::kDensityFloor). The mean would not do: beside one high peak all else would be
+/// below the floor and seem even. Another pole, which fills a part of it, would seem a loss.
 double unevenness(const ArrayXd& density);
 
 /// 95 % over 5 % quantile.
 double density_ratio(const ArrayXd& density);
 
-/// That, or half of the median over the 1 % quantile where it is larger: toes and horns have little area, and are seen
-/// all the same where one square covers them.
+/// That, or half of the median over the 1 % quantile where this is larger. Toes and horns have little area, but are
+/// seen where one square covers them.
 double spread(const ArrayXd& density);
 
-/// The phase by which A dz is to be rotated so that u runs along the axis as far as it can, up or down alike where both
+/// The phase by which to rotate A dz so that u runs along the axis as far as it can. Up and down count alike where both
 /// are as frequent. None where no phase does better than another, as on a plane to which the axis is normal.
 std::optional<double> phase_along(const std::array<double, 3>& axis, const MatrixXcd& frames, const VectorXcd& A);
 

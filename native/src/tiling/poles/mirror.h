@@ -10,8 +10,8 @@
 
 namespace holomorph::tiling {
 
-/// A form is its own mirror image, u -> -u and v -> v, where the image p' of each pole p is one, with the residue
-/// conj(r): the reflection takes dz to its conjugate and turns circles the other way.
+/// A form is its own mirror image, u -> -u and v -> v, if the image p' of each pole p is a pole with the residue
+/// conj(r). The reflection takes dz to its conjugate and turns circles the other way.
 struct Mirror {
   mesh::MirrorPlane plane;
   std::vector<int> image;  ///< #V: the vertex at the mirror image of a vertex; itself near the plane; -1: none
@@ -23,16 +23,16 @@ struct Mirror {
 /// mesh::mirror_plane; none for others. Each vertex and its image are the nearest to where the other is seen.
 std::optional<Mirror> mirror(const PoleBasis& basis);
 
-/// The same of the surface whose level that is, for poles alone: those on the plane go to the vertex nearest to it
-/// around them, and of two the second to the vertex nearest to the image of the first, where these can be poles.
+/// Moves poles of a level to the mirror of its surface, where poles are allowed. A pole on the plane goes to the nearby
+/// vertex nearest to the plane. Of a pair, the second goes to the vertex nearest to the image of the first.
 /// @param level_poles vertices of the level, those of a pair one after the other
 /// @param allowed #V of the surface: may a pole be there; empty: anywhere
 /// @param poles the same of the surface; changed
 Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_poles, const PoleBasis& basis,
                        const std::vector<char>& allowed, std::vector<int>& poles);
 
-/// How many poles from index i on are an orbit: 2 where i is the first of a pair, 1 where it is alone, and 0 where it
-/// is the second of a pair. @param mirror null: all are alone
+/// Number of poles in the orbit that begins at index i: 2 for the first of a pair, 0 for the second, 1 for a single
+/// pole. @param mirror null: all are alone
 Index orbit_size(const std::vector<int>& poles, Index i, const Mirror* mirror);
 
 }  // namespace holomorph::tiling

@@ -27,8 +27,7 @@ class PoleObjective {
   /// Whether `optimise` keeps the ratios of the coefficients, as each costs as much as a pole; `fit` does not.
   bool has_many_forms() const;
   /// The best form with these poles, from the coefficients given, and its objective, as a search needs it
-  /// (quick_variance.h); for each of the floors of the density in turn. @pre `prepare` was called for the poles, here
-  /// and below
+  /// (quick_variance.h). One for each floor of the density. @pre `prepare` was called for the poles, here and below
   /// @param tick called every few milliseconds; it may throw
   void optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
   /// The same to double precision, with all coefficients free.

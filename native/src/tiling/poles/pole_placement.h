@@ -6,18 +6,18 @@
 
 namespace holomorph::tiling {
 
-/// The most even form with `count` poles. They are added one by one where they help most; then each in turn moves to
-/// where the density becomes more even, or is taken away and added anew, until nothing is gained; then some more are
-/// added, and those that matter least taken away again. On a closed surface with handles a small term keeps them where
+/// The most even form with `count` poles. Poles are added one by one where they help most. Then each in turn moves to
+/// where the density becomes more even, or is removed and added anew, until nothing is gained. At last some more are
+/// added, and those that matter least are removed. On a closed surface with handles a small term keeps them where
 /// moving them can take up the rounding of the periods (jacobian.h). The fixed ones are among them. With a mirror they
-/// lie in pairs and on its plane, and so does what follows; the mirror is left away where they have no room so.
-/// @throws TopologyError for a single pole on a closed surface, a surface of genus 0 without any, or where no vertex is
-/// left whose star is apart from those of the others; SolverError; Cancelled
+/// lie in pairs and on its plane, unless they have no room there.
+/// @throws TopologyError for a single pole on a closed surface, for none on a surface of genus 0, and where no vertex
+/// is left whose star is apart from the others. SolverError; Cancelled
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution);
 
-/// As many as the density asks for: none where its spread is at most 3 without; else the first of 2, 4, 8, 12, 16 with
-/// which it is at most 5, or the last with which it fell. Where maps will be evened, the first of more numbers with
-/// which the spread of the evened map is less than 3.
+/// Chooses the number of poles by the spread of the density. None where it is at most 3 without; else the first of 2,
+/// 4, 8, 12, 16 with which it is at most 5, or the last with which it fell. Where maps will be evened, the first of
+/// more numbers with which the spread of the evened map is less than 3.
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution);
 
 /// The same poles with the best coefficients and residues near those given. @param mirror null, or of these poles

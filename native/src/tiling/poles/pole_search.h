@@ -23,13 +23,13 @@ class PoleSearch : private SearchSteps {
   bool add(MeromorphicForm& form, int count);
   /// Moves each pole in turn to where it does best beside the others. @return whether one moved
   bool sweep(MeromorphicForm& form);
-  /// Moves poles, and takes those away that matter least and adds them anew, until nothing is gained, or the spread is
-  /// no more than enough; their number stays.
+  /// Moves poles, and removes those that matter least and adds them anew. Ends where nothing is gained, or the spread
+  /// is small enough. Their number stays.
   MeromorphicForm settled(MeromorphicForm form, double enough = 0);
   /// Places extra poles and keeps the best, where that is more even: another optimum, which relocating one pole after
   /// the other does not reach. @pre more than a few poles
   MeromorphicForm pruned(MeromorphicForm form);
-  /// Moves each pole in turn to where it is less seen, as far as the objective grows by a tenth at most, which is a
+  /// Moves each pole in turn to where it is less visible, while the objective grows by a tenth at most. That is a
   /// twentieth of the evened density's spread. @pre the surface has positions
   MeromorphicForm hidden(MeromorphicForm form);
   double spread_of(const MeromorphicForm& form) const { return spread(density(form, greens_)); }

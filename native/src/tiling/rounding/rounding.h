@@ -32,8 +32,8 @@ struct RoundingRecord {
   int integers = 0;        ///< for periods and residues
   int blocks = 1;          ///< 1: their lattice was reduced as a whole; else so many parts of it, one by one
   std::int64_t steps = 0;  ///< of the reductions
-  /// Root mean square of the basis's lengths, each orthogonal to those before it, over their geometric mean: how much
-  /// further from the target a rounding is than in a lattice of the same volume with an orthogonal basis.
+  /// Root mean square of the Gram-Schmidt lengths of the basis, over their geometric mean. It tells how much farther a
+  /// rounding is from the target than with an orthogonal basis of the same volume.
   double excess = 1;
 };
 
