@@ -1,4 +1,4 @@
-// Flat islands laid edge to edge, as a paper net is, as far as they do not overlap.
+// Joins flat islands edge to edge into nets that do not overlap.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@ namespace holomorph::islands {
 /// side, then of the other; each side has its polygon on the left.
 using Joint = std::array<int, 4>;
 
-/// Moves islands rigidly so that the sides of a joint coincide, one joint after the other. It does so where the sides
-/// are of one length and belong to different nets, and the nets then do not overlap. A joint within a net needs
-/// nothing.
-/// @param surface cut open along its seams. @param uv #C x 2, changed. @param joints the most wanted first
+/// Moves islands rigidly so that the sides of a joint coincide, one joint after the other. Skips a joint unless its
+/// sides have equal lengths and belong to different nets that then do not overlap.
+/// @param surface cut open along its seams. @param uv #C x 2, changed. @param joints in the order in which they are
+/// tried
 /// @param is_joinable each component: whether it may be moved
 /// @return each component: the lowest one of its net
 /// Cost: at most kMostTriangles tests of two triangles for each triangle of the surface.

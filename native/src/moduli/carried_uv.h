@@ -18,10 +18,10 @@ struct VertexImages {
 
 /// UVs at the corners of `to`, one for each polygon corner, carried to the corners of `from`.
 ///
-/// The corners of one polygon get theirs in one chart. The UVs are continued from triangle to triangle over `to`.
-/// Across each cut this is done by the similarity that brings the edge's UVs on both sides together (a translation, for
-/// maps made of forms). Of the charts that a polygon touches, its middle's is taken. A texture that goes on across a
-/// cut so does here; where it breaks off there, it breaks off along the nearest edges.
+/// UVs are continued from triangle to triangle over `to`. Across a cut, they are continued by the similarity that
+/// brings the UVs on both sides of the edge together (a translation, for maps made of forms). All corners of a polygon
+/// take the chart at its middle. So a texture that is continuous across a cut of `to` is continuous on `from`. Where it
+/// breaks off, it breaks off along the nearest edges.
 /// @pre every polygon's images are in one component of `to` @throws Cancelled
 /// Cost: linear in both surfaces where polygons' images are small.
 std::vector<std::complex<double>> carried_uv(const mesh::Surface& from, const VertexImages& images,

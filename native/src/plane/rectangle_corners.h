@@ -1,4 +1,4 @@
-// The four corners of a disk that is mapped to a rectangle: checks of given ones, and those of a disk without any.
+// Checks or chooses the four corners of a disk that is mapped to a rectangle.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& 
 /// Number of edges of the longest boundary loop.
 int boundary_length(const mesh::Surface& surface, Execution& execution);
 
-/// Four corners of a disk that has no clear ones: from the lowest boundary vertex on, those nearest to the quarters of
-/// the boundary's length.
+/// Chooses four corners of a disk that has no clear ones: the boundary vertices nearest to the quarters of its length,
+/// from the lowest vertex on.
 /// @throws TopologyError for a boundary of three edges
 std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execution);
 
