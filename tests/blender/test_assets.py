@@ -2,7 +2,7 @@
 
 import bpy
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import torus
 
 assets, patterns, material = module("materials.assets"), module("materials.patterns"), module("materials.material")

@@ -4,9 +4,9 @@ import math
 
 import bpy
 import pytest
-from conftest import module
 from file_state import differences, file_state
 from injection import PUT_BACK, Lines, check, stops
+from loaded_addon import module
 from scenes import mesh_object, select, torus_arrays, two_objects
 
 pytestmark = pytest.mark.usefixtures("kept_solves")

@@ -7,8 +7,8 @@ from types import FunctionType, SimpleNamespace
 
 import bpy
 import pytest
-from conftest import module
 from injection import ERRORS, Lines, check
+from loaded_addon import module
 from scenes import mesh_io, select, stored_poles, two_objects
 
 drag = module("operators.drag")

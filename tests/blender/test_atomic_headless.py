@@ -6,8 +6,8 @@ import json
 
 import bpy
 import pytest
-from conftest import module
 from injection import check
+from loaded_addon import module
 from scenes import two_objects
 
 OLD = "an earlier one"

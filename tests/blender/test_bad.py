@@ -2,7 +2,7 @@
 
 import bpy
 import numpy as np
-from conftest import module
+from loaded_addon import module
 from picked_faces import pick_faces
 from scenes import grid_arrays, mesh_io, mesh_object, moebius, run, select, torus, torus_arrays, two_parts
 

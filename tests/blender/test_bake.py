@@ -6,10 +6,10 @@ import bpy
 import numpy as np
 import pytest
 from baked_images import Points, covering, grown, islands, pixels, sampled, triangles
-from conftest import module
 from exchange_formats import may_write_gltf
 from file_state import differences, file_state
 from headless_runs import headless, our_lines
+from loaded_addon import module
 from scenes import grid_arrays, mesh_object, select, torus, uv_maps
 
 bake, material = module("baking.bake"), module("materials.material")

@@ -8,9 +8,9 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from conftest import module
 from exchange_formats import SCENES
 from headless_runs import BLENDER
+from loaded_addon import module
 from scenes import mesh_io, native, torus, torus_arrays, uv_maps
 
 compatibility, exchange = module("compatibility"), module("command_line.exchange")

@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from mathutils import Matrix, Vector
 from scenes import (
     edge_jumps,

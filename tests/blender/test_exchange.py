@@ -5,9 +5,9 @@ import json
 import bpy
 import numpy as np
 import pytest
-from conftest import module
 from exchange_formats import may_write_gltf, needs_usd
 from headless_runs import headless, our_lines, write_obj
+from loaded_addon import module
 from picked_faces import add_own_map
 from scenes import grid_arrays, mesh_io, select, torus, torus_arrays, uv_maps
 

@@ -4,7 +4,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from picked_faces import ACROSS, HALF, add_own_map, corners_of, leave, pick_faces
 from scenes import (
     everything,

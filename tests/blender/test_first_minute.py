@@ -6,8 +6,8 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from conftest import module
 from drawn_panel import Drawn, drawn
+from loaded_addon import module
 from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays, stored_report, torus, uv
 
 coarse, lines, viewport = map(module, ("maps.coarse", "interface.lines", "materials.viewport"))

@@ -5,7 +5,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import grid_arrays, mesh_io, mesh_object, select, sphere_arrays, tiled, torus, torus_arrays, tube_arrays
 
 names = ("cut", "following", "geometry", "pieces", "placing", "tree")

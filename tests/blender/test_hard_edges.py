@@ -6,9 +6,9 @@ import math
 import bpy
 import numpy as np
 import pytest
-from conftest import module
 from drawn_panel import drawn
 from headless_runs import headless, our_lines, write_obj
+from loaded_addon import module
 from packed import assert_packed, capped_cylinder
 from scenes import everything, mesh_io, mesh_object, run, select, stored_report
 

@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import frame, mesh_io, mesh_object, native, run, select, torus, uv
 
 heat, scales = module("results.heat"), module("overlays.scales")

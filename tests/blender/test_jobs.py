@@ -6,7 +6,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import mesh_io, mesh_object, run, select, sphere_arrays, torus, torus_arrays, uv
 
 native = module("native")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import fills_the_square, run, select, torus, torus_arrays, two_parts, uv
 
 layout = module("native").load().layout

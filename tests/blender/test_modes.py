@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from picked_faces import pick_faces
 from scenes import everything, mesh_io, mesh_object, pick, select, sphere_arrays, stored_report, torus, uv
 

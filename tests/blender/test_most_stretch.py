@@ -4,8 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from conftest import module
 from headless_runs import headless, our_lines, write_obj
+from loaded_addon import module
 from packed import assert_packed
 from scenes import everything, mesh_object, run, select, stored_report
 

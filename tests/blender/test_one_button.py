@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import (
     edge_jumps,
     everything,

@@ -5,7 +5,7 @@ import math
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import edge_jumps, everything, face_densities, run, select, stored_poles, stored_report, torus
 
 own, image_io, material = module("materials.own"), module("scene.image_io"), module("materials.material")

@@ -4,7 +4,7 @@ from contextlib import contextmanager
 
 import bpy
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import duplicate, everything, linked, mesh_object, select, sphere_arrays, stored_report, torus
 
 results = {name: module(name).OF for name in ("results.stand_in", "results.empties", "levels.level_objects")}

@@ -4,7 +4,7 @@ import ast
 
 import bpy
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import torus
 
 presets = module("interface.presets")

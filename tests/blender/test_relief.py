@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import mesh_io, select, tiled, torus
 
 geometry, relief, image_io = (module(name) for name in ("things.geometry", "things.relief", "scene.image_io"))

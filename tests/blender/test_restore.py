@@ -3,7 +3,7 @@
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from picked_faces import add_own_map
 from scenes import duplicate, everything, linked, mesh_io, run, select, torus, uv
 

@@ -5,9 +5,9 @@ import bpy
 import full_scene
 import numpy as np
 import pytest
-from conftest import module
 from exchange_formats import SCENES, may_write_gltf
 from headless_runs import headless
+from loaded_addon import module
 from scenes import grid_arrays, mesh_object
 
 compatibility, exchange = module("compatibility"), module("command_line.exchange")

@@ -1,7 +1,7 @@
 """The pie menu and its keys."""
 
 import bpy
-from conftest import module
+from loaded_addon import module
 from scenes import torus
 
 shortcuts = module("interface.shortcuts")

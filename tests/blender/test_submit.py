@@ -7,7 +7,7 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import bpy
 import pytest
-from conftest import module
+from loaded_addon import module
 from repository import ROOT
 
 flamenco = module("operators.flamenco")

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import (
     boundary_corners,
     everything,

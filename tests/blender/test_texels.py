@@ -5,7 +5,7 @@ from functools import partial
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from picked_faces import HALF, add_own_map, corners_of, leave, pick_faces
 from scenes import (
     edge_jumps,

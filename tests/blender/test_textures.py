@@ -5,7 +5,7 @@ import functools
 import bpy
 import numpy as np
 import pytest
-from conftest import module
+from loaded_addon import module
 from scenes import (
     run,
     torus,
