@@ -1,0 +1,120 @@
+"""The commands of the pages: programs, options and names that they mention exist. Each block of code has a kind."""
+
+import contextlib
+import importlib
+import io
+import re
+import shlex
+
+import holomorph
+import pytest
+import tomllib
+from holomorph.__main__ import main
+from holomorph.batch import recipe
+from repository import ROOT
+
+PAGES = sorted(
+    str(path.relative_to(ROOT))
+    for path in [*(ROOT / "docs").rglob("*.md"), *ROOT.glob("[CR]*.md")]
+    if path.parent.name != "site"
+)
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+INLINE = re.compile(r"`([^`\n]+)`")
+# What stands in a block: "python" is run by test_documentation, and an unnamed block after it is what it prints. Other
+# unnamed blocks are commands. "py" needs meshes that are not ours; "text" is no code; the others have their own tests.
+KINDS = {"", "python", "py", "text", "toml", "yaml", "cmake", "cpp", "math"}
+# Commands of other programs, and the tests that run them; or "" where that takes a cluster.
+ELSEWHERE = {
+    "cmake": "tests/cpp/conftest.py",
+    "build/examples/openmesh_uv": "tests/cpp/test_installed.py",
+    "openssl": "tests/batch/test_dask.py",
+    "dask": "tests/batch/test_dask.py",
+    "export": "tests/batch/test_dask.py",
+    "sbatch": "",
+}
+
+
+def text_of(page):
+    return (ROOT / page).read_text(encoding="utf-8")
+
+
+def command_lines(page):
+    """The commands of a page, in blocks and inside sentences, without their comments."""
+    before, found = "", []
+    for kind, body in BLOCK.findall(text_of(page)):
+        if not kind and before != "python":
+            found += re.sub(r"\\\n\s*", " ", body).splitlines()
+        before = kind
+    starts = ("scripts/", "python ", "holomorph batch", "holomorph compare", "holomorph relief")
+    found += [code for code in INLINE.findall(BLOCK.sub("", text_of(page))) if code.startswith(starts)]
+    return [re.split(r"\s+# ", line)[0] for line in found if line.strip()]
+
+
+def helped(arguments):
+    """What `python -m holomorph ARGUMENTS --help` prints."""
+    written = io.StringIO()
+    with contextlib.redirect_stdout(written), pytest.raises(SystemExit):
+        main([*arguments, "--help"])
+    return written.getvalue()
+
+
+def described(words):
+    """The text in which the options of a command are found: of the program, or of the page that lists them."""
+    if words[:3] == ["python", "-m", "holomorph"] or words[0] == "holomorph":
+        rest = words[3:] if words[0] == "python" else words[1:]
+        return helped([word for word in rest[:1] if word in ("batch", "compare", "relief")])
+    if words[0] == "blender":
+        return (ROOT / words[words.index("--python") + 1]).exists() and text_of("docs/blender/headless.md")
+    path = ROOT / (words[1] if words[0] == "python" else words[0])
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+
+def fault(line):
+    """What is wrong with a command, or nothing."""
+    words = shlex.split(line)
+    if words[:2] == ["pip", "install"]:
+        extras = re.findall(r"\[(\w+)\]", line)
+        known = tomllib.loads(text_of("pyproject.toml"))["project"]["optional-dependencies"]
+        return "" if set(extras) <= set(known) else f"{line}: no such extra"
+    if words[0] in ELSEWHERE:
+        test = ELSEWHERE[words[0]]
+        return "" if not test or (ROOT / test).is_file() else f"{line}: {test} is gone"
+    text = described(words)
+    after = words[words.index("--") :] if words[0] == "blender" else words
+    missing = [word for word in after if re.fullmatch(r"--\w[\w-]*", word) and word not in text]
+    return f"{line}: {missing or 'no such program'}" if missing or not text else ""
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_commands_are_those_of_programs(page):
+    assert {kind for kind, _ in BLOCK.findall(text_of(page))} <= KINDS
+    assert not [found for line in command_lines(page) if (found := fault(line))]
+
+
+def test_a_wrong_command_is_found():
+    for line in (
+        "scripts/nothing",
+        "scripts/test --fast",
+        "holomorph batch a --no",
+        "pip install 'holomorph[all]'",
+        "ls",
+    ):
+        assert fault(line)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_recipes_can_be_read(page):
+    for kind, body in BLOCK.findall(text_of(page)):
+        if kind == "toml":
+            recipe.of(tomllib.loads(body))
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_names_of_the_package_exist(page):
+    for code in INLINE.findall(BLOCK.sub("", text_of(page))):
+        found = re.match(r"holomorph\.([A-Za-z_][\w.]*)(?:$|\()", code)
+        value = holomorph
+        for name in found[1].split(".") if found else []:
+            if not hasattr(value, name):
+                importlib.import_module(f"holomorph.{name}")
+            value = getattr(value, name)
