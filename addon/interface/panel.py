@@ -4,7 +4,20 @@
 import bpy
 
 from .. import native
-from ..operators import assets, bake, carry, compare, drag, geometry, lod, relief, submit, texel_operators, tools
+from ..operators import (
+    assets,
+    bake,
+    carry,
+    compare,
+    drag,
+    geometry,
+    lod,
+    relief,
+    stretched,
+    submit,
+    texel_operators,
+    tools,
+)
 from ..operators.availability import CONVERT, CONVERTIBLE
 from ..operators.mapping import HOLOMORPH_OT_islands, HOLOMORPH_OT_maps, HOLOMORPH_OT_tile
 from ..overlays import overlay
@@ -96,6 +109,7 @@ class _ToolsPanel(_Panel):
         row.operator(texel_operators.HOLOMORPH_OT_texels_set.bl_idname, text="Set")
         column = self.layout.column(align=True)
         column.operator(tools.HOLOMORPH_OT_select_bad.bl_idname)
+        column.operator(stretched.HOLOMORPH_OT_select_stretched.bl_idname)
         column.operator(tools.HOLOMORPH_OT_repair.bl_idname)
         column.operator(tools.HOLOMORPH_OT_remove_maps.bl_idname)
         column.operator(assets.HOLOMORPH_OT_assets.bl_idname)

@@ -138,7 +138,7 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
                 bad.select(obj.data, elements)
         context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
         if not self._is_editing:
-            _edit(context, [obj for obj, elements in found.items() if elements])
+            edit(context, [obj for obj, elements in found.items() if elements])
         return True
 
     def _elements(self, target):
@@ -156,7 +156,7 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
         return elements
 
 
-def _edit(context, objects):
+def edit(context, objects):
     """Edit mode for these objects alone, the active one among them."""
     for obj in list(context.view_layer.objects.selected):
         obj.select_set(obj in objects)

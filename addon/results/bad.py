@@ -51,6 +51,12 @@ def find(polygons, uv, kinds):
     return Elements(np.concatenate([NONE, *vertices]), np.concatenate(edges), np.unique(np.concatenate(faces)))
 
 
+def stretched(distortion, octaves, shear):
+    """The faces of a `holomorph.distortion.Distortion` with a density more than `octaves` from the median, or with
+    s1 / s2 above `shear`."""
+    return Elements(faces=np.flatnonzero((np.abs(distortion.density) > octaves) | (distortion.angle > shear)))
+
+
 def _not_finite(polygons):
     """Vertices of which a coordinate is no finite number."""
     return np.flatnonzero(~np.isfinite(polygons.vertices).all(axis=1))

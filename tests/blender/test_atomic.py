@@ -157,6 +157,14 @@ def test_select_bad(mode):
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_select_stretched(mode):
+    two_objects()
+    maps()
+    bpy.ops.object.mode_set(mode=mode)
+    check(lambda: bpy.ops.mesh.holomorphic_select_stretched(size=1.0))
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
 def test_repair(mode):
     for obj in two_objects():
         obj.data.vertices.add(1)

@@ -118,10 +118,14 @@ def test_modes_of_other_things_are_told_where_to_go():
         bpy.ops.uv.holomorphic_maps()
 
 
-def test_bad_elements_of_what_is_sculpted_are_selected_in_edit_mode():
+@pytest.mark.parametrize(
+    ("operator", "options"),
+    [("holomorphic_select_bad", {"kinds": {"LOOSE"}}), ("holomorphic_select_stretched", {"size": 1.0})],
+)
+def test_elements_of_what_is_sculpted_are_selected_in_edit_mode(operator, options):
     obj, _ = twice_mapped()
     bpy.ops.object.mode_set(mode="SCULPT")
-    assert bpy.ops.mesh.holomorphic_select_bad(kinds={"LOOSE"}) == {"FINISHED"}
+    assert getattr(bpy.ops.mesh, operator)(**options) == {"FINISHED"}
     assert obj.mode == "EDIT"
 
 
