@@ -4,6 +4,7 @@ import families
 import numpy as np
 import pytest
 from boundaries import boundary_mask
+from exact_maps import riemann_map_error
 from forms import edge_forms
 from holomorph import (
     DiskMap,
@@ -57,20 +58,6 @@ def test_the_boundary_is_passed_once_counter_clockwise():
     turn = np.angle(np.roll(z[start], -1) / z[start])
     assert (turn > 0).all()
     assert abs(turn.sum() - 2 * np.pi) < EXACT
-
-
-def riemann_map_error(n, seed):
-    """Largest distance from the stereographic projection, which takes the hemisphere to the unit disk, followed by the
-    disk's automorphism that takes the centre to 0; a rotation is free. Off the centre: nearer to it than 0.3 the
-    error depends on the edges there relative to the distance, and z is the distance: it falls like the step."""
-    mesh = families.hemisphere(n, jitter=0.25, seed=seed)
-    exact = (mesh.vertices @ [1, 1j, 0]) / (1 + mesh.vertices[:, 2])
-    centre = int(np.argmin(np.abs(exact - (0.3 + 0.2j))))
-    z = disk_map(surface_of(mesh), centre).disk_map()
-    a = exact[centre]
-    exact = (exact - a) / (1 - np.conj(a) * exact)
-    rotation = np.vdot(z, exact)
-    return np.abs(z * rotation / abs(rotation) - exact)[np.abs(exact) > 0.3].max()
 
 
 def test_riemann_map_of_a_jittered_hemisphere_converges():

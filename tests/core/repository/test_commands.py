@@ -33,6 +33,8 @@ ELSEWHERE = {
     "sbatch": "",
 }
 
+LIMITS = {"docs/python/verdicts.md"}  # tables of limits
+
 
 def text_of(page):
     return (ROOT / page).read_text(encoding="utf-8")
@@ -100,6 +102,14 @@ def test_a_wrong_command_is_found():
         "ls",
     ):
         assert fault(line)
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_tables_of_numbers_stand_beside_their_command(page):
+    """Limits that are chosen are not measured."""
+    text = text_of(page)
+    cells = re.findall(r"(?<=\|) *~?\d[\d.,]*(?:e-?\d+)? *(?:%|s|ms|MB|GB)? *(?=\|)", text)
+    assert len(cells) < 6 or page in LIMITS or re.search(r"(?:scripts|benchmarks|docs)/\w+", text)
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -3,6 +3,7 @@
 import families
 import numpy as np
 import pytest
+from exact_maps import log_map_errors
 from forms import edge_forms
 from holomorph import Cancelled, Surface, TopologyError, conformal_structure, log_map
 from solved import CLOSED, surface_of
@@ -319,31 +320,6 @@ def test_two_are_taken_on_a_surface_with_handles_too():
 
 
 # ---- the exact log map -------------------------------------------------------------------------------------------
-
-
-def plane_of(points, origin, infinity):
-    """Stereographic coordinate of the sphere with 0 at `origin` and infinity at `infinity`, as seen from outside."""
-    axis = np.cross(infinity, np.eye(3)[np.argmin(np.abs(infinity))])
-    frame = np.stack([np.cross(infinity, axis), axis]) / np.linalg.norm(axis)
-    z = [(p @ frame.T) @ [1, 1j] / np.maximum(1 - p @ infinity, 1e-300) for p in (points, origin)]
-    return z[0] - z[1]
-
-
-def log_map_errors(n, seed=1):
-    """Largest errors of u and v of the log map on a jittered sphere, away from the poles by the two-ring of the
-    coarsest mesh: near them the error depends on the edges there relative to the distance, at any resolution."""
-    mesh = families.geodesic_sphere(n, jitter=0.25, seed=seed)
-    points = mesh.vertices
-    p, q = (int(np.argmax(points @ direction)) for direction in ([0.3, 0.2, 0.9], [-0.8, 0.3, -0.4]))
-    structure = log_map(surface_of(mesh), poles=[p, q])
-    theta = structure.sphere_map()
-    away = np.linalg.norm(points[:, None] - points[[p, q]], axis=2).min(axis=1) > 0.35
-    theta = theta[away]  # the second pole, at infinity, is not among them
-    computed = (theta @ [1, 1j, 0]) / (1 + theta[:, 2])  # stereographic, the first pole at 0
-    ratio = np.log(computed / plane_of(points[away], points[p], points[q]))
-    turn = np.angle(np.exp(1j * (ratio.imag - ratio.imag[0])))
-    spread = [(x.max() - x.min()) / 2 / TAU for x in (turn, ratio.real)]  # a constant is free
-    return np.array(spread)
 
 
 def test_log_map_of_a_jittered_sphere_converges():
