@@ -1,15 +1,16 @@
 // Conformal UV maps from holomorphic one-forms: what a C++ program needs. holomorph/openmesh.h takes OpenMesh meshes.
 //
-//   holomorph::Execution execution;  // threads and, if you like, a progress function
-//   const holomorph::structure::Options options;
-//   const auto surface = holomorph::mesh::make_surface(holomorph::mesh::read("kitten.obj"), execution);
-//   const auto part = std::make_shared<holomorph::mesh::Surface>(holomorph::mesh::component(surface, 0,
-//   execution).surface); auto structure = holomorph::structure::conformal_structure(part, options, execution);  // e.g.
-//   its period matrix const auto forms = holomorph::structure::uv_forms(structure, options); const auto c =
-//   holomorph::structure::balanced_coefficients(structure, *forms, execution); const auto uv =
-//   holomorph::structure::uv_map(structure, *forms, c, execution);  // #corners x 2
+//   using namespace holomorph;
+//   Execution execution;  // threads and, if you like, a progress function
+//   const structure::Options options;
+//   const auto surface = mesh::make_surface(mesh::read("kitten.obj"), execution);
+//   const auto part = std::make_shared<mesh::Surface>(mesh::component(surface, 0, execution).surface);
+//   auto found = structure::conformal_structure(part, options, execution);  // e.g. its period matrix
+//   const auto forms = structure::uv_forms(found, options);
+//   const auto c = structure::balanced_coefficients(found, *forms, execution);
+//   const auto uv = structure::uv_map(found, *forms, c, execution);  // #corners x 2
 //
-// The last four lines are holomorph::structure::balanced_map(part, options, execution). Errors are exceptions, those of
+// The last four lines are structure::balanced_map(part, options, execution). Errors are the exceptions of
 // base/errors.h.
 #pragma once
 

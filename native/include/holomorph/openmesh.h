@@ -1,11 +1,11 @@
 // Holomorph for programs that keep their meshes in OpenMesh: any TriMesh_ArrayKernelT or PolyMesh_ArrayKernelT.
 //
-//   holomorph::Execution execution;
-//   for (const auto& part : holomorph::openmesh::components(holomorph::openmesh::to_surface(mesh, execution),
-//   execution)) {
-//     const auto map = holomorph::structure::balanced_map(part.surface, {}, execution);
-//     holomorph::openmesh::write_uv(mesh, part, map.uv);  // half-edge texture coordinates
-//     holomorph::openmesh::mark_seams(mesh, part, map.structure.topology.seams);  // the feature bit of edges
+//   using namespace holomorph;
+//   Execution execution;
+//   for (const auto& part : openmesh::components(openmesh::to_surface(mesh, execution), execution)) {
+//     const auto map = structure::balanced_map(part.surface, {}, execution);
+//     openmesh::write_uv(mesh, part, map.uv);  // half-edge texture coordinates
+//     openmesh::mark_seams(mesh, part, map.structure.topology.seams);  // the feature bit of edges
 //   }
 #pragma once
 

@@ -1,4 +1,4 @@
-// The sides of polygons whose corners have labels, by the edges that these make.
+// Groups the sides of polygons by edge, where labels of corners tell which sides meet.
 #pragma once
 
 #include <functional>

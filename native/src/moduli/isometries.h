@@ -15,8 +15,8 @@ struct Isometry {
   /// max |log of the ratio of R E_a R^T and E_b|, E the projected energies: a metric. For tori it is the hyperbolic
   /// distance of tau. The energies of corresponding classes differ at most by the factor exp(residual).
   double residual = 0;
-  /// The bounds overlap just if this is <= 0. Else a map between the surfaces in the homotopy class of R stretches some
-  /// direction exp(excess) times as much as another. For energies grow at most by a map's dilatation.
+  /// The bounds overlap if and only if this is <= 0. Else a map between the surfaces in the homotopy class of R
+  /// stretches some direction exp(excess) times as much as another. For energies grow at most by a map's dilatation.
   double excess = 0;
 };
 

@@ -12,8 +12,8 @@
 namespace holomorph::solver {
 
 /// A solver promises |L x - b| <= kResidual |b| for every right-hand side, in the Euclidean norm, or throws.
-/// The direct one also takes what rounding allows where weights are large, |L x - b| <= 1e-14 ||L| |x| + |b||: that may
-/// be all of b, and says little of x. Forms are refined then (forms/refined_solver.h).
+/// Where weights are large, the direct one also accepts what rounding allows, |L x - b| <= 1e-14 ||L| |x| + |b||. This
+/// may be all of b, and says little of x. Forms are refined then (forms/refined_solver.h).
 inline constexpr double kResidual = 1e-10;
 
 /// Relative residual that multigrid goes on to while that helps. At a single vertex of a fine mesh, the form may be a
@@ -53,7 +53,7 @@ class LaplaceSolver {
   /// What was used, e.g. "direct: CHOLMOD supernodal, AMD".
   virtual std::string name() const = 0;
 
-  /// What went otherwise than asked for, one sentence; mostly empty.
+  /// What was done differently from what was asked for, in one sentence; usually empty.
   virtual std::string remark() const { return {}; }
 
   /// Largest relative residual over all right-hand sides so far.

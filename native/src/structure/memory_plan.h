@@ -18,11 +18,11 @@ struct Extent {
 };
 
 struct MemoryPlan {
-  /// Whether all functions stay in memory, #V x #forms numbers; else each block goes when it was measured.
+  /// Whether all functions stay in memory, #V x #forms numbers. Else each block is dropped when it was measured.
   bool keep_forms = true;
   int block = 0;  ///< right-hand sides solved for at a time
-  /// Estimate of the most memory in use at once, beside the surface itself: at least that, and up to 2.5 times, of
-  /// small surfaces 30 MB more.
+  /// Upper estimate of the memory in use at once, beside the surface itself. It is at most 2.5 times as much as is
+  /// used, plus 30 MB for small surfaces.
   std::int64_t bytes = 0;
   solver::Choice choice;      ///< a solver that fits
   solver::Choice map_choice;  ///< a solver for a single map of forms that are not kept

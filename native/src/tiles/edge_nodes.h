@@ -30,7 +30,7 @@ EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordi
 /// The code of a point in integers.
 Code code_of(const Point& point, double unit);
 
-/// By how many whole tiles coordinates in one triangle differ from those in another, seen at one corner of each.
+/// The difference, in whole tiles, of coordinates in one triangle and in another, at a corner of each.
 inline Code jump_between(const Point& from, const Point& to, double unit) {
   return {static_cast<std::int64_t>((to[0] - from[0]) / unit), static_cast<std::int64_t>((to[1] - from[1]) / unit)};
 }

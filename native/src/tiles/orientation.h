@@ -9,7 +9,7 @@ namespace holomorph::tiles {
 
 using Point = std::array<double, 2>;
 
-/// Integers up to this are coordinates: differences are exact, and products are exact in twice the precision.
+/// Largest coordinate. Differences of coordinates are exact, and products are exact in twice the precision.
 inline constexpr double kLargestCoordinate = 0x1p50;
 
 /// a d - b c, rounded, with the right sign and exactly 0 where it is. @pre integers up to 2 kLargestCoordinate

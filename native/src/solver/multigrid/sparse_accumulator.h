@@ -1,4 +1,4 @@
-// A sparse row that is summed up from contributions in any order.
+// Sums up a sparse row from contributions in any order.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ class alignas(128) SparseAccumulator {
  public:
   explicit SparseAccumulator(int columns) : sums_(columns, Scalar{0}) {}
 
-  /// Room for so many more contributions to the row.
+  /// Reserves room for this many more contributions to the row.
   void reserve(std::size_t contributions) {
     // one more, as add() writes before it knows
     if (size_ + contributions >= columns_.size()) columns_.resize(2 * (size_ + contributions) + 1);

@@ -1,4 +1,4 @@
-// How much of a place is seen from outside: a pole's star looks best where nobody looks.
+// How exposed a vertex is to views from outside. Poles look best where they are hidden.
 #pragma once
 
 #include <unordered_map>
@@ -10,14 +10,14 @@
 namespace holomorph::tiling {
 
 /// The fraction of directions above a vertex, weighted by their cosine with the normal, that meet no triangle of the
-/// surface. 1 on a convex surface, small in an armpit. By fixed rays: deterministic, and up to some 0.05 whatever the
-/// surface's position is.
+/// surface. 1 on a convex surface, small in an armpit. The rays are fixed, so it is deterministic. Rotating the surface
+/// changes it by some 0.05.
 class Exposure {
  public:
   /// @pre the surface has positions and outlives this
   explicit Exposure(const mesh::Surface& surface);
 
-  /// Finds that of these vertices. Cost: some hundred rays for each that is not known
+  /// Computes the exposure of these vertices. Cost: some hundred rays for each new one
   void prepare(const std::vector<int>& vertices, Workers& workers);
   /// @pre `prepare` was called for the vertex
   double operator()(int vertex) const { return known_.at(vertex); }
