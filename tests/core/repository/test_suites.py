@@ -2,7 +2,9 @@
 
 import importlib.machinery
 import importlib.util
+import os
 import re
+import subprocess
 import sys
 
 import pytest
@@ -68,6 +70,32 @@ def test_a_crash_is_a_failure_and_says_where(run, tmp_path):
 def test_a_suite_that_takes_too_long_is_ended(program, run, monkeypatch):
     monkeypatch.setattr(program, "MINUTES", 0)
     assert run(python("import time; time.sleep(600)")) == (0, 1, 0, ["small: FAILED timed out"])
+
+
+INTERRUPTED = """
+import importlib.machinery, importlib.util, pathlib, sys
+sys.path.insert(0, {scripts!r})
+loader = importlib.machinery.SourceFileLoader("run_tests", {scripts!r} + "/test")
+program = importlib.util.module_from_spec(importlib.util.spec_from_loader("run_tests", loader))
+loader.exec_module(program)
+program.RESULTS, program.set_up = pathlib.Path({folder!r}), lambda suites: ""
+program.SUITES["lint"] = program.SUITES["lint"]._replace(commands=[[sys.executable, "-c", {code!r}]])
+sys.argv = ["test", "--suite", "lint"]
+program.main()
+"""
+
+
+def test_an_interrupted_run_ends_its_suites(tmp_path):
+    pipe = tmp_path / "pipe"  # whose reader sees its end when the last process that has it open is gone
+    os.mkfifo(pipe)
+    code = f"import time; pipe = open({str(pipe)!r}, 'w'); pipe.write('here'); pipe.flush(); time.sleep(600)"
+    program = INTERRUPTED.format(scripts=str(ROOT / "scripts"), folder=str(tmp_path), code=code)
+    process = subprocess.Popen([sys.executable, "-c", program], stderr=subprocess.DEVNULL)
+    with pipe.open() as reader:
+        assert reader.read(4) == "here"
+        process.terminate()
+        assert reader.read() == ""
+    assert process.wait() != 0
 
 
 def test_no_test_is_a_failure(run, tmp_path):
