@@ -25,7 +25,7 @@ import holomorph  # noqa: E402
 SHORT = 10.0  # seconds
 # Holes in two directions, and squares along each side of a hole: a block has as many handles, a plate as many loops.
 BLOCKS = [(0, 0, 12), (0, 0, 80), (1, 1, 4), (1, 1, 40), (3, 3, 2), (3, 3, 12), (5, 8, 1), (5, 8, 6), (10, 14, 1)]
-BLOCKS += [(10, 14, 3), (16, 16, 1), (15, 20, 1), (15, 20, 4)]
+BLOCKS += [(10, 14, 3), (16, 16, 1), (15, 20, 1), (15, 20, 4), (1, 1, 176)]
 PLATES = [(1, 1, 20), (4, 8, 2), (4, 8, 10), (10, 10, 2), (10, 10, 12)]
 
 

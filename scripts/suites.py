@@ -13,7 +13,8 @@ DEFAULT = ["lint", "native", "core", "batch", "blender-3.4", "bpy-5.2", "package
 ALL = ["lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz", "tsan"]
 ALL += ["bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
 # The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
-# once, on small meshes; malformed files; cancelling in the middle; several Python threads at once.
+# once, on small meshes; tilings and what is made of them, islands, evening; malformed files; cancelling in the middle;
+# several Python threads at once.
 SANITIZED = [
     *("base/test_threads.py", "files/test_read.py", "mesh/test_invalid_meshes.py"),
     "progressive/test_progressive.py::test_deterministic",
@@ -26,6 +27,23 @@ SANITIZED = [
     "solver/test_laplace.py::test_any_vertices_may_be_fixed",
     "base/test_running.py::test_cancelling_at_any_call",
     "multiresolution/test_levels.py::test_deterministic_at_any_number_of_threads",
+    "multiresolution/test_paper_bounded.py::test_agrees_with_the_direct_solver",
+    "tiles/test_cells.py::test_tori_of_few_tiles",
+    "tiles/test_cells.py::test_whatever_folds_they_fit",
+    "tiles/test_cells.py::test_squares_with_a_boundary",
+    "tiles/test_lines.py::test_on_a_torus_they_are_as_many_as_rows_and_columns",
+    "tiles/test_lines.py::test_whatever_folds_they_close",
+    "tiles/test_places.py::test_edges_vertices_and_the_boundary_have_them_once",
+    "tiles/test_relief.py::test_crossings_are_those_of_exact_arithmetic",
+    "tiles/test_relief.py::test_faces_of_boxes_stay_parallel",
+    "tiling/test_mirror.py::test_any_number_of_poles_is_mirrored",
+    "tiling/test_mirror.py::test_evening_keeps_the_mirror",
+    "tiling/test_placement.py::test_a_polygon_has_one_pole_at_most",
+    *("islands/test_hard_edges.py", "islands/test_islands.py"),
+    "islands/test_cones.py::test_numbers_and_sizes_do_not_matter",
+    "islands/test_island_map.py::test_islands_stand_upright_and_apart",
+    "evening/test_evened_maps.py::test_no_more_area_is_flipped",
+    "evening/test_evened_maps.py::test_what_is_kept_stays_bit_for_bit",
 ]
 
 

@@ -191,8 +191,11 @@ def test_a_list_names_files_by_their_bytes(tmp_path, recipe):
     folder = os.fsencode(tmp_path)
     mesh = torus_obj(tmp_path / "mesh.obj", 8, 6).read_bytes()
     for name in (b"caf\xe9.obj", "two\u2028lines.obj".encode()):
-        with open(os.path.join(folder, name), "wb") as file:
-            file.write(mesh)
+        try:
+            with open(os.path.join(folder, name), "wb") as file:
+                file.write(mesh)
+        except OSError:
+            pytest.skip("this file system takes names of letters alone")
     (tmp_path / "list.txt").write_bytes(b"caf\xe9.obj\r\n" + "two\u2028lines.obj\n".encode())
     result = run(tmp_path / "list.txt", "--out", tmp_path / "out", "--recipe", recipe)
     assert result.returncode == 0, result.stderr

@@ -1,6 +1,7 @@
 """Plots by PyVista, by their pixels, and the same arguments and refusals as those by matplotlib."""
 
 import inspect
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -90,6 +91,19 @@ def test_y_may_be_upwards(pretzel):
     assert (lying.z_min, lying.z_max) == pytest.approx((-standing.y_max, -standing.y_min))
     with pytest.raises(ValueError, match='"Y" or "Z" is needed'):
         plot_pyvista.checker(pretzel.surface, uv, up="X")
+
+
+def test_the_page_s_examples_run(pretzel, tmp_path, monkeypatch):
+    """In the suite core they are left out where there is no PyVista."""
+    monkeypatch.chdir(tmp_path)
+    pretzel.surface.write("chain.obj")
+    names = dict(holomorph=holomorph, surface=pretzel.surface, uv=pretzel.uv(pretzel.balanced_coefficients()))
+    page = (ROOT / "docs" / "python" / "packages.md").read_text(encoding="utf-8")
+    for code in re.findall(r"^```python\n(import pyvista\n.*?)^```$", page, re.MULTILINE | re.DOTALL):
+        exec(compile(code, "packages.md", "exec"), dict(names))
+    forms = pyvista.read("forms.vtp").cell_data
+    assert set(forms.keys()) == {f"form {number + 1}" for number in range(2 * pretzel.surface.genus)}
+    assert Path("picture.png").stat().st_size > 10_000
 
 
 def test_what_cannot_be_drawn_is_refused(pretzel):

@@ -54,12 +54,11 @@ FOLDERS = ["deep/" * 100, f"{LONG}/{LONG}/", "folder.obj/", "Folder.obj/", "spac
 
 
 def any_names(folder):
-    """The names, relative to the folder, of what is a mesh."""
+    """The names, relative to the folder, of what is a mesh: those that this file system takes, as it lists them."""
     folder.mkdir()
     mesh = torus_obj(folder.with_name(f"{folder.name}_mesh.obj"), 8, 6).read_bytes()
     paths = [os.fsencode(name) for name in NAMES] + BYTES + [os.fsencode(f"{place}part.obj") for place in FOLDERS]
     paths += [b"folder.obj/mesh.obj", b"sub/A.obj", b"SUB/a.obj", b"sub/a.obj"]
-    kept = []
     for path in paths:
         place = os.path.join(os.fsencode(folder), path)
         try:
@@ -68,8 +67,7 @@ def any_names(folder):
                 file.write(mesh)
         except OSError:  # this file system does not take the name, or takes it for another one
             continue
-        kept.append(os.fsdecode(path))
-    return kept
+    return [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()]
 
 
 def any_entries(folder):

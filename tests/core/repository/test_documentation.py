@@ -16,6 +16,7 @@ from solved import surface_of
 
 EXAMPLE = re.compile(r"^```python\n(.*?)^```\n^```\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 CODE = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+IMPORTED = re.compile(r"^import (\w+)", re.MULTILINE)
 COMMAND = re.compile(r"`python -m holomorph (examples/[^`]*)`")
 LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
@@ -94,8 +95,8 @@ def files(tmp_path_factory):
 )
 def test_example_of_the_package_runs(files, page, place, monkeypatch):
     code = CODE.findall(text_of(page))[place]
-    if "plot" in code:
-        pytest.importorskip("matplotlib")
+    for package in IMPORTED.findall(code) + ["matplotlib"] * ("plot" in code):
+        pytest.importorskip(package)
     monkeypatch.chdir(files)
     surface = holomorph.Surface.read("chain.obj")
     structure = holomorph.conformal_structure(surface)
