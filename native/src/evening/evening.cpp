@@ -19,14 +19,19 @@ constexpr int kMostSteps = 40;
 constexpr double kWhole = 0.9;  // part of the work that comes before flipped triangles are turned back
 // Around them: those that may move, and the inner ones that keep the shape of the map before, where else they flip.
 constexpr StrainEnergy::Rings kRings[] = {{2, 0}, {4, 0}, {8, 0}, {16, 0}, {4, 2}, {8, 4}, {16, 8}, {32, 16}};
-// Factors of the weight of size, one after the other where the map flips more than before. A little less is often
-// enough, since few triangles decide.
-constexpr double kTries[] = {1, 0.93, 0.86, 0.75, 0.5, 0.25, 0.125, 0.0625};
+// Factors of the weight of size, one after the other where the map flips more than before, and how many of the rings
+// are tried with each. A little less size is often enough, since few triangles decide, and the largest rings make the
+// map less even than that does.
+struct Try {
+  double factor;
+  std::size_t rings;
+};
+constexpr Try kTries[] = {{1, 6}, {0.93, 6}, {0.86, 6}, {0.75, 8}, {0.5, 8}, {0.25, 8}, {0.125, 8}, {0.0625, 8}};
 constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
 
-// The weight of size in the energy. Where strain is small, minimising takes the power 1 - lambda of every density, and
-// s1 / s2 grows by lambda times the logarithm of the density over its mean.
-double lambda_of(double evenness) { return evenness * (0.9 - 0.2 * evenness); }
+// The weight of size in the energy. Where strain is small and size counts by its square, minimising takes the power
+// 1 - lambda of every density, and s1 / s2 grows by lambda times the logarithm of the density over its mean.
+double lambda_of(double evenness) { return evenness * (0.76 - 0.06 * evenness); }
 
 // About twice the Laplacian are the second derivatives.
 constexpr double kInverse = 0.5;
@@ -137,7 +142,7 @@ struct Found {
 };
 
 Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
-            const std::string& solver_name, Execution& execution) {
+            std::size_t rings, const std::string& solver_name, Execution& execution) {
   const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
   const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
   Solvers solvers(half_edges, method, kept);
@@ -156,22 +161,20 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   execution.part(kWhole, 1);
   Function delta = descent.delta();
   double flipped = descent.value().flipped;
-  for (std::size_t k = 0; k < std::size(kRings) && flipped > most_flipped; ++k)
+  for (std::size_t k = 0; k < rings && flipped > most_flipped; ++k)
     flipped = turn_back(energy, kept, lambda, most_flipped, kRings[k], delta, execution);
   return {std::move(delta), flipped > most_flipped};
 }
 
 }  // namespace
 
-double power_of_density(double evenness) { return 1 - lambda_of(evenness); }
-
 uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Kept& kept, double evenness,
                    Execution& execution, const std::string& solver) {
   uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
   if (evenness == 0) return result;
   const StrainEnergy energy(surface, uv, kept.poles, execution.workers());
-  for (const double factor : kTries) {
-    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), solver, execution);
+  for (const auto& [factor, rings] : kTries) {
+    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), rings, solver, execution);
     if (found.flips_more) continue;
     for_rows(execution.workers(), surface.vertex_count,
              [&](int v) { result.row(v) << found.delta[v].real(), found.delta[v].imag(); });

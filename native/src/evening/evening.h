@@ -18,13 +18,13 @@ struct Kept {
 /// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.
 inline constexpr double kUsualEvenness = 0.5;
 
-/// Predicts ratios of densities: evening raises the density of a conformal map to this power, as far as strain is
-/// small. 1 at evenness 0.
-double power_of_density(double evenness);
+/// Predicts the 95:5 ratio of densities: this evenness raises that of a conformal map to this power. Measured, the median
+/// of 25 meshes.
+inline constexpr double kUsualPower = 0.57;
 
 /// #V x 2, what is to be added at the vertices for the least StrainEnergy. Triangles that it flips are turned back
-/// until no more area is flipped than before. Where moving their neighbours is not enough, the weight of size is halved
-/// again and again. At last nothing is added.
+/// until no more area is flipped than before. Where moving their neighbours is not enough, the weight of size is
+/// lowered again and again. At last nothing is added.
 ///
 /// Method: gradient descent, preconditioned by the Laplacian closest to the second derivatives, which is made anew
 /// while the energy falls quickly. Then limited-memory BFGS with the last Laplacian.

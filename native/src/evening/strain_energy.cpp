@@ -18,6 +18,10 @@ constexpr double kMostStiff = 1e4, kLeastStiff = 1e-6;
 
 constexpr double kEmphasis = 8;
 
+// What the extremes of size count besides: nothing at evenness 1, where they would make the bulk less even. The square
+// of size at which their fourth power becomes a square again: larger ones, next to a pole, cannot be reached.
+constexpr double kExtremes = 1.2, kNoExtremes = 0.7, kReached = 2;
+
 // Triangles thinner than this, area by squared longest side, weigh less in the Laplacian: solvers do not like their
 // weights, and the energy itself has them right.
 constexpr double kThinArea = 1e-2;
@@ -53,6 +57,9 @@ Derivative squared_shear(double ratio) {
           (slope * kStrained + curvature * beyond) / ratio};
 }
 
+// c(lambda)
+double weight_of_extremes(double lambda) { return kExtremes * std::max(0.0, kNoExtremes - lambda); }
+
 // The energy of a triangle of area 1, and its derivatives by |a| and |b| over |a| and |b|.
 struct Local {
   double value, by_a, by_b;
@@ -61,10 +68,13 @@ struct Local {
 Local local_energy(double square_a, double square_b, double lambda, double log_size) {
   const double ratio = std::sqrt(square_b / square_a), strained = std::min(ratio, kStrained);
   const double size = std::log(square_a * (1 - strained * strained)) - log_size;
+  const double square = size * size, reach = 1 / (1 + square / kReached);
+  const double extreme = weight_of_extremes(lambda) * square * reach;
+  const double by_size = 4 * lambda * size * (1 + extreme * (1 + reach));
   const auto [shear, slope] = squared_shear(ratio);
   double by_ratio = (1 - lambda) * slope;  // over the ratio
-  if (ratio < kStrained) by_ratio -= 4 * lambda * size / (1 - ratio * ratio);
-  return {(1 - lambda) * shear + lambda * size * size, (4 * lambda * size - ratio * ratio * by_ratio) / square_a,
+  if (ratio < kStrained) by_ratio -= by_size / (1 - ratio * ratio);
+  return {(1 - lambda) * shear + lambda * square * (1 + extreme), (by_size - ratio * ratio * by_ratio) / square_a,
           by_ratio / square_a};
 }
 
@@ -74,7 +84,9 @@ double stiffness(double ratio, double size, double lambda) {
   const double curvature = 8 * (1 + 2 * strained * std::atanh(strained)) / (open * open);
   const double slope = squared_shear(ratio).slope;
   const double shear = (curvature * (1 + ratio * ratio) + 2 * slope * ratio * ratio) / 8;
-  return (1 - lambda) * shear + lambda * (1 + std::max(0.0, -size / 2));
+  const double square = size * size, reach = 1 / (1 + square / kReached);
+  const double extreme = weight_of_extremes(lambda) * square * reach * (1 + 5 * reach);
+  return (1 - lambda) * shear + lambda * (1 + extreme + std::max(0.0, -size / 2));
 }
 
 // Gradients of the hat functions of corners 1 and 2 on a triangle with corners at 0, `first` and `second`: the opposite

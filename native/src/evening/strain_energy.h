@@ -18,11 +18,12 @@ using Complex = std::complex<double>;
 /// #V, a function u + i v on the vertices.
 using Function = Array<Complex>;
 
-/// E(delta) = sum over triangles t of A_t ((1 - lambda) shear^2 + lambda size^2), where shear = ln s1 - ln s2 and size
-/// = ln s1 + ln s2 - 2 ln s0, for the singular values s1 >= s2 of the map uv + delta. This is the quadratic energy of
-/// the logarithmic strain (Neff, Eidel and Martin 2016, doi:10.1007/s00205-016-1007-x). It is continued as a parabola
-/// where s1 / s2 is large and where a triangle is flipped. The size s0 is the mean size of the map without delta. Areas
-/// add up to 1.
+/// E(delta) = sum over triangles t of A_t ((1 - lambda) shear^2 + lambda size^2 (1 + c x)), where
+/// shear = ln s1 - ln s2 and size = ln s1 + ln s2 - 2 ln s0, for the singular values s1 >= s2 of the map uv + delta.
+/// s0 is the mean size of the map without delta. Areas add up to 1. With c = 0 it is the quadratic energy of the
+/// logarithmic strain (Neff, Eidel and Martin 2016, doi:10.1007/s00205-016-1007-x). x = size^2 / (1 + size^2 / 2)
+/// and c = 1.2 (0.7 - lambda) raise the weight of the few largest and smallest squares, around branch points and poles.
+/// The energy is continued as a parabola where s1 / s2 is large and where a triangle is flipped.
 ///
 /// At a pole the map is infinite, and a triangle there stays as it is: its strain is that from the map without delta.
 /// Triangles without area do not count.

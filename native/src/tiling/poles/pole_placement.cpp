@@ -34,7 +34,7 @@ int thinning(const GreensFunctions& greens, int count) {
 }
 
 // What spread of the density evening leaves.
-double evened(double spread) { return std::pow(spread, evening::power_of_density(evening::kUsualEvenness)); }
+double evened(double spread) { return std::pow(spread, evening::kUsualPower); }
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
   form = search.settled(std::move(form));
@@ -44,7 +44,7 @@ MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
 // Places are polished only where that may be enough, and so for few counts.
 MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
   PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
-  const double enough = std::pow(kEvened, 1 / evening::power_of_density(evening::kUsualEvenness));
+  const double enough = std::pow(kEvened, 1 / evening::kUsualPower);
   MeromorphicForm added = few.begin(), best = added;
   if (options.mirror && added.poles.empty()) return added;
   double least = evened(few.spread_of(best));
