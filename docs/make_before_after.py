@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures and figures of docs/tiling.md for one example: Smart UV, Blender's Unwrap, Seamless Tiling.
+"""The pictures and figures of docs/tiling.md for one example: Blender's own maps, libigl's SLIM, Seamless Tiling.
 
-blender -b EXAMPLE.blend --factory-startup --python-exit-code 1 --python docs/make_before_after.py -- \
-    FOLDER TEXTURE TILES DIRECTION QUARTERS
+python docs/make_before_after.py EXAMPLE.blend FOLDER TEXTURE TILES DIRECTION QUARTERS
 
-The object, camera and texture are the same in all three, and so is the median size of the texture. Leaves
-EXAMPLE-smart.png, EXAMPLE-unwrap.png and EXAMPLE-tiling.png in FOLDER, and prints a row of the table.
+In a Python with Blender as a module, 4.3 or later, and libigl. The object, camera and texture are the same in all
+pictures, and so is the median size of the texture. Leaves EXAMPLE-KIND.png in FOLDER, for each kind of `made_maps`, and
+prints a row of the table.
 """
 
 import importlib.util
@@ -24,6 +24,9 @@ ISLAND_MARGIN = 0.01  # of Blender's packing, in UV units: no two islands touch
 SMART_ANGLE = math.radians(66)  # Blender's default
 MATCH = 1e-4  # in tiles: sides of an edge that differ from whole tiles by less show no seam
 RESOLUTION = 420  # pixels
+SLIM_STEPS = 50
+DIAL = {"dial0": 1e-6, "tiling": 0.5, "dial1": 1.0}  # evenness; at 0 itself Automatic would place other poles
+COMPARED = ("smart", "unwrap", "stretch", "slim", "tiling")  # columns of the table
 
 
 def load_addon():
@@ -106,16 +109,42 @@ def figures(points, polygons, uv):
     return found.density_ratio, *breaks(points, polygons, uv)
 
 
-def made_maps(obj, **options):
-    """The UVs of each way. Blender's Unwrap gets the cut of ours, for the examples have no seams."""
-    smart = unwrapped(obj, "Smart", bpy.ops.uv.smart_project, angle_limit=SMART_ANGLE, island_margin=ISLAND_MARGIN)
-    bpy.ops.uv.holomorphic_tile(seams=True, **options)
-    tiling = module("scene.uv_maps").read_map(obj.data, module("scene.uv_maps").MAIN_MAP)
-    return {
-        "smart": smart,
-        "unwrap": unwrapped(obj, "Unwrap", bpy.ops.uv.unwrap, margin=ISLAND_MARGIN),
-        "tiling": tiling,
-    }
+def slim(obj, points, polygons, stretch):
+    """Further steps of SLIM from the UVs of Minimum Stretch, which is SLIM, too: libigl's on the same seams."""
+    import igl
+
+    holomorph = module("native").load()
+    corners, _ = holomorph.distortion.fans(polygons.face_offsets)
+    surface = holomorph.Surface(points, polygons.corner_vertices[corners])
+    ends, is_seam = np.empty(2 * len(obj.data.edges), np.int32), np.empty(len(obj.data.edges), bool)
+    obj.data.edges.foreach_get("vertices", ends)
+    obj.data.edges.foreach_get("use_seam", is_seam)
+    own, seams = (
+        np.sort(e, axis=1).astype(np.int64) @ [len(points), 1] for e in (surface._native.edges, ends.reshape(-1, 2))
+    )
+    cut = importlib.import_module("holomorph.cut_open").cut_open(surface, np.isin(own, seams[is_seam]))
+    none = np.zeros(0, np.int32), np.zeros((0, 2), order="F")
+    mesh = np.asfortranarray(cut.vertices), np.asfortranarray(cut.triangles, np.int32)
+    start = np.empty((len(cut.vertices), 2), order="F")
+    start[cut.triangles] = stretch[corners]
+    data = igl.slim_precompute(*mesh, start, igl.MappingEnergyType.SYMMETRIC_DIRICHLET, *none, 0.0)
+    uv = np.empty((len(polygons.corner_vertices), 2))
+    uv[corners] = igl.slim_solve(data, SLIM_STEPS)[cut.triangles]
+    return uv
+
+
+def made_maps(obj, points, polygons, **options):
+    """The UVs of each way. Those that need seams get the cut of ours, for the examples have none."""
+    uv_maps = module("scene.uv_maps")
+    smart = {"angle_limit": SMART_ANGLE, "island_margin": ISLAND_MARGIN}
+    maps = {"smart": unwrapped(obj, "smart", bpy.ops.uv.smart_project, **smart)}
+    for kind, evenness in DIAL.items():
+        bpy.ops.uv.holomorphic_tile(seams=kind == "tiling", evenness=evenness, **options)
+        maps[kind] = uv_maps.read_map(obj.data, uv_maps.MAIN_MAP)
+    for kind, method in ("unwrap", "ANGLE_BASED"), ("stretch", "MINIMUM_STRETCH"):
+        maps[kind] = unwrapped(obj, kind, bpy.ops.uv.unwrap, method=method, margin=ISLAND_MARGIN)
+    maps["slim"] = slim(obj, points, polygons, maps["stretch"])
+    return maps
 
 
 def show(obj, polygons, uv):
@@ -126,21 +155,22 @@ def show(obj, polygons, uv):
 
 
 def row(name, parts, found):
-    """A row of the table in docs/tiling.md: poles, then each figure of the three maps."""
+    """A row of the table in docs/tiling.md: poles, islands of Smart UV, then 95:5 and seams of the compared maps."""
     poles = sum(len(part["tiling"]["poles"]) for part in parts)
-    cells = [f"{figure:.{digits}f}" for digits, of_maps in zip((1, 0, 1), zip(*found.values())) for figure in of_maps]
-    return f"| {name} | {poles} | {' | '.join(cells)} |"
+    ratios, islands, seams = zip(*(found[kind] for kind in COMPARED))
+    cells = [f"{figure:.1f}" for figure in ratios + seams]
+    return f"| {name} | {poles} | {islands[0]} | {' | '.join(cells)} |"
 
 
 def main():
-    folder, texture, tiles, direction, quarters = sys.argv[sys.argv.index("--") + 1 :]
+    path, folder, texture, tiles, direction, quarters = sys.argv[1:]
+    bpy.ops.wm.open_mainfile(filepath=path)
     load_addon()
-    obj, name = bpy.context.view_layer.objects.active, Path(bpy.data.filepath).stem
-    maps = made_maps(obj, texture=texture, tiles=int(tiles), direction=direction, quarters=int(quarters))
-    points, polygons = (
-        module("scene.mesh_io").world_points(obj),
-        module("scene.mesh_io").read_polygons(obj.data, np.eye(3)),
-    )
+    obj, name = bpy.context.view_layer.objects.active, Path(path).stem
+    points = module("scene.mesh_io").world_points(obj)
+    polygons = module("scene.mesh_io").read_polygons(obj.data, np.eye(3))
+    options = dict(texture=texture, tiles=int(tiles), direction=direction, quarters=int(quarters))
+    maps = made_maps(obj, points, polygons, **options)
     median = median_density(points, polygons, maps["tiling"])
     found = {}
     for kind, uv in maps.items():
@@ -149,6 +179,7 @@ def main():
         show(obj, polygons, uv)
         module("command_line.studio").render([obj], f"{folder}/{name}-{kind}.png", RESOLUTION, SAMPLES)
     print(row(name, json.loads(obj[module("results.report").PROPERTY])["components"], found))
+    print("dial:", name, ", ".join(f"{found[kind][0]:.1f} at {evenness}" for kind, evenness in DIAL.items()))
 
 
 main()
