@@ -18,8 +18,8 @@ struct Kept {
 /// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.
 inline constexpr double kUsualEvenness = 0.5;
 
-/// Predicts the 95:5 ratio of densities: this evenness raises that of a conformal map to this power. Measured, the median
-/// of 25 meshes.
+/// Predicts the 95:5 ratio of densities: this evenness raises that of a conformal map to this power. Measured, the
+/// median of 25 meshes.
 inline constexpr double kUsualPower = 0.57;
 
 /// #V x 2, what is to be added at the vertices for the least StrainEnergy. Triangles that it flips are turned back
