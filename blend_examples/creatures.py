@@ -119,14 +119,14 @@ def armadillo():
     return [obj]
 
 
-def skinned(name, bm):
+def skinned(name, bm, voxel=0.03):
     """An object of the skin modifier around edges, of one smooth surface."""
     obj = object_of(name, bm)
     obj.modifiers.new("Skin", "SKIN").branch_smoothing = 0.6
     subdivision = obj.modifiers.new("Subdivision", "SUBSURF")
     subdivision.levels = 2
     remesh = obj.modifiers.new("Remesh", "REMESH")  # the skin crosses itself where limbs and toes branch off
-    remesh.mode, remesh.voxel_size = "VOXEL", 0.03
+    remesh.mode, remesh.voxel_size = "VOXEL", voxel
     smooth = obj.modifiers.new("Smooth", "SMOOTH")
     smooth.factor, smooth.iterations = 0.5, 8
     apply_modifiers(obj)

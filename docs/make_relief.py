@@ -19,7 +19,7 @@ import addon
 from addon import compatibility
 from addon.command_line import studio
 from addon.materials.patterns import TEXTURES
-from addon.scene import gathering, mesh_io
+from addon.scene import gathering, image_io, mesh_io
 from addon.things import geometry
 
 RESOLUTION, SAMPLES = 520, 24
@@ -46,7 +46,7 @@ def heights(pattern):
 
 def image_of(values):
     image = bpy.data.images.new("Heights", PIXELS, PIXELS, float_buffer=True)
-    mesh_io.write_pixels(image, np.repeat(values[..., None], 4, axis=2))
+    image_io.write_pixels(image, np.repeat(values[..., None], 4, axis=2))
     return image
 
 
