@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 import bpy
+import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -25,6 +26,7 @@ HERE = Path(__file__).resolve().parent
 FOLDER = HERE / "seamless"
 TEXTURES = FOLDER / "textures"
 SIZE = 512  # pixels across an image
+GREEN_BITS = 3  # kept of the lower channel of heights
 VIEW = (0.87, 0.37, 0.12, 0.29)  # quaternion: three quarters, from above
 DISTANCE = 1.6  # of the view from the object, in diagonals of its bounding box
 RESOLUTION, SAMPLES = 420, 24  # of a picture
@@ -59,13 +61,24 @@ def opened(name):
     return bpy.context.view_layer.objects.active
 
 
+def keep_high_bits(heights):
+    """Of green, the lower channel of heights: the others are noise, which makes files twice as large."""
+    pixels = np.empty(4 * SIZE * SIZE, np.float32)
+    heights.pixels.foreach_get(pixels)
+    green = np.rint(pixels[1::4] * 255).astype(np.uint8)
+    pixels[1::4] = (green & ~np.uint8(255 >> GREEN_BITS)) / 255
+    heights.pixels.foreach_set(pixels)
+
+
 def share_images():
     """Images that are packed become files of the folder with the textures, which all examples read."""
     for packed in [image for image in bpy.data.images if image.packed_file]:
-        ending = "png" if packed.colorspace_settings.name == "Non-Color" else "jpg"  # heights are exact numbers
+        ending = "png" if packed.colorspace_settings.name == "Non-Color" else "jpg"  # heights are numbers
         path = TEXTURES / f"{packed.name.removeprefix('Holomorph ').lower().replace(' ', '_')}.{ending}"
         if not path.exists():
             packed.scale(SIZE, SIZE)
+            if ending == "png":
+                keep_high_bits(packed)
             packed.filepath_raw, packed.file_format = str(path), {"png": "PNG", "jpg": "JPEG"}[ending]
             packed.save()
         shared = bpy.data.images.load(str(path))

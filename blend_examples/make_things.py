@@ -30,7 +30,7 @@ GAP, HEIGHT = 0.05, 0.12  # of raised bricks, in lengths of their sides
 MORTAR = "is_mortar"  # attribute of faces
 KEPT_PIXELS = 256  # of the pictures that the figure showed before the bake
 PIXELS = 128  # of a picture of a knurl
-DEPTH, TRIANGLES = 1.6, 24_000  # of the knurls, in millimetres, and of the vase with them
+DEPTH, TRIANGLES = 2.2, 20_000  # of the knurls, in millimetres, and of the vase with them
 TEXELS, QUALITY = 300.0, 75  # for a metre of the figure, and of its images as JPEG files
 
 
@@ -139,7 +139,7 @@ FILES = {  # example, or what makes one; tiles; what stands on them; colours of 
     "critter_knitted": ("critter", 60, knit, (0.45, 0.07, 0.05), (0.25, 0.03, 0.02), 0.0),
     "mug_wicker": ("mug", 60, wicker, (0.5, 0.33, 0.14), (0.1, 0.07, 0.04), 0.0),
     "pretzel_bricks": ("pretzel", 200, bricks, (0.42, 0.15, 0.08), (0.3, 0.28, 0.26), 0.0),
-    "vase_knurled": (vase, 150, knurled, (0.05, 0.1, 0.2), (0.05, 0.1, 0.2), 0.0),
+    "vase_knurled": (vase, 60, knurled, (0.1, 0.28, 0.3), (0.1, 0.28, 0.3), 0.0),
 }
 BAKED = "human_baked"
 

@@ -60,7 +60,7 @@ def write_picture(name, images):
     height = max(len(image) for image in images)
     padded = [np.pad(image, ((height - len(image), 0), (0, 0), (0, 0)), constant_values=1) for image in images]
     path = PICTURES / f"paper_{name}.jpg"
-    Image.fromarray((np.hstack(padded) * 255).round().astype(np.uint8)).save(path, quality=85, optimize=True)
+    Image.fromarray((np.hstack(padded) * 255).round().astype(np.uint8)).save(path, quality=78, optimize=True)
     sys.stdout.write(f"docs/pictures/{path.name}  {path.stat().st_size // 1024} KB\n")
 
 
