@@ -4,23 +4,16 @@
 #include <cmath>
 
 #include "base/chunks.h"
+#include "evening/triangle_energy.h"
 #include "mesh/triangle_geometry.h"
 
 namespace holomorph::evening {
 namespace {
 
-// Up to this ratio of |b| to |a| the energy is that of the logarithmic strain, s1 / s2 up to 6; beyond, where it would
-// become infinite, it goes on as a parabola. So a triangle may flip on the way, and is driven back.
-constexpr double kStrained = 0.7;
-
 // Stiffness by area relative to where the map has its mean size: at most where it branches, and at least.
 constexpr double kMostStiff = 1e4, kLeastStiff = 1e-6;
 
 constexpr double kEmphasis = 8;
-
-// What the extremes of size count besides: nothing at evenness 1, where they would make the bulk less even. The square
-// of size at which their fourth power becomes a square again: larger ones, next to a pole, cannot be reached.
-constexpr double kExtremes = 1.2, kNoExtremes = 0.7, kReached = 2;
 
 // Triangles thinner than this, area by squared longest side, weigh less in the Laplacian: solvers do not like their
 // weights, and the energy itself has them right.
@@ -34,60 +27,6 @@ struct LogSum {
     return *this;
   }
 };
-
-struct Derivative {
-  double value, slope;
-};
-
-// shear^2 and its derivative over `ratio`, for the ratio |b| / |a|.
-Derivative squared_shear(double ratio) {
-  const auto exact = [](double r) -> Derivative {
-    if (r < 1e-6) return {4 * r * r, 8};
-    const double shear = 2 * std::atanh(r);
-    return {shear * shear, 4 * shear / (r * (1 - r * r))};
-  };
-  if (ratio <= kStrained) return exact(ratio);
-  static const double curvature = [] {
-    const double open = 1 - kStrained * kStrained;
-    return 8 * (1 + 2 * kStrained * std::atanh(kStrained)) / (open * open);
-  }();
-  const auto [value, slope] = exact(kStrained);
-  const double beyond = ratio - kStrained;
-  return {value + (slope * kStrained + curvature * beyond / 2) * beyond,
-          (slope * kStrained + curvature * beyond) / ratio};
-}
-
-// c(lambda)
-double weight_of_extremes(double lambda) { return kExtremes * std::max(0.0, kNoExtremes - lambda); }
-
-// The energy of a triangle of area 1, and its derivatives by |a| and |b| over |a| and |b|.
-struct Local {
-  double value, by_a, by_b;
-};
-
-Local local_energy(double square_a, double square_b, double lambda, double log_size) {
-  const double ratio = std::sqrt(square_b / square_a), strained = std::min(ratio, kStrained);
-  const double size = std::log(square_a * (1 - strained * strained)) - log_size;
-  const double square = size * size, reach = 1 / (1 + square / kReached);
-  const double extreme = weight_of_extremes(lambda) * square * reach;
-  const double by_size = 4 * lambda * size * (1 + extreme * (1 + reach));
-  const auto [shear, slope] = squared_shear(ratio);
-  double by_ratio = (1 - lambda) * slope;  // over the ratio
-  if (ratio < kStrained) by_ratio -= by_size / (1 - ratio * ratio);
-  return {(1 - lambda) * shear + lambda * square * (1 + extreme), (by_size - ratio * ratio * by_ratio) / square_a,
-          by_ratio / square_a};
-}
-
-// How much larger second derivatives are than where the map is conformal and of the mean size.
-double stiffness(double ratio, double size, double lambda) {
-  const double strained = std::min(ratio, kStrained), open = 1 - strained * strained;
-  const double curvature = 8 * (1 + 2 * strained * std::atanh(strained)) / (open * open);
-  const double slope = squared_shear(ratio).slope;
-  const double shear = (curvature * (1 + ratio * ratio) + 2 * slope * ratio * ratio) / 8;
-  const double square = size * size, reach = 1 / (1 + square / kReached);
-  const double extreme = weight_of_extremes(lambda) * square * reach * (1 + 5 * reach);
-  return (1 - lambda) * shear + lambda * (1 + extreme + std::max(0.0, -size / 2));
-}
 
 // Gradients of the hat functions of corners 1 and 2 on a triangle with corners at 0, `first` and `second`: the opposite
 // side, turned by a quarter, over twice the area.
@@ -187,7 +126,8 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
     at[0] = at[1] = at[2] = 0;
     if (!(triangle.area > 0)) return;
     const Derivatives map = derivatives(triangle, delta);
-    const Local local = local_energy(std::norm(map.a), std::norm(map.b), triangle.lambda(lambda), triangle.log_size);
+    const TriangleEnergy local =
+        triangle_energy(std::norm(map.a), std::norm(map.b), triangle.lambda(lambda), triangle.log_size);
     const double weight = triangle.area * triangle.emphasis;
     sum += {weight * local.value, flipped(triangle, map) ? triangle.area : 0};
     const Complex by_a = 0.5 * weight * local.by_a * map.a, by_b = 0.5 * weight * local.by_b * map.b;

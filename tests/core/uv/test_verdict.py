@@ -242,7 +242,7 @@ def test_strict_ends_with_the_verdict(tmp_path, capsys, strict, status):
 
 
 def test_strict_takes_what_is_good(tmp_path, capsys):
-    path = file_of(families.torus(24, 12), tmp_path / "torus.obj")
+    path = file_of(families.torus(48, 24), tmp_path / "torus.obj")
     status, report, told = run(capsys, path, "--strict")
     assert (status, report["verdict"]["level"], told) == (0, "good", "")
 

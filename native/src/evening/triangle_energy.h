@@ -1,0 +1,20 @@
+// The energy by which evening weighs the shear of a triangle against its size; see StrainEnergy.
+#pragma once
+
+namespace holomorph::evening {
+
+/// The energy of a triangle of area 1 on which the map is a z + b conj(z), and its derivatives by |a| and |b|, over |a|
+/// and |b|.
+struct TriangleEnergy {
+  double value, by_a, by_b;
+};
+
+/// @param square_a |a|^2, positive. @param square_b |b|^2; larger where the triangle is flipped
+/// @param log_size 2 ln s0
+TriangleEnergy triangle_energy(double square_a, double square_b, double lambda, double log_size);
+
+/// How much larger second derivatives are than where the map is conformal and of the mean size.
+/// @param ratio |b| / |a|. @param size ln(s1 s2 / s0^2)
+double stiffness(double ratio, double size, double lambda);
+
+}  // namespace holomorph::evening
