@@ -254,7 +254,7 @@ def test_faces_that_single_precision_loses_are_told():
     """The density falls along a spike by the power of its length."""
     obj = spikes()
     for vertex in obj.data.vertices:
-        vertex.co = [x + 6 * max(x - 1, 0) for x in vertex.co]
+        vertex.co = [x + 9 * max(x - 1, 0) for x in vertex.co]
     run()
     entry = stored_report(obj)
     lost, double = entry["faces_without_area"], entry["components"][0]["main_map"]["collapsed_triangles"]

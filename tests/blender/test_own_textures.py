@@ -132,7 +132,7 @@ def test_the_size_is_that_of_an_image_on_the_surface(texture, repeats):
     obj = torus()
     image(bricks(64, 64))
     for size in (0.2, 0.35):
-        assert tile(texture=texture, source="Wall", size=size, repeats=repeats) == {"FINISHED"}
+        assert tile(texture=texture, source="Wall", poles="AUTOMATIC", size=size, repeats=repeats) == {"FINISHED"}
         density = (
             stored_report(obj)["components"][0]["tiling"]["tiles"]
             / module("scene.mesh_io").read_polygons(obj.data, np.eye(3)).surface().area
