@@ -31,7 +31,7 @@ constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count
 
 // The weight of size in the energy. Where strain is small and size counts by its square, minimising takes the power
 // 1 - lambda of every density, and s1 / s2 grows by lambda times the logarithm of the density over its mean.
-double lambda_of(double evenness) { return evenness * (0.76 - 0.06 * evenness); }
+double lambda_of(double evenness) { return evenness * (0.78 - 0.08 * evenness); }
 
 // About twice the Laplacian are the second derivatives.
 constexpr double kInverse = 0.5;

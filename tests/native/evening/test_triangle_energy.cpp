@@ -9,7 +9,7 @@ namespace holomorph::evening {
 namespace {
 
 constexpr double kLogSize = 0.3, kStep = 1e-5;
-constexpr double kLambdas[] = {0, 0.1, 0.365, 0.7};
+constexpr double kLambdas[] = {0, 0.1, 0.37, 0.7};
 
 double value(double a, double b, double lambda) { return triangle_energy(a * a, b * b, lambda, kLogSize).value; }
 
