@@ -13,9 +13,9 @@ from scenes import mesh_io, mesh_object, run, select, shown_scale, sphere_arrays
 coarse, lines, viewport = map(module, ("maps.coarse", "interface.lines", "materials.viewport"))
 
 
-def spikes():
+def spikes(subdivisions=4):
     """A ball with three spikes; the log map has its poles in two of them."""
-    vertices, faces = sphere_arrays(4)
+    vertices, faces = sphere_arrays(subdivisions)
     vertices = np.array(vertices)
     factor = 1 + 6 * np.exp(-24 * (0.5 - vertices.max(axis=1)))
     return mesh_object("Spikes", vertices * factor[:, None], faces)
@@ -252,10 +252,10 @@ def test_a_place_has_the_name_of_its_vertex_group():
 
 def test_faces_that_single_precision_loses_are_told():
     """The density falls along a spike by the power of its length."""
-    obj = spikes()
+    obj = spikes(5)
     for vertex in obj.data.vertices:
-        vertex.co = [x + 9 * max(x - 1, 0) for x in vertex.co]
-    run()
+        vertex.co = [x + 60 * max(x - 1, 0) for x in vertex.co]
+    run(evenness=0.0)
     entry = stored_report(obj)
     lost, double = entry["faces_without_area"], entry["components"][0]["main_map"]["collapsed_triangles"]
     assert lost > double == 0
