@@ -62,7 +62,7 @@ def opened(name):
 
 
 def keep_high_bits(heights):
-    """Of green, the lower channel of heights: the others are noise, which makes files twice as large."""
+    """Clears the low bits of green, the lower channel of heights: they are noise that makes files twice as large."""
     pixels = np.empty(4 * SIZE * SIZE, np.float32)
     heights.pixels.foreach_get(pixels)
     green = np.rint(pixels[1::4] * 255).astype(np.uint8)
