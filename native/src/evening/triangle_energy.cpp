@@ -10,8 +10,9 @@ namespace {
 // become infinite, it goes on as a parabola. So a triangle may flip on the way, and is driven back.
 constexpr double kStrained = 0.7;
 
-// What the extremes of size count besides: nothing at evenness 1, where they would make the bulk less even. The square
-// of size at which their fourth power becomes a square again: larger ones, next to a pole, cannot be reached.
+// Extremes of size count more than by their square. At evenness 1 they do not: there they would make the bulk less
+// even. Beyond the square kReached their fourth power turns into a square again, for sizes next to a pole cannot be
+// reached.
 constexpr double kExtremes = 1.2, kNoExtremes = 0.7, kReached = 2;
 
 struct Derivative {

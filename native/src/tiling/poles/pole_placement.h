@@ -16,8 +16,8 @@ namespace holomorph::tiling {
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution);
 
 /// Chooses the number of poles by the spread of the density. None where it is at most 3 without; else the first of 2,
-/// 4, 8, 12, 16 with which it is at most 5, or the last with which it fell. Where maps will be evened, the first of
-/// more numbers with which the spread of the evened map is less than 3.
+/// 4, 8, 12, 16 with which it is at most 5, or the last with which it fell. Where maps will be evened, the spread is
+/// the one expected of the evened map: none where it is at most 2.85, else the first number with which it is 2.75.
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution);
 
 /// The same poles with the best coefficients and residues near those given. @param mirror null, or of these poles
