@@ -19,14 +19,13 @@ constexpr int kMostSteps = 40;
 constexpr double kWhole = 0.9;  // part of the work that comes before flipped triangles are turned back
 // Around them: those that may move, and the inner ones that keep the shape of the map before, where else they flip.
 constexpr StrainEnergy::Rings kRings[] = {{2, 0}, {4, 0}, {8, 0}, {16, 0}, {4, 2}, {8, 4}, {16, 8}, {32, 16}};
-// Factors of the weight of size, one after the other where the map flips more than before, and how many of the rings
-// are tried with each. A little less size is often enough, since few triangles decide, and the largest rings make the
-// map less even than that does.
-struct Try {
-  double factor;
-  std::size_t rings;
-};
-constexpr Try kTries[] = {{1, 6}, {0.93, 6}, {0.86, 6}, {0.75, 8}, {0.5, 8}, {0.25, 8}, {0.125, 8}, {0.0625, 8}};
+// The next ring is tried where the last one left at most this part of the flipped area: where one does not help, larger
+// ones rarely do.
+constexpr double kHelps = 0.9;
+// Factors of the weight of size, one after the other where the map flips more than before. A little less size is often
+// enough, since few triangles decide; where more than this part of the area is flipped, at most half is tried next.
+constexpr double kFactors[] = {1, 0.93, 0.86, 0.75, 0.5, 0.25, 0.125, 0.0625};
+constexpr double kMuch = 1e-4;
 constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
 
 // The weight of size in the energy. Where strain is small and size counts by its square, minimising takes the power
@@ -138,11 +137,11 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
 
 struct Found {
   Function delta;
-  bool flips_more;  // than the map before
+  double flipped_more;  // than in the map before, a part of the area
 };
 
 Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
-            std::size_t rings, const std::string& solver_name, Execution& execution) {
+            const std::string& solver_name, Execution& execution) {
   const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
   const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
   Solvers solvers(half_edges, method, kept);
@@ -161,9 +160,13 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   execution.part(kWhole, 1);
   Function delta = descent.delta();
   double flipped = descent.value().flipped;
-  for (std::size_t k = 0; k < rings && flipped > most_flipped; ++k)
-    flipped = turn_back(energy, kept, lambda, most_flipped, kRings[k], delta, execution);
-  return {std::move(delta), flipped > most_flipped};
+  for (const StrainEnergy::Rings rings : kRings) {
+    if (flipped <= most_flipped) break;
+    const double before = flipped;
+    flipped = turn_back(energy, kept, lambda, most_flipped, rings, delta, execution);
+    if (flipped > kHelps * before) break;
+  }
+  return {std::move(delta), flipped - most_flipped};
 }
 
 }  // namespace
@@ -173,9 +176,12 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
   uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
   if (evenness == 0) return result;
   const StrainEnergy energy(surface, uv, kept.poles, execution.workers());
-  for (const auto& [factor, rings] : kTries) {
-    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), rings, solver, execution);
-    if (found.flips_more) continue;
+  double most = 1;
+  for (const double factor : kFactors) {
+    if (factor > most) continue;
+    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), solver, execution);
+    if (found.flipped_more > kMuch) most = factor / 2;
+    if (found.flipped_more > 0) continue;
     for_rows(execution.workers(), surface.vertex_count,
              [&](int v) { result.row(v) << found.delta[v].real(), found.delta[v].imag(); });
     break;
