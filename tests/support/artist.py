@@ -27,20 +27,20 @@ def report_of(name):
 def wait_for(name, before=None):
     """Until there is another report on the object."""
     yield from wait_until(lambda: report_of(name) not in (None, before))
-    yield 1
+    yield 0.25
 
 
 def note(step, name, picture_name):
     found = report_of(name)
     seen[step] = found and found["verdict"] | {"maps": [each["name"] for each in found["maps"]]}
-    yield 0.5
+    yield 0.12
     picture(picture_name)
 
 
 def press(step, name):
     """The large button."""
     look_at(name)
-    yield 1
+    yield 0.25
     yield from press_button("VIEW_3D")
     yield from wait_for(name)
     yield from note(step, name, f"five_{step}.png")

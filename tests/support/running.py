@@ -20,8 +20,9 @@ def wait_until(is_so):
 
 
 def run(parts, seen):
-    """Each part is a function that yields waits in seconds, in which Blender handles events and draws. The dictionary
-    `seen` at the end, with the traceback of an error, is left in the folder, in a file of the script's name."""
+    """Each part is a function that yields waits in seconds. In each, Blender handles and draws what there is, however
+    long that takes, so that waits are short; `wait_until` waits for another thread. The dictionary `seen` at the end,
+    with the traceback of an error, is left in the folder, in a file of the script's name."""
     steps = itertools.chain.from_iterable(part() for part in parts)
 
     def finish():

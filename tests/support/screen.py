@@ -20,7 +20,7 @@ def enter(workspace):
     bpy.context.preferences.view.show_splash = False
     bpy.context.preferences.view.smooth_view = 0
     window().workspace = bpy.data.workspaces[workspace]
-    yield 2
+    yield 0.5
 
 
 def area(kind):
@@ -54,9 +54,9 @@ def tap(kind, **keys):
 def undo(again=False):
     """By the keys, with the pointer over the 3D view; or what was undone is done again."""
     hover(area("VIEW_3D"))
-    yield 0.3
+    yield 0.1
     tap("Z", ctrl=True, shift=again)
-    yield 2
+    yield 0.5
 
 
 def hover(owner):

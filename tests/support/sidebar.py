@@ -24,7 +24,7 @@ def open_sidebar(seen):
     """Opens the sidebar of the 3D view at our tab."""
     area("VIEW_3D").spaces.active.show_region_ui = True
     count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
-    yield 1
+    yield 0.25
     yield from open_tab("VIEW_3D", seen)
 
 
@@ -35,7 +35,7 @@ def open_tab(kind, seen):
         before = drawn[kind]
         click(sidebar.x + sidebar.width - 8, sidebar.y + height)
         sidebar.tag_redraw()
-        yield 0.4
+        yield 0.1
         if drawn[kind] > before:
             seen[f"tab in {kind}"] = True
             return
@@ -45,7 +45,7 @@ def press_button(kind, button="maps", right=0.4):
     """Clicks one of our buttons, unhurriedly: they are below the panel's header, at the top of the sidebar."""
     sidebar = region(area(kind), "UI")
     move(sidebar.x + sidebar.width * right, sidebar.y + sidebar.height - BUTTONS[button])
-    yield 0.3
+    yield 0.1
     event("LEFTMOUSE", "PRESS")
     yield 0.1
     event("LEFTMOUSE", "RELEASE")

@@ -29,20 +29,20 @@ def bakes():
     with inside(area("VIEW_3D")):
         bpy.ops.uv.holomorphic_tile("EXEC_DEFAULT", tiles=24, texture="BRICKS")
         bpy.ops.ed.undo_push(message="Tiled")
-    yield 1
+    yield 0.25
     seen["before"] = state()
     seen["begin"] = begin()
     hover(area("VIEW_3D"))
     tap("ESC")
-    yield 3
+    yield 0.75
     seen["after ESC"] = state()
     begin()
     yield from wait_until(lambda: state()[0])
-    yield 1
+    yield 0.25
     seen["baked"] = state()
     with inside(area("VIEW_3D")):
         bpy.ops.ed.undo()
-    yield 1
+    yield 0.25
     seen["undone"] = state()
 
 

@@ -27,11 +27,11 @@ def prepare():
 
 def the_button():
     look_at("Suzanne")
-    yield 1
+    yield 0.25
     picture("first_before.png")
     yield from press_button("VIEW_3D")
     yield from wait_until(lambda: maps("Suzanne"))
-    yield 2
+    yield 0.5
     seen["shading after the button"] = [shading().type, shading().color_type]
     picture("first_after.png")
 
@@ -41,7 +41,7 @@ def coarse_places():
     with inside(area("VIEW_3D")):
         bpy.ops.uv.holomorphic_maps(main="BALANCED")
     seen["places"] = json.loads(bpy.data.objects["Spikes"]["holomorph_report"])["coarse_places"]
-    yield 2
+    yield 0.5
     picture("first_coarse.png")
 
 
@@ -51,7 +51,7 @@ def materials_restored():
         pick(name)
         with inside(area("VIEW_3D")):
             bpy.ops.uv.holomorphic_restore_materials()
-    yield 1
+    yield 0.25
     seen["shading at the end"] = [shading().type, shading().color_type]
     picture("first_restored.png")
 

@@ -36,22 +36,22 @@ def pie():
     for mode in ("OBJECT", "EDIT"):
         pick("Ring")
         bpy.ops.object.mode_set(mode=mode)
-        yield 0.5
+        yield 0.12
         centre = view.x + view.width * 0.35, view.y + view.height * 0.5
         move(*centre)
-        yield 0.3
+        yield 0.1
         tap("U", shift=True)
-        yield 1
+        yield 0.25
         picture(f"pie_{mode.lower()}.png")
-        yield 0.5
+        yield 0.12
         click(centre[0] - 150, centre[1])
-        yield 3
+        yield 0.75
         seen[f"pie in {mode}"] = maps("Ring")
         picture(f"after_pie_{mode.lower()}.png")
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.ops.uv.holomorphic_remove_maps()
         seen[f"removed in {mode}"] = maps("Ring")
-        yield 0.3
+        yield 0.1
 
 
 def selected_faces():
@@ -63,22 +63,22 @@ def selected_faces():
         face.select_set(face.index < 24 * 24)
     bmesh.update_edit_mesh(mesh)
     hover(area("VIEW_3D"))
-    yield 0.3
+    yield 0.1
     tap("U", shift=True, ctrl=True)
-    yield 3
+    yield 0.75
     seen["faces"] = json.loads(bpy.data.objects["Ring"]["holomorph_report"])["faces"]
     picture("faces.png")
     bpy.ops.object.mode_set(mode="OBJECT")
-    yield 1
+    yield 0.25
 
 
 def tools():
     """The sub-panel, opened by its header."""
     sidebar = region(area("VIEW_3D"), "UI")
     click(sidebar.x + sidebar.width * 0.3, sidebar.y + sidebar.height - TOOLS)
-    yield 1
+    yield 0.25
     picture("tools.png")
-    yield 0.5
+    yield 0.12
 
 
 def skin():
@@ -89,11 +89,11 @@ def skin():
     bpy.ops.mesh.delete(type="ONLY_FACE")
     bpy.ops.object.mode_set(mode="OBJECT")
     sheet_object.modifiers.new("Skin", "SKIN")
-    yield 1
+    yield 0.25
     picture("skin.png")
     with inside(area("VIEW_3D")):
         seen["skin"] = list(bpy.ops.uv.holomorphic_maps("INVOKE_DEFAULT", modifiers=True))
-    yield 4
+    yield 1
     picture("skin_mapped.png")
     seen["objects"] = sorted(bpy.data.objects.keys())
 

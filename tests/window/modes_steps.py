@@ -24,7 +24,7 @@ def prepare():
 
 def wait_for_maps(name):
     yield from wait_until(lambda: maps(name))
-    yield 1
+    yield 0.25
 
 
 def begin(name, mode):
@@ -34,7 +34,7 @@ def begin(name, mode):
         bpy.ops.view3d.view_selected()
         bpy.ops.object.mode_set(mode=mode)
         bpy.ops.ed.undo_push(message=f"{name} in {mode}")
-    yield 1
+    yield 0.25
 
 
 def state(name):
@@ -56,7 +56,7 @@ def painted(name, mode):
     step = f"{name} in {mode}"
     seen[step] = state(name)
     picture(f"{mode.lower()}_{name.lower()}.png")
-    yield 0.5
+    yield 0.12
     yield from undo()
     seen[f"{step}, undone"] = state(name)
     yield from undo(again=True)
@@ -64,7 +64,7 @@ def painted(name, mode):
     yield from undo()
     with inside(area("VIEW_3D")):
         bpy.ops.object.mode_set(mode="OBJECT")
-    yield 0.5
+    yield 0.12
 
 
 def stroke():
@@ -73,13 +73,13 @@ def stroke():
     x, y = view.x + view.width * 0.5, view.y + view.height * 0.5
     low = y - view.height * 0.3
     move(x, low)
-    yield 0.3
+    yield 0.1
     event("LEFTMOUSE", "PRESS")
     for step in range(8):
         yield 0.1
         move(x + 4 * step, low + 3 * step)
     event("LEFTMOUSE", "RELEASE")
-    yield 1
+    yield 0.25
 
 
 def a_stroke_before_the_button():
@@ -94,7 +94,7 @@ def a_stroke_before_the_button():
     bpy.context.window_manager.operators[-1].properties.forms = 0
     with inside(area("VIEW_3D")):
         bpy.ops.ed.undo_redo()
-    yield 1
+    yield 0.25
     seen["the redo panel"] = [*state("Small"), True, heights("Small") == sculpted]
     yield from undo()
     seen["the map undone"] = [*state("Small"), True, heights("Small") == sculpted]
@@ -112,7 +112,7 @@ def local_view():
         bpy.ops.view3d.localview()
         bpy.data.objects["Large"].select_set(True)
         bpy.ops.ed.undo_push(message="Local view")
-    yield 1
+    yield 0.25
     yield from press_button("VIEW_3D")
     yield from wait_for_maps("Small")
     seen["local view"] = [maps("Small"), maps("Large")]

@@ -71,14 +71,14 @@ def prepare():
         bpy.ops.view3d.view_selected()
     shading = area("VIEW_3D").spaces.active.shading
     shading.show_specular_highlight, shading.color_type = False, "SINGLE"  # whatever the texture is
-    yield 1
+    yield 0.25
     look_at_heat("nothing", "heat_nothing.png")
 
 
 def heat_maps():
     for quantity in ("DENSITY", "ANGLE"):
         show(quantity)
-        yield 1
+        yield 0.25
         look_at_heat(quantity.lower(), f"heat_{quantity.lower()}.png")
         seen[quantity.lower()]["expected"] = expected_at_top(quantity)
 
@@ -90,19 +90,19 @@ def changes():
     for loop in layer.data:
         loop.uv.x *= 1.7
     bpy.data.objects["Torus"].data.update()
-    yield 1
+    yield 0.25
     look_at_heat("stretched", "heat_stretched.png")
     seen["stretched"]["expected"] = expected_at_top("ANGLE")
     for name, state in (("without overlays", False), ("with overlays", True)):
         area("VIEW_3D").spaces.active.overlay.show_overlays = state
-        yield 1
+        yield 0.25
         look_at_heat(name)
     bpy.data.objects["Torus"].select_set(False)
-    yield 1
+    yield 0.25
     look_at_heat("not selected")
     pick("Torus")
     show("NONE")
-    yield 1
+    yield 0.25
     look_at_heat("off")
 
 
@@ -119,21 +119,21 @@ def poles():
     places["legend"] = (region(area("VIEW_3D"), "WINDOW").width / 2 + unit * x, unit * y)
     for name, state in (("with poles", True), ("without poles", False)):
         setattr(bpy.context.window_manager, addon("overlays.overlay").MARKS, state)
-        yield 1
+        yield 0.25
         look(name, places, f"{name.replace(' ', '_')}.png")
 
 
 def without_the_addon():
     """Disabled while a heat map is shown: nothing of it is left, and nothing is called any more."""
     show("DENSITY")
-    yield 1
+    yield 0.25
     addon_utils.disable("holomorph_addon")
-    yield 1
+    yield 0.25
     look_at_heat("disabled")
     addon_utils.enable("holomorph_addon")
-    yield 1
+    yield 0.25
     show("DENSITY")
-    yield 1
+    yield 0.25
     look_at_heat("enabled again")
 
 

@@ -12,9 +12,9 @@ from sidebar import press_button
 def figure_of_bones():
     figure("Figure")
     look_at("Figure")
-    yield 1
+    yield 0.25
     yield from press_button("VIEW_3D")
-    yield 2
+    yield 0.5
     seen["figure"] = report_of("Figure")
     picture("five_figure.png")
     yield from then("figure mapped", "Figure Mapped", bpy.ops.uv.holomorphic_maps, on="Figure", modifiers=True)
@@ -33,9 +33,9 @@ def letters():
         words = bpy.context.object.data
         words.body, words.extrude = "Mesh", 0.1
     look_at("Text")
-    yield 1
+    yield 0.25
     yield from press_button("VIEW_3D")
-    yield 2
+    yield 0.5
     picture("five_text.png")
     seen["text"] = report_of("Text")
     with inside(area("VIEW_3D")):

@@ -72,7 +72,7 @@ def tiling():
     """By the button, in the background."""
     yield from press_button("VIEW_3D", "tile")
     yield from wait_until(lambda: "holomorph_report" in obj())
-    yield 1
+    yield 0.25
     seen["tiled"] = part_report(NAME)["main_map"]["verdict"]["sentence"]
     picture("tiled.png")
 
@@ -81,15 +81,15 @@ def redo_panel():
     """Opened, and a preset chosen at its top: the poles stay those that were placed."""
     hud = region(area("VIEW_3D"), "HUD")
     click(hud.x + 30, hud.y + hud.height / 2)
-    yield 1.5
+    yield 0.4
     picture("tile_redo_panel.png")
     click(hud.x + 100, hud.y + hud.height - 43)
-    yield 1
+    yield 0.25
     picture("tile_presets.png")
-    yield 0.5
+    yield 0.12
     stages = note_stages()
     tap("W")  # the letter that is underlined in its entry
-    yield 2
+    yield 0.5
     seen["stages of the preset"] = sorted(set(stages))
     seen["texture after the preset"] = json.loads(obj()["holomorph_report"])["dials"]["texture"]
     picture("tile_preset.png")
@@ -104,11 +104,11 @@ def visible_pole():
 def drag_by_hand(pole, place):
     """Presses the button, then takes the pole to a vertex and lets it go there. Seconds until the texture follows."""
     yield from press_button("VIEW_3D", "drag", 0.7)
-    yield 0.5
+    yield 0.12
     move(*on_screen(poles()[pole]))
-    yield 0.5
+    yield 0.12
     picture("drag_hovered.png")
-    yield 0.5
+    yield 0.12
     before = uv()
     event("LEFTMOUSE", "PRESS")
     yield 0.1
@@ -116,16 +116,16 @@ def drag_by_hand(pole, place):
     start = time.perf_counter()
     yield from wait_until(lambda: not np.array_equal(uv(), before))
     seen["seconds until the texture follows"] = time.perf_counter() - start
-    yield 1
+    yield 0.25
     picture("drag_followed.png")
     event("LEFTMOUSE", "RELEASE")
-    yield 0.3
+    yield 0.1
 
 
 def dragging():
     with inside(area("VIEW_3D")):  # evened, a torus needs no poles
         bpy.ops.uv.holomorphic_tile("EXEC_DEFAULT", True, poles="COUNT", pole_count=2)
-    yield 1
+    yield 0.25
     pole, before, old = visible_pole(), uv(), poles()
     points = addon("scene.mesh_io").world_points(obj())
     place = int(np.argmin(np.linalg.norm(points - (0, -1.0, 0.4), axis=1)))
@@ -133,7 +133,7 @@ def dragging():
         yield from drag_by_hand(pole, place)
         seen[f"map changed before {key}"] = not np.array_equal(uv(), before)
         tap(key)
-        yield 1
+        yield 0.25
         seen[f"map as before after {key}"] = bool(np.array_equal(uv(), before))
         seen[f"poles as before after {key}"] = poles() == old
     seen["pole is where it was put"] = poles()[pole] == place

@@ -66,15 +66,15 @@ def prepare():
         area(kind).spaces.active.show_region_ui = True
     count_draws(bpy.types.HOLOMORPH_PT_view3d, "VIEW_3D")
     count_draws(bpy.types.HOLOMORPH_PT_image, "IMAGE_EDITOR")
-    yield 2
+    yield 0.5
 
 
 def small_mesh():
     yield from open_tab("VIEW_3D", seen)
     picture("panel.png")
-    yield 0.5
+    yield 0.12
     yield from press_button("VIEW_3D")
-    yield 2
+    yield 0.5
     seen["button"] = maps("Small")
     picture("button.png")
     yield from undo()
@@ -86,11 +86,11 @@ def small_mesh():
 def redo_panel():
     """A change in the redo panel undoes, sets the property and executes again: what this operator does."""
     yield from press_button("VIEW_3D")
-    yield 1
+    yield 0.25
     hud = region(area("VIEW_3D"), "HUD")
     seen["hud"] = [hud.x, hud.y, hud.width, hud.height]
     click(hud.x + 30, hud.y + hud.height / 2)
-    yield 1
+    yield 0.25
     picture("redo_panel.png")
     operator = bpy.context.window_manager.operators[-1]
     seen["last operator"] = operator.bl_idname
@@ -99,7 +99,7 @@ def redo_panel():
     with inside(area("VIEW_3D")):
         bpy.ops.ed.undo_redo()
     seen["redo panel"] = {"maps": maps("Small"), "seconds": time.perf_counter() - start}
-    yield 1
+    yield 0.25
 
 
 def image_editor():
@@ -109,7 +109,7 @@ def image_editor():
         layers.remove(layers[0])
     yield from open_tab("IMAGE_EDITOR", seen)
     yield from press_button("IMAGE_EDITOR")
-    yield 2
+    yield 0.5
     seen["button of the UV editor"] = maps("Small")
 
 
@@ -121,9 +121,9 @@ def edit_mode():
         while bpy.data.objects["Small"].data.uv_layers:
             bpy.ops.mesh.uv_texture_remove()
         bpy.ops.ed.undo_push(message="In edit mode")
-    yield 1
+    yield 0.25
     yield from press_button("VIEW_3D")
-    yield 2
+    yield 0.5
     seen["button in edit mode"] = maps("Small")
     picture("edit_mode.png")
     yield from undo()
@@ -142,12 +142,12 @@ def chosen_vertices():
     for button, vertices in (("rectangle", (0, 8, 72, 80)), ("poles", (40,))):
         pick_vertices("Sheet", vertices)
         hover(view)
-        yield 1
+        yield 0.25
         yield from press_button("VIEW_3D", button)
-        yield 2
+        yield 0.5
         seen[f"part after {button}"] = part_report("Sheet")
         picture(f"{button}.png")
-        yield 0.5
+        yield 0.12
     with inside(view):
         bpy.ops.object.mode_set(mode="OBJECT")
 
@@ -158,25 +158,25 @@ def big_mesh():
     with inside(view):
         bpy.ops.view3d.view_selected()
         bpy.ops.ed.undo_push(message="Big")
-    yield 1
+    yield 0.25
     ended, shown = note("_end_modal"), note("_show_progress")
     let_go = hold_back_the_worker()
     yield from press_button("VIEW_3D")
     yield from wait_until(lambda: shown)
-    yield 0.2  # for it to be drawn
+    yield 0.1  # for it to be drawn
     seen["no maps while it runs"] = maps("Big")
     picture("running.png")
     start = time.perf_counter()
     tap("ESC")
     yield from wait_until(lambda: ended)
     seen["seconds to cancel"] = ended[0] - start
-    yield 0.5
+    yield 0.12
     let_go()
-    yield 0.5
+    yield 0.12
     seen["after ESC"] = maps("Big")
     yield from press_button("VIEW_3D")
     yield from wait_until(lambda: maps("Big"))
-    yield 1
+    yield 0.25
     seen["modal run"] = maps("Big")
     picture("modal.png")
     yield from undo()
@@ -198,12 +198,12 @@ def levels_of_detail():
         seen["levels begin"] = list(bpy.ops.object.holomorphic_levels("INVOKE_DEFAULT", levels=2))
     hover(view)
     tap("ESC")
-    yield 2
+    yield 0.5
     seen["levels after ESC"] = level_names()
     with inside(view):
         bpy.ops.object.holomorphic_levels("INVOKE_DEFAULT", levels=2, hidden=False)
     yield from wait_until(level_names)
-    yield 1
+    yield 0.25
     seen["levels"] = level_names()
     seen["maps of a level"] = maps("Big_LOD2")
     picture("levels.png")
