@@ -8,7 +8,6 @@ from types import SimpleNamespace
 
 import matplotlib
 import numpy as np
-from PIL import Image
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
@@ -183,17 +182,13 @@ def panels(widths, size=(7.2, 2.6), gap=0.03):
     return plt.subplots(1, len(widths), figsize=size, gridspec_kw=dict(width_ratios=widths, wspace=gap))
 
 
-def save(figure, name, kind="png", colors=160):
+def save(figure, name, kind="webp"):
     FOLDER.mkdir(exist_ok=True)
     path = FOLDER / f"{name}.{kind}"
-    options = dict(bbox_inches="tight", pad_inches=0.04)
-    if kind == "svg":
-        figure.savefig(path, metadata={"Date": None}, **options)
-    else:
-        figure.savefig(path, dpi=DPI, metadata={"Software": None}, **options)
-        image = Image.open(path).convert("RGB")
-        image = image.quantize(colors, method=Image.Quantize.MEDIANCUT, kmeans=3, dither=Image.Dither.NONE)
-        image.save(path, optimize=True)
+    options = (
+        {"metadata": {"Date": None}} if kind == "svg" else {"dpi": DPI, "pil_kwargs": {"quality": 90, "method": 6}}
+    )
+    figure.savefig(path, bbox_inches="tight", pad_inches=0.04, **options)
     plt.close(figure)
     sys.stdout.write(f"{path.relative_to(FOLDER.parent)}  {path.stat().st_size // 1024} KB\n")
 

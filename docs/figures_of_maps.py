@@ -171,4 +171,4 @@ def levels():
         if level is not surface:
             view.edges(ax, polygon_edges(level), GREY, 0.4)
         view.edges(ax, jumps(level, at), ORANGE, 1.3)
-    save(figure, "levels", colors=64)
+    save(figure, "levels")
