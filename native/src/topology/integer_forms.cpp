@@ -47,6 +47,7 @@ IntegerForms first_forms(const IntegerForms& forms, int count, int form_count) {
 void pull_back(const std::vector<mesh::Flip>& flips, IntegerForms& forms) {
   static const IntegerForms::Row kZero;
   for (const auto& [edge, a, b] : flips) {
+    // -(value along a + value along b): closedness around the new triangle (mesh::Flip).
     const auto& row_a = forms.rows[mesh::edge_of(a)];
     const auto& row_b = forms.rows[mesh::edge_of(b)];
     forms.rows.set(

@@ -27,6 +27,8 @@ class LiftedLoops {
 
   void split(int s, int t, const std::vector<int>& moved) {
     first_.push_back(-1);
+    // An entry of v_s stays if both its neighbours do, and becomes v_t if both moved to v_t. If one moved, v_t is
+    // inserted on that side.
     const auto is_moved = [&](int entry) {
       return std::find(moved.begin(), moved.end(), entries_[entry].vertex) != moved.end();
     };

@@ -64,6 +64,7 @@ class GramSchmidt {
   void subtract(Eigen::Index i, std::int64_t factor, Eigen::Index j) {
     if (factor == 0) return;
     for (Eigen::Index c = 0; c < n_; ++c) rows_(i, c) = checked_subtract_product(rows_(i, c), factor, rows_(j, c));
+    // Rows, then columns: W stays the matrix of the products S_i W S_j^T.
     for (Eigen::Index c = 0; c < n_; ++c) W_(i, c) = checked_subtract_product(W_(i, c), factor, W_(j, c));
     for (Eigen::Index c = 0; c < n_; ++c) W_(c, i) = checked_subtract_product(W_(c, i), factor, W_(c, j));
   }
