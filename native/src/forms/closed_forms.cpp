@@ -60,6 +60,7 @@ double period_residual(const EdgeEnds& ends, const ClosedForms& forms,
   const auto dual =
       std::min<Eigen::Index>(forms.functions.cols(), static_cast<Eigen::Index>(loops.size()) - forms.first);
   if (dual <= 0) return 0;
+  // Form j belongs to class first + j, which is dual to that loop. Forms beyond the loops have no dual one.
   Eigen::MatrixXd found = periods(ends, forms, loops).leftCols(dual);
   for (Eigen::Index j = 0; j < dual; ++j) found(forms.first + j, j) -= 1;
   return found.cwiseAbs().maxCoeff();
