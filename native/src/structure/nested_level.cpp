@@ -23,6 +23,7 @@ IntegerForms edge_classes(const mesh::Surface& surface, const SideClasses& sides
     for (int i = 0; i < 3; ++i) {
       const HalfedgeHandle h = half_edge(t, i);
       const auto values = sides.row(t).segment(static_cast<Eigen::Index>(i) * count, count);
+      // The triangle on the other side writes this edge, along its direction. A boundary edge has one triangle alone.
       if (mesh::sign(h) < 0 && surface.edge_face_count[edge_of(h)] == 2) continue;
       IntegerForms::Row row;
       for (int j = 0; j < count; ++j) {
@@ -92,6 +93,7 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   execution.stage("refined triangulation", 0.0, 0.3);
   auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
   mesh::make_delaunay(triangulation, execution);
+  // 1 stands for unknown: there are no errors if a triangle was mollified.
   level.errors.assign(surface.triangles.size(), 1);
   for (std::size_t t = 0; t < triangulation.metric_errors.size(); ++t)
     level.errors[t] = triangulation.metric_errors[t].largest;

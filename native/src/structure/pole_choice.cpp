@@ -15,7 +15,7 @@ namespace {
 
 // The sum of the residues may differ from 0 by rounding, relative to the sum of their sizes.
 constexpr double kSumTolerance = 1e-12;
-// A pair that goes on growing after so many steps is far enough apart.
+// Steps of the search for two far vertices. A pair whose distance still grows after these is far enough apart.
 constexpr int kMostSteps = 8;
 
 std::string text(std::complex<double> z) {
@@ -87,6 +87,7 @@ std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& 
   int p = farthest(surface, half_edges, distances(0), nothing);
   std::vector<int> best;
   double apart = 0;
+  // Repeated farthest points. The distance grows strictly, so that no pair recurs.
   for (int step = 0; p >= 0 && step < kMostSteps; ++step) {
     const std::vector<double> distance = distances(p);
     std::vector<char> taken = nothing;

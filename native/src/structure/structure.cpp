@@ -15,6 +15,7 @@ void write_uv_map(const Structure& s, const uv::UvArray& function, const Eigen::
 }
 
 double uv_area(const Structure& s, const Eigen::VectorXcd& p) {
+  // du and dv = *du have the same energy, and int du ^ dv is that energy.
   const auto& G = s.holomorphic().star.natural_gram;
   const Eigen::VectorXd r = p.head(G.rows()).real();
   return r.dot(G * r);

@@ -32,11 +32,12 @@ void set_pairing(const mesh::HalfEdges& half_edges, const IntegerForms& natural,
   result.pairing = topology::pairing(half_edges, natural, relative);
   [[maybe_unused]] const auto handles = 2 * result.type.genus,
                               loops = static_cast<int>(result.pairing.rows()) - handles;
+  // W = [[J_h, 0], [X, 1]] (docs/method/boundaries.md).
   assert(result.pairing.topRightCorner(handles, loops).isZero());
   assert(result.pairing.bottomRightCorner(loops, loops).isIdentity());
 }
 
-// Those of the whole basis: what is a function alone has the class 0.
+// The classes of the whole basis. Harmonic measures of loops and the v of poles are functions, of class 0.
 IntegerForms all_classes(const mesh::HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms natural,
                          const std::vector<mesh::Star>& stars, Topology& result) {
   const int handles = 2 * result.type.genus;
@@ -68,6 +69,7 @@ Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half
   execution.part(0.8, 1);
   Topology result;
   result.type = mesh::topological_type(surface);
+  // By default the bases are found here; otherwise they were lifted from a coarser mesh, and only the cut is new.
   if (!given)
     given = {topology::homology_basis(half_edges, domain), topology::natural_classes(half_edges, domain),
              domain.boundary};
