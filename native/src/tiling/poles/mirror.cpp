@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kAround = 36;  // vertices around a pole, of which one may be nearer to the plane
-constexpr double kNear = 1e-3;       // what their distance from the pole counts beside that from the plane
+constexpr double kNear = 1e-3;       // weight of their distance from the pole against that from the plane
 
 Vector3d position(const mesh::Surface& surface, int vertex) {
   return Vector3d(surface.polygons.vertices[vertex].data());
@@ -61,6 +61,7 @@ std::optional<Mirror> mirror(const PoleBasis& basis) {
   std::vector<int> nearest;
   for (int v = 0; v < surface.vertex_count; ++v)
     nearest.push_back(nearest_vertex(surface, tree, plane->image(position(surface, v))));
+  // Only vertices that are nearest to each other's reflection are images.
   for (int v = 0; v < surface.vertex_count; ++v) result.image[v] = nearest[nearest[v]] == v ? nearest[v] : -1;
   return result;
 }
