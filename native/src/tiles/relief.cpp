@@ -9,7 +9,7 @@ namespace holomorph::tiles {
 namespace {
 
 constexpr int kNone = -1, kReported = 4096;
-constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side between which heights are looked at
+constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side, between which heights are sampled
 
 // Side i runs from corner i to corner i + 1.
 struct Triangle {
@@ -60,6 +60,7 @@ class Refining {
     bool is_full = false;
     for (std::size_t i = 0; !candidates_.empty() && !is_full; ++i) {
       const Candidate next = candidates_.top();
+      // Candidates of triangles that were split since are out of date.
       if (triangles_[next.triangle].version == next.version) is_full = !split(next.triangle);
       if (!is_full) candidates_.pop();
       if (i % kReported == 0) execution.report(static_cast<double>(triangles_.size()) / options_.most_triangles);
@@ -80,7 +81,8 @@ class Refining {
       error_ = std::max(error_, error);
   }
 
-  // How far the triangle is from the picture at a grid of its points: of the picture so coarse that no pixel is missed.
+  // The largest error of the triangle's heights at a grid of its points. The level of the image is so coarse that its
+  // pixels cover the gaps of the grid, and the bound of what it loses is added.
   double error_of(const Triangle& t) const {
     const auto& [a, b, c] = t.vertices;
     if (sites_[a].share == 0 && sites_[b].share == 0 && sites_[c].share == 0) return 0;
@@ -131,8 +133,8 @@ class Refining {
     return i;
   }
 
-  // Splits t at its longest side, and before that those across which need it; false where that are too many. It ends:
-  // along the way sides get longer.
+  // Splits t at its longest side, after the triangles across that have a longer one (Rivara 1984). Returns false where
+  // there would be too many triangles. It ends, since sides get longer along the way.
   bool split(int t) {
     for (const int version = triangles_[t].version; triangles_[t].version == version;) {
       int at = t, i = longest_side(triangles_[t]);
@@ -170,7 +172,8 @@ class Refining {
     look_at(second);
   }
 
-  // (a, b, c) becomes (a, m, c), and (m, b, c), whose number is given; the halves of the side are their sides 0.
+  // Makes (a, m, c) of (a, b, c), and a new triangle (m, b, c), whose number is returned. The halves of the side are
+  // their sides 0.
   int halve(int t, int i, int middle) {
     const int second = static_cast<int>(triangles_.size());
     Triangle& first = triangles_[t];

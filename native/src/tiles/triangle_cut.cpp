@@ -47,7 +47,8 @@ Piece TriangleCut::outline(int t) const {
   return ring;
 }
 
-// The nodes of side i; names the segments from the last corner on.
+// Appends the nodes of side i, and names its segments from the last corner on. An edge lists its nodes along the side
+// of its first triangle; seen from the other one they are reversed, and moved by the jump.
 void TriangleCut::append_side(int t, int i, Piece& ring) const {
   const int e = surface_.triangle_edges[t][i], begin = edge_nodes_.offsets[e], end = edge_nodes_.offsets[e + 1];
   const int first = edge_nodes_.sides[e] / 3, side = edge_nodes_.sides[e] % 3, count = end - begin;
@@ -104,7 +105,7 @@ Piece TriangleCut::split(int axis, std::int64_t line, Piece& ring) {
   return low;
 }
 
-// With a corner wherever a column crosses the rows below and above: those of the pieces on the other side, too.
+// Adds a corner wherever a column crosses the rows below and above, also for columns of the pieces on the other side.
 Piece TriangleCut::with_crossings(const Piece& row) {
   Piece ring;
   for (std::size_t i = 0; i < row.size(); ++i) {
@@ -123,7 +124,7 @@ Code TriangleCut::cell(const Code& low, const Code& high) const {
   return {has_column(2 * column, row) ? column : column - 1, row};
 }
 
-// Where a column crosses a row, inside of the triangle.
+// The node where a column crosses a row inside the triangle, the same for all pieces there.
 PieceCorner TriangleCut::crossing(std::int64_t column, std::int64_t row) {
   assert(is_line(row));
   const Code code{column, row};
@@ -132,7 +133,7 @@ PieceCorner TriangleCut::crossing(std::int64_t column, std::int64_t row) {
   return {found->second, kRow, code, {middle(column), middle(row)}};
 }
 
-// A row has the same corners on both of its sides.
+// Names the segments on rows. A row has the same corners on both sides, so its segments are known by their middles.
 void TriangleCut::name_rows() {
   for (Piece& piece : pieces_) {
     for (std::size_t i = 0; i < piece.size(); ++i) {
