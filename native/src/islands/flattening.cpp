@@ -22,7 +22,7 @@ bool is_disk(const mesh::Surface& island) {
   return type.genus == 0 && type.boundary_count == 1;
 }
 
-// What is called for each island in turn, with the progress of its share of the triangles.
+// Calls visit(k, island) for each island in turn. Its part of the progress is its share of the triangles.
 template <class Visit>
 void for_islands(const std::vector<mesh::Component>& islands, Execution& execution, const Visit& visit) {
   double all = 1, done = 0;
@@ -64,7 +64,7 @@ void even(const mesh::Surface& island, double evenness, uv::UvArray& uv, Executi
     const uv::UvArray delta = evening::evened(island, uv, {}, evenness, execution);
     const auto& vertices = island.polygons.corner_vertices;
     for (std::size_t c = 0; c < vertices.size(); ++c) uv.row(static_cast<Rows>(c)) += delta.row(vertices[c]);
-  } catch (const SolverError&) {  // it stays conformal
+  } catch (const SolverError&) {  // the island stays conformal
   }
 }
 
@@ -80,7 +80,7 @@ Flattening flattened(const mesh::Surface& surface, Execution& execution) {
     try {
       write(island, plane::free_boundary_map(island.surface, {}, execution), result);
       result.is_flat[k] = 1;
-    } catch (const SolverError&) {  // it is told as one that is not flat
+    } catch (const SolverError&) {  // is_flat stays 0: the caller is told
     }
   });
   execution.finish();

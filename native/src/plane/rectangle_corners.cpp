@@ -47,6 +47,7 @@ Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, in
   std::vector<int> place(vertex_count, -1);
   for (int i = 0; i < n; ++i) place[loop[i]] = i;
   check_corners(corners, place, label);
+  // Steps along the boundary from corner 0: corners in order have ascending ones.
   const auto steps = [&](int v) { return (place[v] - place[corners[0]] + n) % n; };
   std::vector<int> ordered(corners);
   std::sort(ordered.begin(), ordered.end(), [&](int a, int b) { return steps(a) < steps(b); });
