@@ -110,6 +110,7 @@ Counts read_header(Reader& reader, std::uint32_t& parts) {
     throw InvalidMesh("the file of the progressive mesh has parts that are not known");
   const auto n = reader.numbers<std::uint64_t>(8);
   for (std::size_t i = 0; i < 6; ++i) {
+    // Sides of triangles are numbered 4 t + i (corner_table.h).
     if (n[i] > std::numeric_limits<int>::max() / 4)
       throw InvalidMesh("the file of the progressive mesh has too many elements for 32 bits");
   }

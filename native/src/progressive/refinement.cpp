@@ -53,12 +53,14 @@ Refinement::Sector Refinement::sector_of(const Split& split, int t) const {
   const int from = split.v_r < 0 ? 0 : place(split.v_r), to = split.v_l < 0 ? n : place(split.v_l);
   check_vertices(split, t);
   require(from < count && (to < count || split.v_l < 0), "names a vertex that is no neighbour of v_s");
+  // v_l or v_r is missing if the new edge lies on the boundary. Then the sector reaches the end of an open star.
   const bool open_end = split.v_l < 0 || split.v_r < 0;
   require(closed ? !open_end : from < to || (open_end && from == to), "crosses the boundary");
+  // A closed star is a ring, and the sector may run across its start.
   return {from, closed && to < from ? to + n : to, closed};
 }
 
-// The side from v_s to neighbour i of the star, and that from it to v_s; -1 beyond the boundary.
+// The sides from v_s to neighbour i of the star, and back; -1 beyond the boundary.
 int Refinement::leaving(int i, bool closed) const {
   const int n = static_cast<int>(star_sides_.size());
   return closed || i < n ? star_sides_[i % n] : -1;
