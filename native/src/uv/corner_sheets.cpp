@@ -54,7 +54,7 @@ struct Walk {
   Array<HalfedgeHandle> to_parent;
 };
 
-// Breadth first from the first face of each piece.
+// Walks breadth first from the first face of each piece.
 Walk walk_around(const mesh::HalfEdges& half_edges, const std::vector<char>& is_cut) {
   const int faces = static_cast<int>(half_edges.n_faces());
   Walk walk{{}, Array<HalfedgeHandle>(faces)};
@@ -132,6 +132,7 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
   for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
     const HalfedgeHandle h(2 * e), o = opposite(h);
     if (is_cut[e] || !half_edges.face_handle(h).is_valid() || !half_edges.face_handle(o).is_valid()) continue;
+    // Both faces have the same sheets at both ends. Otherwise a loop through this edge, inside the piece, has a period.
     if (at_start[h.idx()] == at_start[next(half_edges, o).idx()] &&
         at_start[o.idx()] == at_start[next(half_edges, h).idx()])
       continue;
