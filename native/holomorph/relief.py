@@ -106,7 +106,7 @@ class Relief(Value):
 
 
 def joined(reliefs: Sequence[Relief]) -> Relief:
-    """Several of one depth as one, those of `plain` among them."""
+    """Joins several reliefs of one depth to one; those of `plain` may be among them."""
     first = np.cumsum([0, *(len(one.base) for one in reliefs)], dtype=np.int32)
     arrays_of = {
         name: arrays.frozen(np.concatenate([getattr(one, name) for one in reliefs]))

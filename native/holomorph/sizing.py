@@ -164,5 +164,5 @@ def best_window(sizes: Sequence[Sequence[float]], weights: Sequence[float]) -> W
 
 
 def nearest(tilings: Sequence[Map], density: float) -> Map:
-    """The one whose median density is nearest."""
+    """The map whose median density is nearest to the wanted one."""
     return min(tilings, key=lambda made: abs(relative_size(made, density) - 1))

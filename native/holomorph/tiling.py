@@ -22,7 +22,7 @@ from .value import counted
 
 class Tiler:
     """The poles of a surface and what tilings with them are made of; changing tiles, lattice or direction is quick.
-    It does not change: threads may ask it side by side, and so may a progress function.
+    It is immutable: several threads, and a progress function, may use it at once.
 
     Parameters
     ----------

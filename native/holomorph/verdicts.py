@@ -149,7 +149,7 @@ def _lower(sentence):
 
 
 def _factor(value):
-    """Few digits, for a person."""
+    """A factor in few digits, for a person."""
     return "over 1000" if value > 1000 else f"{float(f'{value:.2g}'):g}"
 
 

@@ -74,7 +74,7 @@ def _asset(task):
 
 
 def _words(report):
-    """The verdict: what is seen, and what would help."""
+    """The verdict in words: what is seen, and what would help."""
     return [Verdict(**report["verdict"]).text] if report.get("verdict") else []
 
 
