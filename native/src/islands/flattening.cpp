@@ -55,6 +55,7 @@ uv::UvArray rows_of(const mesh::Component& island, const uv::UvArray& uv) {
 }
 
 bool stretches(const mesh::Component& island, const std::vector<double>& scale_factors) {
+  // Negated, so that a scale factor that is not a number counts as stretch.
   return std::any_of(island.vertex_index.begin(), island.vertex_index.end(),
                      [&](int v) { return !(std::abs(scale_factors[v] - 1) <= kUnseen); });
 }
@@ -95,6 +96,8 @@ uv::UvArray evened(const mesh::Surface& surface, const Flattening& flattening, d
     if (!stretches(island, flattening.scale_factors)) return;
     uv::UvArray uv = rows_of(island, flattening.uv);
     if (evenness > 0) even(island.surface, evenness, uv, execution);
+    // An island that is stretched gets the area in the plane that it has on the surface. Without an area in the plane
+    // it stays as it was flattened.
     const double scale = std::sqrt(mesh::area(island.surface, execution.workers()) /
                                    uv::frame(island.surface, uv, 0.0, execution.workers()).area);
     if (!std::isfinite(scale)) return;

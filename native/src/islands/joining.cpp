@@ -10,7 +10,7 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr int kMostTriangles = 4096;  // of a net: a larger island stays alone
+constexpr int kMostTriangles = 4096;  // of a net: all pairs of two nets are tested
 constexpr double kSameLength = 1e-3;  // difference over the longer side
 
 // z -> turn z + shift
@@ -92,6 +92,7 @@ class Nets {
 
   void unite(int one, int other, const Motion& motion) {
     for (const int island : islands_[other]) {
+      // The new motion follows the old one: motion(turn z + shift) = (motion.turn turn) z + motion(shift).
       motions_[island] = {motion.turn * motions_[island].turn, motion(motions_[island].shift)};
       net_[island] = one;
       islands_[one].push_back(island);

@@ -112,6 +112,7 @@ class Parts {
       for (const int t : own) grid.add(points(t));
       part_[face] = part;
       for (const int other : neighbours_[face]) {
+        // A polygon is tried once for each part: one that overlapped an earlier part may fit this one.
         if (part_[other] >= 0 || queued_for_[other] == part) continue;
         queued_for_[other] = part;
         queue.push_back(other);

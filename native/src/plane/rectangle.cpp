@@ -71,6 +71,7 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   // The geometric mean of the bounds 1 / E(v) and E(u).
   result.modulus = std::sqrt(sharp.u.energies[0] * (1 / sharp.v.energies[0]));
   result.metric = delaunay.metric_error;
+  // 1 / E(v) <= m <= E(u) by Dirichlet's principle: u is admissible for the modulus, and v for its inverse.
   const Eigen::MatrixXd lower = conformal::below_inverse(certain[1]);
   if (result.mollification == 0) structure::require_ordered(lower, certain[0]);
   result.lower = lower(0, 0);

@@ -53,6 +53,7 @@ class Chains {
   void run(const Follow& follow) {
     std::vector<char> seen(segments_.size(), 0);
     const auto nodes = static_cast<int>(offsets_.size()) - 1;
+    // First the chains with ends, where not exactly two segments meet. What is left after them are closed chains.
     for (const bool closed : {false, true}) {
       for (int n = 0; n < nodes; ++n) {
         if (!closed && degree(n) == 2) continue;

@@ -103,6 +103,7 @@ Locations edge_locations(const mesh::Surface& surface, const EdgeNodes& edge_nod
   Locations result;
   result.triangles.assign(surface.vertex_count, 0);
   result.barycentric.assign(surface.vertex_count, {0, 0, 0});
+  // Downwards, so that a vertex ends with the first of its triangles.
   for (int t = static_cast<int>(surface.triangles.size()) - 1; t >= 0; --t) {
     for (int i = 0; i < 3; ++i) {
       const int v = surface.triangles[t][i];
@@ -139,7 +140,8 @@ Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, 
   for (const Part& part : parts) {
     for (const char is_wall : part.pieces.is_wall) all.is_wall[all.side_segments[side++]] |= is_wall;
   }
-  // All segments of boundary edges are walls.
+  // All segments of boundary edges are walls. An edge with k nodes has k + 1 segments, so that those of edge e begin at
+  // offsets[e] + e.
   for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
     if (surface.edge_face_count[e] == 2) continue;
     for (int s = edge_nodes.offsets[e] + e; s <= edge_nodes.offsets[e + 1] + e; ++s) all.is_wall[s] = 1;

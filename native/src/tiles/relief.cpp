@@ -44,6 +44,8 @@ class Refining {
       own = {surface.triangles[t], {kNone, kNone, kNone}, {}, t};
       for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 2; ++k) own.tiles[i][k] = coordinates.points[t][i][k] / coordinates.unit;
+        // The same from every triangle at the vertex: tile coordinates differ by whole tiles, and the image has period
+        // 1. Around poles, where they do not, the share is 0.
         heights_[own.vertices[i]] = height(sites_[own.vertices[i]].share, own.tiles[i]);
         int& other = first[surface.triangle_edges[t][i]];
         if (other != kNone) {
@@ -156,6 +158,7 @@ class Refining {
     const Triangle& own = triangles_[t];
     const int a = own.vertices[i], b = own.vertices[(i + 1) % 3], other = own.across[i];
     const int middle = static_cast<int>(sites_.size());
+    // Position, normal and share stay linear along the side. The height alone is sampled anew.
     sites_.push_back({(sites_[a].position + sites_[b].position) / 2, (sites_[a].normal + sites_[b].normal) / 2,
                       (sites_[a].share + sites_[b].share) / 2});
     const Point &p = own.tiles[i], &q = own.tiles[(i + 1) % 3];
@@ -208,6 +211,7 @@ class Refining {
       made.tiles.push_back({t.tiles[0][0], t.tiles[0][1], t.tiles[1][0], t.tiles[1][1], t.tiles[2][0], t.tiles[2][1]});
     }
     made.heights = std::move(heights_);
+    // The triangle that could not be split is still in the queue, whose top has the largest error.
     made.error = is_full ? candidates_.top().error : error_;
     made.is_full = is_full;
     return made;

@@ -101,6 +101,8 @@ class Making {
   Point point(int t, int i) const {
     const int v = surface_.triangles[t][i];
     if (result_.is_pole[v]) return rounded(surface_.triangle_corners[t][i]);
+    // Only one corner at a vertex is rounded. The others are this one, moved by whole tiles: exact integers, so that
+    // both sides of a seam agree to the last bit.
     const Point base = rounded(base_[v]);
     const Vector2d moved = vector(base) + frame_.steps.cast<double>() * whole(jump(t, i)) * result_.unit;
     return {moved[0], moved[1]};
@@ -115,6 +117,8 @@ class Making {
       for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, e = surface_.triangle_edges[t][i];
         if (result_.is_pole[v[i]] || result_.is_pole[v[j]]) continue;
+        // How the jump against the base corners changes along the edge. Both triangles must agree: then the jump
+        // between them is the same at both ends.
         const Vector2d step = whole(jump(t, j)) - whole(jump(t, i));
         const Vector2d side = v[i] < v[j] ? step : Vector2d(-step);
         if (seen[e] && side != along[e])

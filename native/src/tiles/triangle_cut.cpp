@@ -65,6 +65,7 @@ void TriangleCut::append_side(int t, int i, Piece& ring) const {
     for (int x = 0; x < 2; ++x) {
       corner.code[x] = here[x] + 2 * jump[x];
       const double between = (a[x] + edge_nodes_.weights[begin + k] * (b[x] - a[x])) / unit;
+      // On a line the coordinate is exact, not that of the rounded place on the edge.
       corner.at[x] = is_line(corner.code[x]) ? middle(corner.code[x]) : between + static_cast<double>(jump[x]);
     }
     ring.push_back(corner);
@@ -80,6 +81,7 @@ void TriangleCut::cut_along(int axis, Piece whole, std::vector<Piece>& pieces) {
     }
   }
   const std::int64_t row = between(low[1], high[1]);
+  // Lines have even codes. Those strictly between the lowest and the highest corner cut the piece.
   for (std::int64_t line = low[axis] + 2 - (low[axis] & 1); line < high[axis]; line += 2) {
     if (axis == 1 || has_column(line, row)) pieces.push_back(split(axis, line, whole));
   }
@@ -112,6 +114,7 @@ Piece TriangleCut::with_crossings(const Piece& row) {
     ring.push_back(row[i]);
     if (row[i].segment != kRow) continue;
     const std::int64_t from = row[i].code[0], to = row[(i + 1) % row.size()].code[0], step = to > from ? 2 : -2;
+    // The next line after a corner on one is a step away. After a corner between two it is half a step away.
     const std::int64_t first = is_line(from) ? from + step : from + step / 2;
     for (std::int64_t line = first; (to - line) * step > 0; line += step)
       ring.push_back(crossing(line, row[i].code[1]));

@@ -25,6 +25,8 @@ struct RowHash {
   }
 };
 
+// Numbers the sheets that occur. A sheet is the sum of the classes along a path from the first corner, a sparse row of
+// integers; sheet 0 is the empty row.
 class SheetTable {
  public:
   explicit SheetTable(const IntegerForms& classes) : classes_(classes) { number({}); }
@@ -95,6 +97,7 @@ Array<int> sheets_at_starts(const mesh::HalfEdges& half_edges, const Walk& walk,
       at_start[next(half_edges, h).idx()] = table.after(0, h);
     }
     const HalfedgeHandle h1 = next(half_edges, h);
+    // The third corner, along the side behind the one that is known.
     at_start[next(half_edges, h1).idx()] = table.after(at_start[h1.idx()], h1);
   }
   return at_start;

@@ -163,6 +163,8 @@ double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
   const VectorXd A = M_ * x;
   const Eigen::ArrayXd q = squares(A);
   const double mean = q.mean(), count = static_cast<double>(q.size());
+  // The floor keeps the logarithm finite at zeros of the form, where q = 0. Divided by the mean, q is independent of
+  // the scale of the form.
   const Eigen::ArrayXd y = (q / mean + floor_).log(), deviation = y - y.mean();
   const Eigen::ArrayXd inverse = 1 / (q + floor_ * mean);
   // Derivatives by q and b of each sample, and through the mean, which is the same for all samples.

@@ -116,6 +116,8 @@ std::vector<int> indices(const mesh::Surface& surface, const std::vector<double>
   std::vector<int> index(surface.vertex_count, 0);
   for (const auto& triangle : surface.triangles) {
     for (const int v : triangle) {
+      // At a zero of order m the map is like z^(m + 1): the angles around an inner vertex sum to m + 1 full turns. On
+      // the boundary, m is the order on the double of the surface, and the turns are half ones.
       const double flat = (is_boundary[v] ? 1 : 2) * std::numbers::pi;
       index[v] = static_cast<int>(std::lround(angle[v] / flat)) - 1;
     }
@@ -129,6 +131,7 @@ struct Cluster {
   bool is_boundary = false;
   int inside = 0, on_boundary = 0;
 
+  // On the double of the surface an inner zero occurs twice.
   int order() const { return is_boundary ? on_boundary + 2 * inside : inside; }
 
   void add(int v, bool is_on_boundary, const std::vector<int>& index) {

@@ -77,6 +77,7 @@ std::vector<std::vector<int>> large_polygons(const mesh::Surface& surface, const
 CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution) {
   if (surface->intrinsic()) return the_surface_itself(surface);
   try {
+    // Vertices in an order of space, so that the level does not depend on the order of the mesh's elements.
     CoarseLevel level = level_of(*surface, mesh::spatial_order(surface->polygons.vertices), execution);
     level.large_polygons = large_polygons(*surface, level.vertex);
     return level;

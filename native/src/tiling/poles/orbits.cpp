@@ -46,6 +46,7 @@ MeromorphicForm without_last(MeromorphicForm form, Index size, bool closed) {
   const Complex last = form.residues.tail(size).sum();
   form.poles.resize(k);
   form.residues.conservativeResize(k);
+  // On a closed surface residues sum to 0: what is removed is shared by the rest.
   if (closed) form.residues.array() += last / static_cast<double>(k);
   return form;
 }
