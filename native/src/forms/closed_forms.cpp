@@ -18,6 +18,7 @@ RowMajorMatrix edge_values(const EdgeEnds& ends, const ClosedForms& forms, int b
   RowMajorMatrix values(end - begin, count);
   for (int e = begin; e < end; ++e) {
     auto row = values.row(e - begin);
+    // omega = df + eta, along the edge.
     row = forms.functions.row(ends.head(e)) - forms.functions.row(ends.tail(e));
     for (const auto& [i, value] : topology::forms_between(forms.classes.rows[e], forms.first, forms.first + count))
       row[i - forms.first] += value;

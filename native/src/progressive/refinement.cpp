@@ -82,6 +82,7 @@ void Refinement::move(const Sector& sector, const Split& split, int t) {
 
 // Adds the triangle a b c, corner `slot` of which is a, between the sides c -> b and a -> c; returns its side a -> b.
 int Refinement::add(int a, int b, int c, int slot, int c_to_b, int a_to_c) {
+  // Corner `slot` is to be a, so the corners are rotated. Side k of the triangle then begins at its corner k.
   const int v[3] = {a, b, c};
   const int side = table_.add(v[(3 - slot) % 3], v[(4 - slot) % 3], v[(5 - slot) % 3]) + slot;
   table_.link(CornerTable::next(side), c_to_b);

@@ -70,12 +70,14 @@ class Recorder {
   }
 
   void number_splits() {
+    // Splits undo the collapses in reverse order; each brings its vertex, then its left and its right triangle.
     for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c) {
       vertices_.push_back(c->v_t);
       for (const int side : {c->left, c->right}) {
         if (side >= 0) triangles_.push_back(side / 4);
       }
     }
+    // Isolated vertices come last: no level has them, but the original is restored with them.
     for (const int v : surface_.repairs.isolated_vertices) vertices_.push_back(v);
     new_vertex_.resize(vertices_.size());
     for (std::size_t i = 0; i < vertices_.size(); ++i) new_vertex_[vertices_[i]] = static_cast<int>(i);

@@ -61,6 +61,7 @@ class Gradients {
       before = norm;
       iterate(norm, norm_b, result.iterations);
       norm = residual(b);
+      // Another round only if each right-hand side has converged or gained by the last one.
     } while (!(norm <= goal).all() && ((norm <= goal) || (norm < kLeastGain * before)).all());
     result.residual = largest_relative(norm, norm_b);
     result.converged = (norm <= goal).all();

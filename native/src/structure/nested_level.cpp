@@ -65,6 +65,7 @@ IntegerForms classes_on_delaunay(const mesh::Surface& surface, const SideClasses
 CertainGram energies(const mesh::Discretisation& delaunay, const IntegerForms& classes, int natural,
                      forms::RowMajorMatrix functions, Execution& execution) {
   const int dirichlet = classes.form_count - natural;
+  // Exactly 0 on the boundary, whatever the solver left: only such a function is admissible, and its energy a bound.
   functions(mesh::boundary_vertices(delaunay.half_edges), Eigen::lastN(dirichlet)).setZero();
   std::vector<int> families{natural};
   if (dirichlet > 0) families.push_back(dirichlet);
@@ -92,6 +93,8 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   NestedLevel level;
   execution.stage("refined triangulation", 0.0, 0.3);
   auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  // Refinement cuts Delaunay triangles, whose children are not all Delaunay. Flips only lower the energies, so that the
+  // bounds stay nested.
   mesh::make_delaunay(triangulation, execution);
   // 1 stands for unknown: there are no errors if a triangle was mollified.
   level.errors.assign(surface.triangles.size(), 1);
@@ -125,6 +128,7 @@ Structure narrowed(Structure structure, CertainGram energies, double metric) {
   auto& harmonic = structure.harmonic;
   harmonic.invariants = invariants(structure.topology, std::move(energies));
   harmonic.certificate.metric = metric;
+  // The differentials follow from the period matrix, which the finer energies have changed.
   structure.differentials = structure.holomorphic().differentials;
   require_guaranteed(structure);
   return structure;

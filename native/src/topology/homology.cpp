@@ -72,6 +72,8 @@ IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDoma
 
 void add_paths_between_loops(const HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms& forms) {
   for (std::size_t k = 1; k < domain.gaps.size(); ++k) {
+    // The dual path enters the surface at the gap of loop k, against the half-edge of the face there, and leaves it at
+    // the gap of loop 0.
     const HalfedgeHandle in = opposite(domain.gaps[k]), out = opposite(domain.gaps[0]);
     const int i = forms.form_count++;
     add_crossing(in, i, -1, forms);
@@ -111,7 +113,8 @@ IntegerForms relative_classes(const HalfEdges& half_edges, const mesh::BoundaryL
 }
 
 IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b) {
-  // Twice the sum over faces of the wedge (docs/method/conventions.md). It is even, as W is an integer.
+  // Twice the sum over faces of the wedge (a(h0) b(h1) - a(h1) b(h0)) / 2 (docs/method/conventions.md). It is even, as
+  // W is an integer.
   IntegerMatrix twice = IntegerMatrix::Zero(a.form_count, b.form_count);
   for (int f = 0; f < static_cast<int>(half_edges.n_faces()); ++f) {
     const HalfedgeHandle h0 = half_edges.halfedge_handle(mesh::FaceHandle(f)), h1 = next(half_edges, h0);

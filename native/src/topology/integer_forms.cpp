@@ -16,6 +16,7 @@ IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, in
       ++y;
     } else {
       const int value = x->second + factor * y->second;
+      // Rows hold no zeros: equal rows are equal sheets.
       if (value != 0) sum.emplace_back(x->first, value);
       ++x;
       ++y;

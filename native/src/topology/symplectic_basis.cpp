@@ -57,6 +57,8 @@ class GramSchmidt {
         return;
       }
       if (other < 0) throw Error("the wedge matrix of the classes is not unimodular");
+      // The rest of the division is smaller than the least product: Euclid's algorithm goes on with it, until the least
+      // is 1.
       subtract(other, W_(k, other) / W_(k, least), least);
     }
   }

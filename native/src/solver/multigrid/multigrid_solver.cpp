@@ -97,6 +97,7 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   void fall_back(const SolverError& error, Execution& execution) {
+    // The direct solver takes the Laplacian. The hierarchy is dropped first, since both need much memory.
     remark_ = std::string("the direct solver took over: ") + error.what();
     hierarchy_ = {};
     direct_ = make_direct_solver(std::move(L_), fixed_, execution);
