@@ -137,6 +137,7 @@ void SeamlessMaps::cut_at(structure::Poles poles, Execution& execution) {
 
 SeamlessForm SeamlessMaps::form(const VectorXcd& X, const VectorXcd& residues, const TextureLattice& lattice) const {
   if (!solver_) return form_of(*structure_, change_ * X, residues, lattice, straight_);
+  // The residues sum to 0, so that the last pole has no form of its own.
   const VectorXcd r = residues.head(residues.size() - 1);
   VectorXcd periods = X - pole_parts_ * r;
   for (Complex& period : periods) period = lattice.nearest(period);
@@ -159,6 +160,7 @@ uv::UvArray SeamlessMaps::function(const SeamlessForm& form, Execution& executio
 
 MatrixXd change_of_basis(const topology::IntegerForms& old, const structure::Structure& s) {
   const int count = s.topology.families.natural;
+  // The periods of the old classes over the new loops, integers.
   MatrixXd N = MatrixXd::Zero(count, count);
   for (int i = 0; i < count; ++i) {
     for (const mesh::HalfedgeHandle h : s.topology.homology_basis[i]) {
@@ -183,11 +185,13 @@ uv::UvArray function_of(const structure::Structure& s, const SeamlessForm& form,
 uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, uv::UvArray function,
                         Execution& execution) {
   const auto& p = form.coefficients;
+  // Moves the map to the origin, where single precision is finest.
   const Eigen::RowVector2d middle = (function.colwise().maxCoeff() + function.colwise().minCoeff()) / 2;
   function.rowwise() -= middle.array().round().matrix();
   uv::UvArray uv(static_cast<Index>(s.surface->polygons.corner_vertices.size()), 2);
   structure::write_uv_map(s, function, p, uv, execution.workers());
-  // The spacing of single precision at the largest coordinate, known after a first pass.
+  // The spacing of single precision at the largest coordinate, known after a first pass. On this grid UVs that jump by
+  // whole units are exact in single precision.
   const double grid = std::exp2(std::ceil(std::log2(uv.cwiseAbs().maxCoeff())) - kMantissa);
   function = (function / grid).array().round() * grid;
   structure::write_uv_map(s, function, p, uv, execution.workers());

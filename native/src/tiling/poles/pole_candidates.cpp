@@ -39,6 +39,8 @@ std::vector<int> PoleCandidates::first() {
   if (!options_.allowed.empty()) return first_candidates();
   if (!basis_.closed()) return {structure::deepest_vertex(basis_.surface(), basis_.half_edges())};
   std::vector<int> pair = structure::far_apart(basis_.surface(), basis_.half_edges());
+  // far_apart() asks only that the stars are apart. Here poles also keep a distance, and are not corners of one large
+  // polygon.
   return free_ones({pair[1]}, {pair[0]}).empty() ? first_candidates() : pair;
 }
 
@@ -131,6 +133,7 @@ std::vector<int> PoleCandidates::near(int vertex) {
   std::vector<int> all;
   for (const auto& [most, ball] : kAround) {
     const double radius = ball * std::sqrt(basis_.area());
+    // The plane has few vertices: all of them are candidates there.
     const int step = on_plane ? 1 : 1 + (count - 1) / most;
     for (int v = 0; v < count; v += step) {
       if (distance[v] < radius && is_allowed(v) && may_replace(vertex, v)) all.push_back(v);

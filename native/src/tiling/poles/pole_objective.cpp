@@ -40,6 +40,7 @@ void PoleObjective::prepare(const std::vector<int>& vertices, Index poles, Execu
 
 bool PoleObjective::has_many_forms() const { return theta_.cols() >= kManyForms; }
 
+// With fewer poles than forms the Jacobian has no full rank, wherever they are.
 bool PoleObjective::has_jacobian(Index poles) const { return jacobian_ && poles >= theta_.cols(); }
 
 void PoleObjective::optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const {
@@ -104,6 +105,7 @@ MatrixXcd PoleObjective::columns(const MatrixXcd& forms, const std::vector<int>&
 
 VectorXcd PoleObjective::unknowns(const MeromorphicForm& form) const {
   if (mirror_) {
+    // The real coordinates of the residues in the basis of symmetric ones, by least squares.
     const MatrixXcd basis = symmetric_residues(form.poles, *mirror_);
     MatrixXd rows(2 * basis.rows(), basis.cols());
     VectorXd right(2 * basis.rows());
