@@ -124,7 +124,7 @@ def _open_standard_files():
 
 
 def _silence(number):
-    """What is left in a buffer goes nowhere: Python would try again at its end, and fail there."""
+    """Drops what is left in a buffer: Python would try to write it again at its end, and fail there."""
     with contextlib.suppress(OSError):
         empty = os.open(os.devnull, os.O_WRONLY)
         os.dup2(empty, number)

@@ -56,7 +56,7 @@ class Islands(Value):
 
     @property
     def cost(self) -> float:
-        """See `appearance.cost`."""
+        """The cost to the eye, see `appearance.cost`."""
         return cost(self.quality, 0, self.soft_length, self.hard_length)
 
     def _facts(self):

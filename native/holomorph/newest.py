@@ -1,4 +1,4 @@
-"""What was made last, by what it was made of."""
+"""The results that were made last, by what they were made of."""
 
 from collections.abc import Hashable
 from typing import Any

@@ -1,4 +1,4 @@
-"""Whether planar surfaces whose periods agree are the same or mirror images: their periods do not tell."""
+"""Decides whether planar surfaces whose periods agree are the same or mirror images, which periods do not tell."""
 
 import numpy as np
 

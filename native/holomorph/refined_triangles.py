@@ -90,7 +90,7 @@ def refined(triangles, marked):
 
 @dataclass(frozen=True)
 class Pieces:
-    """What `Triangles` are cut into: names of edges and lengths are per side, (#T, 3)."""
+    """The triangles that `Triangles` are cut into: names of edges and lengths are per side, (#T, 3)."""
 
     corners: np.ndarray
     names: np.ndarray

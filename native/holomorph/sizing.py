@@ -45,7 +45,7 @@ class Sizing:
         return self._moved(nearest(tilings, density), tries, progress) if tilings else other
 
     def tried(self, density: float, tries: int, progress: Progress | None) -> Tried:
-        """With one number of tiles after the other, until the density is the wanted one."""
+        """Tries one number of tiles after the other, until the density is the wanted one."""
         tilings, tiles, below, above = [], density * self.undecided.surface.area, 0.0, math.inf
         options = {**self.options, "moves": {}, "size_counts": tries > 1}
         for attempt in range(tries):

@@ -213,7 +213,7 @@ def place_poles(
 
 
 def _too_sheared(made, max_added, genus):
-    """What can be had instead."""
+    """The sentence of the refusal, with what can be had instead."""
     poles = counted(len(made.poles), "pole")
     advice = "take more tiles" if len(made.poles) >= genus else f"take {genus} poles or more, or more tiles"
     return (

@@ -1,4 +1,4 @@
-"""What a UV map is good for, in words: one judgement for the package, its command and Blender."""
+"""Verdicts on UV maps, in words: one judgement for the package, its command and Blender."""
 
 from __future__ import annotations
 

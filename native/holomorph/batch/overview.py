@@ -118,7 +118,7 @@ def _flat(entry, prefix=""):
 
 
 def _columns(rows):
-    """Those of the asset, then those of the parts in the order in which they occur."""
+    """The columns: those of the asset, then those of the parts in the order in which they occur."""
     return list(dict.fromkeys([*ASSET_COLUMNS, *(name for row in rows for name in row)]))
 
 
