@@ -65,7 +65,7 @@ def verdict(entry):
 
 
 def whole(entry):
-    """What is said of a whole object before details: whose scale counted, kinds of maps, what was left out, cut and
+    """The summary of a whole object, before details: whose scale counted, kinds of maps, what was left out, cut and
     joined; "" for one part of which there is nothing to say."""
     scale = [f"in the scale of {entry['scale_of']}"] if "scale_of" in entry else []
     text = "; ".join([*scale, entry["whole"]["text"]]).removesuffix("; ")

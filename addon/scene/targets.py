@@ -73,7 +73,7 @@ def _write_pending_edits(objects):
 
 
 def _scale_note(obj):
-    """What is told where further objects have the mesh in another scale."""
+    """The note for a mesh that further objects have in another scale."""
     names = [other.name for other in gathering.others(obj) if gathering.has_other_scale(obj, other)]
     if not names:
         return ""
