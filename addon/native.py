@@ -141,5 +141,5 @@ def refusals():
 
 
 def sentence(error):
-    """What an exception says, on one line."""
+    """The message of an exception, on one line."""
     return " ".join(str(error).split()) or type(error).__name__

@@ -39,7 +39,7 @@ def why_not(obj):
 
 
 def bakeable(objects):
-    """Those of the objects that are baked, one of each mesh. @throws ValueError one of them cannot be"""
+    """The objects that are baked, one of each mesh. @throws ValueError one of them cannot be"""
     if "cycles" not in bpy.types.Scene.bl_rna.properties:
         raise ValueError("Cycles bakes, and is off: the preferences have it among the add-ons")
     for obj in objects:

@@ -80,7 +80,7 @@ def _mesh_objects(options):
 
 
 def _named(options, meshes):
-    """Those of the mesh objects that --object names, or all."""
+    """The mesh objects that --object names, or all."""
     missing = set(options.object) - {o.name for o in meshes}
     if missing:
         raise UsageError(f"there is no mesh object named {sorted(missing)[0]!r} in the scene")

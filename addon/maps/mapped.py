@@ -111,7 +111,7 @@ class Mapper:
         self._density = self._per_length = 0.0  # tiles for an area, and UV units for a length, once one is made
 
     def plan(self, solved):
-        """In which order to map: indices of `{index: solve.SolvedObject}`."""
+        """The order in which to map: indices of `{index: solve.SolvedObject}`."""
         if not self._is_equal:
             return list(solved)
         surfaces = [component.surface for one in solved.values() for component in one.done]

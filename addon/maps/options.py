@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked of the maps of one object. None of it needs a new solve."""
+"""The options of the maps of one object. None of them needs a new solve."""
 
 from dataclasses import dataclass, replace
 
@@ -19,7 +19,7 @@ def dials(source):
 
 @dataclass(frozen=True)
 class TileOptions:
-    """What is asked of `holomorph.Structure.tile` for one object."""
+    """The arguments of `holomorph.Structure.tile` for one object."""
 
     tiles: float = 0.0  # tiles over the whole object; 0 lets the library choose
     density: float = 0.0  # tiles for an area, instead; 0 for their number

@@ -26,7 +26,7 @@ class Tree:
 
     @classmethod
     def of(cls, material):
-        """That of a material, emptied."""
+        """The node tree of a material, emptied."""
         made = cls(compatibility.enable_nodes(material))
         made.tree.nodes.clear()
         return made
@@ -51,14 +51,14 @@ class Tree:
         return self.node("ShaderNodeUVMap", -900, 100, label, uv_map=map_name).outputs[0]
 
     def number(self, operation, *values, x):
-        """The socket of an operation on sockets."""
+        """Adds an operation on sockets; returns its socket."""
         node = self.node("ShaderNodeMath", x, -100, operation=operation)
         for value, socket in zip(values, node.inputs):
             self.link(value, socket)
         return node.outputs[0]
 
     def scaled(self, vector, factor, x, y):
-        """The socket of a vector times a value."""
+        """Adds the product of a vector and a value; returns its socket."""
         node = self.node("ShaderNodeVectorMath", x, y, operation="SCALE")
         self.link(vector, node.inputs[0])
         self.link(factor, node.inputs["Scale"])

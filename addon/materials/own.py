@@ -65,7 +65,9 @@ def _of_image(own, image, lattice):
 
 
 def _told(own, lattice, height, text):
-    """As the user says that it repeats: images in rows, in shifted rows, or one whose middle is as its corners are."""
+    """The `Own` that repeats as the user says: in rows, in shifted rows, or as an image whose middle is like its
+    corners.
+    """
     if lattice == HEXAGONS:
         return Own(own.kind, own.name, lattice, math.sqrt(3), text=text)
     shift = SHIFTS.get(lattice, 0.0)

@@ -57,7 +57,7 @@ def groups(tree):
 
 
 def only_images_read(tree):
-    """Whether UVs go nowhere but to images, in its groups as well."""
+    """Whether UVs go to images only, in groups of the tree as well."""
     inside = [node.node_tree for node in tree.nodes if node.type == "GROUP" and node.node_tree is not None]
     own = all(link.to_node.type == "TEX_IMAGE" for link in tree.links if _gives_uvs(link))
     return own and all(map(only_images_read, inside))

@@ -40,7 +40,7 @@ def numbered(size):
 
 
 def _tile_colours():
-    """(row, column, RGB)."""
+    """(row, column, RGB) colours of the tiles."""
     hue = 2 * np.pi * np.arange(CELLS) / CELLS
     wheel = 0.5 + 0.5 * np.cos(hue[:, None] - np.array([0, 2, 4]) * np.pi / 3)
     tint = 0.12 + 0.75 * wheel**1.3

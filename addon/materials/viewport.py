@@ -10,7 +10,7 @@ BEFORE = "holomorph_shading"  # custom property of a screen: index of an area ->
 
 
 def show(window, shown=IMAGE):
-    """One of these kinds of shading in those views that would not show a texture; the others stay."""
+    """Sets one of these kinds of shading in the views that would not show a texture; the others stay."""
     before = dict(window.screen.get(BEFORE, {}))
     for index, shading in _views(window):
         kind = shading.type
@@ -24,7 +24,7 @@ def show(window, shown=IMAGE):
 
 
 def restore(window):
-    """What `show` changed, but for views whose shading was chosen anew since."""
+    """Takes back what `show` changed, except in views whose shading was chosen anew since."""
     before = dict(window.screen.get(BEFORE, {}))
     for index, shading in _views(window):
         kind, colour, shown = before.get(index, [None] * 3)

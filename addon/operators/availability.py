@@ -40,12 +40,12 @@ class Explained:
         return f"Go to {' or '.join(cls.modes.values())}"
 
     def refuse(self, sentence):
-        """Says why nothing is done; what the operator returns."""
+        """Says why nothing is done, and gives what the operator returns."""
         self.report({"ERROR"}, str(sentence))
         return {"CANCELLED"}
 
     def tell(self, outcome):
-        """Reports an `outcome.Outcome`; what the operator returns."""
+        """Reports an `outcome.Outcome`, and gives what the operator returns."""
         for window in bpy.context.window_manager.windows:  # sidebars do not see that there is a report, nor editors UVs
             for area in window.screen.areas:
                 area.tag_redraw()
@@ -87,7 +87,7 @@ class AtOnce(OnMeshes):
     nothing = ""  # what is said where there was nothing to do; "" where `act` says it
 
     def read(self, _context, objects):
-        """Those of these objects that `act` may change; what it needs of edit mode is read here."""
+        """The objects among these that `act` may change. Whatever it needs of edit mode is read here."""
         return objects
 
     def execute(self, context):

@@ -47,7 +47,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         draw_tiling(self.layout, context.object)
 
     def execute(self, context):
-        """For scripts, and the redo panel."""
+        """Moves the poles at once: for scripts, and the redo panel."""
         from .drag_session import Session
 
         try:
@@ -84,7 +84,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
 
     @contextmanager
     def _giving_up(self, context):
-        """Where an error is raised within, everything is as it was."""
+        """Puts everything back if an error is raised within."""
         try:
             yield
         except BaseException:
@@ -112,7 +112,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
             self._dragged = event.value == "PRESS" and self._hovered is not None
 
     def cancel(self, context):
-        """Everything as it was; also where another file is loaded, or the program ends."""
+        """Puts everything back; also called when another file is loaded, or the program ends."""
         self._end(context)
         self._session.restore()
 
@@ -162,7 +162,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         return f"stretch that whole tiles add: {added:.4f}, density 95 : 5 % = {ratio:.3g}"
 
     def _keep(self, context):
-        """What was asked for last is waited for."""
+        """Waits for the moves that were asked for last, and keeps them."""
         self._follow(context)
         if self._job is not None:
             self._job.wait()

@@ -19,7 +19,7 @@ AGAIN = "run Seamless Tiling again"
 
 
 class Session:
-    """Poles are counted as in the report: part by part."""
+    """A tiling whose poles are dragged. Poles are counted as in the report: part by part."""
 
     def __init__(self, obj):
         """Takes up the tiling that the report tells of. @throws ValueError where there is none, or no longer"""
@@ -52,7 +52,7 @@ class Session:
 
     @property
     def zeros(self):
-        """(n,) vertices of the object."""
+        """(n,) vertices of the object at the branch points."""
         return np.concatenate([part.vertices(part.tiling.zeros[0]) for part in self.mapped.tiled])
 
     def place(self, pole):
@@ -84,7 +84,7 @@ class Session:
         return tuple((index, vertex) for (_, index), vertex in new.items())
 
     def made(self, moves):
-        """What the job of these moves gives, here and now. @throws ValueError for a vertex where the pole cannot go"""
+        """Makes the tiling of these moves at once. @throws ValueError for a vertex where the pole cannot go"""
         for pole, vertex in moves.items():
             if not self.may_go_to(pole, vertex):
                 raise ValueError(f"pole {pole} cannot go to vertex {vertex}: it is of another part, or not allowed")
@@ -110,13 +110,13 @@ class Session:
         uv_maps.overwrite_map(self.target.find().data, self.target.polygons, self._map, uv)
 
     def restore(self):
-        """Takes back what is shown: every bit of the map as it was."""
+        """Takes back what is shown, to the last bit of the map."""
         if self._is_shown:
             uv_maps.overwrite_map(self.target.find().data, None, self._map, self._uv)
             self._is_shown = False
 
     def finish(self, context):
-        """Writes all that belongs to a tiling; the `outcome.Outcome`."""
+        """Writes all that belongs to a tiling, and returns the `outcome.Outcome`."""
         self.restore()  # the step puts back what it finds
         with transaction.one_step(context, targets.objects([self.target])) as step:
             return write.write(step, [self.target], [self.mapped], self._write_options, time_has_passed=True)

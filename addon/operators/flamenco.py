@@ -28,7 +28,7 @@ class Unreachable(Exception):
 
 
 def address():
-    """That of the manager, "" where none is set up."""
+    """The address of the manager, "" where none is set up."""
     for name, entry in bpy.context.preferences.addons.items():
         if name.rpartition(".")[2] == "flamenco" and getattr(entry.preferences, "manager_url", ""):
             return entry.preferences.manager_url.rstrip("/")
@@ -46,7 +46,7 @@ def reachable():
 
 
 def submit(manager, name, settings):
-    """Submits a job of our type; its id. @throws Unreachable"""
+    """Submits a job of our type, and returns its id. @throws Unreachable"""
     job = {
         "name": name,
         "type": JOB_TYPE,
@@ -67,7 +67,7 @@ def _ask(manager):
 
 
 def _answer(url, content=None):
-    """What the manager says, parsed. @throws Unreachable"""
+    """The answer of the manager, parsed. @throws Unreachable"""
     if not url.startswith(("http://", "https://")):
         raise Unreachable(f"{url} is no address of a Flamenco Manager")
     request = urllib.request.Request(url, content, {"Content-Type": "application/json"})

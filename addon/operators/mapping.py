@@ -24,7 +24,9 @@ class _MapsOperator(OnMeshes, WorkOperator):
         self._run = run.Run(self, targets.collect(objects, request), self._own)
 
     def _own_texture(self):
-        """The `own.Own`. Where it cannot be had the redo panel says why, and must not vanish: the checker is shown."""
+        """The `own.Own` that was chosen. If there is none, the redo panel says why; it must not vanish, so that the
+        checker is shown.
+        """
         from ..materials import own
 
         try:
@@ -92,7 +94,7 @@ class HOLOMORPH_OT_tile(TileProperties, _MapsOperator, bpy.types.Operator):
 
 @bpy.app.handlers.persistent
 def _forget_solves(*_arguments):
-    """Another file has other meshes; what was kept for the old one would only take memory."""
+    """Drops the solves that were kept for the old file: another file has other meshes."""
     if native.problem():
         return
     from ..solving import cache

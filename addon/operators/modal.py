@@ -67,7 +67,7 @@ class WorkOperator(Explained):
         return self._finish(context, self._work, time_has_passed=True)
 
     def cancel(self, context):
-        """ESC, or another file is loaded, or the program ends in the middle of the work.
+        """Called on ESC, when another file is loaded, or when the program ends in the middle of the work.
 
         The worker is not waited for: it may be inside a factorisation, which is not interrupted. It uses nothing
         of Blender's, and ends by itself at the library's next progress call.

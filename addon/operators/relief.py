@@ -95,7 +95,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
 
 
 def _millimetres(units):
-    """In a unit of Blender's."""
+    """Millimetres in a unit of Blender's."""
     return 1.0 if units.system == "NONE" else MILLIMETRES * units.scale_length
 
 

@@ -28,11 +28,11 @@ class Run:
 
     @property
     def objects(self):
-        """Those that may be written to."""
+        """The objects that may be written to."""
         return targets.objects(self._found)
 
     def write(self, step, job, time_has_passed=False):
-        """Writes what the job gave, in a `transaction.Step` of the objects; the `outcome.Outcome`."""
+        """Writes the results of the job, in a `transaction.Step` of the objects. Returns the `outcome.Outcome`."""
         results = targets.align(self._found, self._mapper.equalised(job.results))
         options = self._choices.write_options(self._properties, self._own)
         return write.write(step, self._found, results, options, time_has_passed)

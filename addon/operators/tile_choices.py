@@ -96,7 +96,7 @@ def _kept_poles(obj):
 
 
 def _poles_where_coarse(obj):
-    """Those of the last tiling, and the coarsest vertices of the places that its report names."""
+    """The poles of the last tiling, and the coarsest vertices of the places that its report names."""
     text = obj.get(report.PROPERTY)
     vertices, is_pole = stored.marks(text)
     if not is_pole.any():
@@ -107,7 +107,7 @@ def _poles_where_coarse(obj):
 
 
 def allowed(name, obj):
-    """See `options.TileOptions`: where the group's weight is above `ALLOWING`."""
+    """Where poles may be, see `options.TileOptions`: where the group's weight is above `ALLOWING`."""
     if not name:
         return None
     group = obj.vertex_groups.get(name)

@@ -71,7 +71,7 @@ def legend(is_pole):
 
 
 def _all_points(objects, dragged):
-    """`_points` of all objects."""
+    """The `_points` of all objects together."""
     found = [_points(obj, dragged.get(obj.name)) for obj in objects if obj.get(report.PROPERTY)]
     nothing = np.empty((0, 3)), np.empty(0, bool), np.empty(0, bool)
     return tuple(np.concatenate(parts) for parts in zip(nothing, *found))

@@ -11,7 +11,7 @@ BACKGROUND = (0.0, 0.0, 0.0, 0.55)
 
 
 def rectangle(left, low, width, height, colours):
-    """With one colour at its left edge and one at its right."""
+    """Draws a rectangle with one colour at its left edge and one at its right."""
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
     points = [(left, low, 0), (left, low + height, 0), (left + width, low, 0), (left + width, low + height, 0)]
     first, second = colours

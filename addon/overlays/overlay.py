@@ -72,7 +72,7 @@ def _forget_after_update(_scene, depsgraph):
 
 @bpy.app.handlers.persistent
 def _forget(*_arguments):
-    """Batches are made of meshes as they were."""
+    """Drops the batches, which are of meshes as they were."""
     if not native.problem():
         from . import heat_view
 

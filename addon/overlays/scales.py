@@ -36,5 +36,5 @@ def density_places(octaves):
 
 
 def angle_places(angle):
-    """The root shows small distortions well: most are small."""
+    """Places on the bar of s1 / s2. The root shows small distortions well: most are small."""
     return np.sqrt(np.clip(angle - 1, 0, 1))

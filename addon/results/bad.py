@@ -58,12 +58,12 @@ def stretched(distortion, octaves, shear):
 
 
 def _not_finite(polygons):
-    """Vertices of which a coordinate is no finite number."""
+    """Vertices with a coordinate that is not finite."""
     return np.flatnonzero(~np.isfinite(polygons.vertices).all(axis=1))
 
 
 def _finite(polygons, faces):
-    """Those of the faces that have no such vertex."""
+    """The faces among these without a vertex of `_not_finite`."""
     at_none = np.isin(polygons.corner_vertices, _not_finite(polygons))
     face_of_corner = np.repeat(np.arange(polygons.face_count), np.diff(polygons.face_offsets))
     return np.setdiff1d(faces, face_of_corner[at_none])

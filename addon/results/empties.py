@@ -12,7 +12,7 @@ SIZE = 0.02  # part of the object's largest extent
 
 
 def write(context, obj, vertices, is_pole):
-    """One empty at each of these vertices; @pre those of an earlier run are to be removed."""
+    """Adds one empty at each of these vertices. @pre the empties of an earlier run are to be removed"""
     points = mesh_io.world_points(obj)
     size = SIZE * float(np.ptp(points, axis=0).max())
     context.view_layer.update()
@@ -29,5 +29,5 @@ def write(context, obj, vertices, is_pole):
 
 
 def of(obj):
-    """Those of an earlier run."""
+    """The empties of an earlier run."""
     return [made for made in tags.find(OF, obj) if made.type == "EMPTY"]

@@ -46,12 +46,12 @@ class Outcome:
         self.entries.append(report.refusal_report(name, sentence))
 
     def skip(self, obj, made):
-        """An object of which no part has a map."""
+        """Adds an object of which no part has a map."""
         self.problems += _problems(obj, made)
         self.entries.append(report.object_report(obj, made))
 
     def add(self, obj, target, made, written, entry):
-        """An object that got its maps."""
+        """Adds an object that got its maps."""
         self.done.append(obj.name)
         self.entries.append(entry)
         self.forms = max(self.forms, made.solved.form_count)
@@ -108,7 +108,7 @@ def _problems(obj, made):
 
 
 def _numbered(noun, indices):
-    """Such as "part 3", "parts 1, 4", "30 parts"."""
+    """A noun with its numbers: "part 3", "parts 1, 4", or "30 parts"."""
     if len(indices) > NAMED:
         return f"{len(indices)} {noun}s"
     return f"{noun}{'s' * (len(indices) > 1)} {', '.join(indices)}"

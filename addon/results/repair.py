@@ -55,7 +55,7 @@ def repair(mesh, kinds, distance):
 
 @contextmanager
 def _edited(mesh):
-    """Written back where elements are gone."""
+    """Gives a BMesh of the mesh; writes it back if elements are gone."""
     edited = bmesh.new()
     try:
         edited.from_mesh(mesh)

@@ -75,7 +75,7 @@ def store(obj, entry):
 
 
 def _store_on_object(obj, entry):
-    """Without the matrices where they would make it long, for they are in the text as well."""
+    """Stores the entry without matrices that would make the property long: they are in the text as well."""
     text = as_json(entry)
     if len(text) > PROPERTY_LIMIT:
         parts = [{k: v for k, v in part.items() if k not in MATRICES} for part in entry["components"]]

@@ -9,7 +9,7 @@ BEFORE = "holomorph_shown_before"  # custom property of a mesh: the UV maps that
 
 
 def remember(mesh):
-    """Takes down the active maps that are not ours. @pre ours are not yet removed or written"""
+    """Notes which active maps are not ours. @pre ours are not yet removed or written"""
     before = dict(mesh.get(BEFORE, {}))
     active, rendered = mesh.uv_layers.active, next((layer for layer in mesh.uv_layers if layer.active_render), None)
     for use, layer in (("active", active), ("rendered", rendered)):

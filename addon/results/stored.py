@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is read out of a stored report: for panels, and for what goes on with a tiling.
+"""Reads stored reports: for panels, and for operators that go on with a tiling.
 
-Someone may have edited it: then there is less to read.
+Someone may have edited a report: then less can be read.
 """
 
 import functools
@@ -20,7 +20,7 @@ COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
 
 @functools.lru_cache(maxsize=16)
 def parsed(stored):
-    """A stored report; an empty one for none, or for what is no report."""
+    """Parses a stored report; an empty one if there is none, or if the text is no report."""
     try:
         entry = json.loads(stored)
     except (ValueError, TypeError):
@@ -40,7 +40,7 @@ def tilings_of(entry):
 
 
 def marks(stored):
-    """((n,) vertices, (n,) whether it is a pole): those of all tilings."""
+    """The marks of all tilings: ((n,) vertices, (n,) whether each is a pole, else a branch point)."""
     poles = [vertex for tiling in tilings(stored) for vertex in tiling["poles"]]
     zeros = [vertex for tiling in tilings(stored) for vertex in tiling["zeros"]]
     return np.array(poles + zeros, np.int64), np.arange(len(poles) + len(zeros)) < len(poles)
@@ -65,7 +65,7 @@ def verdict(entry):
 
 
 def whole(entry):
-    """What is said of a whole object before details: whose scale counted, kinds of maps, what was left out, cut and
+    """The summary of a whole object, before details: whose scale counted, kinds of maps, what was left out, cut and
     joined; "" for one part of which there is nothing to say."""
     scale = [f"in the scale of {entry['scale_of']}"] if "scale_of" in entry else []
     text = "; ".join([*scale, entry["whole"]["text"]]).removesuffix("; ")
@@ -78,7 +78,7 @@ def is_joined(entry):
 
 
 def is_edited(entry, mesh):
-    """Whether a mesh is another than when its report was made."""
+    """Whether a mesh was edited since its report was made."""
     return entry.get("shape_key") not in (None, mesh_io.shape_key(mesh))
 
 

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tags that tell whose a data-block is: what is made for an object is replaced by the next run.
 
-They name the object, and the data-block as it was made: a copy of it has another name, and is the artist's.
+A tag names the object, and the data-block as it was made. A copy of the data-block has another name, and is the
+artist's.
 """
 
 import bpy
@@ -15,7 +16,7 @@ def put(made, key, obj):
 
 
 def find(key, obj, among=None):
-    """Those of the data-blocks that are made for an object; of all objects of this file by default."""
+    """Finds the data-blocks made for an object, by default among all objects of this file."""
     blocks = bpy.data.objects if among is None else among
     own = [made for made in blocks if made.library is None and made.get(key) == obj.name]
     return [made for made in own if made.get(MADE_AS) == _names(made, obj)]

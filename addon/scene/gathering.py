@@ -16,13 +16,13 @@ def mesh_objects(context):
 
 
 def active_first(context, objects):
-    """These objects as a list."""
+    """These objects as a list, the active one first."""
     active = context.view_layer.objects.active
     return sorted(objects, key=lambda o: o != active)
 
 
 def candidates(context):
-    """Those that are edited, the one that is sculpted or painted, or those that are selected."""
+    """The objects that are edited, the one that is sculpted or painted, or in object mode those that are selected."""
     if context.mode == "OBJECT":
         return selected_meshes(context)
     return compatibility.objects_being_edited(context) if context.mode == "EDIT_MESH" else [context.object]
@@ -65,7 +65,7 @@ def has_other_scale(obj, other):
 
 
 def linear(obj):
-    """(3, 3) how the object's matrix changes its mesh, without the place."""
+    """(3, 3) linear part of the object's matrix, without its translation."""
     return np.array(obj.matrix_world, np.float64)[:3, :3]
 
 

@@ -73,7 +73,7 @@ def _write_pending_edits(objects):
 
 
 def _scale_note(obj):
-    """What is told where further objects have the mesh in another scale."""
+    """The note for a mesh that further objects have in another scale."""
     names = [other.name for other in gathering.others(obj) if gathering.has_other_scale(obj, other)]
     if not names:
         return ""
@@ -125,7 +125,7 @@ def _target(obj, mask, asked):
 
 
 def _why_refused(obj, mask, asked):
-    """One sentence, or ""."""
+    """Why the object is refused, one sentence, or ""."""
     if mask is not None and not mask.any():
         return gathering.why_fixed(obj) or "all its faces are hidden"
     if asked.are_islands and asked.is_explicit:
@@ -158,7 +158,7 @@ def first_modifier(obj):
 
 
 def _chosen(obj, asked):
-    """What is asked, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
+    """The choices, with the vertices and edges of this object; @pre pending edits are written to the mesh."""
     marks = ["use_seam"] * bool(asked.cut_at_seams) + ["use_edge_sharp"] * bool(asked.hard_edges)
     vertices = _selected(obj, asked.use) if asked.vertices is None else asked.vertices
     return replace(asked, vertices=vertices, seams=mesh_io.marked_edges(obj.data, *marks))

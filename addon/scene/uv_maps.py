@@ -138,7 +138,7 @@ def _has_map(mesh, name):
 
 
 def _values(mesh, name):
-    """Those of a UV map or corner attribute."""
+    """The `compatibility.Values` of a UV map or corner attribute."""
     layer = mesh.uv_layers.get(name)
     return _attribute_vectors(mesh.attributes[name], 2) if layer is None else compatibility.uv_values(layer)
 

@@ -8,9 +8,9 @@ from . import cache, solve
 
 
 class Work:
-    """What runs in a worker thread and can be cancelled: after `cancel()` the thread ends at the library's next call of
-    `ask`, and nothing more is solved or cached. Subclasses define `work`; one of `native.refusals` that ends it is the
-    `error`."""
+    """Work that runs in a worker thread and can be cancelled: after `cancel()` the thread ends at the library's next
+    call of `ask`, and nothing more is solved or cached. Subclasses define `work`; one of `native.refusals` that ends it
+    is the `error`."""
 
     def __init__(self, progress=None):
         self.fraction = 0.0

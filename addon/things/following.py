@@ -27,7 +27,7 @@ class Followed:
         self.side = tree.number("MULTIPLY_ADD", tree.dial("Other Side"), -2.0, 1.0)
 
     def normal(self):
-        """The smooth one, on that side."""
+        """The smooth normal, on that side."""
         tree, normals = self._tree, self._at_vertices(self._tree.node("GeometryNodeInputNormal"), "FLOAT_VECTOR")
         return tree.times(tree.vector("NORMALIZE", tree.combined(self._weights, normals)), self.side)
 
@@ -38,7 +38,7 @@ class Followed:
         return tree.number("ADD", tree.number("ADD", *products[:2]), products[2])
 
     def uv(self, name):
-        """In a UV map, whose name is a socket; modifiers keep its corners, too."""
+        """The UV in a map whose name is a socket; modifiers keep its corners, too."""
         tree, field = self._tree, self._tree.attribute(name, "FLOAT_VECTOR")
         corners = [tree.attribute(corner, "INT") for corner in CORNERS]
         return tree.combined(self._weights, self._sampled(field, corners, "FLOAT_VECTOR", domain="CORNER"))

@@ -40,7 +40,7 @@ def main_map(obj):
 
 
 def write_pieces(step, obj, values, piece, cell):
-    """A piece at each of the points with these values of `points.joined`; the object of points.
+    """Puts a piece at each of the points with these values of `points.joined`. Returns the object of points.
 
     step : the `transaction.Step` of the object
     piece : a name in `pieces.PIECES`, an object, or a collection
@@ -64,7 +64,7 @@ def write_pieces(step, obj, values, piece, cell):
 
 
 def write_wires(step, obj, values):
-    """A tube along each of the lines of `wires.joined`; their object."""
+    """Makes a tube along each of the lines of `wires.joined`. Returns their object."""
     step.remove(_earlier(obj, WIRES_OF))
     kept = {name: array for name, array in values.items() if name not in ("edges", "side", "count")}
     made = _object(step, obj, f"{obj.name} Lines", _points_mesh(obj, kept, values["edges"]))
@@ -75,7 +75,7 @@ def write_wires(step, obj, values):
 
 
 def write_cells(step, obj, cut):
-    """The polygons of a `cut.CutMesh`; their object."""
+    """Makes an object of the polygons of a `cut.CutMesh`, and returns it."""
     step.remove(_earlier(obj, CELLS_OF))
     cut = cut.mirrored() if is_mirrored(obj) else cut
     polygons = mesh_io.Polygons(_in_world(obj, cut.vertices), cut.corner_vertices, cut.face_offsets, None)
@@ -91,7 +91,7 @@ def write_cells(step, obj, cut):
 
 
 def write_relief(step, obj, relief):
-    """The triangles of a `holomorph.Relief`; their object, with the materials of the surface."""
+    """Makes an object of the triangles of a `holomorph.Relief`, with the materials of the surface, and returns it."""
     step.remove(_earlier(obj, RELIEF_OF))
     triangles = mesh_io.Polygons(_in_world(obj, relief.vertices), relief.corner_vertices, relief.face_offsets, None)
     mesh = mesh_io.new_mesh(f"{obj.name} Relief", triangles.vertices, triangles.corner_vertices, triangles.face_offsets)
@@ -114,7 +114,7 @@ def _earlier(obj, kind):
 
 
 def _object(step, obj, name, mesh):
-    """In the collections of the object that can be changed."""
+    """Makes an object in those collections of `obj` that can be changed."""
     made = bpy.data.objects.new(name, mesh)
     mesh.name = made.name
     for collection in [c for c in obj.users_collection if c.library is None] or [step.context.scene.collection]:
@@ -123,7 +123,7 @@ def _object(step, obj, name, mesh):
 
 
 def _put_away(context, made):
-    """Out of sight: what is seen of a piece are its instances."""
+    """Hides the original of a piece: what is seen are its instances."""
     context.view_layer.update()
     if made.name in context.view_layer.objects:
         made.hide_set(True)

@@ -53,7 +53,7 @@ class PartsWork(jobs.Work):
         return self.find(tiled)
 
     def skip(self, part):
-        """What is done with a `holomorph.Surface` that has no tiling: nothing is found there."""
+        """Handles a `holomorph.Surface` that has no tiling: nothing is found there."""
 
 
 def surface_values(points):

@@ -17,7 +17,7 @@ YARN = 0.1  # radius of the yarn of a stitch: it comes no nearer than 0.24 to th
 
 @dataclass(frozen=True)
 class Cell:
-    """What a place has for itself: its height, and by how much the next row is shifted, both in its width."""
+    """The cell of a place: its height, and the shift of the next row, both in its width."""
 
     height: float
     shift: float = 0.0

@@ -146,8 +146,8 @@ def _turned(tree, a, b, angle):
 
 
 def _scale(tree, size, stretch):
-    """With Fit pieces are as wide and as high as their cells, which a tiling stretches a little: so they keep covering
-    it, and rings of mail keep holding each other."""
+    """The scale of a piece. With Fit, pieces are as wide and as high as their cells, which a tiling stretches a little:
+    so they keep covering it, and rings of mail keep holding each other."""
     size = tree.number("MULTIPLY", size, tree.dial("Size"))
     wide = tree.number("POWER", stretch, tree.dial("Fit"))
     sizes = tree.number("MULTIPLY", size, wide), tree.number("DIVIDE", size, wide), size

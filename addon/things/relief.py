@@ -73,7 +73,7 @@ def _side(tiled):
 
 
 def sentence(relief, millimetres, skipped):
-    """What is told of it. millimetres : in a unit of its positions"""
+    """The sentence that tells of a relief. millimetres : in a unit of its positions"""
     told = [f"{len(relief.triangles):,} triangles, {relief.depth * millimetres:.3g} mm deep"]
     if skipped:
         told.append(f"{skipped} parts without a tiling stay plain")

@@ -33,7 +33,7 @@ def found(tiled, directions, per_tile):
 
 
 def joined(dictionaries):
-    """Those of all parts, whose "side" and "count" are arrays."""
+    """The attributes of all parts together, whose "side" and "count" are arrays."""
     begin = np.cumsum([0, *(len(one[POSITION]) for one in dictionaries)])
     own = [
         one | {"edges": one["edges"] + first, "side": [one["side"]], "count": [one["count"]]}

@@ -48,7 +48,7 @@ class Layer(NamedTuple):
             mesh.attributes.new(self.name, self.kind, self.domain)
 
     def remove_from(self, mesh):
-        """With a UV map go the attributes that are its selections and pins."""
+        """Removes the layer; with a UV map go the attributes that are its selections and pins."""
         layers = mesh.uv_layers if self.kind == UV_MAP else mesh.attributes
         if self.name in layers:
             layers.remove(layers[self.name])
@@ -61,13 +61,13 @@ class Layer(NamedTuple):
 
 
 class MeshState:
-    """@pre it is in no edit mode now or when restored"""
+    """The state of a mesh. @pre the mesh is not in edit mode, now or when restored"""
 
     def __init__(self, mesh):
         self._mesh, self.copy = mesh, mesh.copy()
 
     def restore(self):
-        """Bit for bit."""
+        """Puts the mesh back, bit for bit."""
         mesh, copy = self._mesh, self.copy
         if _sizes(mesh) != _sizes(copy):
             _restore_elements(mesh, copy)
@@ -98,7 +98,7 @@ def _restore_elements(mesh, copy):
 
 
 def _restore_layers(mesh, copy):
-    """Layers behind one that was removed are made again, for their order."""
+    """Writes layers that differ. Those behind one that was removed are made again, for their order."""
     found, wanted = _layers(mesh), _layers(copy)
     same = 0
     while same < min(len(found), len(wanted)) and found[same] == wanted[same]:
@@ -114,7 +114,7 @@ def _restore_layers(mesh, copy):
 
 
 def _layers(mesh):
-    """All that can be made again, in order."""
+    """All layers that can be made again, in order."""
     maps = [] if bpy.app.version >= (3, 5, 0) else [Layer(layer.name, "CORNER", UV_MAP) for layer in mesh.uv_layers]
     others = [Layer(a.name, a.domain, a.data_type) for a in mesh.attributes]
     return maps + [layer for layer in others if layer.kind in KINDS and layer.name not in FIXED]

@@ -5,7 +5,7 @@ import bpy
 
 
 class Modes:
-    """Those of the mesh objects of a view layer, whichever of them is the active one."""
+    """The modes of the mesh objects of a view layer, whichever of them is the active one."""
 
     def __init__(self, context):
         layer = context.view_layer
@@ -15,18 +15,20 @@ class Modes:
             self._before.setdefault(obj.mode, []).append(obj)
 
     def push_undo(self):
-        """Where something is sculpted or painted: Blender would undo what follows together with the last stroke."""
+        """Pushes an undo step where something is sculpted or painted: else Blender would undo what follows together
+        with the last stroke.
+        """
         if self._before.keys() - {"EDIT"}:
             bpy.ops.ed.undo_push(message="Before Holomorph")
 
     def leave(self):
-        """Object mode for all, also for those that are in another mode since."""
+        """Puts all objects in object mode, also those that have entered another mode since."""
         for obj in _elsewhere(self._layer):
             if obj.mode != "OBJECT":  # edit mode is left by all objects at once
                 self._set(obj, "OBJECT")
 
     def enter(self):
-        """Those that are in object mode now return to where they were."""
+        """Puts the objects that are in object mode now back in their earlier modes."""
         for mode, objects in self._before.items():
             objects = [obj for obj in objects if obj.mode == "OBJECT"]
             if mode == "EDIT" and objects:  # all objects at once, which have to be selected for it

@@ -43,8 +43,8 @@ class ObjectState:
         self._active, self._hidden = obj.active_material_index, obj.hide_render
 
     def read_own_materials(self):
-        """Those that the slots have on the object. Blender tells them of slots with this link alone, so that this
-        writes: `restore` is to be called if it fails."""
+        """Reads the materials that the slots have on the object. Blender tells them only of slots with this link, so
+        that reading writes the links: call `restore` if it fails."""
         for slot, link in zip(self._object.material_slots, self._links):
             slot.link = "OBJECT"
             self._own.append(slot.material)
@@ -99,7 +99,7 @@ def views(window):
 
 
 class TextState:
-    """A text."""
+    """A text as it was."""
 
     def __init__(self, text):
         self._text, self._before = text, text.as_string()

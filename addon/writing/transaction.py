@@ -46,7 +46,7 @@ def one_step(context, objects):
 
 @contextmanager
 def naming(target):
-    """Tells in what is raised within that this `targets.Target` was being written."""
+    """Adds to an error raised within that this `targets.Target` was being written."""
     try:
         yield
     except BaseException as error:
@@ -62,20 +62,20 @@ class Step:
         self._objects, self._names, self._copies = [], {}, []
 
     def remove(self, objects):
-        """These objects, and their data where nothing else uses them. Their names are free at once."""
+        """Removes these objects at the end, and data that nothing else uses. Their names are free at once."""
         self._objects += [obj for obj in objects if obj not in self._objects]
         used = [obj.data for obj in self._objects if obj.data is not None]
         self.discard(self._objects + [data for data in used if data.users == used.count(data)])
 
     def discard(self, blocks):
-        """These data-blocks, whatever uses them. Their names are free at once."""
+        """Removes these data-blocks, whatever uses them, at the end. Their names are free at once."""
         for block in blocks:
             if block not in self._names:
                 self._names[block] = block.name
                 block.name = REMOVED
 
     def keep(self, copies):
-        """Data-blocks that are there until the end."""
+        """Removes these data-blocks at the end; until then they keep their names."""
         self._copies += copies
 
     def finish(self):
@@ -106,7 +106,7 @@ class _Before:
         self._kept = [states.Attributes(context.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
 
     def read(self, objects, step):
-        """@pre their modes are left"""
+        """Notes the state of the objects. @pre their modes are left"""
         meshes = {obj.data for obj in objects if obj.data.library is None}
         users = [obj for obj in bpy.data.objects if obj.data in meshes and obj.library is None]
         self._kept += [*states.texts(), *states.materials(), *states.views(self._context.window)]
@@ -118,7 +118,7 @@ class _Before:
             state.read_own_materials()
 
     def restore(self, step):
-        """Goes on where a part of it fails."""
+        """Puts everything back, and goes on where a part of that fails."""
         with ExitStack() as last_first:
             last_first.callback(self._restore_view)
             last_first.callback(step.restore)  # when new objects have given the names back

@@ -23,7 +23,7 @@ TURN = 3.0  # for a radian by which rows of squares that could run round a tube 
 
 
 def cost(quality: "Quality", poles: int = 0, soft_seams: float = 0.0, hard_seams: float = 0.0) -> float:
-    """What is minded of a map: infinite for one with collapsed parts.
+    """The cost of a map to the eye; infinite for one with collapsed parts.
 
     poles : how many
     soft_seams, hard_seams : lengths over the square root of the area

@@ -64,7 +64,9 @@ class Square:
 
     @cached_property
     def _scales(self):
-        """0 for a map without area, such as one whose coefficients are 0: it shrinks to a point."""
+        """The scale of each map; 0 for a map without area, such as one whose coefficients are 0, which shrinks to a
+        point.
+        """
         return [_scale(*each) for each in zip(self.surfaces, self._frames, self.densities)]
 
     @cached_property
@@ -82,7 +84,7 @@ class Square:
         return 1 / side if side > 0 else math.inf
 
     def factor(self, part: int) -> complex:
-        """By which the map of a part is multiplied."""
+        """The factor by which the map of a part is multiplied."""
         return self.per_length * self._scales[part] * cmath.exp(1j * self.arrangement.rotation)
 
     @property
@@ -102,7 +104,7 @@ class Square:
 
 
 def square(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> Square:
-    """The `Square` of maps of parts, whatever they are."""
+    """The `Square` of the maps of parts, of whichever kinds."""
     return Square([m.surface for m in maps], [m.uv for m in maps], [m.density for m in maps], arrangement)
 
 
@@ -150,7 +152,7 @@ def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -
 
 
 def diagonal(surface: Surface) -> float:
-    """That of the bounding box; of an intrinsic surface that of a square with its area."""
+    """The diagonal of the bounding box; for an intrinsic surface, that of a square with its area."""
     if surface.vertices is None:
         return math.sqrt(2 * surface.area)
     # NumPy finds ranges of single columns much faster than of all at once.
@@ -158,8 +160,8 @@ def diagonal(surface: Surface) -> float:
 
 
 def on_grid(uv: ArrayLike) -> Reals:
-    """Rounded to a power of two that every value is a multiple of in single precision as well: differences by whole
-    numbers stay exact."""
+    """Rounds to multiples of a power of two that single precision holds, so that differences by whole numbers stay
+    exact."""
     step = 2.0 ** (math.frexp(max(np.abs(uv).max(), 1.0))[1] - SINGLE_BITS)
     return np.floor(np.asarray(uv) / step + 0.5) * step
 
@@ -176,7 +178,7 @@ def _unit_of_tilings(tiled):
 
 
 def _write_tilings(tiled, uv, quarters):
-    """Side by side on shelves of whole units."""
+    """Writes tilings side by side, on shelves of whole units."""
     turn = np.linalg.matrix_power(QUARTER, quarters % 4)
     turned = [m.uv @ turn for m in tiled]
     lows = [np.floor(values.min(axis=0)) for values in turned]
@@ -188,7 +190,7 @@ def _write_tilings(tiled, uv, quarters):
 
 
 def _write_beside(rest, uv, unit, arrangement):
-    """Other maps to the right of tilings, at the texel density of these, their square standing on v = 0."""
+    """Writes other maps to the right of tilings, at their texel density, in a square that stands on v = 0."""
     scaled = replace(arrangement, density=1.0, per_length=1 / unit if unit > 0 else 0.0)
     values, laid = np.zeros_like(uv), square(rest, scaled)
     laid.write(values)

@@ -1,4 +1,4 @@
-"""Names for what arguments and results are, to type checkers."""
+"""Names of types of arguments and results, for type checkers."""
 
 import os
 from collections.abc import Callable

@@ -43,19 +43,19 @@ def automatic_map(
     Parameters
     ----------
     surface : Surface, connected; isolated vertices are ignored
-    structure : what was solved of it, default `automatic_structure`. It keeps the poles that were placed: another call
-        with other tiles, lattice or direction is quick
-    main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for
-        one of forms, as where something was chosen about the structure
+    structure : its conformal structure, default `automatic_structure`. It keeps the poles that were placed: another
+        call with other tiles, lattice or direction is quick
+    main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
+        map of forms, as when something about the structure was chosen
     tiles, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
-    density : tiles per unit of area. Where whole tiles cannot have it, the map is none of them
+    density : tiles per unit of area. Where whole tiles cannot have it, the map is no tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
     threads : as in `conformal_structure`
     progress : progress(fraction, stage), called at most every 20 ms; returning False cancels
 
-    Raises what `automatic_structure` does; TopologyError or SolverError where a tiling was asked for and cannot be
-    made, or would lose more than 2 % of the area, as on a mesh of few faces.
+    Raises what `automatic_structure` raises; TopologyError or SolverError if a tiling was asked for and cannot be made,
+    or would lose more than 2 % of the area, as on a mesh of few faces.
     """
     check_type(surface, Surface)
     options = {"lattice": lattice, "direction": direction, "boundary": boundary, "evenness": evenness}

@@ -46,7 +46,7 @@ def automatic_maps(
     progress: Progress | None = None,
     **options: Any,
 ) -> list[Map | Refusal]:
-    """The `Map` of each part of a mesh, and the error that says why in the place of one that cannot be made.
+    """The `Map` of each part of a mesh, or the error that says why it cannot be made.
 
     The median densities of tilings differ by a tenth at most from that of the largest part, which is made first. A part
     on which whole tiles are too few for that, or have no room, gets another map, which `arrangement` scales. Small
@@ -85,8 +85,8 @@ def sized_maps(
     threads: int | None,
     progress: Progress | None,
 ) -> list[Map | Refusal]:
-    """What `automatic_maps` gives, with poles and other options of `Structure.tile` for each part, which names vertices
-    as it counts them."""
+    """Like `automatic_maps`, with poles and other options of `Structure.tile` for each part, in the part's own
+    vertices."""
     if tiles is not None and density is not None:
         raise ValueError("a density is given without tiles: either says how many there are")
     alike = _alike(parts, mains, choices)
@@ -118,7 +118,7 @@ def _alike(parts, mains, choices):
 
 
 def _first_maps(parts, structures, mains, alike, choices, threads, progress):
-    """{part: what `first_map` gives for it, or how that refuses}, without copies."""
+    """{part: result of `first_map`, or its error}, without copies."""
     firsts = [k for k, copy in enumerate(alike) if copy.first == k]
 
     def work(i, count, step):
@@ -135,7 +135,7 @@ def _first_maps(parts, structures, mains, alike, choices, threads, progress):
 
 
 def _sized(parts, alike, sizings, density, tries, threads, progress):
-    """{part: its map or how it is refused} of parts that may get tilings. Those of copies are maps of the first part.
+    """{part: its map or its error} of parts that may get tilings. Those of copies are maps of the first part.
 
     tries : numbers of tiles that are tried on the largest part, whose density is then that of the others; 0 where the
         density is given"""
@@ -157,7 +157,7 @@ def _sized(parts, alike, sizings, density, tries, threads, progress):
 
 
 def _areas(parts, names):
-    """{name: area of the parts that have it}."""
+    """{name: total area of the parts with that name}."""
     areas = dict.fromkeys(names.values(), 0.0)
     for k, name in names.items():
         areas[name] += parts[k].area

@@ -1,4 +1,4 @@
-"""Which structure a part gets, by what is chosen of it and by its topology."""
+"""Which structure a part gets, by the choices and by its topology."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def automatic_structure(
     cuts : (#S, 2) vertices of edges, of `cut_along`
     solver, thresholds, threads, memory_limit, progress : as in `conformal_structure`
 
-    Of corners, poles and boundary the first that is given counts; an empty list is none. Raises what these functions
-    raise.
+    The first of corners, poles and boundary that is given counts; an empty list counts as not given. Raises what these
+    functions raise.
     """
     check_thresholds(thresholds, solver)
     options = {"solver": solver, "threads": threads, "progress": progress}

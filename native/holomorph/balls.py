@@ -1,4 +1,4 @@
-"""Complex numbers with certain errors."""
+"""Complex numbers with guaranteed error bounds (ball arithmetic)."""
 
 from __future__ import annotations
 

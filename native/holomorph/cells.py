@@ -66,9 +66,9 @@ class Cells(SurfacePoints):
         return self.positions
 
     def simplified(self) -> Cells:
-        """The same without the vertices between two others on the sides of polygons: a quad for each tile of four
-        corners, straight between them. Kept are those by which sides with the same ends differ, and those of polygons
-        that would have less than three."""
+        """Leaves out the vertices between two others on the sides of polygons: a tile of four corners becomes a quad.
+        Keeps vertices by which sides with the same ends differ, and those of polygons that would have fewer than
+        three."""
         kept = self._kept()
         used = np.flatnonzero(kept)
         number = np.cumsum(kept) - 1

@@ -1,4 +1,4 @@
-"""What is proven of a result, and what was measured of it."""
+"""What is proven about a result, and what was measured."""
 
 from __future__ import annotations
 
@@ -32,8 +32,7 @@ class Certificate(Value):
     star_defect : largest |C^2 + 1|, with boundary |C D + 1|, of the star before it is projected (spectral norm)
     closedness, co_closedness : `Residuals.closedness` and `harmonicity`
     period_error : largest difference of the periods of the harmonic forms from their integers
-    rounding : largest part of itself by which the rounding of lengths may change the energy of a form on a triangle; 1
-        where it leaves that open
+    rounding : largest relative change of the energy of a form on a triangle by the rounding of lengths; 1 if unknown
     """
 
     holds: bool
@@ -63,7 +62,7 @@ class Certificate(Value):
         ]
 
     def as_plain(self) -> dict[str, Any]:
-        """As plain data, for reports."""
+        """Returns it as plain data, for reports."""
         plain = dict(vars(self)) | {"period_text": self.period_text()}
         for name in ("imaginary_bounds", "real_bounds"):
             bounds = plain[name]

@@ -10,12 +10,12 @@ from .origin import AS_GIVEN, Origin
 
 
 def of_faces(vertices, faces, strict):
-    """As `Surface` takes them."""
+    """Makes one of the arguments of `Surface`."""
     return _of(arrays.real(vertices, 3, "vertices"), *arrays.polygons(faces), strict)
 
 
 def of_polygons(vertices, corner_vertices, face_offsets, strict):
-    """As `Surface.from_polygons` takes them."""
+    """Makes one of the arguments of `Surface.from_polygons`."""
     return _of(
         arrays.real(vertices, 3, "vertices"),
         arrays.integer(corner_vertices, "corner_vertices"),
@@ -25,7 +25,7 @@ def of_polygons(vertices, corner_vertices, face_offsets, strict):
 
 
 def of_file(path, strict, weld):
-    """As `Surface.read` takes them."""
+    """Makes one of the arguments of `Surface.read`."""
     part = _native.Surface.read(os.fspath(path), strict, weld)
     return part.surface, Origin.of_part(part)
 
@@ -38,7 +38,7 @@ def _of(vertices, corner_vertices, face_offsets, strict):
 
 
 def of_edge_lengths(faces, edge_lengths, face_edges):
-    """The native surface alone, of what `Surface.from_edge_lengths` takes."""
+    """Makes one, without an `Origin`, of the arguments of `Surface.from_edge_lengths`."""
     faces = arrays.integer(faces, "faces", dimensions=2, columns=(3,))
     names = np.empty((0, 3), np.int64) if face_edges is None else arrays.integer(face_edges, "face_edges", 2, (3,))
     if face_edges is not None and len(names) != len(faces):

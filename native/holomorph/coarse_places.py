@@ -28,8 +28,8 @@ class CoarsePlace:
 
 
 def coarse_places(mesh: Polygons, density: Reals) -> list[CoarsePlace]:
-    """Those of a mesh with this `distortion.Distortion.density`, (#F,), the largest first; without those whose vertices
-    all are on the boundary. O(#C log #C)."""
+    """Finds the coarse places of a mesh with this `distortion.Distortion.density`, (#F,), the largest first; without
+    those whose vertices all lie on the boundary. O(#C log #C)."""
     faces = np.flatnonzero(density < OCTAVES)
     if not len(faces):
         return []

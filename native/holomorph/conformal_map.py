@@ -181,7 +181,9 @@ class _Matching:
         return values / np.linalg.norm(values, axis=1, keepdims=True)
 
     def _shift(self, made):
-        """By how much the integrals of the start are wrong: what the images cannot follow, in the mean."""
+        """The correction of the integrals of the start: the shift in which the residuals agree, as far as moves of the
+        images cannot remove it.
+        """
         residuals, slopes = made.residuals, self._slopes[1][made.triangles]
         n = residuals.shape[1]
         if n == 2:

@@ -58,7 +58,7 @@ def failed(status, problem):
 
 
 class Parser(argparse.ArgumentParser):
-    """One that ends as the commands do where an output is closed or full."""
+    """A parser of arguments that ends as the commands do if an output is closed or full."""
 
     def error(self, message):
         self.print_usage(sys.stderr)
@@ -87,7 +87,7 @@ def ended(run, refused=1):
 
 
 def _finished(run):
-    """The status, everything being written."""
+    """Returns the status once everything is written."""
     try:
         status = run()
     except SystemExit as end:  # of argparse
@@ -124,7 +124,7 @@ def _open_standard_files():
 
 
 def _silence(number):
-    """What is left in a buffer goes nowhere: Python would try again at its end, and fail there."""
+    """Drops what is left in a buffer: Python would try to write it again at its end, and fail there."""
     with contextlib.suppress(OSError):
         empty = os.open(os.devnull, os.O_WRONLY)
         os.dup2(empty, number)

@@ -8,7 +8,7 @@ from .surface import Surface
 
 
 def cut_open(surface, is_seam):
-    """The surface with the edges of this mask, (#E,), doubled."""
+    """Cuts the surface open along the edges of this mask, (#E,)."""
     vertices = surface.triangles.ravel().astype(np.int64)
     fans = _fans(surface._native.triangle_edges, is_seam, int(np.bincount(vertices).max()))
     _, first, new = np.unique(vertices * len(fans) + fans, return_index=True, return_inverse=True)

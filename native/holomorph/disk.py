@@ -137,7 +137,7 @@ def default_disk_map(surface, **options) -> PlaneMap | PoleStructure:
 
 
 def _log_map(round_map, options):
-    """That of the solve for a `DiskMap`."""
+    """The log map from the solve for a `DiskMap`."""
     surface, component, threads = round_map.surface, round_map._component, round_map._threads
     made = result(PoleStructure, surface, component, round_map._native, threads)
     again = {name: value for name, value in options.items() if name != "progress"}
@@ -145,7 +145,9 @@ def _log_map(round_map, options):
 
 
 def _without_inner_vertices(surface, options):
-    """A rectangle whose sides take no whole triangle, or what keeps its shape."""
+    """The map of a disk without inner vertices: a rectangle that collapses no triangle, or else the map with a free
+    boundary.
+    """
     straight = rectangle_map(surface, **options)
     if not len(straight.collapsed_triangles):
         return straight

@@ -124,7 +124,7 @@ def length_ratio(mesh: Polygons, uv: Reals) -> float:
 
 
 def _metric(points):
-    """Inner products of two sides of (#T, 3, d) triangles, and the areas."""
+    """The inner products of two sides of (#T, 3, d) triangles, and their areas."""
     first, second = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
     a, b, c = (np.einsum("ij,ij->i", x, y) for x, y in ((first, first), (first, second), (second, second)))
     return a, b, c, 0.5 * np.sqrt(np.clip(a * c - b * b, 0, None))

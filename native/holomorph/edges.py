@@ -26,7 +26,7 @@ def polygon_sides(mesh):
 
 
 def following_corners(mesh):
-    """(#C,) the next corner of its polygon."""
+    """(#C,) the next corner after each one in its polygon."""
     following = np.arange(1, len(mesh.corner_vertices) + 1)
     following[mesh.face_offsets[1:] - 1] = mesh.face_offsets[:-1]
     return following

@@ -62,11 +62,11 @@ def conformally_equivalent(
 ) -> Equivalence:
     """An `Equivalence`: whether there is a conformal map between two connected surfaces.
 
-    By Torelli's theorem just if integers bring the periods of one to those of the other. "not_equivalent" is said where
-    the error bars of the periods exclude all integer matrices; "equivalent", or "mirror_image", where one brings the
-    projected periods as near as a quarter of the error bars' geometric mean, of the other's where one is exact, and the
-    result's `tolerance` says how near the exact ones are for certain; "undecided" else. A surface with both is called
-    what it is nearer to.
+    By Torelli's theorem there is one if and only if an integer matrix brings the periods of one to those of the other.
+    "not_equivalent" is said where the error bars of the periods exclude all integer matrices; "equivalent", or
+    "mirror_image", where one brings the projected periods as near as a quarter of the error bars' geometric mean, of
+    the other's where one is exact, and the result's `tolerance` says how near the exact ones are for certain;
+    "undecided" else. A surface with both is called what it is nearer to.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Evening of the maps of structures: what stays of each kind."""
+"""Evening of the maps of structures, and what each kind keeps."""
 
 import numpy as np
 

@@ -60,7 +60,7 @@ def _checked(surface, uv):
 
 
 def _vertices(given, name, count):
-    """A list of them, ascending, each once."""
+    """The vertices as a list, ascending, each once."""
     found = np.asarray(given)
     if found.ndim != 1 or not (np.issubdtype(found.dtype, np.integer) or found.size == 0):
         raise ValueError(f"{name} must be a list of vertices, not an array of {found.dtype} of {found.shape}")

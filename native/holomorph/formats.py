@@ -60,7 +60,7 @@ def npz(surface, arrays):
 
 
 def obj(surface, uv=None):
-    """Wavefront OBJ: polygons as they are, 17 digits, which are all that there are."""
+    """Wavefront OBJ: polygons as they are, with 17 digits, so that no bit is lost."""
     text = text_of("v %.17g %.17g %.17g\n", surface.vertices)
     corners, entry = surface.corner_vertices + 1, " %d"
     if uv is not None:

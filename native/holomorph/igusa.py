@@ -36,7 +36,7 @@ class IgusaInvariants(Value):
     """Three numbers that tell a surface of genus 2, the curve y^2 = f(x), f of degree 5 or 6: I2^5 / I10, I2^3 I4 / I10
     and I2^2 I6 / I10, of the invariants I2, I4, I6, I10 of f by Igusa and Clebsch. I10 is the discriminant, and the
     others are sums over products of differences of the roots. Two surfaces with I2 other than 0 are conformally
-    equivalent just if all three agree.
+    equivalent if and only if all three agree.
 
     values : (3,) complex, in this order
     errors : (3,) the exact ones of the polyhedral surface are certainly within these distances (where the certificate's
@@ -109,7 +109,7 @@ def _reduced(structure):
 
 
 def _excess(values, errors, width):
-    """How many times as large as is asked for the errors are."""
+    """The largest error over the one that is asked for."""
     return float((errors / (width * np.maximum(np.abs(values), SMALL))).max())
 
 

@@ -203,7 +203,7 @@ def _along_rows(basis):
 
 
 def _cells_text(basis, aspect):
-    """What follows "Tiles" in the sentence."""
+    """The part of the sentence that follows "Tiles"."""
     (width, shift), (_, height) = basis
     count = 1 / (width * height)
     if count == 1:

@@ -28,7 +28,7 @@ class Cuts:
         return Surface._of(_native.filled(opened._native))
 
     def add(self, cuts):
-        """Cuts these edges, too, (#E,) bool. Whether there were any."""
+        """Cuts these edges, too, (#E,) bool. Returns whether there were any."""
         self.mask |= cuts
         return bool(cuts.any())
 

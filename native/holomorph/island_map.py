@@ -56,7 +56,7 @@ class Islands(Value):
 
     @property
     def cost(self) -> float:
-        """See `appearance.cost`."""
+        """The cost to the eye, see `appearance.cost`."""
         return cost(self.quality, 0, self.soft_length, self.hard_length)
 
     def _facts(self):
@@ -188,7 +188,7 @@ class _Layout:
         return Islands(arrays.frozen(uv), arrays.frozen(ends), count, *visible, quality, self.evenness), flat_uv
 
     def _quality(self, cuts, pieces, flat, uv):
-        """That on the triangles of the surface; what lies over itself is bounded by the seams and the boundary."""
+        """The `Quality` on the triangles of the surface; overlaps are measured within seams and boundary."""
         native = self.surface._native
         quality = Quality.of(native, uv, self.threads)
         if self.evenness > 0:

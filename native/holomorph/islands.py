@@ -30,7 +30,7 @@ def islands(
         that has a tip then, a vertex inside with more than 60 degrees too few or too many around it, such as that of a
         cone, is cut from there to the nearest seam. None: only the seams that are given
 
-    Raises TopologyError for other shapes or types, and for such vertices; ValueError for an angle that is none.
+    Raises TopologyError for other shapes or types, and for such vertices; ValueError for an invalid angle.
 
     Cost: O(#C log #C).
     """

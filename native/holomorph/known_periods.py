@@ -25,7 +25,7 @@ class KnownPeriods:
         self._topology = _native.TopologicalType(self.genus, 0)
 
     def lattice(self):
-        """In the classes dual to the canonical basis, the first g to the a_i."""
+        """The lattice in the classes dual to the canonical basis; the first g are dual to the a_i."""
         real, imaginary = self.period_matrix.real, self.period_matrix.imag
         inverse = np.linalg.inv(imaginary)
         gram = np.block([[imaginary + real @ inverse @ real, -real @ inverse], [-inverse @ real, inverse]])

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 
 def lift_loops(mesh: ProgressiveMesh, loops: Sequence[Integers], n_faces: int | None = None) -> list[Integers]:
-    """Closed loops of vertices of the base, lifted to ``level(n_faces)``, or to the original by default: where a
-    split separates the two neighbours of a vertex on a loop, the new edge is inserted (paper section 9).
+    """Lifts closed loops of vertices of the base to ``level(n_faces)``, or to the original by default: where a split
+    separates the two neighbours of a vertex on a loop, the new edge is inserted (paper section 9).
 
     Parameters
     ----------
@@ -41,9 +41,9 @@ def lift_loops(mesh: ProgressiveMesh, loops: Sequence[Integers], n_faces: int | 
 
 
 def pull_back_forms(mesh: ProgressiveMesh, forms: ArrayLike, n_faces: int | None = None) -> NDArray[Any]:
-    """Closed forms on the edges of the base, pulled back to those of ``level(n_faces)``, or of the original's
-    triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s
-    that it comes from (paper section 9, step 5b). The period over a lifted loop is that over the loop.
+    """Pulls closed forms on the edges of the base back to those of ``level(n_faces)``, or of the original's
+    triangulation by default: a new edge v_s v_t gets 0, and an edge of v_t the value of the edge of v_s that it comes
+    from (paper section 9, step 5b). The period over a lifted loop is that over the loop.
 
     Parameters
     ----------

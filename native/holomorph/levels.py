@@ -141,7 +141,7 @@ def _maps(uv, corner_count):
 
 
 def _part(progress, index, count):
-    """Progress of one of `count` equal parts."""
+    """The progress function of one of `count` equal parts."""
     if progress is None:
         return None
     return lambda fraction, stage: progress((index + fraction) / count, stage)

@@ -75,7 +75,7 @@ class Map(Value):
 
     @property
     def own(self) -> Tiling | Islands | Mixed | None:
-        """What the map is where it is none of the forms of its structure."""
+        """The map itself, where it is not one of the forms of its structure."""
         return self.tiling or self.islands or self.mixed
 
     @property
@@ -85,7 +85,7 @@ class Map(Value):
 
     @property
     def cost(self) -> float:
-        """What an eye minds, see `appearance.cost`."""
+        """The cost to the eye, see `appearance.cost`."""
         if self.islands or self.mixed:
             return (self.islands or self.mixed).cost
         lengths = self.structure._triangulation.edge_lengths

@@ -68,7 +68,7 @@ def first_map(surface, structure, main, evenness, threads, progress):
 
 
 def _flat_islands(surface, evenness, threads, progress):
-    """None where there are none, or they collapse, as where all faces lie on lines."""
+    """The flat islands; None where there are none, or they collapse, as where all faces lie on lines."""
     if surface.vertices is None or surface.area == 0:
         return None
     try:
@@ -92,7 +92,7 @@ def _map_of(flat, surface, structure):
 
 
 def _why_it_stays(balanced):
-    """ "" where a texture would break off at a seam, or vary in size."""
+    """Why the balanced map stays; "" where a texture would break off at a seam, or vary in size."""
     if balanced.surface.area == 0:
         return "the surface has no area"
     ratio = balanced.quality.density_ratio

@@ -37,7 +37,7 @@ class Mixed(Value):
 
     @property
     def cost(self) -> float:
-        """See `appearance.cost`."""
+        """The cost to the eye, see `appearance.cost`."""
         return cost(self.quality, len(self.poles), self.soft_length, self.hard_length)
 
     def _facts(self):

@@ -35,7 +35,7 @@ class Division:
 
 @dataclass(frozen=True)
 class Divided:
-    """A part that may be mapped in pieces, by one of several divisions. other : what the part gets else"""
+    """A part that may be mapped in pieces, by one of several divisions. other : what the part gets as a whole"""
 
     other: Map | Undecided
     divisions: tuple[Division, ...]
@@ -46,7 +46,7 @@ class Divided:
 def divided(
     found: Map | Undecided, evenness: float, threads: int | None, progress: Progress | None
 ) -> Map | Undecided | Divided:
-    """What `first_map` gives for a part, or that with pieces of the part, where these may make a better map."""
+    """The result of `first_map` for a part, or a `Divided` of it if pieces may make a better map."""
     flat = found.islands if isinstance(found, Map) else found.flat
     if not _may_be_divided(found, flat):
         return found
@@ -95,12 +95,12 @@ class _Tiled:
 
     @cached_property
     def turn(self):
-        """What is minded of how far rows turn in its islands; nothing where poles turn them in the tiling, too."""
+        """The cost of rows that turn in its islands; 0 where poles turn them in the tiling, too."""
         return TURN * self.piece.turn(self.map.uv) if self.is_tube and not len(self.map.poles) else 0.0
 
 
 class _Found(NamedTuple):
-    """The map in pieces, or None; what is minded of it, and of how far rows turn where all its pieces are islands."""
+    """The map in pieces, or None; its cost, and the cost of rows that turn if all its pieces are islands."""
 
     map: Map | None = None
     minded: float = math.inf
@@ -111,7 +111,7 @@ class _Found(NamedTuple):
         return self.map is not None and _without_hard_edges(self.map.mixed) <= GOOD
 
     def or_else(self, other):
-        """It, or another map that is less minded, or how that is refused, if there is no map in pieces."""
+        """The map in pieces, or another one of less cost. Without a map in pieces, the other one or its error."""
         if self.map is None or not isinstance(other, Map):
             return self.map or other
         return self.map if self.minded < other.cost + (self.turns if other.islands else 0.0) else other
@@ -127,7 +127,9 @@ class MixedSizing:
     options: Mapping[str, Any]
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
-        """In pieces where that is less minded; the largest piece has the density that whole tiles have around it."""
+        """The map in pieces if that costs less, or else the other one. The density of the largest piece is the one near
+        `density` that whole tiles allow.
+        """
         found = self._in_pieces(density, tries, SAME_SIZE, scaled(progress, 0.0, MIXING))
         other = self.part.other
         if isinstance(other, Map) or found.is_good:
@@ -135,7 +137,7 @@ class MixedSizing:
         return found.or_else(self._sizing(other).about(density, tries, scaled(progress, MIXING, 1.0)))
 
     def tried(self, density: float, tries: int, progress: Progress | None) -> Tried:
-        """In pieces, as a tiling, where that is less minded."""
+        """Tries the map in pieces, as a tiling, if that costs less, or else whole tilings."""
         found = self._in_pieces(density, 0, SAME_SIZE, scaled(progress, 0.0, MIXING))
         other, is_map = self.part.other, isinstance(self.part.other, Map)
         if found.is_good and not is_map:
@@ -145,7 +147,9 @@ class MixedSizing:
         return tried if found.or_else(rival) is rival else Tried([found.map], None)
 
     def settled(self, tried: Tried, density: float, window: Window, progress: Progress | None) -> Map | Refusal:
-        """In pieces that have the density exactly, where those that were tried are not in the window."""
+        """Returns the map in pieces with exactly the density, if the one that was tried is not in the window; or else
+        the other map.
+        """
         if tried.tilings and tried.tilings[0].mixed:
             (made,) = tried.tilings
             is_inside = is_in(window, relative_size(made, density))
@@ -154,7 +158,10 @@ class MixedSizing:
         return other if isinstance(other, Map) else self._sizing(other).settled(tried, density, window, progress)
 
     def _in_pieces(self, density, tries, near, progress):
-        """What is `_Found`. near : relative difference of pieces' densities from the one that is wanted"""
+        """The `_Found` of least cost among the divisions.
+
+        near : relative difference of pieces' densities from the one that is wanted
+        """
         best, count = _Found(), len(self.part.divisions)
         for n, division in enumerate(self.part.divisions):
             tiled = self._tiled(division, density, tries, near, scaled(progress, n / count, (n + 1) / count))
@@ -183,7 +190,7 @@ class MixedSizing:
         return made
 
     def _least_minded(self, division, tiled, progress):
-        """(The map in pieces, or None; its cost, and what is minded of how far rows turn in its islands)"""
+        """(The map in pieces, or None; its cost with that of rows that turn in its islands)"""
         choices = [tiled, [one for one in tiled if one.map.cost < one.piece.cost]]
         best, least = None, math.inf
         for kept in choices[: 1 + (len(choices[1]) < len(tiled))]:
@@ -205,7 +212,7 @@ class MixedSizing:
         return mixed_map(other.surface, other.structure, [one.map for one in tiled] + rest, evenness)
 
     def _turns(self, tiled):
-        """What is minded of the whole part if these pieces are islands."""
+        """The cost of rows that turn, for the whole part, if these pieces are islands."""
         return sum(one.turn * one.piece.surface.area for one in tiled) / self.part.other.surface.area
 
     def _sizing(self, undecided):
@@ -213,5 +220,5 @@ class MixedSizing:
 
 
 def _without_hard_edges(mixed):
-    """What is minded of a map; hard edges do not count, for a tiling of the whole part would stretch there."""
+    """The cost of a map without its hard edges, where a tiling of the whole part would stretch."""
     return mixed.cost - HARD_SEAM * mixed.hard_length

@@ -69,7 +69,7 @@ def narrow(native, width, most_faces, solver, threads, memory_limit, progress=No
 
 
 def _ended(levels, width):
-    """Why the last level is the last one; "" where it is not."""
+    """Why the refinement ends at the last level; "" where it goes on."""
     if levels[-1][1] <= width:
         return "the bounds are as narrow as asked for"
     if len(levels) > 1 and levels[-1][1] > (1 - LEAST_GAIN) * levels[-2][1]:

@@ -25,7 +25,7 @@ class Origin(NamedTuple):
 
     @classmethod
     def of_part(cls, part):
-        """That of the surface in a native part of a mesh."""
+        """The `Origin` of the surface in a native part of a mesh."""
         return cls(
             part.vertex_index,
             part.face_index,
@@ -37,7 +37,7 @@ class Origin(NamedTuple):
         )
 
     def of_component(self, part, vertex_count):
-        """That of a native part of the surface, in a mesh of so many vertices."""
+        """The `Origin` of a native part of the surface, in a mesh of so many vertices."""
         indices = self.vertex_index, self.face_index, self.corner_index
         own = part.vertex_index, part.face_index, part.corner_index
         return Origin(*map(_in_mesh, indices, own), vertex_count)

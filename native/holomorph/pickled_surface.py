@@ -1,4 +1,4 @@
-"""A native surface as the arrays that it is made of, and again of them, with the same bits."""
+"""Takes a native surface to the arrays that it is made of, and back, with the same bits."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Whether planar surfaces whose periods agree are the same or mirror images: their periods do not tell."""
+"""Decides whether planar surfaces whose periods agree are the same or mirror images, which periods do not tell."""
 
 import numpy as np
 
@@ -37,6 +37,6 @@ def _values(structure, matrix):
 
 
 def _miss(values, others):
-    """Mean over `values` of the sine of the angle to the nearest of `others`, as complex lines."""
+    """The mean, over `values`, of the sine of the angle to the nearest of `others`, as complex lines."""
     likeness = np.abs(others.conj() @ values.T).max(axis=0)
     return float(np.sqrt(np.maximum(0, 1 - likeness**2)).mean())

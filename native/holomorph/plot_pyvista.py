@@ -99,7 +99,7 @@ def _mesh(surface, up):
 
 
 def _add_checker(plotter, surface, uv, squares, up):
-    """With points for each corner, for the UVs jump, and the normals of the vertices."""
+    """Adds the surface with a point for each corner, since the UVs jump, and the normals of the vertices."""
     normals = _mesh(surface, up).compute_normals(cell_normals=False, split_vertices=False, consistent_normals=False)
     points = upright(surface.vertices, up)[surface.triangles].reshape(-1, 3)
     mesh = pyvista.PolyData.from_regular_faces(points, np.arange(len(points)).reshape(-1, 3))

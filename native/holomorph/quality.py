@@ -46,15 +46,15 @@ class Quality(Value):
 
     @classmethod
     def of(cls, triangulation: object, uv: Reals, threads: int) -> Quality:
-        """That of (#C, 2) UVs on a native surface."""
+        """The `Quality` of (#C, 2) UVs on a native surface."""
         found = _native.quality(triangulation, uv, threads)
         parts = found.angle, found.area, found.flipped
         return cls(*parts, found.mean_angle, found.density_ratio, found.median_density, triangulation)
 
     @classmethod
     def joined(cls, qualities: Sequence[Quality], densities: ArrayLike) -> Quality:
-        """That of several maps, each scaled until its median density is the one that is given, with the triangles of
-        one after those of the other.
+        """The `Quality` of several maps together, each scaled until its median density is the given one. Triangles of
+        one map follow those of the other.
 
         densities : (n,); maps without area keep theirs
         """
@@ -79,18 +79,18 @@ class Quality(Value):
         return result
 
     def evened_from(self, before: Quality, evenness: float) -> Quality:
-        """The same, of a map that evening made of one with the quality `before`."""
+        """The same for a map that evening made of one with the quality `before`."""
         added = self.capped_mean_angle - before.capped_mean_angle
         return replace(self, unseen_angle=min(max(added, 0.0), UNSEEN * evenness))
 
     def of_copy(self, scale: float) -> Quality:
-        """That of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
+        """The `Quality` of the same map on a copy of the surface, whose lengths are multiplied by `scale`."""
         result = self._scaled(scale**-2)
         vars(result)["_weights"] = self._weights * scale**2
         return result
 
     def of_density(self, density: float) -> Quality:
-        """That of the map scaled until its median density is this one; of one without area its own."""
+        """The `Quality` of the map scaled until its median density is this one; a map without area keeps its own."""
         return self._scaled(density / self.median_density if self.median_density > 0 else 1.0)
 
     def _scaled(self, factor):

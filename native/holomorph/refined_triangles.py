@@ -90,7 +90,7 @@ def refined(triangles, marked):
 
 @dataclass(frozen=True)
 class Pieces:
-    """What `Triangles` are cut into: names of edges and lengths are per side, (#T, 3)."""
+    """The triangles that `Triangles` are cut into: names of edges and lengths are per side, (#T, 3)."""
 
     corners: np.ndarray
     names: np.ndarray
@@ -100,7 +100,7 @@ class Pieces:
 
     @classmethod
     def of(cls, parts):
-        """All parts behind each other."""
+        """Concatenates parts."""
         return cls(*(np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(cls)))
 
 
@@ -183,7 +183,7 @@ class _Cut:
         return self.part(t, [self.side(t, i) for i in range(3)])
 
     def in_two(self, chosen):
-        """a b c with the midpoint m of a b."""
+        """Two triangles of a b c, with the midpoint m of a b."""
         t, i = self.turned(chosen)
         (am, mb), bc, ca = self.halves(t, i), self.side(t, i + 1), self.side(t, i + 2)
         mc = self.third(t, 0, ca, am, self.median(t, i))
@@ -191,7 +191,7 @@ class _Cut:
         return [self.part(t, [ca, am, mc], mc), self.part(t, [mb, bc, cm], cm)]
 
     def in_three(self, chosen):
-        """a b c with the midpoints m of a b and n of b c."""
+        """Three triangles of a b c, with the midpoints m of a b and n of b c."""
         t, i = self.turned(chosen)
         (am, mb), (bn, nc), ca = self.halves(t, i), self.halves(t, i + 1), self.side(t, i + 2)
         nm = self.third(t, 0, mb, bn, ca.length / 2)
@@ -200,7 +200,7 @@ class _Cut:
         return [self.part(t, [mb, bn, nm]), self.part(t, [nc, ca, an], an), self.part(t, [am, mn, na], na)]
 
     def in_four(self, chosen):
-        """Midpoints of all sides; the inner triangle joins them."""
+        """Four triangles: the inner one joins the midpoints of all sides."""
         t = np.flatnonzero(chosen)
         halves = [self.halves(t, i) for i in range(3)]
         inner = [self.third(t, i, halves[i - 1][1], halves[i][0], self.side(t, i + 1).length / 2) for i in range(3)]

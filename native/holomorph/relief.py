@@ -69,7 +69,9 @@ class Relief(Value):
 
     @cached_property
     def volume(self) -> float:
-        """What is inside, in the cube of the positions' unit; of an open surface, seen from the origin."""
+        """The enclosed volume, in the cube of the positions' unit; of an open surface, that of the cone over it from
+        the origin.
+        """
         return volume(self.vertices, self.triangles)
 
     @cached_property
@@ -89,7 +91,7 @@ class Relief(Value):
         return self.depth * steps / PARTS
 
     def _safe_steps(self, triangles, most):
-        """At how many parts of the depth, fewer than `most`, these triangles alone do not cross."""
+        """The largest number of parts of the depth, below `most`, at which these triangles alone do not cross."""
         low, high = 0, most
         while high - low > 1:
             middle = (low + high) // 2
@@ -106,7 +108,7 @@ class Relief(Value):
 
 
 def joined(reliefs: Sequence[Relief]) -> Relief:
-    """Several of one depth as one, those of `plain` among them."""
+    """Joins several reliefs of one depth to one; those of `plain` may be among them."""
     first = np.cumsum([0, *(len(one.base) for one in reliefs)], dtype=np.int32)
     arrays_of = {
         name: arrays.frozen(np.concatenate([getattr(one, name) for one in reliefs]))

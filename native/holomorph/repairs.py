@@ -66,7 +66,7 @@ class Cut(Value):
 
     @property
     def count(self) -> int:
-        """Number of elements."""
+        """The number of elements."""
         return len(self.vertices) + len(self.edges) + len(self.faces)
 
     @property

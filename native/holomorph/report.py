@@ -1,4 +1,4 @@
-"""What was found out about surfaces, structures and maps, as plain data, ready for JSON."""
+"""Reports on surfaces, structures and maps, as plain data, ready for JSON."""
 
 from __future__ import annotations
 

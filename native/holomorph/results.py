@@ -65,12 +65,12 @@ class Structure(Value):
         return self._solution.native
 
     def computed_by(self, compute: Callable[[], Structure]) -> Self:
-        """Itself, after noting the call that computes it, for pickles."""
+        """Notes the call that computes the result, for pickles, and returns the result."""
         self._solution.compute = compute
         return self
 
     def of_copy(self, component: Surface) -> Self:
-        """That of a copy, with the same triangles and, but for one factor, lengths."""
+        """The structure of a copy, with the same triangles and the same lengths up to one factor."""
         return replace(self, surface=component, _component=component)
 
     @cached_property

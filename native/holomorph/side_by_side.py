@@ -67,7 +67,7 @@ class _Crew:
         return {k: made[k].result() for k in [*stopped, *failed, *made]}
 
     def _watch(self, pending: Sequence[Future]):
-        """Until all are done or one has failed; False where the progress function cancels."""
+        """Waits until all are done or one has failed; False if the progress function cancels."""
         while pending:
             finished, pending = wait(pending, TICK, FIRST_EXCEPTION)
             if any(one.exception() is not None for one in finished):

@@ -45,7 +45,7 @@ class Sizing:
         return self._moved(nearest(tilings, density), tries, progress) if tilings else other
 
     def tried(self, density: float, tries: int, progress: Progress | None) -> Tried:
-        """With one number of tiles after the other, until the density is the wanted one."""
+        """Tries one number of tiles after the other, until the density is the wanted one."""
         tilings, tiles, below, above = [], density * self.undecided.surface.area, 0.0, math.inf
         options = {**self.options, "moves": {}, "size_counts": tries > 1}
         for attempt in range(tries):
@@ -164,5 +164,5 @@ def best_window(sizes: Sequence[Sequence[float]], weights: Sequence[float]) -> W
 
 
 def nearest(tilings: Sequence[Map], density: float) -> Map:
-    """The one whose median density is nearest."""
+    """The map whose median density is nearest to the wanted one."""
     return min(tilings, key=lambda made: abs(relative_size(made, density) - 1))

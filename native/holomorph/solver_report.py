@@ -1,4 +1,4 @@
-"""What a solve tells of itself: the solver and why, residuals, memory."""
+"""Reports on a solve: the solver and why it was chosen, residuals, memory."""
 
 from dataclasses import dataclass
 from typing import Self
@@ -25,7 +25,7 @@ class SolverReport(Value):
 
     @classmethod
     def of(cls, native: object) -> Self:
-        """That of a native report."""
+        """Makes one of a native report."""
         levels = tuple((level.faces, level.iterations, level.seconds) for level in native.levels)
         return cls(native.name, native.reason, native.iterations, native.residual, levels)
 
@@ -56,10 +56,10 @@ class ClosedResiduals(Residuals):
 
 @dataclass(frozen=True)
 class MemoryPlan:
-    """What `memory_limit` led to. keeps_forms: all harmonic functions are kept in memory, else each block of forms is
-    freed once measured; block: right-hand sides solved for at a time; bytes: estimate of the most memory in use at
-    once, without the surface itself; not less than what was measured, and up to 2.5 times that, 30 MB more of small
-    surfaces."""
+    """How a computation keeps within `memory_limit`. keeps_forms: all harmonic functions are kept in memory, else each
+    block of forms is freed once measured; block: right-hand sides solved for at a time; bytes: estimate of the most
+    memory in use at once, without the surface itself; not less than what was measured, and up to 2.5 times that, 30 MB
+    more of small surfaces."""
 
     keeps_forms: bool
     block: int

@@ -202,7 +202,7 @@ class Surface(Value):
         return self._native.topology()
 
     def require_connected(self) -> None:
-        """Raises TopologyError where there are several components."""
+        """Raises TopologyError if there are several components."""
         if self._native.component_count != 1:
             hint = f"; {UNWELDED}" if self.is_unwelded else ""
             raise TopologyError(
@@ -233,7 +233,7 @@ class Surface(Value):
 
     @cached_property
     def repairs(self) -> Repairs:
-        """What was handled inside."""
+        """The `Repairs`: what was wrong with the input, and handled inside."""
         return self._origin.repairs(self._native)
 
     @property

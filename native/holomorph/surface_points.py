@@ -30,7 +30,7 @@ class SurfacePoints(Value):
 
     @cached_property
     def positions(self) -> Reals:
-        """(n, 3) in space."""
+        """(n, 3) positions in space."""
         return arrays.frozen(self.of(self.tiled.surface.vertices))
 
     @cached_property

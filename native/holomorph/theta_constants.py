@@ -17,8 +17,8 @@ ROUNDING = 1e-12  # relative: more than that of a term, its exponent below SMALL
 @dataclass(frozen=True)
 class Hyperelliptic:
     """verdict : "yes", "no" or "undecided"
-    least : the smallest absolute value of an even theta constant of genus 3, which vanishes just on hyperelliptic
-        surfaces; 0 for genus 1 and 2, where all surfaces are
+    least : the smallest absolute value of an even theta constant of genus 3, which vanishes on hyperelliptic surfaces
+        only; 0 for genus 1 and 2, where all surfaces are
     error : certain bound of its error, from the bounds of the periods
     """
 

@@ -22,7 +22,7 @@ from .value import counted
 
 class Tiler:
     """The poles of a surface and what tilings with them are made of; changing tiles, lattice or direction is quick.
-    It does not change: threads may ask it side by side, and so may a progress function.
+    It is immutable: several threads, and a progress function, may use it at once.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ def place_poles(
 
 
 def _too_sheared(made, max_added, genus):
-    """What can be had instead."""
+    """The sentence of the refusal, with what can be had instead."""
     poles = counted(len(made.poles), "pole")
     advice = "take more tiles" if len(made.poles) >= genus else f"take {genus} poles or more, or more tiles"
     return (

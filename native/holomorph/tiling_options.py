@@ -1,4 +1,4 @@
-"""What is asked of a tiling, checked: poles, where they may be, the lattice of the texture."""
+"""Checks the options of a tiling: poles, where they may be, the lattice of the texture."""
 
 import math
 import numbers
@@ -65,7 +65,7 @@ def is_straight(boundary, component, evened):
 
 
 def generators(lattice):
-    """Its two generators as complex numbers. @throws ValueError"""
+    """The two generators of a lattice as complex numbers. @throws ValueError"""
     if isinstance(lattice, str):
         if lattice not in LATTICES:
             raise ValueError(f"lattice is {lattice!r}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")

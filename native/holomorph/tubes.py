@@ -14,7 +14,7 @@ ENDS = 2  # the longest boundary loops of a tube
 
 
 def is_tube(surface: Surface) -> bool:
-    """Whether it is a sphere with two holes."""
+    """Whether the surface is a sphere with two holes."""
     return (surface.genus, surface.boundary_count) == (0, ENDS)
 
 

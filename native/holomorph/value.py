@@ -15,7 +15,7 @@ class Value(ABC):
 
     @abstractmethod
     def _facts(self) -> list[str]:
-        """What a person wants to be told first."""
+        """The facts that a repr shows."""
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {', '.join(self._facts())}>"
@@ -35,7 +35,7 @@ class Value(ABC):
 
 
 def counted(count: int, noun: str) -> str:
-    """Such as "1 pole" and "2 poles"."""
+    """A number with its noun, such as "1 pole" and "2 poles"."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 

@@ -1,4 +1,4 @@
-"""What a UV map is good for, in words: one judgement for the package, its command and Blender."""
+"""Verdicts on UV maps, in words: one judgement for the package, its command and Blender."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def _lower(sentence):
 
 
 def _factor(value):
-    """Few digits, for a person."""
+    """A factor in few digits, for a person."""
     return "over 1000" if value > 1000 else f"{float(f'{value:.2g}'):g}"
 
 

@@ -35,7 +35,7 @@ def write(path, *contents):
 
 
 def check_places(source, output, others, overwrite):
-    """Before any work: that no file is written over another one of a run.
+    """Checks, before any work, that no file of a run is written over another one.
 
     source : the file that is read; output : None or where the result goes, which may be the source where `overwrite` is
         true; others : paths of other files that are written, None for none

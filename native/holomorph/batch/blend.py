@@ -21,7 +21,7 @@ SCRIPT = Path(__file__).with_name("in_blender.py")
 
 @dataclass(frozen=True)
 class Opening:
-    """A scene whose mesh objects are to be read; a task as those of assets are."""
+    """A task like those of assets: reads the mesh objects of a scene."""
 
     name: str
     key: str

@@ -117,7 +117,7 @@ def work(task, limits):
 
 
 def stop():
-    """On a Dask worker: what it works on is not wanted any more."""
+    """Runs on a Dask worker: cancels its work."""
     while _started:
         _started.pop().stop()
 

@@ -23,7 +23,7 @@ UNFIT = LEVELS[LEVELS.index("fair") + 1 :]
 
 
 def main(arguments):
-    """The exit code; a sentence on the error stream where it is not 0."""
+    """Runs the command and returns the exit code; if that is not 0, a sentence on the error stream says why."""
     try:
         return _run(_options(arguments))
     except UsageError as error:
@@ -111,7 +111,7 @@ def _engine(options):
 
 
 def _do(tasks, noun, execute, retries):
-    """The records of all tasks, of which those that have none yet are done."""
+    """Does the tasks that have no record yet, and returns the records of all."""
     records = {task.key: stored(task) for task in tasks}
     waiting = [
         task for task in tasks if (record := records[task.key]) is None or (retries and record["status"] != DONE)

@@ -1,4 +1,4 @@
-"""What the command line says in one sentence and ends with."""
+"""The errors that end the command line, with one sentence each."""
 
 
 class UsageError(Exception):

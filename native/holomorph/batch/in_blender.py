@@ -42,7 +42,7 @@ def importer(kind):
 
 
 def is_helper(obj):
-    """Whether the importer made it for its own use: it is no part of the scene."""
+    """Whether the importer made the object for its own use, so that it is no part of the scene."""
     return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 
@@ -106,7 +106,7 @@ def write(path, arrays, target, name):
 
 
 def new_mesh(name, arrays):
-    """The mesh as the surface has it, linked to the scene."""
+    """Makes a mesh object of the surface, linked to the scene."""
     corners, offsets = arrays["corner_vertices"], arrays["face_offsets"]
     mesh = bpy.data.meshes.new(name)
     mesh.vertices.add(len(arrays["vertices"]))

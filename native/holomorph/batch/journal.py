@@ -47,7 +47,7 @@ class Journal:
                 self._empty_work()
 
     def _empty_work(self):
-        """Also of shares that were killed, when this run is alone."""
+        """Empties the folder of work; if this run is alone, also those of shares that were killed."""
         shutil.rmtree(self.work if self._share else self.work.parent, ignore_errors=True)
         with storing():
             self.work.mkdir(parents=True)
@@ -62,7 +62,7 @@ class Journal:
 
 @contextlib.contextmanager
 def storing():
-    """OSError becomes StorageError."""
+    """Turns OSError into StorageError."""
     try:
         yield
     except OSError as error:

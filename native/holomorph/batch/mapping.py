@@ -70,7 +70,7 @@ def _arrangement(maps):
 
 
 def refused_reports(surface):
-    """Those of the parts of the file that are no surface."""
+    """The reports of the parts of the file that are no surface."""
     return [refused_report(refused) for refused in surface.refused]
 
 

@@ -74,7 +74,7 @@ def _asset(task):
 
 
 def _words(report):
-    """The verdict: what is seen, and what would help."""
+    """The verdict in words: what is seen, and what would help."""
     return [Verdict(**report["verdict"]).text] if report.get("verdict") else []
 
 
@@ -118,7 +118,7 @@ def _flat(entry, prefix=""):
 
 
 def _columns(rows):
-    """Those of the asset, then those of the parts in the order in which they occur."""
+    """The columns: those of the asset, then those of the parts in the order in which they occur."""
     return list(dict.fromkeys([*ASSET_COLUMNS, *(name for row in rows for name in row)]))
 
 

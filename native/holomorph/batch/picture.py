@@ -106,7 +106,7 @@ def _ranges(low, high):
 
 
 def _shades(normals):
-    """Both sides are lit alike."""
+    """The brightness of each triangle; both sides are lit alike."""
     light = LIGHT / np.linalg.norm(LIGHT)
     facing = normals * np.sign(normals[:, 2:])
     lit = np.maximum(facing @ light, 0.0) / np.linalg.norm(normals, axis=1)

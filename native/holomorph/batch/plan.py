@@ -23,7 +23,7 @@ class Plan:
         self._meshes = [self._mesh(source) for source in found[share] if not sources.is_scene(source.path)]
 
     def tasks(self):
-        """Those of the mesh files, and of the objects of the scenes that were read."""
+        """The tasks of the mesh files, and of the objects of the scenes that were read."""
         opened = [opening for opening in self.openings if (opening.folder / blend.OBJECTS).exists()]
         return self._meshes + [task for opening in opened for task in self._objects(opening)]
 

@@ -23,7 +23,7 @@ def bar(total, noun):
 
 
 class Lines:
-    """What is used of tqdm."""
+    """Prints lines in place of tqdm's bar, with the same methods."""
 
     def __init__(self, total, noun):
         self._total, self._noun, self._done, self._said = total, noun, 0, time.monotonic()

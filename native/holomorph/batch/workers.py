@@ -30,7 +30,7 @@ class Limits:
 
 
 class Stopped(Exception):
-    """The worker was told to stop before the task was done."""
+    """Raised when the worker was told to stop before the task was done."""
 
 
 class Worker:

@@ -9,15 +9,15 @@
 
 namespace holomorph {
 
-/// The caller sees to it that the two do not write what the other reads, so that no result depends on which is ahead.
-/// The loops of the two share the processors: each waits only for threads that run (base/workers.h).
+/// @pre neither of the two writes what the other reads: then no result depends on which is ahead. The loops of the two
+/// share the processors: each waits only for threads that run (base/workers.h).
 class BackgroundTask {
  public:
   using Work = std::function<void(Execution&)>;
 
-  /// Begins `work` with an execution of its own, which has as many threads and reports nothing; what it refers to
-  /// outlives this. Where the computation has one thread only, or the system no other, the work is done here and now,
-  /// with `execution`. @throws what work that is done here throws
+  /// Starts `work` with an execution of its own, which has as many threads and reports nothing. What `work` refers to
+  /// must outlive this. Where `execution` has one thread, or the system gives no other, the constructor does the work
+  /// itself. @throws what `work` throws in that case
   BackgroundTask(Work work, Execution& execution);
   /// A task that has not been waited for is cancelled.
   ~BackgroundTask();

@@ -15,8 +15,8 @@ inline constexpr int kChunk = 4096;
 
 inline int chunk_count(int rows) { return (rows + kChunk - 1) / kChunk; }
 
-/// Calls task(chunk), or task(thread, chunk), for each of `chunks` chunks, in parallel. The task may throw: the first
-/// exception is thrown again when all are done.
+/// Calls task(chunk), or task(thread, chunk), for each of `chunks` chunks, in parallel. The task may throw: when all
+/// are done, the exception of the lowest chunk is thrown again.
 template <class Task>
 void run_throwing(Workers& workers, int chunks, const Task& task, int too_few = Workers::kTooFew) {
   std::vector<std::exception_ptr> failures(chunks);

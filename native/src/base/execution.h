@@ -29,7 +29,7 @@ class Execution {
   /// Begins the stage that covers the fractions [begin, end] of the whole work, and ends the one before.
   void stage(const std::string& name, double begin, double end);
 
-  /// Until the next stage or part, what is reported is of the part [from, to] of the current stage.
+  /// Maps what is reported to the part [from, to] of the current stage, until the next stage or part begins.
   void part(double from, double to) {
     part_begin_ = from;
     part_end_ = to;
@@ -49,7 +49,7 @@ class Execution {
   /// Ends the last stage, and reports that all is done.
   void finish();
 
-  /// While it lives, the stages of a computation that is called within this one are of its current stage or part.
+  /// While alive, maps the stages of a nested computation to the current stage or part.
   class Within {
    public:
     explicit Within(Execution& execution);

@@ -1,4 +1,4 @@
-// The one check of every array of coordinates that leaves the library.
+// Checks arrays of coordinates before they leave the library.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,8 +12,8 @@ inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
 /// and 511 of 512 page faults. Has no effect where the system refuses.
 void advise_large_pages(void* memory, std::size_t bytes);
 
-/// Memory at a multiple of kLargePage, with any content, that goes back to the system as soon as it is freed. The heap
-/// would keep it, and a computation takes and frees many large arrays of different sizes.
+/// Allocates uninitialised memory at a multiple of kLargePage, which goes back to the system as soon as it is freed.
+/// The heap would keep it, and a computation takes and frees many large arrays of different sizes.
 /// @throws std::bad_alloc
 void* take_large_pages(std::size_t bytes);
 

@@ -15,12 +15,12 @@ namespace holomorph {
 template <class T>
 class Lender {
  public:
-  /// Each has to compute the same bits.
+  /// Makes one more. All that it makes compute the same bits.
   using Make = std::function<std::unique_ptr<T>(Execution&)>;
 
   explicit Lender(Make make) : make_(std::move(make)) {}
 
-  /// It comes back when nobody holds the pointer any more. @pre the lender outlives that
+  /// Lends one. It comes back when the last copy of the pointer is gone. @pre the lender outlives the pointer
   std::shared_ptr<T> borrow(Execution& execution) const {
     std::unique_ptr<T> lent;
     {

@@ -3,7 +3,7 @@
 
 namespace holomorph {
 
-/// Advice to the processor to fetch what lies at `address`, which may be any: asking never fails.
+/// Advises the processor to fetch what lies at `address`. Any address will do: the advice never fails.
 inline void prefetch([[maybe_unused]] const void* address) {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);

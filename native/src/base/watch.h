@@ -13,7 +13,7 @@ namespace holomorph {
 /// has cancelled, the tasks of all threads end.
 class Watch {
  public:
-  /// @param steps after about how many calls half of what is reported is done
+  /// @param steps number of calls after which the progress reported is one half: about half of those expected
   Watch(Execution& execution, double steps) : execution_(execution), steps_(steps) {}
 
   /// @param thread that the task runs on, 0 for the calling one. @throws Cancelled

@@ -25,9 +25,9 @@ class Workers {
   /// Number of the threads; the calling one is number 0.
   int count() const { return count_; }
 
-  /// task(thread, chunk) for each of `chunks` chunks, once, on any thread and in any order; returns when all are done.
-  /// From one thread at a time, and not from a task. @pre task does not throw; chunks < 2^24
-  /// @param too_few chunks to wake a thread for
+  /// Calls task(thread, chunk) once for each of `chunks` chunks, on any thread and in any order, and returns when all
+  /// are done. Only one thread may call this at a time, and no task may. @pre task does not throw; chunks < 2^24
+  /// @param too_few chunks for which no thread is woken
   template <class Task>
   void run(int chunks, const Task& task, int too_few = kTooFew) {
     if (count_ == 1 || chunks <= too_few) {
@@ -49,9 +49,9 @@ class Workers {
   bool take(int thread);
   void work(int thread);
 
-  // Number of the loop, above; chunks of it that nobody has taken yet, the lower 24 bits. A chunk is taken by lowering
-  // this, which fails for a thread that still has an older loop in mind. Whoever has taken one may read the two below:
-  // they are written only when all chunks of the loop before are done.
+  // Upper bits: the number of the loop. Lower 24 bits: its chunks that no thread has taken yet. A thread takes a chunk
+  // by lowering this, which fails if it still has an older loop in mind. A thread that has taken a chunk may read
+  // `call_` and `chunks_`: they are written only when all chunks of the loop before are done.
   std::atomic<std::uint64_t> open_{0};
   Call call_;
   int chunks_ = 0;

@@ -9,8 +9,8 @@
 
 namespace holomorph::bindings {
 
-/// Python's signal handlers run in the main thread alone, and not while that is here: without a function of the
-/// caller's this looks for Ctrl-C. @throws what the handler raises, mostly KeyboardInterrupt
+/// Returns a progress function that looks for Ctrl-C, for callers who give none. Python runs signal handlers in the
+/// main thread alone, which is busy here. @throws what the handler raises, mostly KeyboardInterrupt
 inline Execution::Callback interruptible() {
   const auto threading = pybind11::module_::import("threading");
   if (!threading.attr("current_thread")().is(threading.attr("main_thread")())) return {};
@@ -21,7 +21,8 @@ inline Execution::Callback interruptible() {
   };
 }
 
-/// None is no function. It is called with the interpreter's lock held, and answers False, or NumPy's, to cancel.
+/// Wraps the caller's progress function; None stands for no function. Python's function is called with the
+/// interpreter's lock held. It answers False, Python's or NumPy's, to cancel.
 inline Execution::Callback callback(const pybind11::object& progress) {
   if (progress.is_none()) return interruptible();
   return [progress](double fraction, const std::string& stage) {

@@ -23,7 +23,7 @@ struct Structure {
   std::unique_ptr<structure::UvForms> forms;  ///< none of a structure that was cut
   std::shared_ptr<Structure> uncut;           ///< where this was cut: the one whose forms it shares
 
-  /// `use(forms, execution)` without the interpreter's lock, one call at a time. A call from within the progress
+  /// Calls use(forms, execution) without the interpreter's lock, one call at a time. A call from within the progress
   /// function of another, on the same thread, would wait for itself: it gets forms of its own.
   template <class Use>
   void with_forms(Use use, Execution::Callback progress = interruptible()) {

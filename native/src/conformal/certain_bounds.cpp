@@ -13,10 +13,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-constexpr double kSlack = 1.01;  // what bounds of rounding are themselves rounded by
+constexpr double kSlack = 1.01;  // covers the rounding of the bounds of rounding themselves
 
-// A diagonal matrix not below any symmetric matrix with entries up to those of `errors`: 2 |x_i x_j| <= (w_j / w_i)
-// x_i^2 + (w_i / w_j) x_j^2, with weights that suit the diagonal of P.
+// Returns a diagonal matrix that is not below any symmetric matrix whose entries are at most those of `errors`: 2 |x_i
+// x_j| <= (w_j / w_i) x_i^2 + (w_i / w_j) x_j^2, with weights that suit the diagonal of P.
 VectorXd diagonal_above(const MatrixXd& errors, const MatrixXd& P) {
   const VectorXd root = P.diagonal().cwiseAbs().cwiseSqrt().cwiseMax(std::numeric_limits<double>::min());
   return kSlack * root.cwiseProduct(errors * root.cwiseInverse());
@@ -34,6 +34,7 @@ MatrixXd above_congruent(const MatrixXd& T, const MatrixXd& G) {
 
 MatrixXd below_inverse(const MatrixXd& A) {
   const MatrixXd X = symmetric(inverse(A));
+  // 2 X - X A X <= A^-1 (certain_bounds.h). X A X is rounded upwards, so the difference is rounded downwards.
   MatrixXd lower = 2 * X - above_congruent(X, A);
   lower.diagonal() -= diagonal_above(3 * kUnit * lower.cwiseAbs(), X);
   return lower;
@@ -54,10 +55,12 @@ void set_real_bounds(const MatrixXd& G, const MatrixXd& Z, PeriodBounds& bounds)
   const MatrixXd M = (G + below) / 2;
   MatrixXd T(g, 2 * g);
   T << MatrixXd::Identity(g, g), -Z;
+  // x R x for each row x of T = [1, -Z]; then tr(Y R_bb), its rounding added.
   const VectorXd across = above_congruent(T, R).diagonal().cwiseMax(0);
   const MatrixXd products = bounds.upper.cwiseAbs() * R.bottomRightCorner(g, g).cwiseAbs();
   const double trace = std::max(0.0, (bounds.upper * R.bottomRightCorner(g, g)).trace()) +
                        kUnit * static_cast<double>(2 * g + 4) * products.trace();
+  // The part of the midpoint M: |rest Y|_ij <= sum_k |rest_ik| sqrt(Y_kk Y_jj), since Y is positive definite.
   const MatrixXd rest = T * M.rightCols(g);
   const double factor = kUnit * static_cast<double>(2 * g + 8);
   const MatrixXd missed = rest.cwiseAbs() + kSlack * factor * (T.cwiseAbs() * M.rightCols(g).cwiseAbs());
@@ -72,7 +75,7 @@ void set_real_bounds(const MatrixXd& G, const MatrixXd& Z, PeriodBounds& bounds)
       bounds.real_upper(i, j) = -Z(i, j) + radius;
     }
   }
-  // Omega is symmetric.
+  // Omega is symmetric: the narrower of both intervals holds for both entries.
   bounds.real_lower = bounds.real_lower.cwiseMax(bounds.real_lower.transpose()).eval();
   bounds.real_upper = bounds.real_upper.cwiseMin(bounds.real_upper.transpose()).eval();
 }
@@ -83,6 +86,7 @@ PeriodBounds period_bounds(const MatrixXd& G) {
   const Index g = G.rows() / 2;
   PeriodBounds bounds;
   bounds.lower = below_inverse(G.bottomRightCorner(g, g));
+  // Any Z gives an upper bound; this one is the best, up to rounding.
   const MatrixXd Z = G.topRightCorner(g, g) * bounds.lower;
   MatrixXd T(g, 2 * g);
   T << MatrixXd::Identity(g, g), -Z;

@@ -8,18 +8,20 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using topology::IntegerMatrix;
 
-// The integer classes of the double: (s(x) + a(y)) / 2, x an integer combination of the N classes and y of the D
-// classes, s and a their symmetric and antisymmetric extension, x = E y mod 2, where E takes a handle class to itself
-// and d(1 on a loop) to 0. Rows (x, y) of a basis, in such an order that on planar surfaces it is canonical up to the
-// order, alpha_k = a(d_k) / 2, beta_k = -s(n_k).
+// A basis of the integer classes of the double, in rows (x, y). Each is (s(x) + a(y)) / 2, with x an integer
+// combination of the natural classes and y of the Dirichlet classes, s and a their symmetric and antisymmetric
+// extensions, and x = E y mod 2. E takes a handle class to itself and d(1 on a loop) to 0 (docs/method/boundaries.md).
+// On planar surfaces the basis is canonical up to its order: alpha_k = a(d_k) / 2, beta_k = -s(n_k).
 IntegerMatrix double_classes(Index n, Index handles) {
   IntegerMatrix rows = IntegerMatrix::Zero(2 * n, 2 * n);
   Index row = 0;
   for (Index k = handles; k < n; ++k) {
+    // A loop: E takes it to 0, so y is any integer and x is even.
     rows(row++, n + k) = 1;
     rows(row++, k) = -2;
   }
   for (Index k = 0; k < handles; ++k) {
+    // A handle: x = y mod 2.
     rows(row, k) = 1;
     rows(row++, n + k) = 1;
     rows(row++, k) = 2;
@@ -48,6 +50,7 @@ HolomorphicBasis closed_basis(const MatrixXd& G, const MatrixXd& certain, const 
                               const topology::CanonicalBasis& canonical) {
   const auto g = G.rows() / 2;
   const MatrixXd S = canonical.classes.cast<double>();
+  // The rows of S are alpha and beta, written in the classes that the forms belong to.
   const auto in_canonical = [&S](const MatrixXd& gram) { return symmetric(S * gram * S.transpose()); };
   HolomorphicBasis result;
   result.star = projected_star(G, G, W.cast<double>());
@@ -66,12 +69,14 @@ HolomorphicBasis bounded_basis(const std::vector<MatrixXd>& gram, const std::vec
   result.star = projected_star(gram[0], gram[1], W.cast<double>());
   result.differentials.resize(2 * n, n);
   result.differentials.topRows(n).setIdentity();
+  // Column i has i C#_ij at the Dirichlet form j: the transpose of C#.
   result.differentials.bottomRows(n) =
       std::complex<double>(0, 1) * result.star.star.transpose().cast<std::complex<double>>();
   const MatrixXd classes = canonical_classes_of_double(W, 2 * genus);
   result.period_matrix = period_matrix(gram_of_double(classes, result.star.natural_gram, result.star.dirichlet_gram));
   MatrixXd both = MatrixXd::Zero(2 * n, 2 * n);
   both << certain[0], MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), certain[1];
+  // The double's Gram matrix is half of that of (x, y), as in gram_of_double. Halving is exact.
   result.bounds = period_bounds(above_congruent(classes, both) / 2);
   return result;
 }

@@ -10,7 +10,7 @@
 
 namespace holomorph::conformal {
 
-/// Everything here is dense and small.
+/// The star, the holomorphic basis and the period matrix. All matrices are dense and small.
 ///
 /// The paper conjugates by averaging the face-wise star over the faces of an edge, which is not closed and tears. Here
 /// *h_i = sum_j C_ij h_j is found by the pairing (Gu & Yau 2003, doi:10.2312/SGP/SGP03/127-137). C is projected so that

@@ -18,6 +18,7 @@ MatrixXd geometric_mean(const MatrixXd& A, const MatrixXd& B) {
   const Eigen::LLT<MatrixXd> root(A);
   if (root.info() != Eigen::Success)
     throw SolverError("the Gram matrix of " + std::to_string(A.rows()) + " forms is not positive definite");
+  // A # B = L (L^-1 B L^-T)^(1/2) L^T for any L with A = L L^T: the mean is invariant under congruence.
   const MatrixXd L = root.matrixL();
   const MatrixXd half = L.triangularView<Eigen::Lower>().solve(B);
   const MatrixXd inner = L.triangularView<Eigen::Lower>().solve(half.transpose());  // L^-1 B L^-T
@@ -41,6 +42,7 @@ ProjectedStar projected_star(const MatrixXd& G_N, const MatrixXd& G_D, const Mat
 
 Eigen::MatrixXcd period_matrix(const MatrixXd& G) {
   const auto g = G.rows() / 2;
+  // Both are symmetric for a projected Gram matrix, up to the rounding that is removed here.
   const MatrixXd imaginary = symmetric(inverse(G.bottomRightCorner(g, g)));
   const MatrixXd real = symmetric(-G.topRightCorner(g, g) * imaginary);
   return real.cast<std::complex<double>>() + std::complex<double>(0, 1) * imaginary.cast<std::complex<double>>();

@@ -5,8 +5,8 @@
 
 namespace holomorph::conformal {
 
-/// The geometric mean A # B = A^(1/2) (A^(-1/2) B A^(-1/2))^(1/2) A^(1/2) of positive definite matrices, by Cholesky
-/// and one symmetric eigenproblem. The mean is invariant under congruence, so any root of A will do.
+/// Computes the geometric mean A # B = A^(1/2) (A^(-1/2) B A^(-1/2))^(1/2) A^(1/2) of positive definite matrices, by
+/// Cholesky and one symmetric eigenproblem. The mean is invariant under congruence, so any root of A will do.
 /// @throws SolverError if a matrix is not positive definite, or too badly conditioned
 Eigen::MatrixXd geometric_mean(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 

@@ -8,12 +8,12 @@ namespace holomorph::evening {
 namespace {
 
 constexpr std::size_t kMemory = 6;  // steps
-constexpr double kProgress = 3e-3;  // a step that lowers the energy by less than this part of it is not worth it
-constexpr double kFar = 0.03;       // after one that lowers it by more, the preconditioner is made anew
-constexpr double kDecrease = 1e-4;  // Armijo's
-constexpr double kShortest = 1e-6;  // step, of the direction
+constexpr double kProgress = 3e-3;  // the descent ends at a step that lowers the energy by less than this part of it
+constexpr double kFar = 0.03;       // after a step that lowers it by more, the preconditioner is made anew
+constexpr double kDecrease = 1e-4;  // of Armijo's condition
+constexpr double kShortest = 1e-6;  // shortest step, relative to the full one
 
-// Sum of the products of u and of v.
+// The inner product: the sum of the products of u and of v.
 double product(const Function& a, const Function& b, Workers& workers) {
   return sum_over_rows(workers, static_cast<int>(a.size()), 0.0,
                        [&](int v, double& sum) { sum += a[v].real() * b[v].real() + a[v].imag() * b[v].imag(); });
@@ -41,6 +41,7 @@ StrainEnergy::Value Descent::at(const Function& delta, Function& gradient) {
 
 bool Descent::step() {
   if (!precondition_) {
+    // A new preconditioner knows the second derivatives at delta, so the history of older steps is dropped.
     steps_.clear();
     precondition_ = make_(delta_);
   }
@@ -54,6 +55,7 @@ bool Descent::step() {
     next = delta_;
     add(next, length, along, workers_);
     next_value = at(next, next_gradient);
+    // Armijo's condition. The energy is finite for flipped triangles, too, so the step need not stop before them.
     if (next_value.energy <= value_.energy + kDecrease * length * slope) break;
   }
   for_rows(workers_, static_cast<int>(along.size()), [&](int v) {
@@ -73,6 +75,7 @@ bool Descent::step() {
 }
 
 Function Descent::direction() const {
+  // The two-loop recursion of L-BFGS, with the preconditioner for the inverse second derivatives to begin with.
   Function result = gradient_;
   std::vector<double> along(steps_.size());
   for (std::size_t k = steps_.size(); k-- > 0;) {
@@ -89,7 +92,7 @@ Function Descent::direction() const {
   return result;
 }
 
-// Steps along which the gradient falls say nothing of a minimum.
+// Remembers a step. One along which the gradient falls is left out: with it the inverse would not be positive.
 void Descent::take(Function step, Function change) {
   const double curvature = product(step, change, workers_);
   if (!(curvature > 0)) return;

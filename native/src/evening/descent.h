@@ -10,14 +10,14 @@
 
 namespace holomorph::evening {
 
-/// Symmetric and positive, about the inverse of the second derivatives.
+/// Applies an approximate inverse of the second derivatives, symmetric and positive.
 using Precondition = std::function<Function(const Function& gradient)>;
 
 /// A descent of StrainEnergy. While the energy falls quickly, each step of gradient descent makes its own
 /// preconditioner. Later the last one serves several steps.
 class Descent {
  public:
-  /// @param make Precondition(delta). @param clear sets a function to 0 where it is to stay
+  /// @param make makes the preconditioner at delta. @param clear sets a function to 0 at its fixed vertices
   /// @pre the energy outlives this
   Descent(const StrainEnergy& energy, double lambda, std::function<Precondition(const Function& delta)> make,
           std::function<void(Function&)> clear, Workers& workers)
@@ -25,7 +25,7 @@ class Descent {
 
   /// Begins anew, also where the energy itself has changed.
   StrainEnergy::Value begin(Function delta);
-  /// One step. @return whether it was worth it: the end is near where it was not
+  /// Makes one step. @return whether to go on: false near the minimum, where a step lowers the energy by little
   bool step();
 
   const Function& delta() const { return delta_; }

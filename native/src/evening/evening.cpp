@@ -16,10 +16,11 @@ namespace holomorph::evening {
 namespace {
 
 constexpr int kMostSteps = 40;
-constexpr double kWhole = 0.9;  // part of the work that comes before flipped triangles are turned back
-// Around them: those that may move, and the inner ones that keep the shape of the map before, where else they flip.
+constexpr double kWhole = 0.9;  // part of the work before flipped triangles are turned back, for the progress function
+// Rings of triangles around flipped ones, tried in turn: all of them may move, and the inner ones keep the shape that
+// the map before evening gives them. Keeping it costs evenness, so moving alone is tried first.
 constexpr StrainEnergy::Rings kRings[] = {{2, 0}, {4, 0}, {8, 0}, {16, 0}, {4, 2}, {8, 4}, {16, 8}, {32, 16}};
-// The next ring is tried where the last one left at most this part of the flipped area: where one does not help, larger
+// The next rings are tried if the last ones left at most this part of the flipped area: where some do not help, larger
 // ones rarely do.
 constexpr double kHelps = 0.9;
 // Factors of the weight of size, one after the other where the map flips more than before. A little less size is often
@@ -32,21 +33,22 @@ constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count
 // 1 - lambda of every density, and s1 / s2 grows by lambda times the logarithm of the density over its mean.
 double lambda_of(double evenness) { return evenness * (0.78 - 0.08 * evenness); }
 
-// About twice the Laplacian are the second derivatives.
+// The second derivatives are about twice the Laplacian.
 constexpr double kInverse = 0.5;
 
 solver::Condition condition(const std::vector<int>& kept) {
   return kept.empty() ? solver::Condition::natural : solver::Condition::dirichlet;
 }
 
-// One for u and for v, which are the same where one set of fixed vertices is enough.
+// The solvers for u and for v. One serves both if there is one set of fixed vertices: it knows the natural condition as
+// well.
 class Solvers {
  public:
   Solvers(const mesh::HalfEdges& half_edges, solver::Method method, const Kept& kept)
       : half_edges_(half_edges), method_(method), kept_(kept) {}
 
   void make(const Array<double>& edge_weights, Execution& execution) {
-    u_.reset(), v_.reset();  // the memory of the last ones
+    u_.reset(), v_.reset();  // first, so that their memory is free for the new ones
     const bool same = kept_.u.empty() || kept_.v.empty() || kept_.u == kept_.v;
     u_ = made(edge_weights, kept_.u.empty() ? kept_.v : kept_.u, execution);
     v_ = same ? u_ : made(edge_weights, kept_.v, execution);
@@ -96,13 +98,15 @@ Precondition inverse(solver::SparseCholesky& factor, int free_count) {
   };
 }
 
-// Turns triangles back that delta flips, as far as they are more than before: only their surroundings move.
+// Turns triangles back that delta flips, until no more area is flipped than `most_flipped`. Only their surroundings
+// move.
 // @param delta on the whole surface; changed where that flips less. @return the area that it then flips
 double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, double most_flipped,
                  StrainEnergy::Rings rings, Function& delta, Execution& execution) {
   StrainEnergy::Patch patch = energy.around_flipped(delta, rings);
   std::vector<int> number(delta.size(), -1);
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) number[patch.vertices[i]] = static_cast<int>(i);
+  // The vertices of the patch beyond the free ones are its rim, which joins it to the rest and stays.
   const auto kept_here = [&](const std::vector<int>& vertices) {
     std::vector<int> here;
     for (std::size_t i = patch.free_count; i < patch.vertices.size(); ++i) here.push_back(static_cast<int>(i));
@@ -121,6 +125,8 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
       patch.energy, lambda, make, [&](Function& f) { clear(f, here); }, execution.workers());
   Function best(patch.vertices.size(), 0.0);
   double least_flipped = descent.begin(best).flipped;
+  // Descends. Where triangles are still flipped at the end, these count more, and the descent goes on from there. The
+  // best function on the way is kept, since a descent of the energy may flip more in between.
   for (int urge = 0; urge < kUrges && descent.value().flipped > most_flipped; ++urge) {
     for (int step = 0; step < kPatchSteps && descent.step(); ++step) {
       execution.report(0);
@@ -160,6 +166,7 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   execution.part(kWhole, 1);
   Function delta = descent.delta();
   double flipped = descent.value().flipped;
+  // Ever larger surroundings, each from what the last one has reached.
   for (const StrainEnergy::Rings rings : kRings) {
     if (flipped <= most_flipped) break;
     const double before = flipped;
@@ -176,6 +183,7 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
   uv::UvArray result = uv::UvArray::Zero(surface.vertex_count, 2);
   if (evenness == 0) return result;
   const StrainEnergy energy(surface, uv, kept.poles, execution.workers());
+  // The first weight of size with which no more area is flipped than before. If there is none, the map stays as it is.
   double most = 1;
   for (const double factor : kFactors) {
     if (factor > most) continue;

@@ -9,10 +9,10 @@
 
 namespace holomorph::evening {
 
-/// What stays of a map while it is evened, beside its jumps.
+/// What evening does not change, besides the jumps of the map.
 struct Kept {
   std::vector<int> poles;  ///< vertices at which the map is infinite
-  std::vector<int> u, v;   ///< ascending vertices at which u, or v, stays, as where the boundary is a line
+  std::vector<int> u, v;   ///< ascending vertices at which u, or v, keeps its value, as on a straight boundary
 };
 
 /// The evenness that suits textures: squares hardly differ in size, and their shear is not seen.
@@ -22,9 +22,9 @@ inline constexpr double kUsualEvenness = 0.5;
 /// power on most surfaces. The median of 25 meshes is 0.57; tori have 0.64.
 inline constexpr double kUsualPower = 0.6;
 
-/// #V x 2, what is to be added at the vertices for the least StrainEnergy. Triangles that it flips are turned back
-/// until no more area is flipped than before. Where moving their neighbours is not enough, the weight of size is
-/// lowered again and again. At last nothing is added.
+/// Returns the function, #V x 2, that gives the map the least StrainEnergy when it is added at the vertices. Triangles
+/// that it flips are turned back until no more area is flipped than before. Where moving their neighbours is not
+/// enough, the weight of size is lowered again and again. At last nothing is added.
 ///
 /// Method: gradient descent, preconditioned by the Laplacian closest to the second derivatives, which is made anew
 /// while the energy falls quickly. Then limited-memory BFGS with the last Laplacian.

@@ -38,6 +38,7 @@ std::vector<char> StrainEnergy::near_flipped(const Function& delta, int rings) c
     if (!(triangle.area > 0) || !flipped(triangle, derivatives(triangle, delta))) continue;
     for (const int v : triangle.vertices) inside[v] = 1;
   }
+  // Each ring adds the triangles that touch those before.
   for (int ring = 0; ring < rings; ++ring) {
     const std::vector<char> before = inside;
     for (const Triangle& triangle : triangles_) {
@@ -48,11 +49,12 @@ std::vector<char> StrainEnergy::near_flipped(const Function& delta, int rings) c
   return inside;
 }
 
-// The shape that the map with these derivatives gives it: from now on z is in the plane that it maps to. A triangle
-// that it collapses has none.
+// Gives the triangle the shape that it has under the map with these derivatives: from now on z is the coordinate in the
+// plane of that map. A triangle that the map collapses has no shape to keep.
 void StrainEnergy::Triangle::keep_shape(const Derivatives& map) {
   const double determinant = std::norm(map.a) - std::norm(map.b);
   if (!(std::abs(determinant) > kCollapsed * std::norm(map.a))) return;
+  // The inverse of dw = a dz + b conj(dz), applied to the gradients and to the derivatives of the present map.
   for (Complex& g : gradients) g = (g * map.a - std::conj(g) * map.b) / determinant;
   const Complex a_before = a, b_before = b;
   a = (a_before * std::conj(map.a) - b_before * std::conj(map.b)) / determinant;
@@ -76,6 +78,7 @@ StrainEnergy::Patch StrainEnergy::around_flipped(const Function& delta, Rings ri
   for (Triangle triangle : triangles_) {
     if (!any(inside, triangle.vertices)) continue;
     const Derivatives before{triangle.a, triangle.b}, map = derivatives(triangle, delta);
+    // delta becomes part of the map, so that the patch begins with the function 0.
     triangle.a = map.a;
     triangle.b = map.b;
     const bool is_inner = std::ranges::all_of(triangle.vertices, [&](int v) { return inner[v]; });

@@ -1,4 +1,4 @@
-// The surroundings of flipped triangles, to be evened by themselves.
+// A neighbourhood of flipped triangles, evened by itself.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace holomorph::evening {
 
-/// A part of the surface; its map is the one with delta.
+/// The energy of a part of the surface. Its map is the one with delta, so that its own function starts at 0.
 struct StrainEnergy::Patch {
   StrainEnergy energy;
   std::vector<int> vertices;  ///< vertices of the surface: the free ones first

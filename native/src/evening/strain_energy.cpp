@@ -10,9 +10,11 @@
 namespace holomorph::evening {
 namespace {
 
-// Stiffness by area relative to where the map has its mean size: at most where it branches, and at least.
+// Bounds of the stiffness by area, relative to where the map has its mean size. At a branch point |a| vanishes, and the
+// stiffness would be infinite.
 constexpr double kMostStiff = 1e4, kLeastStiff = 1e-6;
 
+// Factor of the energy of a triangle each time that it is still flipped.
 constexpr double kEmphasis = 8;
 
 // Triangles thinner than this, area by squared longest side, weigh less in the Laplacian: solvers do not like their
@@ -52,7 +54,8 @@ double dot(Complex a, Complex b) { return a.real() * b.real() + a.imag() * b.ima
 
 }  // namespace
 
-// Where it counts, its area.
+// Lays the triangle out in the plane of z, with the derivatives of the map there. The area stays 0 if it does not
+// count.
 void StrainEnergy::Triangle::lay_out(const mesh::Surface& surface, int t, const uv::UvArray& uv) {
   const auto [e0, e1, e2] = surface.triangle_edges[t];
   const double side = surface.edge_lengths[e0], next = surface.edge_lengths[e1], last = surface.edge_lengths[e2];
@@ -62,10 +65,13 @@ void StrainEnergy::Triangle::lay_out(const mesh::Surface& surface, int t, const 
     return Complex(uv(corner, 0), uv(corner, 1));
   };
   const Complex first = at(1) - at(0), second = at(2) - at(0);
+  // At a pole z is the UV itself, so that strain is measured from the map without delta. A triangle that is flipped in
+  // that map does not count.
   if (at_pole && !((std::conj(first) * second).imag() > 0)) return;
   const double whole = mesh::triangle_area(side, next, last);
   const auto [x, y] = at_pole ? std::array<Complex, 2>{first, second} : laid_out(side, next, last, whole);
   gradients = hat_gradients(x, y);
+  // The Wirtinger derivatives d/dz and d/d conj(z) of the linear map.
   a = 0.5 * (first * std::conj(gradients[0]) + second * std::conj(gradients[1]));
   b = 0.5 * (first * gradients[0] + second * gradients[1]);
   if (std::norm(a) > 0 && std::isfinite(std::norm(a) + std::norm(b))) area = whole;
@@ -82,6 +88,7 @@ StrainEnergy::StrainEnergy(const mesh::Surface& surface, const uv::UvArray& uv, 
     triangle.vertices = surface.triangles[t];
     triangle.at_pole = std::ranges::any_of(triangle.vertices, [&](int v) { return is_pole[v]; });
     triangle.lay_out(surface, t, uv);
+    // The mean of ln |a|^2 by area, which is ln of the mean size where the map is conformal.
     if (!triangle.at_pole && triangle.area > 0)
       part += {triangle.area, triangle.area * std::log(std::norm(triangle.a))};
   });
@@ -130,6 +137,7 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
         triangle_energy(std::norm(map.a), std::norm(map.b), triangle.lambda(lambda), triangle.log_size);
     const double weight = triangle.area * triangle.emphasis;
     sum += {weight * local.value, flipped(triangle, map) ? triangle.area : 0};
+    // By the chain rule through a and b, which are linear in the corner values. The three hat gradients sum to 0.
     const Complex by_a = 0.5 * weight * local.by_a * map.a, by_b = 0.5 * weight * local.by_b * map.b;
     for (const int k : {1, 2}) {
       const Complex g = triangle.gradients[k - 1];
@@ -139,6 +147,7 @@ StrainEnergy::Value StrainEnergy::operator()(const Function& delta, double lambd
   });
   gradient.resize(vertex_count());
   for_rows(workers, vertex_count(), [&](int v) {
+    // Each vertex gathers from its corners in a fixed order: the same bits at any number of threads.
     Complex sum = 0;
     for (int i = star_starts_[v]; i < star_starts_[v + 1]; ++i) sum += at_corners[star_corners_[i]];
     gradient[v] = sum;
@@ -172,6 +181,7 @@ Array<double> StrainEnergy::edge_weights(const mesh::Surface& surface, const Fun
     const double most = kMostStiff * std::exp(-log_size_) * triangle.area;
     double stiff = stiffness_of(triangle, delta, lambda) * thinness(g);
     if (!triangle.at_pole) stiff = std::min(stiff, most);
+    // -grad phi_i . grad phi_j times the area is the cotangent weight of the side from i to j.
     for (int k = 0; k < 3; ++k) weights[surface.triangle_edges[t][k]] -= stiff * dot(g[k], g[(k + 1) % 3]);
   }
   return weights;

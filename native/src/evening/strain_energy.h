@@ -49,22 +49,24 @@ class StrainEnergy {
   Value operator()(const Function& delta, double lambda, Function& gradient, Function& at_corners,
                    Workers& workers) const;
 
-  /// Makes triangles count more that are flipped by delta.
+  /// Multiplies the weight of the triangles that delta flips, so that a descent turns them back.
   void emphasise_flipped(const Function& delta, Workers& workers);
 
-  /// A Laplacian close to the second derivatives. Where the map is conformal, they lie between 2 (1 - lambda) times it
-  /// and twice it. Elsewhere it grows with them.
-  /// @return weights of the edges, #E of the surface
+  /// Returns edge weights of a Laplacian close to the second derivatives. Where the map is conformal, these lie between
+  /// 2 (1 - lambda) times it and twice it. Elsewhere it grows with them.
+  /// @return #E of the surface
   Array<double> edge_weights(const mesh::Surface& surface, const Function& delta, double lambda) const;
-  /// The lower triangle of its matrix on the first so many vertices.
+  /// Returns the lower triangle of that Laplacian's matrix on the first `count` vertices.
   Eigen::SparseMatrix<double> laplacian(const Function& delta, double lambda, int count) const;
 
   struct Patch;  // patch.h
+  /// Rings of triangles around the flipped ones.
   struct Rings {
     int all, inner;
   };
-  /// Where delta flips triangles, and so many rings around them. The inner rings are to keep the shape that the map
-  /// without delta gives them, and flip no more than it does; 0 for none. @pre delta flips some
+  /// Returns the patch of the triangles that delta flips and `rings.all` rings around them. The `rings.inner` inner
+  /// rings keep the shape that the map without delta gives them, and so flip no more than it does; 0 for none. @pre
+  /// delta flips some
   Patch around_flipped(const Function& delta, Rings rings) const;
 
  private:
@@ -91,11 +93,11 @@ class StrainEnergy {
 
   StrainEnergy() = default;
   void find_stars(int vertex_count);
-  // #V: the corners of triangles that delta flips, and so many rings around them.
+  // #V: marks the corners of triangles that delta flips, and of so many rings around them.
   std::vector<char> near_flipped(const Function& delta, int rings) const;
   // Derivatives of the map with the function added.
   static Derivatives derivatives(const Triangle& triangle, const Function& function);
-  // By which the squared gradient of a change is multiplied.
+  // The factor of the squared gradient of a change in the second derivatives.
   double stiffness_of(const Triangle& triangle, const Function& delta, double lambda) const;
 
   double log_size_ = 0;    // 2 ln s0

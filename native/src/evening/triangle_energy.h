@@ -3,8 +3,8 @@
 
 namespace holomorph::evening {
 
-/// The energy of a triangle of area 1 on which the map is a z + b conj(z), and its derivatives by |a| and |b|, over |a|
-/// and |b|.
+/// The energy of a triangle of area 1 on which the map is a z + b conj(z). `by_a` and `by_b` are its derivatives by |a|
+/// and |b|, divided by |a| and |b|.
 struct TriangleEnergy {
   double value, by_a, by_b;
 };
@@ -13,7 +13,7 @@ struct TriangleEnergy {
 /// @param log_size 2 ln s0
 TriangleEnergy triangle_energy(double square_a, double square_b, double lambda, double log_size);
 
-/// How much larger second derivatives are than where the map is conformal and of the mean size.
+/// Returns how much larger the second derivatives are than where the map is conformal and of the mean size.
 /// @param ratio |b| / |a|. @param size ln(s1 s2 / s0^2)
 double stiffness(double ratio, double size, double lambda);
 

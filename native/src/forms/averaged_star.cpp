@@ -21,6 +21,7 @@ std::vector<double> averaged_star(const mesh::IntrinsicTriangulation& triangulat
       const double at_end = triangulation.cotangents[from_apex.idx()];
       const double to_start = sign(from_apex) * form[edge_of(from_apex)],
                    to_end = -sign(to_apex) * form[edge_of(to_apex)];
+      // A face of an edge has half a vote, the only face of a boundary edge a whole one.
       const double share = half_edges.is_boundary(opposite(h)) ? 1.0 : 0.5;
       star[edge_of(h)] += share * sign(h) * (at_end * to_start + at_start * to_end);
     }

@@ -27,7 +27,8 @@ Eigen::Map<const Row<N>> at_vertex(const ClosedForms& forms, int v) {
   return {forms.functions.data() + v * n, n};
 }
 
-// Value of every form along h. N is their number, where it is known in advance: that is several times faster.
+// Adds `factor` times the values of all forms along h. N is their number where it is known when compiling, which is
+// several times faster.
 template <int N>
 void add_along(const HalfEdges& half_edges, const ClosedForms& forms, HalfedgeHandle h, double factor, Row<N>& sum) {
   const int head = to_vertex(half_edges, h), tail = mesh::from_vertex(half_edges, h);
@@ -40,8 +41,8 @@ void add_along(const HalfEdges& half_edges, const ClosedForms& forms, HalfedgeHa
 template <int N>
 using Maxima = std::array<Row<N>, 2>;  // per form: largest |sum|, and largest scale that it is relative to
 
-// The faces that are first met at these half-edges, as neighbours in their order are near in memory: |sum around|
-// against the largest value.
+// Faces: |sum of h around the face| against the largest value. Each is visited at its half-edge of lowest number, since
+// half-edges with near numbers are near in memory.
 template <int N>
 void measure_faces(const HalfEdges& half_edges, const ClosedForms& forms, int begin, int end, Maxima<N>& maxima) {
   const auto n = forms.functions.cols();
@@ -71,6 +72,7 @@ void measure_vertices(const HalfEdges& half_edges, std::span<const double> weigh
     size.setZero();
     const HalfedgeHandle start = half_edges.halfedge_handle(mesh::VertexHandle(v));
     HalfedgeHandle h = start;
+    // Half-edges without a face are linked along the boundary, so this walk also closes at a boundary vertex.
     do {
       value.setZero();
       add_along<N>(half_edges, forms, h, weights[edge_of(h)], value);
@@ -78,6 +80,7 @@ void measure_vertices(const HalfEdges& half_edges, std::span<const double> weigh
       size += value.cwiseAbs();
       h = next(half_edges, opposite(h));
     } while (h != start);
+    // Dirichlet forms are prescribed here: there is no equation to be measured.
     if (is_fixed[v]) {
       sum.tail(n - natural).setZero();
       size.tail(n - natural).setZero();
@@ -102,6 +105,7 @@ double relative_maximum(std::size_t elements, Eigen::Index forms, Execution& exe
       [&](int slot) {
         for (int i = 0; i < 2; ++i) total[i] = total[i].cwiseMax(slots[slot][i]);
       });
+  // One quotient for each form: the error of a small form is not hidden by a large one.
   return (total[0].array() / total[1].array()).maxCoeff();
 }
 
@@ -182,6 +186,8 @@ Eigen::VectorXd wedges(const HalfEdges& half_edges, const ClosedForms& forms, co
       [&](int slot, int begin, int end) {
         slots[slot] = Eigen::RowVectorXd::Zero(n);
         for (int f = begin; f < end; ++f) {
+          // (h(e0) w(e1) - h(e1) w(e0)) / 2: exact, because both forms are constant on the face
+          // (docs/method/conventions.md).
           const HalfedgeHandle h0 = half_edges.halfedge_handle(mesh::FaceHandle(f)), h1 = next(half_edges, h0);
           add_along<Eigen::Dynamic>(half_edges, forms, h0, 0.5 * sign(h1) * w[edge_of(h1)], slots[slot]);
           add_along<Eigen::Dynamic>(half_edges, forms, h1, -0.5 * sign(h0) * w[edge_of(h0)], slots[slot]);

@@ -12,7 +12,7 @@
 
 namespace holomorph::forms {
 
-/// <h_i, h_i> on the surface's own triangles: the diagonal of the Gram matrix there, summed by triangles.
+/// Computes <h_i, h_i> on the surface's own triangles: the diagonal of the Gram matrix there, summed by triangles.
 /// @pre no triangle is degenerate. Cost: #T x #forms
 Eigen::VectorXd energies(const mesh::Surface& surface, const ClosedForms& forms, Execution& execution);
 
@@ -26,7 +26,7 @@ struct Residuals {
 Residuals residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights, const ClosedForms& forms,
                     Execution& execution, int natural, const std::vector<int>& fixed);
 
-/// int h_i ^ w over the surface for all forms h_i and one form w, #E values along half-edge 2e.
+/// Computes int h_i ^ w over the surface, for all forms h_i and one form w, #E values along half-edge 2e.
 Eigen::VectorXd wedges(const mesh::HalfEdges& half_edges, const ClosedForms& forms, const Eigen::VectorXd& w,
                        Execution& execution);
 

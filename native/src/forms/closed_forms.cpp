@@ -18,6 +18,7 @@ RowMajorMatrix edge_values(const EdgeEnds& ends, const ClosedForms& forms, int b
   RowMajorMatrix values(end - begin, count);
   for (int e = begin; e < end; ++e) {
     auto row = values.row(e - begin);
+    // omega = df + eta, along the edge.
     row = forms.functions.row(ends.head(e)) - forms.functions.row(ends.tail(e));
     for (const auto& [i, value] : topology::forms_between(forms.classes.rows[e], forms.first, forms.first + count))
       row[i - forms.first] += value;
@@ -60,6 +61,7 @@ double period_residual(const EdgeEnds& ends, const ClosedForms& forms,
   const auto dual =
       std::min<Eigen::Index>(forms.functions.cols(), static_cast<Eigen::Index>(loops.size()) - forms.first);
   if (dual <= 0) return 0;
+  // Form j belongs to class first + j, which is dual to that loop. Forms beyond the loops have no dual one.
   Eigen::MatrixXd found = periods(ends, forms, loops).leftCols(dual);
   for (Eigen::Index j = 0; j < dual; ++j) found(forms.first + j, j) -= 1;
   return found.cwiseAbs().maxCoeff();

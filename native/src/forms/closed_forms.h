@@ -20,20 +20,21 @@ struct ClosedForms {
   int first = 0;
 };
 
-/// Values of all forms on the edges begin .. end-1, (end - begin) x #forms, along half-edge 2e.
+/// Returns the values of all forms on the edges begin .. end-1, (end - begin) x #forms, along half-edge 2e.
 RowMajorMatrix edge_values(const mesh::EdgeEnds& ends, const ClosedForms& forms, int begin, int end);
 
 /// Writes the values of all forms on all edges, #forms x #E.
 void write_edge_values(const mesh::EdgeEnds& ends, const ClosedForms& forms, Eigen::Ref<RowMajorMatrix> rows);
 
-/// Values of one combination sum_j c_j h_j on all edges, #E along half-edge 2e.
+/// Returns the values of one combination sum_j c_j h_j on all edges, #E along half-edge 2e.
 Eigen::VectorXd combination(const mesh::EdgeEnds& ends, const ClosedForms& forms, const Eigen::VectorXd& c);
 
-/// Integrals of the forms over closed loops of half-edges, #loops x #forms.
+/// Integrates the forms over closed loops of half-edges, #loops x #forms.
 Eigen::MatrixXd periods(const mesh::EdgeEnds& ends, const ClosedForms& forms,
                         const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);
 
-/// Largest |int_{loop i} h_j - delta_ij| over the first #loops classes, as far as their functions are present.
+/// Returns the largest |int_{loop i} h_j - delta_ij| over the first #loops classes, as far as their functions are
+/// present.
 double period_residual(const mesh::EdgeEnds& ends, const ClosedForms& forms,
                        const std::vector<std::vector<mesh::HalfedgeHandle>>& loops);
 

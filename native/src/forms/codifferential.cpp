@@ -33,6 +33,8 @@ Eigen::MatrixXd codifferentials(const EdgeEnds& ends, std::span<const double> we
                                 const topology::IntegerForms& classes, int first, int count, Workers& workers) {
   Eigen::MatrixXd B = zeros(ends.vertex_count(), count, workers);
   for (const int e : classes.rows.edges()) {
+    // d^T adds a flux at the head and subtracts it at the tail; the signs are those of -d^T. Edges where all classes
+    // are 0 add nothing.
     const int head = ends.head(e), tail = ends.tail(e);
     for (const auto& [i, value] : topology::forms_between(classes.rows[e], first, first + count)) {
       B(head, i - first) -= weights[e] * value;

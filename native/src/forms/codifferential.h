@@ -9,7 +9,7 @@
 
 namespace holomorph::forms {
 
-/// -d* eta_i = -d^T (k eta_i), #V x #forms: the right-hand sides of Eq. 8.
+/// Computes -d* eta_i = -d^T (k eta_i), #V x #forms: the right-hand sides of Eq. 8.
 Eigen::MatrixXd codifferentials(const mesh::EdgeEnds& ends, std::span<const double> weights,
                                 const topology::IntegerForms& classes, Workers& workers);
 
@@ -26,9 +26,9 @@ Eigen::MatrixXd codifferentials(const mesh::EdgeEnds& ends, std::span<const doub
 Eigen::MatrixXd codifferentials(const mesh::EdgeEnds& ends, std::span<const double> weights,
                                 const RowMajorMatrix& edge_values, Workers& workers);
 
-/// <eta_i, h_j> = sum_e k_e eta_i(e) h_j(e), #classes x #forms. Where d* h_j = 0, <df_i, h_j> = 0 and so <h_i, h_j> =
-/// <eta_i, h_j>: one form h_j at a time is enough for a Gram matrix. With the residual r_j = L f_j + d* eta_j of its
-/// system it is <h_i, h_j> + f_i . r_j.
+/// Computes <eta_i, h_j> = sum_e k_e eta_i(e) h_j(e), #classes x #forms. Where d* h_j = 0, <df_i, h_j> = 0 and so <h_i,
+/// h_j> = <eta_i, h_j>: one form h_j at a time is enough for a Gram matrix. With the residual r_j = L f_j + d* eta_j of
+/// its system it is <h_i, h_j> + f_i . r_j.
 Eigen::MatrixXd class_products(const mesh::EdgeEnds& ends, std::span<const double> weights,
                                const topology::IntegerForms& classes, const ClosedForms& forms);
 

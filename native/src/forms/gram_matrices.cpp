@@ -16,8 +16,9 @@ using Eigen::VectorXd;
 using mesh::HalfedgeHandle;
 using mesh::HalfEdges;
 
+// Unit roundoff of a double.
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-// What bounds of rounding are themselves rounded by.
+// Covers the rounding of the bounds of rounding themselves.
 constexpr double kSlack = 1.01;
 // Edges that are summed before their sum is added to that of a block: short sums round less.
 constexpr int kPart = 64;
@@ -131,14 +132,15 @@ std::vector<GramMatrix> gram_matrices(const HalfEdges& half_edges, std::span<con
     const auto symmetric = [](const MatrixXd& A) { return MatrixXd((A + A.transpose()) / 2); };
     result.push_back({symmetric(total.value[i]), symmetric(total.uncertain[i]), total.size[i], {}, 0});
     if (!errors.empty()) result[i].cut_size = cut.segment(static_cast<Index>(first), families[i]);
+    // Lengths of the nested sums: over a part, over the parts of a block, over the blocks.
     result[i].summands = std::min(edges, kPart) + std::min(edges / kPart + 1, kBlock / kPart) + edges / kBlock + 1;
   }
   return result;
 }
 
-// |sum over e of the rounding of k h_i h_j| <= c sum |k h_i h_j|, a form that is at most n c diag(size). A value h = (f
-// - f) + eta misses by |delta| <= 2 |h| + |eta| units, and 2 <h, delta> + <delta, delta> by Cauchy and Schwarz is at
-// most 3 epsilon n diag(size) with epsilon^2 >= |delta|^2 / |h|^2.
+// Sums: |rounding of sum k h_i h_j| <= c sum |k h_i h_j|, which as a quadratic form is at most n c diag(size). Values:
+// h = (f - f) + eta is wrong by |delta| <= 2 |h| + |eta| units. So 2 <h, delta> + <delta, delta> is at most 3 epsilon n
+// diag(size), by Cauchy and Schwarz, with epsilon^2 >= |delta|^2 / |h|^2.
 MatrixXd gram_errors(const GramMatrix& gram) {
   const auto n = static_cast<double>(gram.size.size());
   double relative = 0;

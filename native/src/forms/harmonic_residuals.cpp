@@ -28,11 +28,14 @@ class AtVertex {
     const double k = weights_[e], outer = terms_.outer_weights.empty() ? k : terms_.outer_weights[e];
     const bool everywhere = fill(terms_.eta, h, eta_), outside = fill(terms_.outer_eta, h, outer_eta_);
     for (Eigen::Index i = 0; i < functions_.cols(); ++i) {
+      // The difference comes first, exactly: then a large weight multiplies a small number.
       DoubleDouble value = exact_sum(functions_(head, i), -functions_(tail, i));
       if (everywhere) value = value + DoubleDouble{eta_[i]};
       flux[i] = flux[i] + DoubleDouble{k} * value;
       const double whole = value.high + (outside ? outer_eta_[i] : 0);
       if (outside) flux[i] = flux[i] + DoubleDouble{outer} * DoubleDouble{outer_eta_[i]};
+      // Half of an edge's energy goes to each end. Where outer < k, inside a star, the rest of k weighs df + eta
+      // without the singular part.
       energies[i] += 0.5 * (outer * whole * whole + (k - outer) * value.high * value.high);
     }
   }

@@ -1,5 +1,4 @@
-// By how much forms miss the fluxes that their linear systems ask for, where weights are so large that rounding hides
-// it.
+// Residuals of the linear systems summed flux by flux, for weights so large that rounding hides them in b - L f.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,11 +14,12 @@ namespace holomorph::forms {
 /// Adds the values of some forms along a half-edge. Several threads may call it at once.
 using AddValues = std::function<void(mesh::HalfedgeHandle, Eigen::VectorXd& values)>;
 
-/// The right-hand sides of systems L f_j = b_j, in terms that stay small where weights are large. At each vertex the
-/// outward flux, sum k (d f_j + eta_j) + k' eta'_j, plus the source is 0. What is left out is 0.
+/// The right-hand sides of systems L f_j = b_j, in terms that stay small where weights are large. The solution has no
+/// net flux: at each vertex the outward flux, sum k (d f_j + eta_j) + k' eta'_j, plus the source is 0. Terms that are
+/// left out are 0.
 struct FluxTerms {
-  AddValues eta = {};
-  AddValues outer_eta = {};
+  AddValues eta = {};                          ///< eta_j, under the weights k
+  AddValues outer_eta = {};                    ///< eta'_j, under the weights k'
   std::span<const double> outer_weights = {};  ///< k', #E
   Eigen::MatrixXd sources = {};                ///< #V x #forms
 };
@@ -38,9 +38,8 @@ struct HarmonicResiduals {
   Eigen::RowVectorXd energies;  ///< #forms, of d f + eta + eta'; of d f + eta where k' is not k
 };
 
-/// The flux of each edge, k (f_i - f_j + eta), takes the differences first, and is summed in twice the working
-/// precision. With k = 1e8 fluxes of 1e-8 remain, of which b - L f has no digit. At fixed vertices R is the flux
-/// through the boundary.
+/// Sums the fluxes of edges, k (f_i - f_j + eta), differences first and in twice the working precision. With k = 1e8
+/// there are fluxes of 1e-8 left, of which b - L f has no digit. At fixed vertices R is the flux through the boundary.
 /// Cost: about ten products with L, in parallel; the bits do not depend on the number of threads.
 HarmonicResiduals harmonic_residuals(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                                      const FluxTerms& terms, const RowMajorMatrix& functions, Workers& workers);

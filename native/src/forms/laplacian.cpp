@@ -55,6 +55,7 @@ int write_distinct(const HalfEdges& half_edges, std::span<const double> weights,
   const int count = others + 1;
   row[others] = v;
   value[others] = diagonal;
+  // Sorting by ranks: the rank of a row is the number of smaller ones. The inner loop has a constant length.
   int rank[kShort] = {};
   for (int i = 0; i < count; ++i) {
     for (int j = 0; j < kShort; ++j) rank[j] += row[i] < row[j];
@@ -95,6 +96,7 @@ int write_merged(const HalfEdges& half_edges, std::span<const double> weights, i
 std::vector<int> chunk_starts(const HalfEdges& half_edges, Workers& workers) {
   const int n = static_cast<int>(half_edges.n_vertices()), chunks = chunk_count(n);
   const int count = static_cast<int>(half_edges.n_halfedges()), block = 64 * kChunk;
+  // Half-edges are counted in fixed blocks, each with counters of its own, so that no two threads write to one counter.
   std::vector<std::vector<int>> arriving((count + block - 1) / block, std::vector<int>(chunks, 0));
   workers.run(static_cast<int>(arriving.size()), [&](int, int i) {
     for (int h = i * block, end = std::min(h + block, count); h < end; ++h)

@@ -9,8 +9,8 @@
 
 namespace holomorph::forms {
 
-/// L = d^T k d, #V x #V, for edge weights k. Edges with the same ends add up; a loop adds nothing, as functions have no
-/// difference along it.
+/// Assembles L = d^T k d, #V x #V, for edge weights k. Edges with the same ends add up. A loop adds nothing, as
+/// functions have no difference along it.
 /// @param weights #E, cotangent weights without unit
 /// @throws Cancelled
 /// Cost: linear, in parallel.

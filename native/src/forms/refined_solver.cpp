@@ -11,14 +11,16 @@
 namespace holomorph::forms {
 namespace {
 
+// Steps of iterative refinement, at most.
 constexpr int kMostSteps = 10;
-// A step that leaves more than this part of the error was the last.
+// Refinement ends at a step that leaves more than this part of the error.
 constexpr double kLeastGain = 0.5;
-// The part of the set-up that is assembly, for the progress function.
+// Part of the set-up that assembly takes, for the progress function.
 constexpr double kAssembly = 0.2;
 
 bool has_large(std::span<const double> weights, Workers& workers) {
   const int count = static_cast<int>(weights.size());
+  // Written so that a weight that is not a number counts as large.
   return first_row(workers, count, [&](int e) { return !(std::abs(weights[e]) <= kStiff); }) < count;
 }
 
@@ -74,10 +76,13 @@ void RefinedSolver::refine(RowMajorMatrix& functions, const std::vector<solver::
   for (int step = 0; step < kMostSteps && error > kEnergyGoal; ++step) {
     auto residuals = harmonic_residuals(half_edges_, weights_, fluxes, functions, execution.workers());
     for (Eigen::Index j = 0; j < functions.cols(); ++j) {
+      // At fixed vertices r is the flux through the boundary, which is no error.
       if (conditions[j] == solver::Condition::dirichlet) residuals.R(fixed_, j).setZero();
     }
+    // L^-1 r is the error of the functions, up to the solver's accuracy, and r . L^-1 r its energy.
     const solver::Solution corrections = solver_->solve(residuals.R, conditions, execution);
     const double now = energy_error(residuals, corrections);
+    // The rounding of the functions is reached: another correction would gain nothing.
     if (!(now <= kLeastGain * error)) break;
     error = now;
     functions += corrections;

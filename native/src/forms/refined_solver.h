@@ -13,13 +13,15 @@
 
 namespace holomorph::forms {
 
-/// Errors of forms in the energy norm, relative to the form's own: what refinement goes on to while it helps, and what
-/// is promised. Energies, and with them Gram matrices and bounds, are off by the square.
+/// Relative errors of forms in the energy norm: the goal of refinement, and the error that is promised. Energies, and
+/// with them Gram matrices and bounds, are off by the square.
 inline constexpr double kEnergyGoal = 1e-10, kEnergyError = 1e-6;
 
-/// Up to this weight the rounding of fluxes, even among some as much smaller, keeps errors below kEnergyError.
+/// The largest weight that needs no refinement. The rounding of its fluxes keeps errors below kEnergyError, even beside
+/// weights of its inverse.
 inline constexpr double kStiff = 1e4;
 
+/// Solves L f = b, and refines where weights are larger than kStiff (docs/method/harmonic.md).
 class RefinedSolver {
  public:
   /// @param weights #E. @param fixed vertices at which Dirichlet functions are 0
@@ -27,15 +29,16 @@ class RefinedSolver {
   RefinedSolver(const mesh::HalfEdges& half_edges, std::span<const double> weights, std::vector<int> fixed,
                 const solver::Choice& choice, Execution& execution);
 
-  /// With a solver that is there already.
+  /// Takes a solver that was made for the same Laplacian and fixed vertices.
   RefinedSolver(const mesh::HalfEdges& half_edges, std::span<const double> weights, std::vector<int> fixed,
                 const solver::Choice& choice, std::unique_ptr<solver::LaplaceSolver> solver, Workers& workers);
 
-  /// Asked for where there is something to refine.
+  /// Makes the flux terms of the right-hand sides. Called only where something is refined.
   using Terms = std::function<FluxTerms()>;
 
-  /// #V x #rhs, as solver::LaplaceSolver has it; refined where that is not enough.
-  /// @param terms of which B are the fluxes
+  /// Solves L f = B, #V x #rhs, under the conditions of solver::LaplaceSolver, and refines where its accuracy is not
+  /// enough.
+  /// @param terms make the flux terms that B consists of
   /// @throws SolverError, Cancelled
   RowMajorMatrix solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions, const Terms& terms,
                        Execution& execution);
@@ -53,9 +56,9 @@ class RefinedSolver {
 
   const solver::LaplaceSolver& solver() const { return *solver_; }
   const solver::Choice& choice() const { return choice_; }
-  /// Whether weights are that large.
+  /// Whether some weight is larger than kStiff.
   bool is_stiff() const { return is_stiff_; }
-  /// The largest so far: relative residual of the linear systems; of refined forms the error in energy.
+  /// The largest relative residual of the linear systems so far; where forms are refined, the largest error in energy.
   double residual() const { return is_stiff_ ? energy_error_ : solver_->residual(); }
 
  private:

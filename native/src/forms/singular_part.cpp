@@ -14,7 +14,8 @@ using mesh::HalfEdges;
 using mesh::next;
 using mesh::opposite;
 
-// A triangle (p, a, b) of a star, seen from p: the line ab at the distance h, on it t from t0 at a to t1 at b.
+// A triangle (p, a, b) of a star, seen from p. The line ab has the distance `height` from p. The coordinate t along it
+// is 0 at the foot of p, t0 at a and t1 at b.
 struct StarTriangle {
   int a, b;
   double angle, length, height, t0, t1;
@@ -27,6 +28,7 @@ struct StarTriangle {
     length = lengths[edge_of(link)];
     const double at_a = lengths[edge_of(to_a)], at_b = lengths[edge_of(from_b)];
     height = 2 * mesh::triangle_area(length, at_a, at_b) / length;
+    // The law of cosines. The product keeps the digits of nearly equal spokes.
     t0 = -((at_a - at_b) * (at_a + at_b) + length * length) / (2 * length);
     t1 = t0 + length;
     log_a = std::log(at_a / unit);
@@ -49,6 +51,7 @@ struct StarTriangle {
   }
 };
 
+// The unit of r. It adds a constant to v_s on the star, which g takes away again. Logarithms near 0 keep their digits.
 double mean_spoke(const HalfEdges& half_edges, std::span<const double> lengths, const mesh::Star& star) {
   double sum = 0;
   for (const HalfedgeHandle h : star.link) sum += lengths[edge_of(next(half_edges, h))];
@@ -77,7 +80,8 @@ StarPart star_part(const HalfEdges& half_edges, std::span<const double> lengths,
     alpha += t.angle;
     part.u[j] = alpha * scale;
     part.v[j] = -t.log_b * scale;
-    // `flux` with the weights of the ends a, b, and `excess` with the normal derivatives of the hat functions
+    // `flux` is shared between the hat functions of a and b. `excess` is tested with the normal derivatives of the
+    // three hat functions, which sum to 0: at_p, at_b, and what remains for a.
     const std::size_t at_a = (j + count - 1) % count;
     const double at_b = -t.t0 / t.length / t.height, at_p = -1 / t.height;
     const auto add = [&](double flux_b, double flux, double excess, std::vector<double>& b, double& b_at_pole) {
@@ -115,6 +119,7 @@ Array<double> outer_weights(const HalfEdges& half_edges, std::span<const double>
                             const std::vector<mesh::Star>& stars) {
   for (const mesh::Star& star : stars) {
     for (const HalfedgeHandle h : star.link) {
+      // Both faces of a spoke are in the star. A link edge keeps its outer face.
       weights[edge_of(next(half_edges, h))] = 0;
       const HalfedgeHandle outer = opposite(h), outer1 = next(half_edges, outer), outer2 = next(half_edges, outer1);
       const double a = lengths[edge_of(outer)], b = lengths[edge_of(outer1)], c = lengths[edge_of(outer2)];

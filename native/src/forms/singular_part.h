@@ -26,7 +26,7 @@ struct StarPart {
 /// @param lengths #E
 StarPart star_part(const mesh::HalfEdges& half_edges, std::span<const double> lengths, const mesh::Star& star);
 
-/// Those of several stars, as columns.
+/// The parts of several stars, as columns.
 struct SingularPart {
   Eigen::SparseMatrix<double> u, v;      ///< #V x #stars, supported on the links; u jumps by 1 at the link edge link[0]
   Eigen::SparseMatrix<double> b_u, b_v;  ///< #V x #stars, supported on the stars
@@ -36,7 +36,7 @@ struct SingularPart {
 SingularPart singular_part(const mesh::HalfEdges& half_edges, std::span<const double> lengths,
                            const std::vector<mesh::Star>& stars);
 
-/// Weights k over the faces outside the stars: 0 on spokes, that of the outer face alone on link edges.
+/// Returns the weights k over the faces outside the stars: 0 on spokes; on link edges, the part of the outer face.
 Array<double> outer_weights(const mesh::HalfEdges& half_edges, std::span<const double> lengths, Array<double> weights,
                             const std::vector<mesh::Star>& stars);
 

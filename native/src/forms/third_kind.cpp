@@ -35,6 +35,7 @@ Eigen::MatrixXd codifferential_of_links(const HalfEdges& half_edges, const PoleF
   const RowMajorMatrix values = f * poles.residues;
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(values.rows(), values.cols());
   leaving_links(half_edges, poles.stars, [&](int a, HalfedgeHandle h) {
+    // f is 0 off the links, so h contributes by f(a) alone. An edge between two link vertices is visited from both.
     const double k = poles.outer_weights[edge_of(h)];
     B.row(a) -= k * values.row(a);
     B.row(to_vertex(half_edges, h)) += k * values.row(a);
@@ -46,6 +47,7 @@ Eigen::MatrixXd codifferential_of_links(const HalfEdges& half_edges, const PoleF
 Eigen::MatrixXd right_hand_sides(const HalfEdges& half_edges, const PoleForms& poles, Workers& workers) {
   const auto m = poles.residues.cols();
   Eigen::MatrixXd B(poles.part.u.rows(), 2 * m);
+  // The equations of third_kind.h. Classes continue u_s from pole to pole; v_s is single-valued and needs none.
   B.leftCols(m) = poles.part.b_u * poles.residues + codifferential_of_links(half_edges, poles, poles.part.u) +
                   codifferentials(half_edges, poles.outer_weights, poles.classes, workers);
   B.rightCols(m) = poles.part.b_v * poles.residues + codifferential_of_links(half_edges, poles, poles.part.v);
@@ -133,6 +135,7 @@ RowMajorMatrix function_with_poles(const HalfEdges& half_edges, std::span<const 
                                    const Eigen::VectorXcd& r, RefinedSolver& solver, Execution& execution) {
   Eigen::MatrixXd periods(p.size(), 2), of_u(r.size(), 2), of_v(r.size(), 2);
   periods << p.real(), p.imag();
+  // (Re r + i Im r)(u + i v): the real part is Re r u - Im r v, the imaginary part Im r u + Re r v.
   of_u << r.real(), r.imag();
   of_v << -r.imag(), r.real();
   Workers& workers = execution.workers();
@@ -151,6 +154,8 @@ RowMajorMatrix function_with_poles(const HalfEdges& half_edges, std::span<const 
 Eigen::MatrixXd harmonic_part(const HalfEdges& half_edges, const PoleForms& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix) {
   const auto n = gram_matrix.rows();
+  // <u_s, h_j> outside the stars has two parts: that of the classes, and that of d(u_s), which along h, leaving a, is
+  // -u_s(a).
   Eigen::MatrixXd P = class_products(half_edges, poles.outer_weights, poles.classes, harmonic).leftCols(n).transpose();
   const RowMajorMatrix u = poles.part.u * poles.residues;
   leaving_links(half_edges, poles.stars, [&](int a, HalfedgeHandle h) {
@@ -168,6 +173,7 @@ Eigen::MatrixXd harmonic_part(const HalfEdges& half_edges, std::span<const doubl
   for (int e = 0; e < static_cast<int>(weights.size()); ++e) {
     const HalfedgeHandle h(2 * e);
     const int head = to_vertex(half_edges, h), tail = mesh::from_vertex(half_edges, h);
+    // Outside the stars the form is that of u, with its class. Inside, where u_s is subtracted, df alone counts.
     const double outer = poles.outer_weights[e], inner = weights[e] - outer;
     Eigen::RowVectorXd whole = u.row(head) - u.row(tail);
     for (const auto& [i, value] : poles.classes.rows[e]) whole[i] += value;

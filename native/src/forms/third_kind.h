@@ -20,14 +20,14 @@ namespace holomorph::forms {
 /// classes.
 struct PoleForms {
   std::vector<mesh::Star> stars;
-  Eigen::MatrixXd
-      residues;  ///< #stars x m: with boundary the identity; closed, where they sum to 0, -1 at the last star
+  Eigen::MatrixXd residues;  ///< #stars x m: the identity with boundary; closed, each column has -1 at the last star,
+                             ///< so that it sums to 0
   topology::IntegerForms classes;  ///< m classes, from topology::pole_classes
   SingularPart part;
   Array<double> outer_weights;  ///< #E, as in singular_part.h
 };
 
-/// #stars x m residues of the pole forms.
+/// Returns the residues of the pole forms, #stars x m.
 Eigen::MatrixXd pole_residues(Eigen::Index stars, bool closed);
 
 /// The form of u is d(u) + classes outside the stars; v is single-valued.
@@ -39,12 +39,12 @@ struct PoleFunctions {
 /// @param weights #E, of the triangulation that `solver` solves on
 /// @param fixed the vertices that the solver can fix: all of the boundary, where v = 0 and u is natural; none on a
 /// closed surface
-/// @return pairs whose u has the periods of the classes: where there are harmonic forms not yet conjugate, see
-/// harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
+/// @return pairs whose u has the periods of the classes. Where there are harmonic forms, u and v are not conjugate yet:
+/// see harmonic_part. Cost: 2 m solves. @throws SolverError, Cancelled
 PoleFunctions pole_functions(const mesh::HalfEdges& half_edges, std::span<const double> weights, const PoleForms& poles,
                              RefinedSolver& solver, const std::vector<int>& fixed, Execution& execution);
 
-/// The real and imaginary parts, #V x 2, of the function of sum_j p_j h_j + sum_i r_i (u_i + i v_i). On a closed
+/// Solves for the function of sum_j p_j h_j + sum_i r_i (u_i + i v_i): its real and imaginary part, #V x 2. On a closed
 /// surface this is the only form with these periods and residues. The form is its differential + the same sum of the
 /// classes.
 /// @param natural classes of the h_j, on the triangulation that `solver` solves on
@@ -55,14 +55,16 @@ RowMajorMatrix function_with_poles(const mesh::HalfEdges& half_edges, std::span<
                                    const Eigen::VectorXcd& p, const Eigen::VectorXcd& r, RefinedSolver& solver,
                                    Execution& execution);
 
-/// C, #forms x m: u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v is.
+/// Computes C, #forms x m, such that u - sum_j C_j h_j is orthogonal to all h_j, as the conjugate of a single-valued v
+/// is.
 /// C = G^-1 P, P_j = <u_s, h_j> over the faces outside the stars - b_u . (values of h_j measured from the pole).
 /// @param harmonic,gram_matrix on the same triangulation; with boundary the natural forms, the first of `harmonic`
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, const PoleForms& poles, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);
 
-/// The same where weights are large, from the u that were solved for, #V x m. Outside the stars <u_s, h_j> = <u, h_j>,
-/// because <df, h_j> = 0. In this sum over all edges, both factors of a product are small where the weight is large.
+/// Computes the same where weights are large, from the u that were solved for, #V x m. Outside the stars <u_s, h_j> =
+/// <u, h_j>, because <df, h_j> = 0. In this sum over all edges, both factors of a product are small where the weight is
+/// large.
 Eigen::MatrixXd harmonic_part(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                               const PoleForms& poles, const RowMajorMatrix& u, const ClosedForms& harmonic,
                               const Eigen::MatrixXd& gram_matrix);

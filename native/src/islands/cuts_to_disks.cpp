@@ -20,6 +20,7 @@ struct Forest {
 Forest paths_to_border(const mesh::Surface& surface, Execution& execution) {
   const auto half_edges = mesh::half_edges(surface, execution);
   std::vector<double> lengths(surface.edge_lengths.begin(), surface.edge_lengths.end());
+  // Infinite lengths keep paths off the diagonals.
   std::fill(lengths.begin() + surface.polygon_edge_count, lengths.end(), std::numeric_limits<double>::infinity());
   std::vector<char> is_border(surface.vertex_count, 0);
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
@@ -34,6 +35,7 @@ Forest paths_to_border(const mesh::Surface& surface, Execution& execution) {
     for (int i = 0; i < 2; ++i) {
       const int from = surface.edges[e][i], to = surface.edges[e][1 - i];
       const double here = forest.distances[from], there = forest.distances[to];
+      // The first edge of a shortest path. Distances are sums of these same numbers, so that the equality is exact.
       if (!is_border[from] && forest.edge_to_border[from] < 0 && std::isfinite(here) && there < here &&
           there + lengths[e] == here)
         forest.edge_to_border[from] = e;
@@ -81,6 +83,8 @@ std::vector<char> cuts_to_disks(const mesh::Surface& surface, Execution& executi
   for (int e = 0; e < surface.polygon_edge_count; ++e) {
     if (faces[e][1] >= 0 && !is_in_forest[e] && std::isfinite(loop_length(e))) crossed.push_back(e);
   }
+  // Kruskal's algorithm, the longest loops first. An edge that would close a circle of faces is cut, with the paths
+  // from its ends to the border: it has one of the shortest loops.
   std::vector<double> length(surface.polygon_edge_count, 0);
   for (const int e : crossed) length[e] = loop_length(e);
   std::stable_sort(crossed.begin(), crossed.end(), [&](int a, int b) { return length[a] > length[b]; });

@@ -8,8 +8,8 @@
 
 namespace holomorph::islands {
 
-/// #E, whether a cut runs along an edge of a polygon: components with a boundary become disks, along short paths from
-/// boundary to boundary. Disks and closed components are not cut.
+/// Returns for each edge of a polygon whether it is cut, #E. The cuts are short paths from boundary to boundary, and
+/// leave disks of the components with a boundary. Disks and closed components are not cut.
 ///
 /// A forest of shortest paths to the boundary is grown first. A spanning tree of the faces crosses none of its edges,
 /// and prefers edges far from the boundary. Both leave 1 - chi edges of each component. These and the paths from their

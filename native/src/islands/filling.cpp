@@ -34,6 +34,7 @@ std::vector<Loop> loops_of(const mesh::Surface& surface, Execution& execution) {
   return loops;
 }
 
+// A hole that meets a vertex twice cannot be one polygon.
 bool is_polygon(const Loop& loop) {
   return loop.vertices.size() >= 3 &&
          std::set<int>(loop.vertices.begin(), loop.vertices.end()).size() == loop.vertices.size();
@@ -45,6 +46,7 @@ std::vector<std::vector<int>> small_holes(const mesh::Component& part, Execution
   const auto type = mesh::topological_type(part.surface);
   if (type.genus > 0 || type.boundary_count < 2) return holes;
   auto loops = loops_of(part.surface, execution);
+  // Loop 0 is the longest: the outer border, which is never filled.
   const double longest = loops[0].length;
   for (std::size_t k = 1; k < loops.size(); ++k) {
     if (!(loops[k].length < kSmall * longest) || !is_polygon(loops[k])) continue;

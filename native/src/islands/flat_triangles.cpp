@@ -6,12 +6,13 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr double kTouching = 1e-6;     // depth over a triangle's size of two that only touch
-constexpr double kLeastWidth = 1e-12;  // twice the area over the squared sides
+constexpr double kTouching = 1e-6;     // largest depth of two triangles that only touch, over their size
+constexpr double kLeastWidth = 1e-12;  // least width of a triangle: twice its area over its squared sides
 
 double cross(Complex a, Complex b) { return (std::conj(a) * b).imag(); }
 
-// Whether a side of `a` parts the two, up to a little.
+// Whether a side of `a` separates the two triangles, up to kTouching. Convex figures in the plane are apart if and only
+// if a side of one of them separates them.
 bool side_parts(const Points& a, const Points& b) {
   for (int i = 0; i < 3; ++i) {
     const Complex side = a[(i + 1) % 3] - a[i];

@@ -22,7 +22,7 @@ bool is_disk(const mesh::Surface& island) {
   return type.genus == 0 && type.boundary_count == 1;
 }
 
-// What is called for each island in turn, with the progress of its share of the triangles.
+// Calls visit(k, island) for each island in turn. Its part of the progress is its share of the triangles.
 template <class Visit>
 void for_islands(const std::vector<mesh::Component>& islands, Execution& execution, const Visit& visit) {
   double all = 1, done = 0;
@@ -55,6 +55,7 @@ uv::UvArray rows_of(const mesh::Component& island, const uv::UvArray& uv) {
 }
 
 bool stretches(const mesh::Component& island, const std::vector<double>& scale_factors) {
+  // Negated, so that a scale factor that is not a number counts as stretch.
   return std::any_of(island.vertex_index.begin(), island.vertex_index.end(),
                      [&](int v) { return !(std::abs(scale_factors[v] - 1) <= kUnseen); });
 }
@@ -64,7 +65,7 @@ void even(const mesh::Surface& island, double evenness, uv::UvArray& uv, Executi
     const uv::UvArray delta = evening::evened(island, uv, {}, evenness, execution);
     const auto& vertices = island.polygons.corner_vertices;
     for (std::size_t c = 0; c < vertices.size(); ++c) uv.row(static_cast<Rows>(c)) += delta.row(vertices[c]);
-  } catch (const SolverError&) {  // it stays conformal
+  } catch (const SolverError&) {  // the island stays conformal
   }
 }
 
@@ -80,7 +81,7 @@ Flattening flattened(const mesh::Surface& surface, Execution& execution) {
     try {
       write(island, plane::free_boundary_map(island.surface, {}, execution), result);
       result.is_flat[k] = 1;
-    } catch (const SolverError&) {  // it is told as one that is not flat
+    } catch (const SolverError&) {  // is_flat stays 0: the caller is told
     }
   });
   execution.finish();
@@ -95,6 +96,8 @@ uv::UvArray evened(const mesh::Surface& surface, const Flattening& flattening, d
     if (!stretches(island, flattening.scale_factors)) return;
     uv::UvArray uv = rows_of(island, flattening.uv);
     if (evenness > 0) even(island.surface, evenness, uv, execution);
+    // An island that is stretched gets the area in the plane that it has on the surface. Without an area in the plane
+    // it stays as it was flattened.
     const double scale = std::sqrt(mesh::area(island.surface, execution.workers()) /
                                    uv::frame(island.surface, uv, 0.0, execution.workers()).area);
     if (!std::isfinite(scale)) return;

@@ -12,7 +12,7 @@ namespace holomorph::islands {
 struct Flattening {
   uv::UvArray uv;                     ///< #C x 2, each island about 0; 0 where it is not flat
   std::vector<double> scale_factors;  ///< #V length in the plane over that on the surface, 1 on the boundary
-  std::vector<char> is_flat;          ///< each component: whether it was mapped
+  std::vector<char> is_flat;          ///< #components, whether each was mapped
 };
 
 /// Maps each component that is a disk by plane::free_boundary_map. A component that is no disk, or for which a solver
@@ -22,7 +22,8 @@ struct Flattening {
 /// Cost: one factorisation for each island.
 Flattening flattened(const mesh::Surface& surface, Execution& execution);
 
-/// The UVs of flat islands, #C x 2: those that stretch are evened, and each has the area that it has on the surface.
+/// Returns the UVs of flat islands, #C x 2. Islands that stretch are evened, and each has the area that it has on the
+/// surface.
 /// @param evenness from 0 to 1. @throws Cancelled
 uv::UvArray evened(const mesh::Surface& surface, const Flattening& flattening, double evenness, Execution& execution);
 

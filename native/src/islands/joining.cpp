@@ -10,7 +10,7 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr int kMostTriangles = 4096;  // in a net: larger islands are pictures of their own
+constexpr int kMostTriangles = 4096;  // of a net: all pairs of two nets are tested
 constexpr double kSameLength = 1e-3;  // difference over the longer side
 
 // z -> turn z + shift
@@ -46,12 +46,15 @@ class Nets {
   void join(Joint joint) {
     int one = net_[island_at(joint[0])], other = net_[island_at(joint[2])];
     if (one == other || sizes_[one] + sizes_[other] > kMostTriangles) return;
+    // The larger net stays where it is.
     if (sizes_[one] < sizes_[other]) std::swap(one, other), joint = {joint[2], joint[3], joint[0], joint[1]};
     const std::array<Complex, 2> stays{at(joint[0]), at(joint[1])}, moves{at(joint[2]), at(joint[3])};
+    // Each side has its polygon on the left, so that the sides run in opposite directions.
     const Complex to = stays[0] - stays[1], from = moves[1] - moves[0];
     const double longer = std::max(std::abs(to), std::abs(from));
     if (!(longer > 0) || std::abs(std::abs(to) - std::abs(from)) > kSameLength * longer) return;
     const Complex turn = to / from / std::abs(to / from);
+    // Middles coincide: a small difference in length is shared by both ends.
     const Motion motion{turn, (stays[0] + stays[1]) / 2.0 - turn * (moves[0] + moves[1]) / 2.0};
     if (!overlapping(one, other, motion)) unite(one, other, motion);
   }
@@ -89,6 +92,7 @@ class Nets {
 
   void unite(int one, int other, const Motion& motion) {
     for (const int island : islands_[other]) {
+      // The new motion follows the old one: motion(turn z + shift) = (motion.turn turn) z + motion(shift).
       motions_[island] = {motion.turn * motions_[island].turn, motion(motions_[island].shift)};
       net_[island] = one;
       islands_[one].push_back(island);

@@ -10,7 +10,7 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr double kMostSquares = 64;  // from 0 to the farthest corner
+constexpr double kMostSquares = 64;  // of the grid, from 0 to the farthest corner
 
 // Triangles in the plane by the squares of a grid that they meet.
 class Grid {
@@ -37,7 +37,7 @@ class Grid {
   }
 
  private:
-  // While `visit` answers true. @return whether it always did
+  // Visits the squares that the triangle's box meets, while `visit` answers true. @return whether it always did
   template <class Visit>
   bool for_squares(const Points& triangle, const Visit& visit) const {
     const Box box = box_of(triangle);
@@ -107,10 +107,12 @@ class Parts {
     for (std::size_t next = 0; next < queue.size(); ++next) {
       const int face = queue[next];
       const auto& own = triangles_[face];
+      // A polygon that overlaps stays unmarked, for a later part.
       if (std::any_of(own.begin(), own.end(), [&](int t) { return grid.overlaps(points(t)); })) continue;
       for (const int t : own) grid.add(points(t));
       part_[face] = part;
       for (const int other : neighbours_[face]) {
+        // A polygon is tried once for each part: one that overlapped an earlier part may fit this one.
         if (part_[other] >= 0 || queued_for_[other] == part) continue;
         queued_for_[other] = part;
         queue.push_back(other);

@@ -1,4 +1,4 @@
-// Islands that lie over themselves, parted until none does.
+// Splits islands that overlap themselves until none does.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace holomorph::islands {
 
-/// #F, a number for each polygon: those of a component that have the same one are connected and do not overlap. A
-/// component that does not lie over itself has one number. From a polygon on, neighbours are added as long as they
-/// overlap none of those before; what is left over begins anew.
+/// Numbers the parts, #F: polygons of a component with the same number are connected and do not overlap. A component
+/// that does not overlap itself has one number. A part grows from a polygon by neighbours that overlap none of the
+/// polygons before; the rest of the component begins anew.
 /// @param surface its components are the islands. @param uv #C x 2
 /// Cost: O(#T) for each number of a component.
 std::vector<int> parted(const mesh::Surface& surface, const uv::UvArray& uv);

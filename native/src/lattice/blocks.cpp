@@ -55,6 +55,7 @@ class BlockReduction {
     std::vector<Index> order(n_);
     std::iota(order.begin(), order.end(), Index{0});
     const VectorXd length = B.colwise().norm();
+    // Short vectors first, as in a reduced basis.
     std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return length[i] < length[j]; });
     MatrixXd all(B.rows(), n_ + points.cols());
     all << B(Eigen::all, order), points;
@@ -62,6 +63,7 @@ class BlockReduction {
     R_ = all.topLeftCorner(n_, n_).triangularView<Eigen::Upper>();
     points = all.topRightCorner(n_, points.cols());
     for (Index j = 0; j < n_; ++j) {
+      // Householder reflections leave the signs of the diagonal open.
       if (R_(j, j) >= 0) continue;
       R_.row(j) *= -1;
       points.row(j) *= -1;
@@ -73,6 +75,7 @@ class BlockReduction {
   ReducedBasis run() {
     for (int round = 0; round < kMostRounds; ++round) {
       const bool changed = reduce_all(0);
+      // Every second pass has its blocks shifted by half a block, so that vectors cross the borders of the first ones.
       if (!reduce_all(kBlock / 2) && !changed) break;
     }
     return {R_, transform_.cast<std::int64_t>(), MatrixXd::Identity(n_, n_), R_, steps_, blocks_};
@@ -100,6 +103,8 @@ class BlockReduction {
   void apply(const Block& b) {
     const MatrixXd U = b.reduced.transform.cast<double>();
     const MatrixXd turn = b.reduced.Q.transpose();
+    // Columns above the block are combined as its own, rows to the right of it are turned by its QR: R stays
+    // triangular.
     R_.block(0, b.begin, b.begin, b.size) *= U;
     R_.block(b.begin, b.begin, b.size, b.size) = b.reduced.R;
     R_.block(b.begin, b.end(), b.size, n_ - b.end()).applyOnTheLeft(turn);

@@ -10,7 +10,7 @@ namespace holomorph::lattice {
 struct DoubleDoubleColumns {
   Eigen::MatrixXd high, low;
 
-  /// column(k) -= factor * column(j), for a factor that is exact. Error: some 1e-32 of the larger term.
+  /// Does column(k) -= factor * column(j), for a factor that is exact. Error: some 1e-32 of the larger term.
   void subtract(Eigen::Index k, double factor, Eigen::Index j) {
     const auto [f, g] = halves(factor);
     double *h = high.col(k).data(), *l = low.col(k).data();

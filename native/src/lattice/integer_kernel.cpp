@@ -11,6 +11,7 @@ IntegerMatrix integer_kernel(IntegerMatrix A) {
     A.col(i).swap(A.col(j));
     all.col(i).swap(all.col(j));
   };
+  // Throughout, A is the given matrix times `all`. In rows that are done, its columns from `rank` on are 0.
   Index rank = 0;
   for (Index row = 0; row < A.rows() && rank < A.cols(); ++row) {
     for (Index j = rank + 1; j < A.cols(); ++j) {

@@ -5,8 +5,9 @@
 
 namespace holomorph::lattice {
 
-/// n x k: a basis of {z in Z^n : A z = 0}, by exchanges and differences of columns (Euclid's algorithm in each row).
-/// Cost: O(m n^2) for small entries, which it suits alone: they are not kept small.
+/// Returns a basis of {z in Z^n : A z = 0}, n x k, by exchanges and differences of columns (Euclid's algorithm in each
+/// row).
+/// Cost: O(m n^2) for small entries. It suits only these: entries may grow on the way.
 IntegerMatrix integer_kernel(IntegerMatrix A);
 
 }  // namespace holomorph::lattice

@@ -26,6 +26,7 @@ class Enumeration {
   }
 
  private:
+  // `left`: what the coordinates after k have left of the squared radius.
   void visit(Index k, double left) {
     if (k < 0) return take();
     const Index after = R_.cols() - k - 1;
@@ -60,6 +61,7 @@ class Enumeration {
 NearPoints near_points(const ReducedBasis& reduced, const VectorXd& target, double squared_radius,
                        std::int64_t most_steps) {
   const VectorXd y = reduced.Q.transpose() * target;
+  // The distance from the span of the lattice is there whatever the point is.
   const double left = squared_radius - (target - reduced.Q * y).squaredNorm();
   if (!(left >= 0)) return {};
   return Enumeration(reduced, y, most_steps).run(left);

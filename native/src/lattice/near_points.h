@@ -13,7 +13,7 @@ struct NearPoints {
   bool is_complete = true;              ///< false where `most_steps` ended the search
 };
 
-/// All z with |target - B z|^2 <= squared_radius. Rounding is the caller's: some 1e-13 |target|^2.
+/// Finds all z with |target - B z|^2 <= squared_radius. The caller allows for rounding: some 1e-13 |target|^2.
 /// @param target m @throw SolverError the integers are beyond 2^53
 /// Cost: grows with the number of lattice points in the balls of all projections of the lattice.
 NearPoints near_points(const ReducedBasis& reduced, const Eigen::VectorXd& target, double squared_radius,

@@ -33,8 +33,8 @@ struct ReducedBasis {
 /// Cost: O(m n^2), and besides O(m n) for each exchange of two columns.
 ReducedBasis reduce(const Eigen::MatrixXd& B, double delta = 0.99, const std::function<void()>& tick = {});
 
-/// Integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2. So the square
-/// |target - B z|^2 is at most the sum of R_jj^2 / 4, besides the target's squared distance from the span of B.
+/// Finds integers z such that B z is near the target: Q^T (target - B z) is within the box |y_j| <= R_jj / 2. So the
+/// square |target - B z|^2 is at most the sum of R_jj^2 / 4, besides the target's squared distance from the span of B.
 /// @param target m @return n integers, for the B that was reduced
 /// @throw SolverError the target is not finite @throw SolverError the integers are beyond 2^53
 IntegerVector nearest_plane(const ReducedBasis& reduced, const Eigen::VectorXd& target);

@@ -19,14 +19,15 @@ struct BoundaryLoops {
 
 BoundaryLoops boundary_loops(const Surface& surface, const HalfEdges& half_edges);
 
-/// The same loops in another order. @param number #loops the new number of each
+/// Returns the same loops in another order. @param number #loops the new number of each
 BoundaryLoops renumbered(const BoundaryLoops& boundary, const std::vector<int>& number);
 
-/// The vertices of all loops, ascending; those of any triangulation of the surface.
+/// Returns the vertices of all loops, ascending; the same for every triangulation of the surface.
 std::vector<int> boundary_vertices(const HalfEdges& half_edges);
 std::vector<int> boundary_vertices(const BoundaryLoops& boundary);
 
-/// Triangles all of whose corners lie on one loop, ascending: every map that makes the loop straight collapses them.
+/// Returns the triangles all of whose corners lie on one loop, ascending. Every map that makes the loop straight
+/// collapses them.
 std::vector<int> triangles_on_one_loop(const Surface& surface, const BoundaryLoops& boundary);
 
 }  // namespace holomorph::mesh

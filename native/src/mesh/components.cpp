@@ -100,6 +100,7 @@ std::string TopologicalType::text() const {
 
 TopologicalType topological_type(const Surface& surface) {
   const int boundaries = boundary_count(surface);
+  // chi = 2 - 2 g - b
   return {(2 - euler_characteristic(surface) - boundaries) / 2, boundaries};
 }
 

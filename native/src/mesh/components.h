@@ -18,7 +18,7 @@ struct Component {
 
 Component component(const Surface& surface, int which, Execution& execution);
 
-/// All of them, in their order. Cost: linear, as that of a single one is.
+/// Returns all components, in their order. Cost: linear, as for a single one.
 std::vector<Component> components(const Surface& surface, Execution& execution);
 
 /// Euler characteristic of a connected surface, its isolated vertices not counted.
@@ -32,7 +32,7 @@ struct TopologicalType {
   int genus = 0, boundary_count = 0;
 
   bool closed() const { return boundary_count == 0; }
-  /// Genus of the double with boundary, 2g + b - 1; 2g of a closed surface: forms of a family.
+  /// Number of harmonic forms in a family: 2g on a closed surface; with boundary 2g + b - 1, the genus of the double.
   int form_count() const { return 2 * genus + (closed() ? 0 : boundary_count - 1); }
   /// "genus 1 and 2 boundaries"
   std::string text() const;

@@ -44,6 +44,7 @@ class Scores {
         const bool is_oriented = (one != other) == (label_[sides[i]] == label_[sides[j]]);
         const double bend = (1 + lies[i].inward.dot(lies[j].inward)) / 2;  // 0 where they are flat, 1 folded
         const bool is_concave = lies[j].inward.dot(lies[i].normal) * (one ? -1 : 1) > kConcave;
+        // A pair that contradicts the orientation costs as much as a fold.
         const double score = (is_oriented ? 0 : 1) + bend + (is_concave ? kConcave : 0);
         pairings.push_back({std::lround(score / kSameScore), sides[i], sides[j]});
       }

@@ -8,8 +8,9 @@
 
 namespace holomorph::mesh {
 
-/// Pairs of sides at one edge, the best of all edges first. Those that are oriented alike come before others. Then they
-/// are sorted by the angle between their faces, flat first, then convex before concave, then by index.
+/// Returns the pairs of sides that meet at an edge, over all edges, the best first. Pairs that are oriented alike come
+/// before others. Then pairs are sorted by the angle between their faces (flat first), convex before concave, and by
+/// index.
 /// @param label #C; the sides of an edge run between the same two
 /// @param reversed #F 1 where the polygon is to be read in reverse
 /// @param edges the sides of each edge

@@ -53,6 +53,7 @@ class Looking {
 
   bool cross(int s, int t) const {
     const Triple &a = triangles_[s], &b = triangles_[t];
+    // Triangles with a common edge meet there only, or are folded onto each other.
     if (has(a, b[0]) + has(a, b[1]) + has(a, b[2]) > 1) return false;
     return goes_through(a, b) || goes_through(b, a);
   }
@@ -68,6 +69,7 @@ class Looking {
   bool side_goes_through(const Vector3d& p, const Vector3d& q, const Triple& t) const {
     const Vector3d a = at(t[0]), b = at(t[1]), c = at(t[2]);
     if (side_of_plane(a, b, c, p) * side_of_plane(a, b, c, q) >= 0) return false;
+    // The line meets the triangle if it passes all three sides on the same hand.
     const int first = side_of_plane(p, q, a, b);
     return first != 0 && first == side_of_plane(p, q, b, c) && first == side_of_plane(p, q, c, a);
   }

@@ -23,12 +23,12 @@ enum class CutReason {
 /// All cuts for one reason, by elements of the mesh as given; each list ascending.
 struct Cut {
   CutReason reason{};
-  std::vector<int> vertices;  ///< at which it is kTouching
-  std::vector<Pair> edges;    ///< ends, lower vertex first, of kManyFaces and kOneSided
+  std::vector<int> vertices;  ///< for kTouching
+  std::vector<Pair> edges;    ///< for kManyFaces and kOneSided: their ends, lower vertex first
   std::vector<int> faces;     ///< for the other reasons
 };
 
-/// The cuts that labels and joins of the part's corners make.
+/// Lists the cuts that labels and joins of the part's corners make.
 /// @param corner_vertices #C the vertices of the surface
 std::vector<Cut> cuts(const PolygonPart& part, const CornerLabels& labels, const SideJoins& joins,
                       const std::vector<int>& corner_vertices);

@@ -88,6 +88,8 @@ CutSurface cut(UsableFaces usable, Execution& execution) {
   const Polygons& mesh = usable.part.polygons;
   Plan plan = planned(mesh, mesh.corner_vertices);
   const std::ptrdiff_t lone = lone_sides(plan.joins);
+  // More than half of the sides are alone, as in files that give each face vertices of its own. Vertices at one place
+  // are joined then, if that leaves less than half of the lone sides.
   if (2 * lone > std::ssize(mesh.corner_vertices)) {
     const std::vector<int> first = first_at_place(mesh.vertices);
     std::vector<int> vertices;

@@ -13,8 +13,8 @@ namespace holomorph::mesh {
 /// A mesh cut along edges and at vertices: polygons and their corners are those given, in their order.
 struct CutSurface {
   Surface surface;
-  /// Index of each element in the mesh as given; all empty where that is its own. Vertices ascend; those that are
-  /// several are copies of one, and of those joined to one the lowest is named.
+  /// Index of each element in the mesh as given; all empty where that is its own. Vertices ascend. Copies of one vertex
+  /// all have its index, and a vertex joined from several has the lowest of theirs.
   std::vector<int> vertex_index, face_index, corner_index;
   int given_vertex_count = 0;
   std::vector<Cut> cuts;              ///< by reasons
@@ -22,8 +22,9 @@ struct CutSurface {
   std::vector<RefusedFaces> refused;  ///< faces that are left out, by reasons
 };
 
-/// As `make_surface`; but a mesh that this refuses is cut, by giving a vertex to each fan of faces. What is left out:
-/// faces with less than three vertices or with coordinates that are not finite, and parts without area.
+/// Makes a surface as `make_surface` does, but cuts a mesh that `make_surface` refuses: each fan of faces gets a vertex
+/// of its own. Leaves out faces with fewer than three vertices or with coordinates that are not finite, and parts
+/// without area.
 ///
 /// Where most sides of faces have no neighbour, sides that run between the same places in opposite directions are
 /// joined first. This is done if it gives most of them a neighbour.

@@ -19,7 +19,7 @@ struct Discretisation {
   std::vector<Flip> flips;   ///< in order, from the surface's own triangles to these
 };
 
-/// Weights and errors of a triangulation.
+/// Computes the weights and errors of a triangulation.
 Discretisation discretised(IntrinsicTriangulation&& triangulation, Execution& execution);
 
 /// The surface's own triangles; degenerate ones are mollified. Without errors. @param half_edges of the surface

@@ -17,7 +17,7 @@ class Labels {
   const std::vector<int>& labels_;
 };
 
-/// Those of a whole mesh.
+/// The labels of the vertices and of the faces of a mesh; by default their own indices.
 struct MeshLabels {
   static inline const std::vector<int> kOwnIndices;
   Labels vertex{kOwnIndices}, face{kOwnIndices};

@@ -8,7 +8,8 @@
 
 namespace holomorph::mesh {
 
-/// #V length of the shortest path of edges from the nearest of the sources (Dijkstra); infinite where there is none.
+/// Returns for each vertex the length of the shortest path of edges from the nearest source (Dijkstra), #V; infinite
+/// where there is none.
 /// @param lengths #E. Cost: O(n log n).
 std::vector<double> graph_distances(const HalfEdges& half_edges, std::span<const double> lengths,
                                     const std::vector<int>& sources);

@@ -1,7 +1,7 @@
 // The links of half-edges: the next one, the vertex at the head and the face on the left.
 //
-// The handles and the names are those of OpenMesh's connectivity kernel. Its arrays are not: they are filled element by
-// element, copied where they are moved, and its faces and flips find edges by their ends.
+// The handles and the names are those of OpenMesh's connectivity kernel. The arrays are our own. OpenMesh fills its
+// arrays element by element, copies them where they could be moved, and finds edges by their ends.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/Handles.hh>
@@ -24,12 +24,12 @@ using OpenMesh::VertexHandle;
 class HalfEdges {
  public:
   HalfEdges() = default;
-  /// Without links: every one of them is still to be set.
+  /// Leaves all links to be set.
   HalfEdges(std::size_t vertices, std::size_t edges, std::size_t faces)
       : vertices_(vertices), faces_(faces), half_edges_(2 * edges) {}
   HalfEdges(HalfEdges&&) = default;
   HalfEdges& operator=(HalfEdges&&) = default;
-  /// Made in parallel; copies are large, so none is made without being named.
+  /// Copies in parallel. There is no copy constructor: copies are large, and none should be made by accident.
   HalfEdges copy(Workers& workers) const;
 
   std::size_t n_vertices() const { return vertices_.size(); }
@@ -37,11 +37,11 @@ class HalfEdges {
   std::size_t n_halfedges() const { return half_edges_.size(); }
   std::size_t n_faces() const { return faces_.size(); }
 
-  /// One that leaves the vertex; invalid at a vertex of no face.
+  /// A half-edge that leaves the vertex; invalid at a vertex of no face.
   HalfedgeHandle halfedge_handle(VertexHandle v) const { return HalfedgeHandle(vertices_[v.idx()]); }
   HalfedgeHandle halfedge_handle(FaceHandle f) const { return HalfedgeHandle(faces_[f.idx()]); }
   HalfedgeHandle halfedge_handle(EdgeHandle e, int i) const { return HalfedgeHandle(2 * e.idx() + i); }
-  /// The next one around the face, or along the boundary.
+  /// The next half-edge around the face, or along the boundary.
   HalfedgeHandle next_halfedge_handle(HalfedgeHandle h) const { return HalfedgeHandle(half_edges_[h.idx()].next); }
   VertexHandle to_vertex_handle(HalfedgeHandle h) const { return VertexHandle(half_edges_[h.idx()].to); }
   FaceHandle face_handle(HalfedgeHandle h) const { return FaceHandle(half_edges_[h.idx()].face); }
@@ -61,7 +61,7 @@ class HalfEdges {
     half_edges_[h.idx()] = {next.idx(), to.idx(), f.idx()};
   }
 
-  /// The vertex has `h` from now on, unless it has a lower one. Threads may do this at one vertex.
+  /// Makes `h` the half-edge of the vertex, unless it has a lower one. Several threads may do this at one vertex.
   void lower_halfedge_handle(VertexHandle v, HalfedgeHandle h) {
     const std::atomic_ref<int> kept(vertices_[v.idx()]);
     int before = kept.load(std::memory_order_relaxed);
@@ -70,8 +70,8 @@ class HalfEdges {
     }
   }
 
-  /// Where the vertex has `old`, it has `other` from now on. Threads may do this at one vertex, each with its own
-  /// `old`.
+  /// Makes `other` the half-edge of the vertex if it has `old`. Several threads may do this at one vertex, each with
+  /// its own `old`.
   void replace_halfedge_handle(VertexHandle v, HalfedgeHandle old, HalfedgeHandle other) {
     const std::atomic_ref<int> kept(vertices_[v.idx()]);
     if (kept.load(std::memory_order_relaxed) == old.idx()) kept.store(other.idx(), std::memory_order_relaxed);

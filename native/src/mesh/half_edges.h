@@ -14,7 +14,7 @@ namespace holomorph::mesh {
 /// Cost: linear, in parallel.
 HalfEdges half_edges(const Surface& surface, Execution& execution);
 
-/// The half-edge that each side of a triangle is, known without links.
+/// Finds the half-edge of each side of a triangle without links.
 class Sides {
  public:
   explicit Sides(const Surface& surface);
@@ -45,9 +45,9 @@ inline int from_vertex(const HalfEdges& half_edges, HalfedgeHandle h) {
 }
 inline int to_vertex(const HalfEdges& half_edges, HalfedgeHandle h) { return half_edges.to_vertex_handle(h).idx(); }
 inline int face_of(const HalfEdges& half_edges, HalfedgeHandle h) { return half_edges.face_handle(h).idx(); }
-/// The next half-edge around the face, and the one after it, which is the one before.
+/// The next half-edge around the face. In a triangle, the next of the next is the previous one.
 inline HalfedgeHandle next(const HalfEdges& half_edges, HalfedgeHandle h) { return half_edges.next_halfedge_handle(h); }
-/// Whether `h`, which has a face, is the one of lowest number there: every face has one such.
+/// Whether `h` has the lowest number in its triangle: true for one half-edge of each face. @pre `h` has a face
 inline bool is_first_of_face(const HalfEdges& half_edges, HalfedgeHandle h) {
   const HalfedgeHandle after = next(half_edges, h);
   return h < after && h < next(half_edges, after);

@@ -6,7 +6,7 @@
 
 namespace holomorph::mesh {
 
-/// An intrinsic surface: triangles and the lengths of their edges, without positions.
+/// Makes an intrinsic surface: triangles and the lengths of their edges, without positions.
 /// @param faces #F vertices; a vertex may come twice in a triangle
 /// @param lengths #F lengths, entry i opposite corner i; both triangles at an edge must agree to 1e-9
 /// @param face_edges #F edge names, entry i opposite corner i; empty: edges are told apart by their ends

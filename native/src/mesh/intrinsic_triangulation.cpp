@@ -119,6 +119,7 @@ bool lengthen(IntrinsicTriangulation& t, const Chosen& chosen, Workers& workers)
   growth.spread();
   growth.apply();
   t.mollification = std::max(t.mollification, growth.increment);
+  // The lengthened edges are another metric: errors against the given one mean nothing any more.
   t.metric_errors = Array<FaceError>();
   set_all_cotangents(t, workers);
   return true;

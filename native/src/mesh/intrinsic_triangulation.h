@@ -22,9 +22,9 @@ struct IntrinsicTriangulation {
   Array<double> cotangents;  ///< #half-edges: cotangent of the angle opposite; 0 outside the surface
   std::vector<Flip> flips;   ///< in order, from the input triangulation to this one
   double mollification = 0;  ///< added to some lengths, in their unit; with 0 the metric is that of the surface
-  bool degenerate = false;   ///< whether some triangle of the surface is, and none has been mollified
+  bool degenerate = false;   ///< whether a triangle is degenerate; then none has been mollified yet
 
-  /// #F by how much rounding may change energies on each; none where a triangle is mollified.
+  /// #F, how much rounding may change energies on each face; empty if a triangle is mollified.
   Array<FaceError> metric_errors;
 
   Metric metric() const { return {half_edges, lengths, cotangents, metric_errors}; }
@@ -37,29 +37,29 @@ struct IntrinsicTriangulation {
   }
 };
 
-/// The input triangulation in its own metric, degenerate triangles included: make_delaunay can do without mollifying
-/// most of them. @param half_edges of the surface
+/// Returns the input triangulation in its own metric, degenerate triangles included. make_delaunay removes most of them
+/// without mollifying. @param half_edges of the surface
 IntrinsicTriangulation given_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers);
 
-/// All sides of degenerate triangles, and of triangles that become so, grow by one amount. It leaves each triangle a
-/// slack of 1e-6 times the mean length among them. (Sharp & Crane 2020, doi:10.1111/cgf.14069, section 4.5, lengthen
-/// every edge of the mesh.)
+/// Lengthens all sides of degenerate triangles, and of triangles that become degenerate by it, by one common amount.
+/// This leaves each triangle a slack of 1e-6 times their mean length. (Sharp & Crane 2020, doi:10.1111/cgf.14069,
+/// section 4.5, lengthen every edge of the mesh.)
 /// @return whether there was one
 bool mollify(IntrinsicTriangulation& triangulation, Workers& workers);
 
-/// The same of triangles with a side without length alone.
+/// Mollifies only the triangles that have a side of length 0.
 void mollify_needles(IntrinsicTriangulation& triangulation, Workers& workers);
 
-/// given_triangulation, mollified, without the errors of the metric: for what is not bounded.
+/// Returns the given_triangulation, mollified, without metric errors: for results that have no bounds.
 IntrinsicTriangulation intrinsic_triangulation(const Surface& surface, HalfEdges half_edges, Workers& workers);
 
-/// By what intrinsic_triangulation lengthens edges; 0 if no triangle is degenerate.
+/// Returns the length that intrinsic_triangulation adds to edges; 0 if no triangle is degenerate.
 double mollification(const Surface& surface, Execution& execution);
 
-/// The cotangents opposite the half-edges of the face of `h`, from the lengths as they are.
+/// Recomputes the cotangents opposite the half-edges of the face of `h` from the present lengths.
 void set_cotangents(IntrinsicTriangulation& triangulation, HalfedgeHandle h);
 
-/// #E weights k = (cot a + cot b) / 2 (paper Eq. 3), those of thin triangles to all digits.
+/// Returns the weights k = (cot a + cot b) / 2 (paper Eq. 3), #E, those of thin triangles to all digits.
 Array<double> cotangent_weights(const IntrinsicTriangulation& triangulation, Execution& execution);
 
 }  // namespace holomorph::mesh

@@ -1,4 +1,4 @@
-// Sets of elements that are joined one by one.
+// Disjoint sets (union-find), and disjoint sets with signs.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ class JoinedSets {
   std::vector<int> lower_;
 };
 
-/// Elements joined by relations "alike" or "opposite" that contradict each other nowhere within a set.
+/// Elements joined by the relations "alike" and "opposite". Within a set the relations never contradict each other.
 class SignedSets {
  public:
   /// @param root #elements one element of each set

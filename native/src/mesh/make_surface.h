@@ -15,8 +15,8 @@ namespace holomorph::mesh {
 Surface make_surface(Polygons polygons, Execution& execution);
 Surface make_surface(GivenPolygons polygons, Execution& execution);
 
-/// The same in steps: `check_polygons`, indices narrowed, and all else from `surface.polygons`, which stay as they are
-/// whatever is thrown.
+/// The steps of make_surface, after `check_polygons`. `narrowed` converts indices to int. `complete` computes all else
+/// from `surface.polygons`, which it does not change even if it throws.
 Polygons narrowed(GivenPolygons polygons);
 inline Polygons narrowed(Polygons polygons) { return polygons; }
 void complete(Surface& surface, const MeshLabels& label, Execution& execution);

@@ -34,11 +34,12 @@ struct Metric {
   std::span<const FaceError> errors;
 };
 
-/// The rounding of the lengths of a surface, of what was given already (Surface::metric_errors) or of positions.
+/// Bounds the errors that the rounding of a surface's lengths causes: the given ones (Surface::metric_errors), or those
+/// of lengths from positions.
 Array<FaceError> metric_errors(const Metric& metric, const Surface& surface, Workers& workers);
 
-/// Part by which the energies of forms on a triangle of these sides may grow. @param open the area that rounding leaves
-/// open, or that of the triangle
+/// Returns the relative amount by which energies of forms on a triangle with these sides may grow; 1 if rounding leaves
+/// its area open. @param open set to the area, or to a bound of it where it is open
 double energy_growth(const std::array<RoundedLength, 3>& sides, double* open = nullptr);
 
 /// The errors of the face of `h` and of its neighbour across h, with their areas.
@@ -56,8 +57,8 @@ std::array<FaceError, 2> errors_after_flip(const Metric& metric, HalfedgeHandle 
 /// and digits are lost.
 void sharpen_weights(const Metric& metric, Array<double>& weights, Workers& workers);
 
-/// #E numbers u, none where there are no errors. The energy of a form h on the surface as given is at most sum_e (k_e +
-/// u_e) h(e)^2, the rounding of the weights included. @param weights cotangent_weights
+/// Returns numbers u, #E, or none where there are no errors. The energy of a form h on the surface as given is at most
+/// sum_e (k_e + u_e) h(e)^2, the rounding of the weights included. @param weights cotangent_weights
 Array<double> energy_errors(const Metric& metric, const Array<double>& weights, Workers& workers);
 
 /// The largest error of any face: with 1, energies are not bounded.

@@ -33,13 +33,14 @@ Moments moments(const Surface& surface) {
     const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
     sum.area += area;
     sum.first += area / 3 * total;
+    // The integral of x x^T over a triangle is area / 12 (s s^T + sum of p p^T), s the sum of its corners p.
     sum.second += area / 12 * (total * total.transpose());
     for (const Vector3d& corner : p) sum.second += area / 12 * (corner * corner.transpose());
   }
   return sum;
 }
 
-// The square of the distances' mean; infinite where one is too large.
+// The mean of the squared distances of images from the surface; infinite if one is farther than `farthest`.
 double mean_square(const Surface& surface, const TriangleTree& tree, const MirrorPlane& plane, double farthest) {
   const auto& vertices = surface.polygons.vertices;
   const auto count = std::min<std::size_t>(kImages, vertices.size());
@@ -64,6 +65,8 @@ std::optional<MirrorPlane> mirror_plane(const Surface& surface, const TriangleTr
   const Vector3d centroid = sum.first / sum.area;
   const Matrix3d spread = sum.second / sum.area - centroid * centroid.transpose();
   Eigen::Matrix<double, 3, 6> axes;
+  // A plane of symmetry goes through the centroid, across an axis of inertia. On a round shape those are arbitrary: the
+  // axes of space are tried first.
   axes << Matrix3d::Identity(), Eigen::SelfAdjointEigenSolver<Matrix3d>(spread).eigenvectors();
   std::optional<MirrorPlane> best;
   double least = INFINITY;

@@ -67,6 +67,7 @@ Orientation orient(int face_count, const std::vector<EdgeMeeting>& meetings) {
           reversed_count += wanted;
           flood.push_back(g);
         } else if (result.reversed[g] != wanted) {
+          // Two ways to this face orient it differently: there is a Moebius band.
           result.conflict = m.edge;
           return result;
         }

@@ -23,7 +23,8 @@ struct EdgeMeeting {
 /// Orients each component as the majority of its faces is given; if there is none, as its first face.
 Orientation orient(int face_count, const std::vector<EdgeMeeting>& meetings);
 
-/// The same where no face is to be reversed, from the vertices, which two faces of one component share if any do.
+/// Finds the components of a mesh in which no face has to be reversed, from the vertices: in such a mesh, faces that
+/// share a vertex belong to one component.
 /// @param edges #E ends, lower first
 Orientation oriented_as_given(const Polygons& polygons, const Array<Pair>& edges);
 

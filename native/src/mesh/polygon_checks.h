@@ -19,7 +19,7 @@ enum class FaceFault { kNone, kNoSuchVertex, kNotFinite, kFewVertices };
 FaceFault fault_of_face(const Polygons& polygons, int face);
 FaceFault fault_of_face(const GivenPolygons& polygons, int face);
 
-/// What `check_polygons` says about a face that it refuses.
+/// Returns what `check_polygons` says about a face that it refuses.
 std::string fault_text(const Polygons& polygons, int face);
 std::string fault_text(const GivenPolygons& polygons, int face);
 

@@ -114,7 +114,7 @@ int face_of(const Polygons& mesh, const Side& side) {
   return static_cast<int>(std::upper_bound(offsets.begin(), offsets.end(), side.corner()) - offsets.begin()) - 1;
 }
 
-// Two polygons with the same vertices among those at an edge, lower first, or none. Such polygons share every edge.
+// Two polygons with the same vertices among those at an edge, the lower first; or {-1, -1}.
 Pair duplicates(const Polygons& mesh, const Side* begin, const Side* end) {
   for (const Side* a = begin; a != end; ++a) {
     for (const Side* b = a + 1; b != end; ++b) {
@@ -144,6 +144,7 @@ std::vector<int> first_edges(const Polygons& mesh, Blocks& blocks, const MeshLab
     blocks.sort(block);
     int edges = 0;
     each_edge(blocks, block, [&](const Side* begin, const Side* end) {
+      // Triangles with the same vertices share all their edges, so that edges of two sides show them.
       if (end - begin > 2 || (end - begin == 2 && duplicates(mesh, begin, end)[0] >= 0)) bad[block] = {begin, end};
       ++edges;
       return !bad[block].begin;
@@ -181,6 +182,7 @@ PolygonEdges polygon_edges(const Polygons& mesh, const MeshLabels& label, Worker
       const bool two = end - begin == 2;
       result.edges[edge] = {begin->lower, begin->higher};
       result.edge_sides[edge] = {begin->corner(), two ? begin[1].corner() : -1};
+      // Consistently oriented polygons run along a common edge in opposite directions.
       if (two && begin[0].runs_down() == begin[1].runs_down()) oriented[block] = 0;
       for (const Side* side = begin; side != end; ++side) result.side_edge[side->corner()] = edge;
       ++edge;
@@ -202,6 +204,7 @@ std::vector<int> boundary_loop_of_vertex(const PolygonEdges& edges, int vertex_c
     for (const int v : edges.edges[e]) {
       if (loop[v] < 0) loop[v] = v;
     }
+    // The lower root stays, so that a loop is known by its lowest vertex.
     const int a = find(edges.edges[e][0]), b = find(edges.edges[e][1]);
     loop[std::max(a, b)] = std::min(a, b);
   }

@@ -22,7 +22,7 @@ struct PolygonEdges {
 /// @throws InvalidMesh for an edge of more than two faces, and for two faces with the same vertices.
 PolygonEdges polygon_edges(const Polygons& polygons, const MeshLabels& label, Workers& workers);
 
-/// #V: equal numbers at the vertices of one boundary loop, -1 in the interior.
+/// Returns #V numbers: equal ones at the vertices of one boundary loop, -1 in the interior.
 std::vector<int> boundary_loop_of_vertex(const PolygonEdges& edges, int vertex_count);
 
 /// The polygon of each corner.

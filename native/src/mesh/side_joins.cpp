@@ -110,6 +110,7 @@ class Joiner {
 
   void join_fans(int s, int t) {
     const bool alike = run_alike(s, t);
+    // Sides of two faces that are oriented alike run in opposite directions: the start of one is the end of the other.
     fans_.join(s, alike ? t : next_[t]);
     fans_.join(next_[s], alike ? next_[t] : t);
   }

@@ -18,10 +18,11 @@ struct SideJoins {
 
 /// Joins sides so that the polygons become an oriented surface in which an edge is known by its ends.
 ///
-/// Two sides that alone run between two labels are joined, but where, in the order of a flood over the faces, their
-/// orientations contradict. At edges with more faces, pairs are joined in the order of how well their faces continue
-/// each other. First come those that are oriented alike as given, then by the angle, then convex before concave. A pair
-/// is left apart where the fans around the ends would become one, though another copy of an edge is there already.
+/// Two sides that are the only ones between two labels are joined, unless their orientations contradict. (A flood over
+/// the faces decides in which order they are joined.) At edges with more faces, pairs are joined in the order of how
+/// well their faces continue each other. First come those that are oriented alike as given, then by the angle, then
+/// convex before concave. A pair is left apart where the fans around the ends would become one, though another copy of
+/// an edge is there already.
 /// @pre crowded_edges is empty
 /// Cost: O(#C log #C).
 SideJoins join_sides(const Polygons& polygons, const std::vector<int>& label);

@@ -15,6 +15,7 @@ namespace {
 double apex_angle(const HalfEdges& half_edges, std::span<const double> lengths, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(half_edges, h), h2 = next(half_edges, h1);
   const double a = lengths[edge_of(h)], b = lengths[edge_of(h1)], c = lengths[edge_of(h2)];
+  // The law of cosines, by sine and cosine: atan2 is accurate at all angles, acos is not near 0 and pi.
   return std::atan2(4 * triangle_area(a, b, c), (b - a) * (b + a) + c * c);
 }
 

@@ -28,22 +28,23 @@ struct Star {
 std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> lengths, const std::vector<int>& vertices,
                         const std::vector<int>& labels = {});
 
-/// One star, whatever it meets. @throws TopologyError if the vertex has no face, or lies on the boundary
+/// Returns one star, whatever it meets. @throws TopologyError if the vertex has no face, or lies on the boundary
 Star star(const HalfEdges& half_edges, std::span<const double> lengths, int vertex,
           const std::vector<int>& labels = {});
 
 /// The vertex, which has a face and does not lie on the boundary, and its neighbours along edges of polygons.
 std::vector<int> star_vertices(const Surface& surface, const HalfEdges& half_edges, int vertex);
 
-/// The corners of all polygons at a vertex that has a face, ascending. Where no corner of one is in the star of another
-/// vertex, the two can be poles together.
+/// Returns the corners of all polygons at a vertex that has a face, ascending. Two vertices can be poles together if no
+/// such corner of one is in the star of the other.
 std::vector<int> corners_around(const Surface& surface, const HalfEdges& half_edges, int vertex);
 
 /// Whether `stars` accepts the vertex alone once diagonals are flipped away from it: its neighbours along edges of
 /// polygons are distinct and not on the boundary.
 bool has_proper_star(const Surface& surface, const HalfEdges& half_edges, int vertex);
 
-/// The same beside others: nor are they, or itself, marked in `taken` (#V). It marks nothing.
+/// Like has_proper_star; besides, neither the vertex nor one of these neighbours is marked in `taken` (#V). Marks
+/// nothing.
 bool has_free_star(const Surface& surface, const HalfEdges& half_edges, int vertex, const std::vector<char>& taken);
 
 /// Marks the vertex and its neighbours along edges of polygons.

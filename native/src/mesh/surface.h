@@ -37,8 +37,8 @@ struct Surface {
   Array<int> face_component;       ///< #F connected component of each polygon, numbered by first polygon
   int component_count = 0;
   Array<char> edge_face_count;  ///< #E number of triangles at each edge, 1 or 2
-  /// #T by what part energies may be larger on the surface that this one stands for, whose refinement it is; none: it
-  /// stands for itself.
+  /// #T, how much larger energies may be on the original surface, relatively, if this one is a refinement of it with
+  /// rounded lengths; empty: this is the original.
   Array<double> metric_errors;
   Repairs repairs;
 
@@ -50,11 +50,11 @@ struct Surface {
 /// Sum of the areas of the triangles.
 double area(const Surface& surface, Workers& workers);
 
-/// #V a third of the areas of the triangles at each vertex. @param lengths #E
+/// Returns a third of the areas of the triangles at each vertex, #V. @param lengths #E
 std::vector<double> vertex_areas(const Surface& surface, std::span<const double> lengths);
 
-/// The edge between two vertices, -1 if there is none, in O(log #E). @param edges lower end first, in lexicographic
-/// order, as those of polygons are
+/// Finds the edge between two vertices, -1 if there is none, in O(log #E). @param edges lower end first, in
+/// lexicographic order, as those of polygons are
 int edge_between(std::span<const Pair> edges, int a, int b);
 
 }  // namespace holomorph::mesh

@@ -8,10 +8,10 @@
 
 namespace holomorph::mesh {
 
-/// Components and reversed faces. @throws TopologyError naming the edge at which no orientation fits
+/// Records components and reversed faces. @throws TopologyError naming the edge at which no orientation fits
 void record_orientation(Surface& surface, const Orientation& orientation, const MeshLabels& label = {});
 
-/// Isolated vertices, zero areas; refuses non-manifold vertices and a surface without area.
+/// Records isolated vertices and faces without area. Refuses non-manifold vertices and a surface without area.
 /// @throws InvalidMesh
 void finish_records(Surface& surface, Execution& execution, const MeshLabels& label = {});
 

@@ -77,6 +77,7 @@ WalkSteps walk(const Surface& surface, const HalfEdges& half_edges, const Sides&
     const auto other = corners(surface, next);
     const Complex here = corner[exit.side], there = other[(side + 1) % 3];
     Complex turn = (other[side] - there) / (corner[(exit.side + 1) % 3] - here);
+    // A rotation alone, so that rounding does not change lengths along the walk.
     turn /= std::abs(turn);
     point = {next, there + turn * (point.z - here)};
     dz *= turn;

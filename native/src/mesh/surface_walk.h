@@ -26,7 +26,7 @@ Eigen::Vector3d barycentric(const Surface& surface, const SurfacePoint& point);
 /// Steps dz, each in the frame of its triangle.
 using WalkSteps = std::vector<std::pair<int, std::complex<double>>>;
 
-/// The corner of a vertex, moved inwards a little, so that a walk can begin there.
+/// Returns the corner of a vertex, moved inwards a little, so that a walk can begin there.
 SurfacePoint at_vertex(const Surface& surface, int triangle, int vertex);
 
 /// Moves the point along a geodesic that leaves with `dz`, across edges by unfolding; it ends early at the boundary and

@@ -11,11 +11,12 @@ namespace holomorph::mesh {
 /// the rounding of lengths from rounded positions. (Then an angle is below 1.4e-6 rad.)
 inline constexpr double kDegenerateMargin = 1e-12;
 
-/// Lengths and coordinates up to this are computed with: products of four do not overflow. Where all are below the
-/// second, they lose digits.
+/// Lengths and coordinates are at most kLargest, so that products of four do not overflow. If all are below kSmallest,
+/// such products lose digits.
 inline constexpr double kLargest = 1e60, kSmallest = 1e-60;
 
-/// A triangle is degenerate, too, where that difference is less than this length: products of four underflow.
+/// A triangle is degenerate, too, if its slack, the sum of the shorter sides less the longest, is below this length:
+/// products of four would underflow.
 inline constexpr double kLeastSlack = 1e-75;
 
 inline double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {

@@ -44,6 +44,7 @@ bool meets_triangle(const Vector3d& start, const Vector3d& direction, double beg
   return u >= -kEdge && v >= -kEdge && u + v <= 1 + kEdge && f.dot(q) / determinant > begin;
 }
 
+// The slab method: the ray meets the box if its intervals between the three pairs of planes have a common point.
 bool meets_box(const Vector3d& start, const Vector3d& inverse, const Eigen::AlignedBox3d& box) {
   double from = 0, to = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
@@ -65,12 +66,14 @@ TriangleTree::TriangleTree(std::span<const std::array<double, 3>> vertices, std:
     const Vector3d centre = (own[0] + own[1] + own[2]) / 3;
     centres.push_back({centre[0], centre[1], centre[2]});
   }
+  // Triangles near each other in this order are near each other in space: halving the list halves the boxes.
   order_ = spatial_order(centres);
   for (const int t : order_) corners_.push_back(corners[t]);
   build(0, 0, static_cast<int>(order_.size()));
 }
 
 void TriangleTree::build(std::size_t node, int first, int end) {
+  // An implicit binary tree: the children of node n are 2 n + 1 and 2 n + 2.
   if (nodes_.size() <= node) nodes_.resize(2 * node + 1);
   if (end - first > kLeaf) {
     const int middle = first + (end - first) / 2;
@@ -101,6 +104,7 @@ std::pair<int, double> TriangleTree::nearest(const Vector3d& point) const {
       continue;
     }
     const std::size_t low = 2 * n + 1, high = 2 * n + 2;
+    // The nearer child is popped first: it lowers the bound that may exclude the other.
     const bool low_first =
         nodes_[low].box.squaredExteriorDistance(point) <= nodes_[high].box.squaredExteriorDistance(point);
     stack[height++] = low_first ? high : low;

@@ -16,7 +16,7 @@ class TriangleTree {
   explicit TriangleTree(const Surface& surface) : TriangleTree(surface.polygons.vertices, surface.triangles) {}
   TriangleTree(std::span<const std::array<double, 3>> vertices, std::span<const Triple> triangles);
 
-  /// The triangle nearest to a point, of several the first along the curve of `spatial_order`, and its distance.
+  /// Finds the triangle nearest to a point, and its distance; of several, the first along the curve of `spatial_order`.
   /// Cost: O(log #T) near the surface
   std::pair<int, double> nearest(const Eigen::Vector3d& point) const;
 

@@ -6,7 +6,7 @@
 
 namespace holomorph::mesh {
 
-/// Triangles of a polygon as triples of its local corners 0 .. n-1, each in the polygon's own order (i < j < k).
+/// Cuts a polygon into triangles: triples of its local corners 0 .. n-1, each in the polygon's own order (i < j < k).
 /// Minimises the sum of (a^2 + b^2 + c^2) / area over the triangles. This is the Delaunay triangulation where the
 /// polygon is planar and convex (Musin, Properties of the Delaunay triangulation, 1997, doi:10.1145/262839.263061).
 /// Triangles that lie against the polygon's vector area cost more than any that do not. Avoids triangles whose corners

@@ -20,7 +20,7 @@ struct UsableFaces {
   std::vector<RefusedFaces> refused;  ///< the others, by reasons
 };
 
-/// Those with at least three different vertices, all of which exist and have finite coordinates.
+/// Keeps the faces with at least three different vertices, all of which exist and have finite coordinates.
 /// @pre check_layout has passed
 UsableFaces usable_faces(GivenPolygons polygons);
 UsableFaces usable_faces(Polygons polygons);

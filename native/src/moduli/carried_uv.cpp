@@ -24,6 +24,7 @@ std::vector<Complex> carried_uv(const mesh::Surface& from, const VertexImages& i
     continued.begin(images.triangles[corner_vertices[face_offsets[f]]]);
     std::transform(corner_vertices.begin() + face_offsets[f], corner_vertices.begin() + face_offsets[f + 1], begin,
                    [&](int v) { return continued.at(images.triangles[v], images.barycentric[v]); });
+    // The polygon, in one piece over seams of the map, goes into the chart that lies under its middle.
     Complex middle = 0;
     for (auto z = begin; z != end; ++z) middle += *z / static_cast<double>(end - begin);
     const Similarity chart = continued.chart_at(middle);

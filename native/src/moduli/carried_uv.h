@@ -16,9 +16,9 @@ struct VertexImages {
   std::vector<std::array<double, 3>> barycentric;  ///< #V
 };
 
-/// UVs at the corners of `to`, one for each polygon corner, carried to the corners of `from`.
+/// Pulls UVs at the corners of `to`, one for each polygon corner, back to the corners of `from`.
 ///
-/// UVs are continued from triangle to triangle over `to`. Across a cut, they are continued by the similarity that
+/// The UVs are continued from triangle to triangle over `to`. Across a cut, they are continued by the similarity that
 /// brings the UVs on both sides of the edge together (a translation, for maps made of forms). All corners of a polygon
 /// take the chart at its middle. So a texture that is continuous across a cut of `to` is continuous on `from`. Where it
 /// breaks off, it breaks off along the nearest edges.

@@ -48,6 +48,7 @@ MatrixXd slopes(const FormSurface& side, Execution& execution) {
     Eigen::Matrix2d frame;
     frame << corner[1].real(), corner[2].real(), corner[1].imag(), corner[2].imag();
     auto slope = result.middleCols<2>(2 * t);
+    // Sides 0 and 2, both seen from corner 0: the values of the forms on them over their places give the slopes.
     slope << along(0), -along(2);
     slope = (slope * frame.inverse()).eval();
   });
@@ -83,6 +84,8 @@ ConformalImages Continuation::run(const MapStart& start, std::size_t most_vertic
     for_each_leaving(from_links_, images.vertices[i], [&](mesh::HalfedgeHandle h) {
       const int vertex = mesh::to_vertex(from_links_, h);
       if (is_reached[vertex] || images.vertices.size() == most_vertices) return;
+      // Along an edge the integrals of the forms grow by its values. The image of the new vertex starts at that of the
+      // old one, and walks until its integrals have grown alike.
       const VectorXd step = mesh::sign(h) * from_.forms.col(mesh::edge_of(h));
       take(vertex, images.points[i], images.residuals.col(static_cast<Index>(i)) + step);
     });
@@ -121,6 +124,8 @@ void Continuation::follow(mesh::SurfacePoint& point, Eigen::Ref<VectorXd> residu
   double left = residual.norm();
   for (int n = 0; n < kSteps; ++n) {
     const auto across = slope(point.triangle);
+    // Gauss-Newton: the step in the plane of the triangle that reduces the residual most, in the sense of least
+    // squares.
     const Vector2d step = (across.transpose() * across).ldlt().solve(across.transpose() * residual);
     for (const auto& [triangle, dz] : mesh::walk(to_.surface, to_links_, to_sides_, point, {step[0], step[1]}))
       residual -= slope(triangle) * Vector2d(dz.real(), dz.imag());

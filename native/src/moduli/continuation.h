@@ -31,12 +31,14 @@ struct ConformalImages {
   Eigen::MatrixXd residuals;               ///< n x #vertices: integrals on the first surface minus those on the second
 };
 
-/// n x 2 #T: the two columns 2 t, 2 t + 1 are the change of the integrals along x and y of triangle t (mesh::corners).
+/// Returns the change of the integrals along x and y of each triangle t (mesh::corners), columns 2 t and 2 t + 1 of n x
+/// 2 #T.
 Eigen::MatrixXd slopes(const FormSurface& side, Execution& execution);
 
-/// The integrals of corresponding forms from the start are the same at corresponding points (Abel-Jacobi). Goes from
-/// vertex to vertex along the edges of the first surface, nearest first. The image walks over the second until no
-/// direction brings its integrals nearer. What is left over shows a wrong start, or forms that do not correspond.
+/// Continues the map over the first surface. The integrals of corresponding forms from the start are the same at
+/// corresponding points (Abel-Jacobi). It goes from vertex to vertex along the edges of the first surface, nearest
+/// first. The image walks over the second surface until no direction brings its integrals nearer. The residuals that
+/// remain show a wrong start, or forms that do not correspond.
 /// @param most_vertices of the first surface that are mapped @throws Cancelled
 /// Cost: O(#V n), and O(#T n) for the directions on the second surface.
 class Continuation {

@@ -34,7 +34,8 @@ class ContinuedCharts {
   /// A point of a triangle in the chart of the first one. @pre both are in one component
   std::complex<double> at(int triangle, const std::array<double, 3>& barycentric);
 
-  /// Into that chart from the one of the triangle, of those that were come by, in which the point lies.
+  /// Returns the similarity to that chart from the chart of the triangle in which the point lies, among the triangles
+  /// visited.
   Similarity chart_at(std::complex<double> z) const;
 
  private:
@@ -50,7 +51,7 @@ class ContinuedCharts {
   std::vector<Corners> corners_;
   mesh::HalfEdges links_;
   mesh::Sides sides_;
-  std::vector<int> place_;  // #T in sheets_, -1: not come by
+  std::vector<int> place_;  // #T in sheets_, -1: not visited
   std::vector<Sheet> sheets_;
   std::size_t next_ = 0;
 };

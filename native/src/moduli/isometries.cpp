@@ -26,6 +26,7 @@ class Search {
   Search(const PeriodLattice& a, const PeriodLattice& b, const SearchOptions& options, Execution& execution)
       : a_(reduced(a)), b_(reduced(b)), options_(options), steps_left_(options.steps), execution_(execution) {
     const double slack = options.slack + kRounding;
+    // The slack is in logarithms of energies: it widens the bounds by a factor.
     upper_ = a_.lattice.upper * std::exp(slack);
     lower_ = a_.lattice.lower * std::exp(-slack);
     middle_ = (upper_ + lower_) / 2;
@@ -47,6 +48,7 @@ class Search {
     for (const IntegerVector& candidate : candidates(k)) {
       rows_.row(k) = candidate.transpose();
       if (has_pairing(k) && is_possible(k + 1)) extend(k + 1);
+      // Out of steps: what is found so far may be not all.
       if (!result_.is_complete) return;
     }
   }

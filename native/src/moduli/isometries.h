@@ -16,7 +16,8 @@ struct Isometry {
   /// distance of tau. The energies of corresponding classes differ at most by the factor exp(residual).
   double residual = 0;
   /// The bounds overlap if and only if this is <= 0. Else a map between the surfaces in the homotopy class of R
-  /// stretches some direction exp(excess) times as much as another. For energies grow at most by a map's dilatation.
+  /// stretches some direction exp(excess) times as much as another, since a map changes energies at most by its
+  /// dilatation.
   double excess = 0;
 };
 
@@ -31,11 +32,11 @@ inline constexpr std::int64_t kMostSteps = 20'000'000;
 /// What is searched for, and how long.
 struct SearchOptions {
   int sign = 1;                     ///< 1 keeps the orientation, -1 reverses it
-  double slack = 0;                 ///< all R with excess <= slack; besides 1e-9 for rounding
+  double slack = 0;                 ///< finds all R with excess <= slack, and 1e-9 more for rounding
   std::int64_t steps = kMostSteps;  ///< most steps of the search
 };
 
-/// All R whose excess is at most `slack`. The search goes row by row, in a reduced basis of b from short to long.
+/// Finds all R whose excess is at most `slack`. The search goes row by row, in a reduced basis of b from short to long.
 /// Candidates are the lattice points near the one point that has the right energy products with the rows before. They
 /// lie in the plane of points with the right wedge products. A candidate is dropped if the bounds exclude the block of
 /// rows so far. Nothing that the bounds allow is ever dropped.

@@ -30,6 +30,8 @@ MapDerivatives map_derivatives(const mesh::Surface& from, const VertexImages& im
   for (int t = 0; t < count; ++t) {
     execution.report(static_cast<double>(t) / count);
     const Corners here = mesh::corners(from, t);
+    // The unfolding depends on where it begins, as the surface is curved. Of three, the one with the least dilatation
+    // is taken.
     for (int start = 0; start < 3; ++start) {
       unfolded.begin(images.triangles[from.triangles[t][start]]);
       Corners there;

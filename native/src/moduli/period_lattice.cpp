@@ -43,6 +43,7 @@ IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B) {
 }
 
 IntegerMatrix short_basis(const MatrixXd& form) {
+  // U^T U is the form, so that the columns of U span a lattice with these lengths and angles.
   const MatrixXd root = form.llt().matrixU();
   const auto reduced = lattice::reduce(root);
   const Eigen::VectorXd length = reduced.basis.colwise().norm();

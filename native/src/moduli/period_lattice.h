@@ -11,9 +11,9 @@ namespace holomorph::moduli {
 using lattice::IntegerMatrix;
 
 /// The lattice Z^n of integer classes, its quadratic form the energy of their harmonic forms, which is known between
-/// two bounds, and an antisymmetric integer pairing. Two closed surfaces of genus >= 1 are conformally equivalent just
-/// if their lattices are isometric by integers that keep the wedge product, n = 2g (Torelli). With boundary the lattice
-/// belongs to the Dirichlet forms, n = 2g + b - 1; int h^D_i ^ h^D_j tells a surface from its mirror image.
+/// two bounds, and an antisymmetric integer pairing. Two closed surfaces of genus >= 1 are conformally equivalent if
+/// and only if their lattices are isometric by integers that keep the wedge product, n = 2g (Torelli). With boundary
+/// the lattice belongs to the Dirichlet forms, n = 2g + b - 1; int h^D_i ^ h^D_j tells a surface from its mirror image.
 struct PeriodLattice {
   Eigen::MatrixXd lower, upper;  ///< n x n: lower <= energy <= upper, as quadratic forms
   Eigen::MatrixXd projected;     ///< n x n: the value between them
@@ -44,10 +44,11 @@ ReducedLattice reduced(const PeriodLattice& lattice);
 /// A B. @throws Error where an entry leaves 2^53
 IntegerMatrix checked_product(const IntegerMatrix& A, const IntegerMatrix& B);
 
-/// The projected energies as if they were exact.
+/// Returns the lattice whose bounds are the projected energies, as if these were exact.
 PeriodLattice projected_lattice(const PeriodLattice& lattice);
 
-/// The half-width of the bounds, in the metric of isometries.h: log of the largest ratio of `upper` and `projected`.
+/// Returns the half-width of the bounds, in the metric of isometries.h: log of the largest ratio of `upper` and
+/// `projected`.
 double radius(const PeriodLattice& lattice);
 
 }  // namespace holomorph::moduli

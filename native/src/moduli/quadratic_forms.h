@@ -10,7 +10,8 @@ struct LogRatios {
   double least, greatest;
 };
 
-/// @pre symmetric. Where A is not positive definite, the least is -infinity.
+/// Compares two forms by their generalised eigenvalues. @pre symmetric. Where A is not positive definite, the least is
+/// -infinity.
 /// @throws SolverError where B is not positive definite
 LogRatios log_ratios(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 

@@ -74,7 +74,7 @@ forms::RowMajorMatrix differences(const mesh::Surface& surface, const forms::Row
   return edge_values;
 }
 
-// All columns with the natural condition, or with a boundary those of v, the odd ones, with v fixed there.
+// The natural condition for all columns; with a boundary the columns of v, the odd ones, are fixed there.
 std::vector<solver::Condition> conditions_of(Eigen::Index columns, bool bounded) {
   std::vector<solver::Condition> conditions(columns, solver::Condition::natural);
   for (Eigen::Index v = 1; bounded && v < columns; v += 2) conditions[v] = solver::Condition::dirichlet;
@@ -119,6 +119,7 @@ HarmonicMap harmonic_map(const mesh::Surface& surface, const forms::RowMajorMatr
       start;
   const auto weights_of_mean = mesh::vertex_areas(surface, input.lengths);
   const Eigen::Map<const Eigen::VectorXd> areas(weights_of_mean.data(), surface.vertex_count);
+  // With boundary, v is fixed there, and u alone is free up to a constant.
   Eigen::RowVectorXd mean = areas.transpose() * result.moves / areas.sum();
   if (!fixed.empty()) mean(Eigen::seq(1, Eigen::last, 2)).setZero();
   result.moves.rowwise() -= mean;

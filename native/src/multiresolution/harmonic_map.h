@@ -14,7 +14,7 @@ struct HarmonicMap {
   structure::SolverReport solver;
 };
 
-/// m UV maps made harmonic, with the same periods: the forms du, dv plus df as in Eq. 8 of the paper, with
+/// Makes m UV maps harmonic, with the same periods: adds df to the forms du and dv as in Eq. 8 of the paper, with
 /// L f = -d* du. That is step 5(c) of its § 9 applied to a coarser level. With a boundary, v keeps its values there and
 /// u gets the natural condition, as for natural and Dirichlet forms. Free constants are chosen so that the mean of
 /// `moves` is 0, each vertex weighted by a third of the area of its triangles.

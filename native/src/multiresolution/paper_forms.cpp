@@ -18,7 +18,7 @@ double faces(const PaperLevels& levels, int splits) {
   return static_cast<double>(progressive::triangle_count(*levels.mesh, splits));
 }
 
-// Part of the work that conjugate gradients on M are taken for: its part of the faces of all levels.
+// Estimates the part of the work that conjugate gradients on M take, by its part of the faces of all levels.
 double last_part(const PaperLevels& levels, const PaperOptions& options) {
   double work = faces(levels, levels.splits);
   for (const int k : thresholds(levels, options)) work += faces(levels, k);
@@ -40,9 +40,9 @@ Eigen::MatrixXd prolonged(const Eigen::MatrixXd& X, const std::vector<int>& from
   return result;
 }
 
-// The loops' harmonic measures belong to d(1 on loop k) on the surface. What the levels have is its pull-back from M0,
-// which is 1 at all vertices that were collapsed into the loop: functions that are 0 along the boundary take the
-// difference, with the other sign in the second copy.
+// On the surface, the class of a loop's harmonic measure is d(1 on loop k). The levels have its pull-back from M0
+// instead, d of the function that is 1 at all vertices collapsed into the loop. The functions, which are 0 along the
+// boundary, take the difference: 1 at the inner ones of these vertices, -1 in the second copy.
 void add_collapsed_into_loops(const PaperLevels& levels, Eigen::MatrixXd& X) {
   const Eigen::Index first = X.cols() - levels.bases.boundary.count();  // loop k >= 1 is column first + k
   const std::vector<int> to_base = progressive::vertex_map(*levels.mesh, 0);
@@ -71,6 +71,7 @@ std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& optio
   if (options.thresholds) return asked_for(levels, *options.thresholds);
   const double base = faces(levels, 0);
   std::vector<int> splits;
+  // From M downwards by the factor `ratio`, then M0; returned the other way round.
   for (double count = faces(levels, levels.splits) / options.ratio;
        count >= static_cast<double>(options.least_faces) && count > base; count /= options.ratio) {
     splits.push_back(progressive::split_count(*levels.mesh, static_cast<std::int64_t>(count)));
@@ -93,6 +94,8 @@ PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& 
   for (const int k : coarse) {
     const auto start = Clock::now();
     LevelSystem system = level_system(levels, k);
+    // 5(b): a vertex of this level begins with the value of its parent on the last one. 5(c): the system is solved from
+    // there.
     X = prolonged(X, row, system.row, system.B.rows(), system.B.cols());
     execution.part(done, done + faces(levels, k) / work);
     const auto report = solver::conjugate_gradients(system.L, system.B, X, gradients, execution);
@@ -100,6 +103,7 @@ PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& 
     result.levels.push_back(level_report(levels, k, report, start));
     row = std::move(system.row);
   }
+  // 5(b) for the splits from the last threshold to M.
   result.functions = prolonged(X, row, own, static_cast<Eigen::Index>(own.size()), levels.base_classes.form_count);
   if (!levels.closed() && !coarse.empty()) add_collapsed_into_loops(levels, result.functions);
   return result;
@@ -110,6 +114,7 @@ PaperSolver::PaperSolver(const PaperLevels& levels, solver::Laplacian&& L, const
 
 solver::Solution PaperSolver::solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>&,
                                     Execution& execution) {
+  // The first call is for the forms themselves, all later ones for corrections.
   return reports_.empty() ? improved(B, execution) : correction(B, execution);
 }
 

@@ -24,8 +24,8 @@
 namespace holomorph::multiresolution {
 
 struct PaperOptions {
-  /// Numbers of faces of the thresholds in any order, M0 besides; none of them: begins at zero, without levels.
-  /// By default every `ratio` in faces from `least_faces` on.
+  /// Numbers of faces of the thresholds, in any order; M0 is always a level. An empty list means no levels at all:
+  /// conjugate gradients begin at zero. By default every `ratio` in faces from `least_faces` on.
   std::optional<std::vector<std::int64_t>> thresholds;
   double ratio = 4;                     ///< faces of a threshold over those of the one before
   std::int64_t least_faces = 500;       ///< fewest faces of a threshold above M0
@@ -34,7 +34,7 @@ struct PaperOptions {
   solver::Scaling scaling = solver::Scaling::diagonal;
 };
 
-/// Numbers of splits of M0 and of the thresholds, ascending, without that of M.
+/// Returns the numbers of splits of M0 and of the thresholds, ascending, without that of M.
 std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& options);
 
 struct PaperEstimation {
@@ -42,8 +42,8 @@ struct PaperEstimation {
   std::vector<structure::LevelReport> levels;
 };
 
-/// Steps 4 and 5: the initial guess on M, and all levels but M. A threshold's residual need not be small:
-/// simplification changes the solution by some thousandths from one level to the next.
+/// Does steps 4 and 5: returns the initial guess on M, and a report of all levels but M. A threshold's residual need
+/// not be small: simplification changes the solution by some thousandths from one level to the next.
 PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
 
 /// Steps 4 to 6 as a solver: the first right-hand sides are those of all harmonic forms, in the order of

@@ -48,6 +48,7 @@ Rows rows_of(const PaperLevels& levels, int vertices) {
     for (std::size_t v = 0; v < levels.place.size(); ++v) {
       const int p = levels.place[v];
       if (p >= vertices) continue;
+      // A boundary vertex belongs to both copies, and has one row.
       const bool is_shared = copy > 0 && levels.on_boundary(static_cast<int>(v));
       rows[p] = is_shared ? result.copies[0][p] : result.count++;
     }
@@ -70,7 +71,7 @@ std::vector<int> row_of_row(const PaperLevels& levels, const std::vector<std::ve
   return result;
 }
 
-// The part of one copy of a triangle's side in L and B.
+// Assembles L and B from the sides of triangles, copy by copy.
 class Assembly {
  public:
   Assembly(const PaperLevels& levels, int rows, std::size_t triangles)
@@ -84,10 +85,13 @@ class Assembly {
   void add(int a, int b, double weight, int tail, int head, bool is_second) {
     entries_.insert(entries_.end(),
                     {{tail, tail, weight}, {tail, head, -weight}, {head, head, weight}, {head, tail, -weight}});
+    // The class on this side is pulled back from M0: 0 if both ends were collapsed into one vertex, else the value on
+    // the base edge, whose direction is from the lower to the higher vertex.
     a = to_base_[a], b = to_base_[b];
     if (a == b) return;
     const int edge = mesh::edge_between(levels_.mesh->base.edges, a, b);
     for (const auto& [form, value] : levels_.base_classes.rows[edge]) {
+      // Relative classes are extended antisymmetrically to the second copy (§ 8).
       const bool is_negative = is_second && form >= levels_.bases.classes.form_count;
       const double flux = weight * ((a < b) == is_negative ? -value : value);
       B_(head, form) -= flux;
@@ -147,6 +151,7 @@ PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution) {
     for (int& v : levels.triangles.back()) v = levels.place[v];
   }
 
+  // The loops of M0 take the numbers of the surface's loops, so that classes correspond.
   levels.bases.boundary = mesh::boundary_loops(surface, mesh::half_edges(surface, execution));
   std::vector<int> loop_of_vertex;
   for (int p = 0; p < mesh.base_vertex_count(); ++p)

@@ -26,29 +26,29 @@ struct PaperLevels {
   bool on_boundary(int v) const { return bases.boundary.loop_of_vertex[v] >= 0; }
 };
 
-/// Rows of the surface's system: #V, with boundary those of the double, the inner vertices of the second copy behind
-/// the vertices of the surface as in mesh::double_cover.
+/// Returns the number of rows of the surface's system: #V, or with boundary those of the double. There the inner
+/// vertices of the second copy follow the vertices of the surface, as in mesh::double_cover.
 Eigen::Index row_count(const PaperLevels& levels);
 
-/// Steps 1 to 3: the progressive mesh in the order of quadric errors, and homology and cohomology bases of M0. Loops
-/// are lifted to the surface and classes pulled back (step 5b), exactly.
+/// Does steps 1 to 3: the progressive mesh in the order of quadric errors, and homology and cohomology bases of M0.
+/// Loops are lifted to the surface and classes pulled back (step 5b), exactly.
 /// @pre connected, with harmonic forms, no isolated vertices
 /// @throws InvalidMesh for an intrinsic surface, and where no triangulation of the polygons is without double edges
 PaperLevels paper_levels(const mesh::Surface& surface, Execution& execution);
 
-/// The same for a level of a given progressive mesh, which outlives the result.
+/// Does the same for a level of a given progressive mesh, which outlives the result.
 PaperLevels paper_levels(const progressive::ProgressiveMesh& mesh, int splits, const mesh::Surface& level);
 
-/// L f = B on the level with this many splits, or on its double. Rows are in the order of those of the surface, which
-/// keeps neighbours near in memory.
+/// The system L f = B on a level, or on its double. Rows are in the order of those of the surface, which keeps
+/// neighbours near in memory.
 struct LevelSystem {
   solver::Laplacian L;
   Eigen::MatrixXd B;     ///< -d* eta, as forms::codifferentials
   std::vector<int> row;  ///< #rows of the surface: row of the vertex that each one's vertex was collapsed into
 };
 
-/// Weights from the positions. Triangles thinner than about 1 : 100 count as that thin: they would cost iterations, and
-/// a level gives only an initial guess.
+/// Assembles the system of the level with this many splits, with weights from the positions. Triangles thinner than
+/// about 1 : 100 count as that thin: they would cost iterations, and a level gives only an initial guess.
 /// Cost: linear in the number of vertices of the surface.
 LevelSystem level_system(const PaperLevels& levels, int splits);
 

@@ -29,6 +29,7 @@ structure::Structure paper_structure(std::shared_ptr<const mesh::Surface> surfac
     paper = made.get();
     return made;
   };
+  // The paper solves on the double wherever there is a boundary (§ 8).
   const auto boundary = levels->closed() ? structure::Boundary::natural : structure::Boundary::double_cover;
   structure::HarmonicSolver solver(input, record.memory, boundary, make, execution);
 

@@ -11,8 +11,8 @@
 
 namespace holomorph::multiresolution {
 
-/// Loops are lifted from the base mesh, classes are pulled back; harmonic forms come from paper_forms. No edge is
-/// flipped: all results belong to the surface's own triangulation.
+/// Computes a conformal structure. Loops are lifted from the base mesh, classes are pulled back, and harmonic forms
+/// come from paper_forms. No edge is flipped: all results belong to the surface's own triangulation.
 /// @param levels of a given progressive mesh; by default it is made here
 /// @pre connected, no isolated vertices
 /// @throws TopologyError for a sphere or a disk; InvalidMesh for an intrinsic surface; SolverError; Cancelled

@@ -47,6 +47,7 @@ void values_of_diagonals(const Surface& surface, const Surface& flipped, topolog
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
     if (polygon[e] < 0) continue;
     const auto path = path_along(surface, polygon[e], surface.edges[e][0], surface.edges[e][1]);
+    // By closedness: the polygon is a disk, so both ways around give the same sum.
     topology::IntegerForms::Row sum;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       sum = topology::add(sum, forms.rows[mesh::edge_between(polygon_edges, path[i], path[i + 1])],

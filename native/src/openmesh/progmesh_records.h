@@ -9,7 +9,7 @@
 
 namespace holomorph::openmesh {
 
-/// One half-edge collapse v0 -> v1 with the fields of ModProgMeshT::Info, which cannot be made but by a collapse. v0 is
+/// One half-edge collapse v0 -> v1 with the fields of ModProgMeshT::Info, which only a collapse can make. v0 is
 /// removed, v1 remains. vl and vr lie to the left and right of v0 -> v1, invalid where the edge is on the boundary. The
 /// split {v_s, v_t, v_l, v_r} is the collapse {v0 = v_t, v1 = v_s, vl = v_r, vr = v_l}.
 struct ProgMeshRecord {
@@ -17,9 +17,9 @@ struct ProgMeshRecord {
   friend bool operator==(const ProgMeshRecord&, const ProgMeshRecord&) = default;
 };
 
-/// Records as ModProgMeshT::infolist() has them, the first collapse first: vertex splits take them from the end.
-/// Handles are the numbers of the progressive mesh, which are those of OpenMesh's .pm files: the base first, then v0 of
-/// each split. A TriMesh with the vertices of the base is refined by
+/// Returns records as ModProgMeshT::infolist() has them, the first collapse first: vertex splits take them from the
+/// end. Handles are the numbers of the progressive mesh, which are those of OpenMesh's .pm files: the base first, then
+/// v0 of each split. A TriMesh with the vertices of the base is refined by
 ///   mesh.vertex_split(mesh.add_vertex(position of v0), r.v1, r.vl, r.vr)
 /// Records have no place for the corners of triangles, so slots, polygons and corner data stay behind.
 std::vector<ProgMeshRecord> to_progmesh_records(const progressive::ProgressiveMesh& mesh);
@@ -31,9 +31,9 @@ progressive::ProgressiveMesh from_records(const std::vector<mesh::Triple>& base,
                                           const std::vector<ProgMeshRecord>& records);
 }  // namespace detail
 
-/// The progressive mesh of a decimated TriMesh, before its garbage collection. The finest level has the vertices and
-/// triangles of the mesh before it was decimated; `vertex_index` has the handle of each vertex. The records do not say
-/// which triangles were which. So these are numbered in the order of the splits. v_s comes first in the new left
+/// Makes the progressive mesh of a decimated TriMesh, before its garbage collection. The finest level has the vertices
+/// and triangles of the mesh before it was decimated; `vertex_index` has the handle of each vertex. The records do not
+/// say which triangles were which. So these are numbered in the order of the splits. v_s comes first in the new left
 /// triangle, v_t in the right one.
 /// @param records a range of ModProgMeshT::Info or ProgMeshRecord, as infolist() has them
 /// @throws InvalidMesh for faces that are no triangles, vertices that are isolated or deleted by no record, and records

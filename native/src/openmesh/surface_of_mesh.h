@@ -27,12 +27,13 @@ struct SurfaceOfMesh {
 
 /// @param mesh any TriMesh_ArrayKernelT or PolyMesh_ArrayKernelT, points of three floats or doubles. Faces stay
 /// polygons; their corners begin with halfedge_handle(face), as in fv_range
-/// @throws InvalidMesh for links or polygons that are none (see mesh::make_surface), and for two edges with the same
-/// ends. Where elements are left out, its message says that its numbers are the surface's. Cost: linear.
+/// @throws InvalidMesh for invalid links or polygons (see mesh::make_surface), and for two edges with the same ends.
+/// Where elements are left out, its message says that its numbers are the surface's. Cost: linear.
 template <class Mesh>
 SurfaceOfMesh to_surface(const Mesh& mesh, Execution& execution);
 
-/// The connected components, each with the handles of the whole mesh: what the conformal structure is computed of.
+/// Returns the connected components, each with the handles of the whole mesh. A conformal structure is computed of one
+/// component.
 std::vector<SurfaceOfMesh> components(const SurfaceOfMesh& whole, Execution& execution);
 
 /// An element is deleted where its status says so; a mesh without status has no deleted elements.

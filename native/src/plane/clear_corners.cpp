@@ -58,7 +58,8 @@ Turns exterior_angles(const mesh::Surface& surface, const Border& border) {
   return result;
 }
 
-// The integral along three rounds of the border of its direction, which jumps by `turns` at the vertices.
+// The integral, along three rounds of the border, of its direction, which jumps by `turns` at the vertices. With three
+// rounds, intervals may reach across the start on both sides.
 class DirectionIntegral {
  public:
   DirectionIntegral(const std::vector<double>& lengths, const Turns& turns) {
@@ -82,7 +83,7 @@ class DirectionIntegral {
   std::vector<double> places_{0}, integrals_{0}, directions_;
 };
 
-// By what the mean direction over `part` of the border's length turns at each vertex.
+// Returns for each vertex the mean direction over `part` of the border's length after it, less the mean before it.
 Turns mean_turns(const std::vector<double>& lengths, const Turns& turns, double part) {
   const DirectionIntegral integral(lengths, turns);
   const std::size_t n = turns.size();
@@ -90,6 +91,7 @@ Turns mean_turns(const std::vector<double>& lengths, const Turns& turns, double 
   Turns result;
   for (std::size_t i = n; i < 2 * n; ++i) {
     const double here = integral.place(i);
+    // Both means at once: the second difference of the integral.
     result.push_back((integral.at(here + width) - 2 * integral.at(here) + integral.at(here - width)) / width);
   }
   return result;
@@ -100,8 +102,10 @@ Turns mean_turns(const std::vector<double>& lengths, const Turns& turns, double 
 std::vector<int> four_corners(const Turns& means, const Turns& own) {
   const int n = static_cast<int>(means.size());
   const auto is_corner = [&](int i) { return means[i % n] > kCorner; };
+  // A turn back: the border is no rectangle.
   if (*std::min_element(means.begin(), means.end()) < -kCorner) return {};
   int start = 0;
+  // Begins between corners, so that no stretch is cut in two.
   while (start < n && is_corner(start)) ++start;
   if (start == n) return {};
   std::vector<int> result;
@@ -147,6 +151,7 @@ std::vector<std::complex<double>> shadow(const mesh::Surface& surface, const Bor
     points.col(i) = Eigen::Map<const Eigen::Vector3d>(surface.polygons.vertices[border.vertices[i]].data());
   points.colwise() -= points.rowwise().mean().eval();
   points /= std::max(points.cwiseAbs().maxCoeff(), mesh::kSmallest);  // so that squares do not overflow
+  // Eigenvectors ascend by eigenvalue: the first is the normal of the least-squares plane.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(points * points.transpose());
   const Eigen::Matrix2Xd flat = axes.eigenvectors().rightCols<2>().transpose() * points;
   std::vector<std::complex<double>> edges;

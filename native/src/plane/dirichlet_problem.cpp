@@ -40,6 +40,7 @@ DirichletProblem::DirichletProblem(const mesh::Discretisation& discretisation, c
 DirichletSolution DirichletProblem::harmonic(const Eigen::MatrixXd& values, Execution& execution) {
   const auto L = laplacian_.matrix();
   DirichletSolution result;
+  // f = values + g, with g = 0 at the fixed vertices and L g = -L values at the free ones.
   result.functions = values + solver_.solve(
                                   -(L * values), solver::Condition::dirichlet,
                                   [&] { return forms::function_terms(discretisation_.half_edges, values); }, execution);
@@ -47,6 +48,7 @@ DirichletSolution DirichletProblem::harmonic(const Eigen::MatrixXd& values, Exec
   for (const int v : fixed_) result.functions.row(v) = values.row(v);  // exactly
   Eigen::MatrixXd flux = L * result.functions;
   const double largest = (L.cwiseAbs() * result.functions.cwiseAbs()).maxCoeff();
+  // f . L f cancels where weights are large. Differences first, it does not.
   result.energies = solver_.is_stiff()
                         ? energies(discretisation_.half_edges, discretisation_.weights, result.functions)
                         : Eigen::VectorXd(result.functions.cwiseProduct(flux).colwise().sum().transpose());

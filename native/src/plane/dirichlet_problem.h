@@ -20,12 +20,12 @@ struct DirichletSolution {
   structure::SolverReport solver;
 };
 
-/// sum_e k_e (f_head - f_tail)^2 of each column, with any numbers k_e for weights: m.
+/// Computes sum_e k_e (f_head - f_tail)^2 of each column, m numbers, for any weights k_e.
 Eigen::VectorXd energies(const mesh::HalfEdges& half_edges, std::span<const double> weights,
                          const Eigen::MatrixXd& functions);
 
-/// The system of one set of fixed vertices, natural at the others of the boundary, for several right-hand sides.
-/// Refined where weights ask for it (forms/refined_solver.h).
+/// The linear system for one set of fixed vertices, natural at the rest of the boundary, with several right-hand sides.
+/// Refined where weights are large (forms/refined_solver.h).
 class DirichletProblem {
  public:
   /// @param columns about how many right-hand sides there will be, for the choice of the solver
@@ -33,12 +33,12 @@ class DirichletProblem {
   DirichletProblem(const mesh::Discretisation& discretisation, const std::vector<int>& fixed, int columns,
                    const structure::Options& options, Execution& execution);
 
-  /// L f = 0 at the free vertices, f = `values` at the fixed ones.
+  /// Solves L f = 0 at the free vertices, f = `values` at the fixed ones.
   /// @param values #V x m, 0 at the free vertices
   /// @throws SolverError, Cancelled
   DirichletSolution harmonic(const Eigen::MatrixXd& values, Execution& execution);
 
-  /// L f = `sources` at the free vertices, f = 0 at the fixed ones: #V x m.
+  /// Solves L f = `sources` at the free vertices, f = 0 at the fixed ones: #V x m.
   /// @param sources #V x m; the rows of fixed vertices are ignored
   /// @throws SolverError, Cancelled
   Eigen::MatrixXd poisson(const Eigen::MatrixXd& sources, Execution& execution);
@@ -50,7 +50,7 @@ class DirichletProblem {
   forms::RefinedSolver solver_;
 };
 
-/// `DirichletProblem::harmonic` of a problem with no other right-hand sides.
+/// Solves as `DirichletProblem::harmonic` does, for a problem with no other right-hand sides.
 DirichletSolution solve_dirichlet(const mesh::Discretisation& discretisation, const std::vector<int>& fixed,
                                   const Eigen::MatrixXd& values, const structure::Options& options,
                                   Execution& execution);

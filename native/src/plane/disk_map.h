@@ -7,8 +7,8 @@
 
 namespace holomorph::plane {
 
-/// #V: z = exp(2 pi i (u + iv)) of a disk with one pole of residue 1: 0 at the pole, |z| = 1 on the boundary,
-/// nowhere above.
+/// Computes z = exp(2 pi i (u + iv)), #V, of a disk with one pole of residue 1: 0 at the pole, |z| = 1 on the boundary,
+/// nowhere larger.
 /// @param function #V x 2, that of theta_0 (structure::UvForms). @pre such a structure
 Eigen::VectorXcd disk_map(const structure::Structure& structure, const uv::UvArray& function, Workers& workers);
 

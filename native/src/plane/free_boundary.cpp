@@ -59,6 +59,7 @@ std::vector<std::complex<double>> closed_curve(const std::vector<double>& length
     M += lengths[j] * vector(j) * vector(j).transpose();
     gap += lengths[j] * vector(j);
   }
+  // By Lagrange: l* = l (1 - m . t) with M m = gap, so that sum l* t = gap - M m = 0.
   const Eigen::Vector2d multiplier = M.ldlt().solve(gap);
   std::vector<std::complex<double>> points{0};
   for (std::size_t j = 0; j + 1 < lengths.size(); ++j)
@@ -73,6 +74,7 @@ Eigen::MatrixXd flattened_boundary(const mesh::Discretisation& t, const std::vec
   std::vector<std::complex<double>> tangents;
   double angle = 0;
   for (const HalfedgeHandle h : loop) {
+    // The first edge runs along the real axis; every later one has turned at its first vertex.
     if (!lengths.empty()) angle += turns[mesh::from_vertex(t.half_edges, h)];
     lengths.push_back(t.lengths[mesh::edge_of(h)]);  // times e^{(u_i + u_j) / 2} = 1
     tangents.push_back(std::polar(1.0, angle));
@@ -108,7 +110,9 @@ PlaneMap free_boundary_map(const mesh::Surface& surface, const Options& options,
   } else {
     execution.stage("scale factors", 0.3, 0.7);
     DirichletProblem problem(delaunay, mesh::boundary_vertices(delaunay.half_edges), 3, options, execution);
+    // Under the metric e^(2u) the curvature of a vertex is K + L u: flat means L u = -K.
     u = problem.poisson(-K, execution);
+    // Summed flux by flux: at boundary vertices this is -L u with all digits, also for large weights.
     const auto minus_Lu =
         forms::harmonic_residuals(delaunay.half_edges, delaunay.weights, {}, u, execution.workers()).R;
     execution.stage("harmonic extension", 0.7, 1.0);

@@ -68,13 +68,16 @@ PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& cor
   const bool flipped = result.flip_count > 0;
   const Coordinates sharp = coordinates(delaunay, sides, options, 0.2, flipped ? 0.6 : 1.0, execution);
   const auto certain = certain_energies(delaunay, sharp, execution);
+  // The geometric mean of the bounds 1 / E(v) and E(u).
   result.modulus = std::sqrt(sharp.u.energies[0] * (1 / sharp.v.energies[0]));
   result.metric = delaunay.metric_error;
+  // 1 / E(v) <= m <= E(u) by Dirichlet's principle: u is admissible for the modulus, and v for its inverse.
   const Eigen::MatrixXd lower = conformal::below_inverse(certain[1]);
   if (result.mollification == 0) structure::require_ordered(lower, certain[0]);
   result.lower = lower(0, 0);
   result.upper = certain[0](0, 0);
 
+  // Invariants come from the Delaunay triangulation, points from the triangles that are drawn (docs/method/surface.md).
   const Coordinates drawn = flipped ? coordinates(mesh::on_input(surface, std::move(half_edges), execution), sides,
                                                   options, 0.6, 1.0, execution)
                                     : sharp;

@@ -17,6 +17,7 @@ using mesh::Labels;
 std::vector<int> around(const mesh::HalfEdges& half_edges, const mesh::BoundaryLoops& boundary) {
   std::vector<int> vertices;
   for (const HalfedgeHandle h : boundary.loops[0]) vertices.push_back(mesh::from_vertex(half_edges, h));
+  // boundary_loops() has the hole on the left.
   std::reverse(vertices.begin() + 1, vertices.end());
   return vertices;
 }
@@ -47,6 +48,7 @@ Sides sides_of(const std::vector<int>& loop, const std::vector<int>& corners, in
   std::vector<int> place(vertex_count, -1);
   for (int i = 0; i < n; ++i) place[loop[i]] = i;
   check_corners(corners, place, label);
+  // Steps along the boundary from corner 0: corners in order have ascending ones.
   const auto steps = [&](int v) { return (place[v] - place[corners[0]] + n) % n; };
   std::vector<int> ordered(corners);
   std::sort(ordered.begin(), ordered.end(), [&](int a, int b) { return steps(a) < steps(b); });
@@ -100,7 +102,7 @@ std::vector<int> quarter_corners(const mesh::Surface& surface, Execution& execut
   const double total = until.back() + surface.edge_lengths[mesh::edge_of(loop.back())];
   std::vector<int> corners;
   for (int k = 0, at = 0; k < 4; ++k, ++at) {
-    // the corners that are still to come need a vertex each
+    // On to the vertex nearest to k quarters of the length. The corners still to come need a vertex each.
     while (at < n - (4 - k) && std::abs(until[at + 1] - k * total / 4) < std::abs(until[at] - k * total / 4)) ++at;
     corners.push_back(mesh::from_vertex(half_edges, loop[at]));
   }

@@ -9,7 +9,7 @@
 
 namespace holomorph::plane {
 
-/// The boundary vertices from corner i to the next, both included.
+/// Side i: the boundary vertices from corner i to the next, both included.
 using Sides = std::array<std::vector<int>, 4>;
 
 /// @param corners four vertices on the boundary, in its order, the surface on its left
@@ -19,10 +19,11 @@ using Sides = std::array<std::vector<int>, 4>;
 Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& corners,
                       const std::vector<int>& labels);
 
-/// Triangles all of whose corners lie on one side, ascending: a map that makes the side straight collapses them.
+/// Returns the triangles all of whose corners lie on one side, ascending. A map that makes the side straight collapses
+/// them.
 std::vector<int> collapsed_triangles(const mesh::Surface& surface, const Sides& sides);
 
-/// Number of edges of the longest boundary loop.
+/// Returns the number of edges of the longest boundary loop.
 int boundary_length(const mesh::Surface& surface, Execution& execution);
 
 /// Chooses four corners of a disk that has no clear ones: the boundary vertices nearest to the quarters of its length,

@@ -10,7 +10,8 @@
 namespace holomorph::plane {
 namespace {
 
-// The shift for which the mean of tanh(x + shift) is 0: it grows with the shift, so halving finds it.
+// Finds the shift for which the mean of tanh(x + shift) is 0. The mean grows with the shift, so bisection finds it. It
+// ends when no number lies between the limits.
 double balancing_shift(const Eigen::VectorXd& x, const Eigen::VectorXd& areas) {
   double low = -x.maxCoeff(), high = -x.minCoeff();
   for (double middle = (low + high) / 2; low < middle && middle < high; middle = (low + high) / 2)
@@ -26,13 +27,14 @@ void require_sphere(const structure::Structure& s) {
 }
 
 PointArray sphere_map(const structure::Structure& s, const uv::UvArray& function, Workers& workers) {
-  // -log |z| = 2 pi v, and the height (1 - |z|^2) / (1 + |z|^2) is its hyperbolic tangent.
+  // With x = -log |z| = 2 pi v, the height (1 - |z|^2) / (1 + |z|^2) is tanh x, and the distance from the axis 1 / cosh
+  // x.
   const Eigen::VectorXcd angle = 2 * std::numbers::pi / s.poles->chosen.residues[0] *
                                  (function.col(0) + std::complex<double>(0, 1) * function.col(1));
   const Eigen::VectorXd turn = angle.real();
   Eigen::VectorXd rise = angle.imag();
   auto areas = mesh::vertex_areas(*s.surface, s.surface->edge_lengths);
-  for (const mesh::Star& star : s.stars()) {  // where no height is known
+  for (const mesh::Star& star : s.stars()) {  // v is infinite at a pole: it takes no part in the mean
     areas[star.vertex] = 0;
     rise[star.vertex] = rise[mesh::from_vertex(*s.surface, mesh::opposite(star.link[0]))];
   }

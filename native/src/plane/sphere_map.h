@@ -12,9 +12,9 @@ using PointArray = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// @throws TopologyError unless the surface is closed, of genus 0, with two poles
 void require_sphere(const structure::Structure& structure);
 
-/// #V x 3 points of the unit sphere; keeps the orientation. z = exp(2 pi i (u + iv)) is 0 at the first pole, of residue
-/// 1, and infinite at the second. z is scaled so that the mean height over the surface's area is 0. Then inverse
-/// stereographic projection takes the poles to (0, 0, 1) and (0, 0, -1).
+/// Computes #V x 3 points of the unit sphere; keeps the orientation. z = exp(2 pi i (u + iv)) is 0 at the first pole,
+/// of residue 1, and infinite at the second. z is scaled so that the mean height over the surface's area is 0. Then
+/// inverse stereographic projection takes the poles to (0, 0, 1) and (0, 0, -1).
 /// @param function #V x 2, that of theta_0 (structure::UvForms). @pre require_sphere
 PointArray sphere_map(const structure::Structure& structure, const uv::UvArray& function, Workers& workers);
 

@@ -1,5 +1,5 @@
-// A priority queue of vertices, each in it at most once: lists in buckets of nearly equal cost, linked through the
-// vertices themselves. What is in it is popped by ascending bucket, the last pushed first.
+// A priority queue of vertices, each at most once in it: lists in buckets of nearly equal cost, linked through the
+// vertices themselves. Pops by ascending bucket, the last pushed first.
 #pragma once
 
 #include <array>

@@ -24,7 +24,8 @@ void check_permutation(const std::vector<int>& index, const char* what) {
   }
 }
 
-// The polygon of each triangle of the original: polygons are cut into triangles one after the other.
+// Returns the polygon of each triangle of the original. Triangles are numbered polygon by polygon, and a polygon of n
+// corners has n - 2.
 std::vector<int> polygons_of_triangles(const ProgressiveMesh& mesh) {
   const auto& offsets = mesh.face_offsets;
   require(offsets.front() == 0, "the first polygon does not begin at corner 0");
@@ -87,10 +88,12 @@ void check(const ProgressiveMesh& mesh) {
     require(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]), "a position is not finite");
   check_permutation(mesh.vertex_index, "the vertex indices");
   check_permutation(mesh.triangle_index, "the triangle indices");
+  // Counts come first: all that follows indexes by them.
   std::size_t count = mesh.base.triangles.size();
   for (const Split& split : mesh.splits) count += (split.v_l >= 0) + (split.v_r >= 0);
   require(count == mesh.triangle_index.size(), "the splits do not make as many triangles as there are");
   Refinement refinement(mesh, static_cast<int>(mesh.splits.size()));
+  // Each split checks itself, and a valid mesh stays valid. So all levels are valid.
   while (refinement.splits_made() < static_cast<int>(mesh.splits.size())) refinement.split();
   check_corners(mesh, refinement.triangles());
   if (mesh.face_offsets.empty()) return;

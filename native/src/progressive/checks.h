@@ -5,11 +5,11 @@
 
 namespace holomorph::progressive {
 
-/// The base from its triangles and the first positions. @throws InvalidMesh if it is no valid mesh, has isolated
+/// Makes the base from its triangles and the first positions. @throws InvalidMesh if it is no valid mesh, has isolated
 /// vertices, or is not oriented consistently
 void set_base(ProgressiveMesh& mesh, const std::vector<Triple>& triangles, std::size_t vertex_count);
 
-/// Counts, permutations, corners, and every split; then the levels and the original are valid meshes.
+/// Checks counts, permutations, corners and every split. If it returns, the levels and the original are valid meshes.
 /// @throws InvalidMesh naming what is wrong
 void check(const ProgressiveMesh& mesh);
 

@@ -10,6 +10,7 @@ CornerTable::CornerTable(std::span<const Triple> triangles, std::span<const Trip
     const int first = add(triangles[t][0], triangles[t][1], triangles[t][2]);
     for (int i = 0; i < 3; ++i) {
       int& other = first_side[static_cast<std::size_t>(edges[t][i])];
+      // The second side at an edge is linked with the first. An edge with one side stays on the boundary.
       if (other < 0) {
         other = first + i;
       } else {
@@ -30,6 +31,7 @@ std::vector<int> leaving_sides(const CornerTable& table, int vertex_count) {
   for (int t = 0; t < table.triangle_count(); ++t) {
     for (int side = 4 * t; side < 4 * t + 3; ++side) {
       int& at = leaving[static_cast<std::size_t>(table.from(side))];
+      // At the boundary the side without an opposite is kept: a walk to the left from it reaches all triangles.
       if (at < 0 || table.opposite(side) < 0) at = side;
     }
   }

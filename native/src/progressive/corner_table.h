@@ -68,7 +68,7 @@ class CornerTable {
   Array<Side> sides_;
 };
 
-/// One side that leaves each of `vertex_count` vertices, as described above; -1 for a vertex of no triangle.
+/// Returns one side that leaves each of `vertex_count` vertices, as described above; -1 for a vertex of no triangle.
 std::vector<int> leaving_sides(const CornerTable& table, int vertex_count);
 
 }  // namespace holomorph::progressive

@@ -28,10 +28,12 @@ class Wedges {
     const int main_s = root(left[0] >= 0 ? left[0] : right[0]), main_t = root(left[0] >= 0 ? left[1] : right[1]);
     std::vector<double>& move = scratch_;
     move.resize(width_);
+    // The vector from v_t to v_s, in the wedges at one of the two triangles. All wedges of v_t are translated by it.
     settle(vertex_[main_s]);
     settle(vertex_[main_t]);
     for (std::size_t k = 0; k < width_; ++k) move[k] = value(main_s, k) - value(main_t, k);
     if (left[0] >= 0 && right[0] >= 0) {
+      // Where the edge lies on a cut, its sides have different wedges, and each joins the one of v_s on its own side.
       const int other_s = root(right[0]), other_t = root(right[1]);
       if (other_t != main_t) parent_[other_t] = other_s;
     }
@@ -96,7 +98,8 @@ class Wedges {
     return corner;
   }
 
-  // Makes the vertex that `v` was collapsed into its parent, and its offset that of the whole way.
+  // Shortens the path of `v` to one step: its parent becomes the vertex that it was collapsed into, its offset the sum
+  // along the path.
   void settle(int v) {
     path_.clear();
     while (vertex_parent_[v] != v) {
@@ -128,6 +131,7 @@ class Wedges {
 
 std::vector<CornerValues> collapsed_corner_values(const ProgressiveMesh& mesh, const std::vector<double>& values,
                                                   int width, const std::vector<int>& splits) {
+  // Levels from fine to coarse: each split is undone once for all of them.
   std::vector<std::size_t> fine_to_coarse(splits.size());
   std::iota(fine_to_coarse.begin(), fine_to_coarse.end(), std::size_t{0});
   std::stable_sort(fine_to_coarse.begin(), fine_to_coarse.end(),

@@ -38,13 +38,14 @@ void add_plane(Vertex& v, const Vector& n, double weight) {
   }
 }
 
-// Positions moved and scaled into the cube [-1, 1]^3.
+// Moves and scales positions into the cube [-1, 1]^3.
 void set_positions(const std::vector<std::array<double, 3>>& positions, Array<Vertex>& vertices) {
   Vector low = positions.front(), high = low;
   for (const auto& p : positions) {
     for (int i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
   }
   double half = 0;
+  // Halves are taken first, so that no difference overflows. A mesh of one point keeps the scale 1.
   for (int i = 0; i < 3; ++i) half = std::max(half, high[i] / 2 - low[i] / 2);
   const double scale = std::isfinite(1 / half) ? 1 / half : 1.0;
   for (std::size_t v = 0; v < positions.size(); ++v) {
@@ -85,6 +86,7 @@ void EdgeCollapse::compute_quadrics() {
     const double area = norm(normal) / 2;
     for (Vertex* corner : v) add_plane(*corner, normal, area);
     for (int i = 0; i < 3; ++i) {
+      // On a boundary edge stands a plane at right angles to the triangle: it keeps the boundary in its place.
       if (table_.opposite(4 * t + i) >= 0) continue;
       const Vector along = minus(*v[(i + 1) % 3], *v[i]);
       const double length = norm(along);
@@ -106,8 +108,10 @@ void EdgeCollapse::gather(int v) {
     x_[n] = other.position[0] - centre.position[0];
     y_[n] = other.position[1] - centre.position[1];
     z_[n] = other.position[2] - centre.position[2];
+    // A set of residues, by which is_neighbour() answers most questions without a search.
     signature_ |= std::uint64_t{1} << (u & 63);
   };
+  // Counter-clockwise around v. An open star has one neighbour more than triangles: the apex of the last one.
   while (true) {
     if (n + 2 > static_cast<int>(sides_.size())) grow();
     sides_[n] = side;
@@ -129,6 +133,7 @@ void EdgeCollapse::gather(int v) {
 float EdgeCollapse::quadric_error(int i) const {
   const Vertex& v = vertices_[static_cast<std::size_t>(v_)];
   const float x = x_[i], y = y_[i], z = z_[i];
+  // Q_v at u. Q_u at u is its constant c, since each quadric is taken about its own vertex.
   const float at_u = x * (v.A[0] * x + 2 * (v.A[1] * y + v.A[2] * z + v.b[0])) +
                      y * (v.A[3] * y + 2 * (v.A[4] * z + v.b[1])) + z * (v.A[5] * z + 2 * v.b[2]) + v.c;
   const float area = v.A[0] + v.A[3] + v.A[5];  // the trace, because the normals have length 1
@@ -145,14 +150,16 @@ bool EdgeCollapse::is_neighbour(int w) const {
 bool EdgeCollapse::keeps_topology(int i) {
   const int u = neighbours_[i];
   const bool u_boundary = boundary(u), edge_on_boundary = !closed_ && (i == 0 || i == neighbour_count_ - 1);
+  // An inner edge between two boundary vertices: its collapse would pinch the surface.
   if (!closed_ && u_boundary && !edge_on_boundary) return false;
   int common = 0, valence = 0;
   table_.each_neighbour(vertex(u).side, [&](int w) {
     common += is_neighbour(w) ? 1 : 0;
     ++valence;
   });
+  // The link condition: the apexes of the triangles at the edge are the only common neighbours.
   if (common != (edge_on_boundary ? 1 : 2)) return false;
-  // The boundary counts as one vertex.
+  // Not both of valence 3, as in a tetrahedron. The boundary counts as one vertex.
   return valence + (u_boundary ? 1 : 0) > 3 || neighbour_count_ + (closed_ ? 0 : 1) > 3;
 }
 
@@ -160,6 +167,7 @@ bool EdgeCollapse::keeps_normals(int i) const {
   const float x = x_[i], y = y_[i], z = z_[i];
   for (int k = 0; k < triangle_count_; ++k) {
     const int m = k + 1 == neighbour_count_ ? 0 : k + 1;
+    // The triangles at the edge vanish.
     if (k == i || m == i) continue;
     const float ax = x_[k], ay = y_[k], az = z_[k], bx = x_[m], by = y_[m], bz = z_[m];
     const float nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
@@ -167,6 +175,7 @@ bool EdgeCollapse::keeps_normals(int i) const {
     const float mx = py * qz - pz * qy, my = pz * qx - px * qz, mz = px * qy - py * qx;
     const float before = nx * nx + ny * ny + nz * nz, after = mx * mx + my * my + mz * mz,
                 dot = nx * mx + ny * my + nz * mz;
+    // A degenerate triangle has no normal to be kept.
     if (before > 0 && (dot <= 0 || dot * dot < kLeastCosine * kLeastCosine * before * after)) return false;
   }
   return true;
@@ -176,6 +185,7 @@ void EdgeCollapse::add_quadrics(int i) {
   Vertex& u = vertex(neighbours_[i]);
   const Vertex& v = vertex(v_);
   const float x = x_[i], y = y_[i], z = z_[i];
+  // The quadric of v about u: half its gradient there, its value there, and the same A.
   const float gx = v.A[0] * x + v.A[1] * y + v.A[2] * z + v.b[0];
   const float gy = v.A[1] * x + v.A[3] * y + v.A[4] * z + v.b[1];
   const float gz = v.A[2] * x + v.A[4] * y + v.A[5] * z + v.b[2];
@@ -206,6 +216,7 @@ void EdgeCollapse::collapse(int i) {
   if (i < triangle_count_) right = sides_[i];
   if (closed_ || i > 0) left = CornerTable::previous(sides_[(i + triangle_count_ - 1) % triangle_count_]);
   Collapse record{u, v_, -1, -1, left, right};
+  // All triangles of v, which is v_t, belong to u = v_s from now on.
   for (int k = 0; k < triangle_count_; ++k) table_[sides_[k]].vertex = u;
   const Gap r = remove_triangle(right), l = remove_triangle(left);
   record.v_r = r.apex;

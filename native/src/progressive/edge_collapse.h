@@ -1,4 +1,4 @@
-// Half-edge collapses on flat arrays: what both orders of collapsing share. Nothing is allocated per collapse.
+// Half-edge collapses on flat arrays, for both orders of collapsing. Nothing is allocated per collapse.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 namespace holomorph::progressive {
 
-/// One cache line. The quadric Q(x) = d.A d + 2 b.d + c, d = x - position, sums area times squared distance over the
-/// planes of the triangles that v stands for. Taken about v itself, so that single precision keeps it.
+/// A vertex v, in one cache line. The quadric Q(x) = d.A d + 2 b.d + c, d = x - position, sums area times squared
+/// distance over the planes of the triangles that v stands for. It is taken about v itself, so that single precision is
+/// enough.
 struct alignas(64) Vertex {
   float position[3];  ///< in [-1, 1]
   float c;            ///< Q(position)
@@ -23,7 +24,7 @@ struct alignas(64) Vertex {
   static constexpr int kNowhere = -2, kWaiting = -3;
 };
 
-/// What undoing a collapse needs: the paper's record, and the two triangles, -1 where there is none.
+/// All that undoes a collapse: the paper's record, and the two triangles, -1 where there is none.
 struct Collapse {
   int v_s, v_t, v_l, v_r;
   int left, right;  ///< sides v_s -> v_t and v_t -> v_s
@@ -52,7 +53,7 @@ class EdgeCollapse {
   /// but the apexes of the triangles at their edge, where the boundary counts as one vertex. They are not two corners
   /// of a tetrahedron.
   bool keeps_topology(int i);
-  /// No normal of a triangle of the star rotates by more than 75 degrees.
+  /// Whether no normal of a triangle of the star rotates by more than 75 degrees.
   bool keeps_normals(int i) const;
 
   /// Fraction of the vertices removed: nearly 1 at the end.

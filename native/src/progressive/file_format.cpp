@@ -13,6 +13,7 @@
 namespace holomorph::progressive {
 namespace {
 
+// A transfer as text changes the line end, and so is noticed, as with PNG.
 constexpr std::string_view kMagic{"HoloPM\r\n", 8};
 constexpr std::uint32_t kVersion = 1, kCorners = 1, kPolygons = 2;
 
@@ -91,6 +92,7 @@ std::vector<Split> read_splits(Reader& reader, std::uint64_t count) {
   const auto slots = reader.numbers<std::uint8_t>(count);
   std::vector<Split> splits(s.size());
   for (std::size_t k = 0; k < s.size(); ++k) {
+    // One byte holds both slots: that of the left triangle in the two lowest bits.
     splits[k] = {s[k], l[k], r[k], static_cast<std::uint8_t>(slots[k] & 3), static_cast<std::uint8_t>(slots[k] >> 2)};
   }
   return splits;
@@ -110,6 +112,7 @@ Counts read_header(Reader& reader, std::uint32_t& parts) {
     throw InvalidMesh("the file of the progressive mesh has parts that are not known");
   const auto n = reader.numbers<std::uint64_t>(8);
   for (std::size_t i = 0; i < 6; ++i) {
+    // Sides of triangles are numbered 4 t + i (corner_table.h).
     if (n[i] > std::numeric_limits<int>::max() / 4)
       throw InvalidMesh("the file of the progressive mesh has too many elements for 32 bits");
   }

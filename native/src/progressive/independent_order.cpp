@@ -53,6 +53,7 @@ class IndependentOrder {
   bool collapse(int i, Geometry geometry) {
     if (!mesh_.keeps_topology(i) || (geometry == Geometry::checked && !mesh_.keeps_normals(i))) return false;
     mesh_.collapse(i);
+    // The neighbours wait for the next round, so that vertices removed in one round are not adjacent.
     for (int k = 0; k < mesh_.neighbour_count(); ++k) mesh_.vertex(mesh_.neighbour(k)).flags |= Vertex::kTouched;
     return true;
   }
@@ -70,6 +71,7 @@ void collapse_independent_sets(EdgeCollapse& mesh, Execution& execution) {
   while (static_cast<double>(order.round(Geometry::checked)) > kLeastRemoved * static_cast<double>(order.left())) {
     execution.report(mesh.removed_fraction());
   }
+  // Then without regard to normals and sizes of stars, until no collapse is left.
   while (order.round(Geometry::ignored) > 0) {
   }
 }

@@ -21,6 +21,7 @@ mesh::Polygons restored(const ProgressiveMesh& mesh) {
   polygons.vertices.resize(mesh.positions.size());
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) polygons.vertices[mesh.vertex_index[v]] = mesh.positions[v];
   polygons.face_offsets.assign(mesh.face_offsets.begin(), mesh.face_offsets.end());
+  // No offsets were stored: all polygons are triangles.
   for (int t = 0; mesh.face_offsets.empty() && t <= mesh.triangle_count(); ++t) polygons.face_offsets.push_back(3 * t);
   polygons.corner_vertices.resize(static_cast<std::size_t>(polygons.face_offsets.back()));
   for (std::size_t t = 0; t < triangles.size(); ++t) {

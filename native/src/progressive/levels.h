@@ -5,10 +5,10 @@
 
 namespace holomorph::progressive {
 
-/// A level as polygons, in the numbering of the progressive mesh. @param splits from 0 to all
+/// Returns a level as polygons, in the numbering of the progressive mesh. @param splits from 0 to all
 mesh::Polygons level(const ProgressiveMesh& mesh, int splits);
 
-/// The original polygons, bit for bit, rebuilt from the base by all the splits.
+/// Returns the original polygons, bit for bit, rebuilt from the base by all the splits.
 mesh::Polygons restored(const ProgressiveMesh& mesh);
 
 }  // namespace holomorph::progressive

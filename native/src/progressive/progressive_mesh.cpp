@@ -50,6 +50,7 @@ std::vector<Triple> original_corners(const ProgressiveMesh& mesh) {
 std::vector<int> vertex_map(const ProgressiveMesh& mesh, int splits) {
   std::vector<int> map(static_cast<std::size_t>(mesh.vertex_count()));
   std::iota(map.begin(), map.end(), 0);
+  // v_s is older than v_t, so that its image is known.
   for (int k = splits; k < static_cast<int>(mesh.splits.size()); ++k)
     map[mesh.base_vertex_count() + k] = map[mesh.splits[k].v_s];
   return map;

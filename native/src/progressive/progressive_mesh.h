@@ -47,10 +47,10 @@ mesh::Polygons triangle_polygons(std::vector<std::array<double, 3>> vertices, co
 /// Number of triangles of the level with this many splits.
 std::int64_t triangle_count(const ProgressiveMesh& mesh, int splits);
 
-/// Number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
+/// Returns the number of splits of the finest level with at most `triangle_count` triangles; 0 if the base has more.
 int split_count(const ProgressiveMesh& mesh, std::int64_t triangle_count);
 
-/// The vertex of the level that each vertex of the finest one was collapsed into: the simplicial map M -> M_k.
+/// Returns the vertex of the level that each vertex of the finest one was collapsed into: the simplicial map M -> M_k.
 std::vector<int> vertex_map(const ProgressiveMesh& mesh, int splits);
 
 /// Polygon corner of the original at each triangle corner of the numbering above; #T.

@@ -16,6 +16,7 @@ class QuadricOrder {
 
   void run(Geometry geometry) {
     geometry_ = geometry;
+    // All begin in the lowest bucket: their costs are found when they are first visited.
     for (int v = mesh_.vertex_count() - 1; v >= 0; --v) {
       if ((mesh_.vertex(v).flags & Vertex::kRemoved) == 0) queue_.push(v, 0);
     }
@@ -42,6 +43,7 @@ class QuadricOrder {
       for (int i = 1; i < n; ++i) best = costs_[i] < costs_[best] ? i : best;
       if (costs_[best] == kRefused) return;
       const int bucket = BucketQueue::bucket(costs_[best]);
+      // The cost has grown since: the vertex goes back to the queue.
       if (bucket > queue_.current()) return queue_.push(v, bucket);
       if (mesh_.keeps_topology(best) && (geometry_ == Geometry::ignored || mesh_.keeps_normals(best)))
         return collapse(best);
@@ -54,6 +56,8 @@ class QuadricOrder {
     mesh_.collapse(best);
     for (int i = 0; i < mesh_.neighbour_count(); ++i) {
       const int u = mesh_.neighbour(i);
+      // The collapse may have lowered the cost of a neighbour, or allowed what was refused. Those in the queue are
+      // looked at anyway.
       if (mesh_.vertex(u).next == Vertex::kNowhere) queue_.push(u, 0);
     }
   }

@@ -6,9 +6,9 @@
 
 namespace holomorph::progressive {
 
-/// By quadric error, lazily: each vertex is in the queue at most once, with its cost when it was pushed. When popped,
-/// its star is gathered and its cheapest collapse made, or, if the cost has grown, it is pushed again. Reports the
-/// fraction of vertices removed. @throws Cancelled
+/// Collapses by quadric error, lazily. Each vertex is in the queue at most once, with its cost when it was pushed. When
+/// it is popped, its star is gathered and its cheapest collapse made; if the cost has grown, it is pushed again
+/// instead. Reports the fraction of vertices removed. @throws Cancelled
 void collapse_by_quadrics(EdgeCollapse& mesh, Execution& execution);
 
 }  // namespace holomorph::progressive

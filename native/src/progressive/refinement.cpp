@@ -53,12 +53,14 @@ Refinement::Sector Refinement::sector_of(const Split& split, int t) const {
   const int from = split.v_r < 0 ? 0 : place(split.v_r), to = split.v_l < 0 ? n : place(split.v_l);
   check_vertices(split, t);
   require(from < count && (to < count || split.v_l < 0), "names a vertex that is no neighbour of v_s");
+  // v_l or v_r is missing if the new edge lies on the boundary. Then the sector reaches the end of an open star.
   const bool open_end = split.v_l < 0 || split.v_r < 0;
   require(closed ? !open_end : from < to || (open_end && from == to), "crosses the boundary");
+  // A closed star is a ring, and the sector may run across its start.
   return {from, closed && to < from ? to + n : to, closed};
 }
 
-// The side from v_s to neighbour i of the star, and that from it to v_s; -1 beyond the boundary.
+// The sides from v_s to neighbour i of the star, and back; -1 beyond the boundary.
 int Refinement::leaving(int i, bool closed) const {
   const int n = static_cast<int>(star_sides_.size());
   return closed || i < n ? star_sides_[i % n] : -1;
@@ -80,6 +82,7 @@ void Refinement::move(const Sector& sector, const Split& split, int t) {
 
 // Adds the triangle a b c, corner `slot` of which is a, between the sides c -> b and a -> c; returns its side a -> b.
 int Refinement::add(int a, int b, int c, int slot, int c_to_b, int a_to_c) {
+  // Corner `slot` is to be a, so the corners are rotated. Side k of the triangle then begins at its corner k.
   const int v[3] = {a, b, c};
   const int side = table_.add(v[(3 - slot) % 3], v[(4 - slot) % 3], v[(5 - slot) % 3]) + slot;
   table_.link(CornerTable::next(side), c_to_b);

@@ -70,12 +70,14 @@ class Recorder {
   }
 
   void number_splits() {
+    // Splits undo the collapses in reverse order; each brings its vertex, then its left and its right triangle.
     for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c) {
       vertices_.push_back(c->v_t);
       for (const int side : {c->left, c->right}) {
         if (side >= 0) triangles_.push_back(side / 4);
       }
     }
+    // Isolated vertices come last: no level has them, but the original is restored with them.
     for (const int v : surface_.repairs.isolated_vertices) vertices_.push_back(v);
     new_vertex_.resize(vertices_.size());
     for (std::size_t i = 0; i < vertices_.size(); ++i) new_vertex_[vertices_[i]] = static_cast<int>(i);
@@ -85,6 +87,7 @@ class Recorder {
   Faces base_faces() const {
     std::vector<int> root(vertices_.size());
     std::iota(root.begin(), root.end(), 0);
+    // From the last collapse to the first: the root of v_s is then known.
     for (auto c = collapses_.rbegin(); c != collapses_.rend(); ++c)
       root[new_vertex_[c->v_t]] = root[new_vertex_[c->v_s]];
     Faces faces;
@@ -122,6 +125,8 @@ ProgressiveMesh progressive_mesh(const mesh::Surface& given, Order order, Execut
   execution.finish();
   Execution silent(execution.threads());
   const std::size_t count = collapse.collapses().size();
+  // Leaves out the last 0, 1, 3, 7 ... collapses, until a triangle of the base has an area: a surface needs one. It
+  // ends with the original, which has.
   for (std::size_t left_out = 0;; left_out = 2 * left_out + 1) {
     const Recorder recorder(surface, collapse.collapses(), count - std::min(count, left_out));
     if (recorder.base_has_area()) return recorder.record(silent);

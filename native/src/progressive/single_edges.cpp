@@ -81,6 +81,7 @@ std::optional<Surface> with_single_edges(const Surface& surface) {
     const auto apex = [&](const Place& p) { return result.triangles[p.triangle][(p.side + 2) % 3]; };
     const int a = apex(places[0]), b = apex(places[1]);
     const Pair flipped{std::min(a, b), std::max(a, b)};
+    // The new edge must not double another one, nor one made by an earlier flip.
     if (a == b || !ends.insert(flipped).second) {
       throw InvalidMesh("the triangulated polygons have two edges between vertices " +
                         std::to_string(result.edges[e][0]) + " and " + std::to_string(result.edges[e][1]) +

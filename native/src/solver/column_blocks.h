@@ -8,8 +8,8 @@
 
 namespace holomorph::solver {
 
-/// solve(K, begin, end) with a constant K for the columns begin .. end-1: blocks of 8, and at the end one of 4 or 2
-/// where that is enough.
+/// Calls solve(K, begin, end) with a constant K for the columns begin .. end-1: blocks of 8, and at the end one of 4 or
+/// 2 where that is enough.
 template <class Solve>
 void for_column_blocks(Eigen::Index columns, const Solve& solve) {
   const Eigen::Index over = columns % 8, in_eights = columns - (over <= 4 ? over : 0);

@@ -10,10 +10,10 @@
 namespace holomorph::solver {
 namespace {
 
-// The residual of the recurrence drifts from the true one: that is computed anew at the end, and where it is still too
-// large the iteration begins again. A round that leaves more than this part of it was the last.
+// The residual of the recurrence drifts from the true one. So the true one is computed at the end, and where it is
+// still too large, another round of iterations begins. The last round is one that leaves more than this part of it.
 constexpr double kLeastGain = 0.5;
-// Part of the goal asked of the residual of the recurrence, so that the true one is below it in the first round.
+// The recurrence goes on to this part of the goal, so that the true residual reaches the goal in the first round.
 constexpr double kSafety = 0.9;
 
 template <int K>
@@ -61,6 +61,7 @@ class Gradients {
       before = norm;
       iterate(norm, norm_b, result.iterations);
       norm = residual(b);
+      // Another round only if each right-hand side has converged or gained by the last one.
     } while (!(norm <= goal).all() && ((norm <= goal) || (norm < kLeastGain * before)).all());
     result.residual = largest_relative(norm, norm_b);
     result.converged = (norm <= goal).all();
@@ -89,6 +90,7 @@ class Gradients {
       r_[i] = b[i] - product(x_, i);
       sum += r_[i];
     });
+    // Constants are the kernel of L, and so the mean of the residual cannot be solved for: it is rounding.
     mean /= n_;
     return sum_over_rows(workers_, n_, zero(),
                          [&](int i, Values<K>& sum) {

@@ -1,4 +1,4 @@
-// The interface behind which every solver of L x = b stands, L the cotan Laplacian of a connected surface.
+// The interface of the solvers of L x = b, L the cotan Laplacian of a connected surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,12 +12,13 @@
 namespace holomorph::solver {
 
 /// A solver promises |L x - b| <= kResidual |b| for every right-hand side, in the Euclidean norm, or throws.
-/// Where weights are large, the direct one also accepts what rounding allows, |L x - b| <= 1e-14 ||L| |x| + |b||. This
-/// may be all of b, and says little of x. Forms are refined then (forms/refined_solver.h).
+/// Where weights are large, the direct solver also accepts what rounding allows, |L x - b| <= 1e-14 ||L| |x| + |b||.
+/// That residual may be as large as b, and then says little about x. Forms are refined in that case
+/// (forms/refined_solver.h).
 inline constexpr double kResidual = 1e-10;
 
-/// Relative residual that multigrid goes on to while that helps. At a single vertex of a fine mesh, the form may be a
-/// thousand times less harmonic than the whole residual says.
+/// Relative residual at which multigrid stops; it stops earlier where no more is gained. The reason: at a single vertex
+/// of a fine mesh, a form may be a thousand times less harmonic than the whole residual says.
 inline constexpr double kGoal = 1e-12;
 
 /// Which problem is solved. A solver is made for one set of fixed vertices, mostly those of the boundary.
@@ -50,7 +51,7 @@ class LaplaceSolver {
     return solve(B, conditions, execution);
   }
 
-  /// What was used, e.g. "direct: CHOLMOD supernodal, AMD".
+  /// Names the method, e.g. "direct: CHOLMOD supernodal, AMD".
   virtual std::string name() const = 0;
 
   /// What was done differently from what was asked for, in one sentence; usually empty.

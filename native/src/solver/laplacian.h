@@ -8,8 +8,8 @@
 namespace holomorph::solver {
 
 /// The cotan Laplacian L of a connected surface: symmetric, both triangles stored, positive semi-definite; its kernel
-/// is the constants. Row by row, or column by column, which is the same. Its arrays are on large pages, and moved
-/// without a copy, which a sparse matrix of Eigen's (3.4) is not.
+/// is the constants. Stored row by row, which is the same as column by column. Its arrays are on large pages, and moved
+/// without a copy, as a sparse matrix of Eigen's (3.4) is not.
 struct Laplacian {
   Array<int> starts;      ///< #V + 1, where each row begins, and the end of the last
   Array<int> columns;     ///< ascending in each row, the diagonal among them

@@ -14,8 +14,8 @@ namespace {
 
 // Below this number of unknowns the direct solver takes less than a tenth of a second, and leaves smaller residuals.
 constexpr double kSmall = 25'000;
-// The factorisation is paid once, and one more right-hand side is cheaper with it. At kLarge unknowns the direct solver
-// is taken from kMany right-hand sides on, elsewhere in proportion to the cube root of the size.
+// A factorisation is made once, and each further right-hand side is cheaper with it. At kLarge unknowns the direct
+// solver is taken from kMany right-hand sides on, elsewhere in proportion to the cube root of the size.
 constexpr double kMany = 64, kLarge = 500'000;
 // Memory of a factor is about kFactorBytes n log2 n bytes; no more than kMostBytes is asked for.
 constexpr double kFactorBytes = 60, kMostBytes = 4e9;

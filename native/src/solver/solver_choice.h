@@ -21,11 +21,11 @@ struct Choice {
 /// @throws Error for another name
 Choice choose_method(const std::string& name, Eigen::Index unknowns, Eigen::Index right_hand_sides);
 
-/// Estimate of the memory of the direct solver's factor, in bytes.
+/// Estimates the memory of the direct solver's factor, in bytes.
 double factor_bytes(double unknowns);
 
 /// Prepares the factorisation (direct/direct_solver.h) or the hierarchy (multigrid/multigrid_solver.h).
-/// @param fixed vertices in any order; out of range: our bug
+/// @param fixed vertices in any order. @pre they are in range
 /// @param goal of multigrid; the direct solver has none
 /// @throws SolverError if the factorisation fails; Cancelled
 std::unique_ptr<LaplaceSolver> make_solver(Method method, Laplacian&& L, std::vector<int> fixed, Execution& execution,

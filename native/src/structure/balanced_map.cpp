@@ -12,6 +12,7 @@ namespace holomorph::structure {
 Eigen::VectorXcd balanced_coefficients(const Structure& structure, UvForms& forms, Execution& execution) {
   const auto& basis = structure.differentials;
   if (structure.topology.families.poles > 0) return Eigen::VectorXcd::Unit(basis.cols(), 0);
+  // A single form leaves nothing to choose, and samples may cost a solve.
   const auto samples = basis.cols() > 1 ? forms.samples(execution) : uv::FormSamples();
   const auto kind = structure.topology.type.closed() ? uv::Coefficients::complex : uv::Coefficients::real;
   Eigen::VectorXcd c = uv::balanced_coefficients(*structure.surface, samples, basis, kind, execution);

@@ -1,4 +1,4 @@
-// What was measured of a solution.
+// The measured errors of a solution.
 #pragma once
 
 #include "forms/certificates.h"

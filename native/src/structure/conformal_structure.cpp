@@ -27,14 +27,16 @@ Structure conformal_structure(std::shared_ptr<const mesh::Surface> given_surface
   Structure result = planned_structure(given_surface, options, Keeping::as_many_as_fit);
   SolveRecord& record = result.record;
   auto half_edges = mesh::half_edges(surface, execution);
+  // The topology belongs to the surface's own triangles. The copy is flipped to the Delaunay triangulation.
   auto flipped = half_edges.copy(execution.workers());
 
-  // Loops, dual classes and the cut (paper § 4, § 5) need no metric, and what follows no topology until forms are
-  // solved for.
+  // Loops, dual classes and the cut (paper § 4, § 5) need no metric, and the next steps need no topology until forms
+  // are solved for. So both run at the same time.
   execution.stage("homology", 0.05, 0.2);
   BackgroundTask homology(
       [&](Execution& own) {
         result.topology = find_topology(surface, half_edges, own, std::move(given));
+        // No later step needs them: their memory is free for the solver.
         half_edges = mesh::HalfEdges();
       },
       execution);

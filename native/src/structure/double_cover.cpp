@@ -12,6 +12,8 @@ DoubledSurface doubled(const mesh::Discretisation& surface, Execution& execution
   const auto& [half_edges, dual_vertex, first, second] = result.cover;
   result.weights.resize(half_edges.n_edges(), 0.0);
   for (int e = 0; e < static_cast<int>(surface.weights.size()); ++e) {
+    // Copies are known by half-edges that have a face. Both copies of a boundary edge are one edge of the double, which
+    // gets the weight twice: the cotangents of both its faces.
     const bool is_outside = surface.half_edges.is_boundary(HalfedgeHandle(2 * e));
     const int h = is_outside ? 2 * e + 1 : 2 * e;
     result.weights[edge_of(first[h])] += surface.weights[e];
@@ -33,6 +35,7 @@ IntegerForms extended(const mesh::HalfEdges& half_edges, const DoubleCover& cove
     const auto& row = forms.rows[edge_of(h)];
     IntegerForms::Row dual = row;
     for (auto& [form, value] : dual) value = form < natural ? value : -value;
+    // The second copy is written first, so that on a shared boundary edge the value of the first copy stays.
     both.rows.set(edge_of(b), topology::add(kZero, dual, mesh::sign(h) * mesh::sign(b)));
     both.rows.set(edge_of(a), topology::add(kZero, row, mesh::sign(h) * mesh::sign(a)));
   }

@@ -15,12 +15,12 @@ struct DoubledSurface {
 
 DoubledSurface doubled(const mesh::Discretisation& surface, Execution& execution);
 
-/// The symmetric extension of the first `natural` classes to the double, and the antisymmetric one of the others.
+/// Extends classes to the double: the first `natural` ones symmetrically, the others antisymmetrically.
 topology::IntegerForms extended(const mesh::HalfEdges& half_edges, const mesh::DoubleCover& cover,
                                 const topology::IntegerForms& classes, int natural);
 
-/// (f(v) + f(v*)) / 2 of the first `natural` functions, (f(v) - f(v*)) / 2 of the others, v* the dual vertex (Eq. 12):
-/// #V of the surface x #forms.
+/// Computes (f(v) + f(v*)) / 2 for the first `natural` functions, (f(v) - f(v*)) / 2 for the others, v* the dual vertex
+/// (Eq. 12): #V of the surface x #forms.
 forms::RowMajorMatrix symmetrised(const forms::RowMajorMatrix& functions, const mesh::DoubleCover& cover, int natural);
 
 }  // namespace holomorph::structure

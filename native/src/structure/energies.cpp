@@ -20,6 +20,7 @@ void refuse(const std::string& what, double size, double allowed) {
 CertainGram certain_gram(std::vector<MatrixXd> gram, const std::vector<MatrixXd>& errors) {
   std::vector<MatrixXd> certain = gram;
   for (std::size_t i = 0; i < errors.size(); ++i) {
+    // The largest x E x / x G x: the relative change by rounding of the energy of any combination of forms.
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> parts(errors[i], gram[i], Eigen::EigenvaluesOnly);
     const double most = parts.info() == Eigen::Success ? parts.eigenvalues().maxCoeff() : 1;
     if (!(most <= kMostUncertain))
@@ -45,6 +46,8 @@ void require_ordered(const MatrixXd& lower, const MatrixXd& upper, double allowe
   if (lower.size() == 0) return;
   if (!lower.allFinite() || !upper.allFinite())
     throw SolverError("the bounds of the conformal invariants are not finite");
+  // lower <= upper if and only if the difference has no negative eigenvalue. The most negative one tells by how much
+  // they cross.
   const Eigen::SelfAdjointEigenSolver<MatrixXd> width(upper - lower, Eigen::EigenvaluesOnly);
   const double crossing = -width.eigenvalues().minCoeff() / upper.norm();
   if (!(crossing <= allowed)) refuse("the bounds of the conformal invariants cross by", crossing, allowed);

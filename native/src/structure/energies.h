@@ -11,9 +11,10 @@
 
 namespace holomorph::structure {
 
-/// Bounds cross by no more than this, relative: the rounding where no triangle is thin.
+/// The relative amount by which bounds may cross: rounding, where no triangle is thin.
 inline constexpr double kCertain = 1e-11;
-/// The largest part of an energy that rounding may change: beyond, not even the first digit is certain.
+/// The largest relative change of an energy by rounding that is accepted: beyond it, not even the first digit is
+/// certain.
 inline constexpr double kMostUncertain = 0.5;
 
 /// Gram matrices of forms, one for each family, and matrices that are certainly not below those of the surface.
@@ -21,7 +22,7 @@ struct CertainGram {
   std::vector<Eigen::MatrixXd> gram, certain;
 };
 
-/// Adds to Gram matrices by how much rounding may change them: G + E.
+/// Adds to each Gram matrix the bound of its rounding: G + E.
 /// @param errors E for each of `gram`, or none where they are negligible
 /// @throws SolverError where E is more than kMostUncertain of G
 CertainGram certain_gram(std::vector<Eigen::MatrixXd> gram, const std::vector<Eigen::MatrixXd>& errors);
@@ -31,11 +32,12 @@ CertainGram certain_gram(std::vector<Eigen::MatrixXd> gram, const std::vector<Ei
 CertainGram certain_energies(const mesh::Discretisation& discretisation, const forms::ClosedForms& forms,
                              const std::vector<int>& families, Execution& execution);
 
-/// @param allowed part of the upper bound by which they may cross
-/// @throws SolverError where bounds are not finite or cross: lower <= upper as quadratic forms
+/// Checks that lower <= upper as quadratic forms. @param allowed amount by which they may cross, relative to the upper
+/// bound
+/// @throws SolverError where bounds are not finite or cross
 void require_ordered(const Eigen::MatrixXd& lower, const Eigen::MatrixXd& upper, double allowed = kCertain);
 
-/// Refuses what triangles too thin for double precision cause. @throws SolverError always
+/// Reports a failure that triangles too thin for double precision cause. @throws SolverError always
 [[noreturn]] void refuse(const std::string& what, double size, double allowed);
 
 }  // namespace holomorph::structure

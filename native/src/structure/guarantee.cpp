@@ -5,7 +5,8 @@
 namespace holomorph::structure {
 namespace {
 
-// What is left of the residuals in the Gram matrix of streamed forms, in parts of its asymmetry.
+// Bounds of streamed forms may cross by this many times the asymmetry of their Gram matrix, which shows the residuals
+// of their linear systems (streamed_forms.h). Other forms have none.
 constexpr double kOfAsymmetry = 10;
 
 }  // namespace
@@ -17,6 +18,7 @@ void require_guaranteed(const Structure& s) {
   const auto& [star, differentials, period_matrix, bounds] = s.holomorphic();
   if (!period_matrix.allFinite()) throw SolverError("the period matrix is not finite");
   const double allowed = kCertain + kOfAsymmetry * s.harmonic.certificate.asymmetry;
+  // Bounds of a mollified surface belong to another metric, and are not promised.
   if (s.record.mollification == 0) require_ordered(bounds.lower, bounds.upper, allowed);
 }
 

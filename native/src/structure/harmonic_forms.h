@@ -1,4 +1,4 @@
-// From integer classes to harmonic forms and the invariants made of them: the one way that all methods go.
+// From integer classes to harmonic forms and their invariants. All methods use these two functions.
 #pragma once
 
 #include "base/execution.h"
@@ -13,7 +13,7 @@ namespace holomorph::structure {
 HarmonicForms harmonic_forms(const mesh::Surface& surface, const Topology& topology, HarmonicSolver& solver,
                              Execution& execution);
 
-/// The functions alone, #V x #forms, those of the loops' harmonic measures 1 on their loops.
+/// Solves for the functions alone, #V x #forms. Those of the loops' harmonic measures are 1 on their loops.
 /// @throws SolverError, Cancelled
 forms::RowMajorMatrix harmonic_functions(const Topology& topology, HarmonicSolver& solver, Execution& execution);
 

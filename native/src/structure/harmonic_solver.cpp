@@ -16,7 +16,7 @@ std::unique_ptr<const DoubledSurface> doubled_where(Boundary boundary, const mes
   return std::make_unique<const DoubledSurface>(doubled(discretisation, execution));
 }
 
-// The vertices at which Dirichlet functions are 0. The double has no boundary.
+// The vertices at which Dirichlet functions are 0. There are none on the double, which has no boundary.
 std::vector<int> fixed_vertices(const DoubledSurface* on_double, const mesh::Discretisation& discretisation) {
   return on_double ? std::vector<int>() : mesh::boundary_vertices(discretisation.half_edges);
 }
@@ -63,6 +63,7 @@ void HarmonicSolver::solve_in_blocks(const topology::IntegerForms& classes, int 
   for (int first = 0; first < count; first += plan_.block) {
     const int width = std::min(plan_.block, count - first);
     execution.part(static_cast<double>(first) / count, static_cast<double>(first + width) / count);
+    // On the double all conditions are natural: antisymmetric functions vanish along the boundary by themselves.
     auto functions = systems_.solve(
         forms::codifferentials(half_edges(), weights(), solved, first, width, execution.workers()),
         conditions(double_ ? width : natural - first, width), [&] { return forms::class_terms(solved, first, width); },
@@ -76,6 +77,7 @@ forms::RowMajorMatrix HarmonicSolver::solve(const topology::IntegerForms& classe
   const auto rows = static_cast<Eigen::Index>(discretisation_.half_edges.n_vertices());
   forms::RowMajorMatrix all(rows, 0);
   solve_in_blocks(classes, natural, execution, [&](int first, forms::RowMajorMatrix&& functions) {
+    // A single block is handed over without a copy.
     if (functions.cols() == classes.form_count) {
       all = std::move(functions);
       return;

@@ -25,7 +25,7 @@ class HarmonicSolver {
   HarmonicSolver(const mesh::Discretisation& discretisation, MemoryPlan plan, Boundary boundary, Execution& execution);
 
   using MakeSolver = std::function<std::unique_ptr<solver::LaplaceSolver>(solver::Laplacian&&)>;
-  /// With the solver that `make` gives for the Laplacian of the surface, or of its double.
+  /// Uses the solver that `make` returns for the Laplacian of the surface, or of its double.
   HarmonicSolver(const mesh::Discretisation& discretisation, MemoryPlan plan, Boundary boundary, const MakeSolver& make,
                  Execution& execution);
 
@@ -33,11 +33,12 @@ class HarmonicSolver {
   HarmonicSolver(const mesh::Discretisation& discretisation, int right_hand_sides, const Options& options,
                  Execution& execution);
 
-  /// Is given the functions of the forms first, first + 1, ..., #V x #block.
+  /// Receives the functions of the forms first, first + 1, ..., #V x #block.
   using TakeFunctions = std::function<void(int first, forms::RowMajorMatrix&& functions)>;
 
   /// Solves for as many forms at a time as the plan says, in order, and hands each block on.
-  /// @param classes on the discretisation. @param natural how many of them are; the others are Dirichlet
+  /// @param classes on the discretisation. @param natural number of natural ones, which come first; the others are
+  /// Dirichlet
   /// @throws SolverError, Cancelled
   void solve_in_blocks(const topology::IntegerForms& classes, int natural, Execution& execution,
                        const TakeFunctions& take);
@@ -46,7 +47,7 @@ class HarmonicSolver {
 
   const mesh::Discretisation& discretisation() const { return discretisation_; }
   const MemoryPlan& plan() const { return plan_; }
-  /// For other right-hand sides; on the double with Boundary::double_cover.
+  /// The linear systems, for other right-hand sides. With Boundary::double_cover they are those of the double.
   forms::RefinedSolver& systems() { return systems_; }
   SolverReport report() const { return solver_report(systems_); }
 

@@ -1,5 +1,5 @@
-// The Laplacian of a surface with vertices fixed at 0, and a solver made for it: what the forms are found with, by
-// itself.
+// The Laplacian of a surface with vertices fixed at 0, and a solver made for it, for callers with right-hand sides of
+// their own.
 #pragma once
 
 #include <array>

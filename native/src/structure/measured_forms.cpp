@@ -6,8 +6,8 @@
 namespace holomorph::structure {
 namespace {
 
-// W measured on one combination of the Dirichlet forms, with coefficients 1 and -1 in turn: cost #T n instead of #T
-// n^2.
+// Checks the pairing W on one combination of the Dirichlet forms, with coefficients 1 and -1 in turn. This costs #T n
+// operations instead of #T n^2.
 double largest_pairing_error(const mesh::HalfEdges& half_edges, const forms::ClosedForms& forms,
                              const Topology& topology, Execution& execution) {
   const auto n = topology.pairing.rows();
@@ -34,7 +34,7 @@ HarmonicForms measured(const mesh::Surface& surface, const Topology& topology,
                        forms::RowMajorMatrix functions, Execution& execution) {
   const auto& [natural, dirichlet, poles] = topology.families;
   const auto fixed = mesh::boundary_vertices(topology.boundary);
-  // Admissible are functions that are 0 there exactly.
+  // Bounds need admissible functions: 0 along the boundary exactly, and not to solver accuracy.
   functions(fixed, Eigen::lastN(dirichlet)).setZero();
   const forms::ClosedForms forms{classes, functions};
   execution.part(0, 0.3);
@@ -46,7 +46,7 @@ HarmonicForms measured(const mesh::Surface& surface, const Topology& topology,
   certificate.residuals =
       forms::residuals(discretisation.half_edges, discretisation.weights, forms, execution, natural, fixed);
   certificate.pairing = largest_pairing_error(discretisation.half_edges, forms, topology, execution);
-  // The loops run along edges of the surface itself, and so do its classes; the functions are the same.
+  // Loops and classes belong to the surface's own edges; functions at the vertices serve any triangulation.
   add_loop_indicators(topology, functions);
   certificate.periods = forms::period_residual(surface, {topology.classes, functions}, topology.homology_basis);
   result.invariants = invariants(topology, std::move(energies));

@@ -93,7 +93,7 @@ MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping kee
     plan.keep_forms = kept <= static_cast<double>(kKeptBytes);
     plan.block = std::max(kLanes, block_that_fits(kDefaultBlock, extent));
   } else {
-    // Two small blocks beside all functions still make keeping them worthwhile.
+    // Keeping all functions is worthwhile if a block of 8 still fits beside them.
     plan.keep_forms = fixed + kept + kLanes * column <= limit;
     plan.block = block_that_fits(std::min(limit - fixed - (plan.keep_forms ? kept : 0), kDefaultBlock), extent);
     if (plan.block == 0) {
@@ -103,7 +103,7 @@ MemoryPlan plan_memory(const Extent& extent, const Options& options, Keeping kee
                         " vertices");
     }
   }
-  // The functions of a single block are those that are kept.
+  // If one block has all forms, its functions are the ones that are kept: they count once.
   const double others = plan.keep_forms && plan.block < extent.forms ? kept : 0;
   plan.bytes = static_cast<std::int64_t>(fixed + others + plan.block * column);
   return plan;

@@ -9,7 +9,7 @@
 
 namespace holomorph::structure {
 
-/// Functions of forms that are kept without being asked for less: 2 GB.
+/// Forms are kept up to this memory of their functions if no limit is set: 2 GB.
 inline constexpr std::int64_t kKeptBytes = 2'000'000'000;
 
 /// The size of one computation.
@@ -17,8 +17,10 @@ struct Extent {
   std::int64_t vertices = 0, edges = 0, forms = 0;
 };
 
+/// How a computation keeps within a limit of memory.
 struct MemoryPlan {
-  /// Whether all functions stay in memory, #V x #forms numbers. Else each block is dropped when it was measured.
+  /// Whether all functions stay in memory, #V x #forms numbers. Otherwise each block is dropped once it has been
+  /// measured.
   bool keep_forms = true;
   int block = 0;  ///< right-hand sides solved for at a time
   /// Upper estimate of the memory in use at once, beside the surface itself. It is at most 2.5 times as much as is

@@ -23,6 +23,7 @@ IntegerForms edge_classes(const mesh::Surface& surface, const SideClasses& sides
     for (int i = 0; i < 3; ++i) {
       const HalfedgeHandle h = half_edge(t, i);
       const auto values = sides.row(t).segment(static_cast<Eigen::Index>(i) * count, count);
+      // The triangle on the other side writes this edge, along its direction. A boundary edge has one triangle alone.
       if (mesh::sign(h) < 0 && surface.edge_face_count[edge_of(h)] == 2) continue;
       IntegerForms::Row row;
       for (int j = 0; j < count; ++j) {
@@ -64,6 +65,7 @@ IntegerForms classes_on_delaunay(const mesh::Surface& surface, const SideClasses
 CertainGram energies(const mesh::Discretisation& delaunay, const IntegerForms& classes, int natural,
                      forms::RowMajorMatrix functions, Execution& execution) {
   const int dirichlet = classes.form_count - natural;
+  // Exactly 0 on the boundary, whatever the solver left: only such a function is admissible, and its energy a bound.
   functions(mesh::boundary_vertices(delaunay.half_edges), Eigen::lastN(dirichlet)).setZero();
   std::vector<int> families{natural};
   if (dirichlet > 0) families.push_back(dirichlet);
@@ -91,7 +93,10 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& sides, 
   NestedLevel level;
   execution.stage("refined triangulation", 0.0, 0.3);
   auto triangulation = mesh::given_triangulation(surface, mesh::half_edges(surface, execution), execution.workers());
+  // Refinement cuts Delaunay triangles, whose children are not all Delaunay. Flips only lower the energies, so that the
+  // bounds stay nested.
   mesh::make_delaunay(triangulation, execution);
+  // 1 stands for unknown: there are no errors if a triangle was mollified.
   level.errors.assign(surface.triangles.size(), 1);
   for (std::size_t t = 0; t < triangulation.metric_errors.size(); ++t)
     level.errors[t] = triangulation.metric_errors[t].largest;
@@ -123,6 +128,7 @@ Structure narrowed(Structure structure, CertainGram energies, double metric) {
   auto& harmonic = structure.harmonic;
   harmonic.invariants = invariants(structure.topology, std::move(energies));
   harmonic.certificate.metric = metric;
+  // The differentials follow from the period matrix, which the finer energies have changed.
   structure.differentials = structure.holomorphic().differentials;
   require_guaranteed(structure);
   return structure;

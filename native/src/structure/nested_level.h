@@ -16,8 +16,8 @@ namespace holomorph::structure {
 /// #T x 3 m: the values of m closed integer forms along the sides of triangles, from corner i to corner i + 1.
 using SideClasses = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The classes that the harmonic forms of a structure were solved for, on its surface: the natural ones, and with
-/// boundary the Dirichlet ones.
+/// Returns the classes that the harmonic forms of a structure were solved for, on its surface: the natural ones, and
+/// with boundary the Dirichlet ones.
 SideClasses side_classes(const Structure& structure);
 
 struct NestedLevel {
@@ -25,10 +25,10 @@ struct NestedLevel {
       triangle_edges;               ///< triangles of the Delaunay triangulation; side i from corner i
   std::vector<double> lengths;      ///< #E
   std::vector<double> errors;       ///< #T mesh::FaceError::largest
-  SideClasses classes;              ///< on it
+  SideClasses classes;              ///< on that triangulation
   forms::RowMajorMatrix functions;  ///< #V x m
   CertainGram energies;
-  double mollification = 0;  ///< other than 0: bounds are of another surface
+  double mollification = 0;  ///< other than 0: bounds belong to another surface
 };
 
 /// Solves for the forms of these classes. On a triangulation that refines the Delaunay triangulation of a coarser
@@ -45,7 +45,8 @@ NestedLevel solve_level(const mesh::Surface& surface, const SideClasses& classes
 CertainGram measure(const mesh::Surface& surface, const SideClasses& classes, int natural,
                     const forms::RowMajorMatrix& functions, Execution& execution);
 
-/// The structure with Gram matrices of the same forms from a finer level, and what follows from them.
+/// Replaces the Gram matrices of a structure by those of the same forms on a finer level, and all that follows from
+/// them.
 /// @throws SolverError
 Structure narrowed(Structure structure, CertainGram energies, double metric);
 

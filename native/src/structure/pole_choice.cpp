@@ -15,7 +15,7 @@ namespace {
 
 // The sum of the residues may differ from 0 by rounding, relative to the sum of their sizes.
 constexpr double kSumTolerance = 1e-12;
-// A pair that goes on growing after so many steps is far enough apart.
+// Steps of the search for two far vertices. A pair whose distance still grows after these is far enough apart.
 constexpr int kMostSteps = 8;
 
 std::string text(std::complex<double> z) {
@@ -84,9 +84,11 @@ void check_residues(const Poles& poles, bool closed) {
 std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& half_edges) {
   const std::vector<char> nothing(surface.vertex_count, 0);
   const auto distances = [&](int v) { return mesh::graph_distances(half_edges, surface.edge_lengths, {v}); };
+  // Any vertex does as a start, as in the double sweep for the diameter of a graph.
   int p = farthest(surface, half_edges, distances(0), nothing);
   std::vector<int> best;
   double apart = 0;
+  // Repeated farthest points. The distance grows strictly, so that no pair recurs.
   for (int step = 0; p >= 0 && step < kMostSteps; ++step) {
     const std::vector<double> distance = distances(p);
     std::vector<char> taken = nothing;
@@ -117,6 +119,8 @@ std::vector<std::complex<double>> default_residues(const mesh::Surface& surface,
                                                    Execution& execution) {
   std::vector<std::complex<double>> residues(vertices.size(), 1.0);
   if (!closed || vertices.empty()) return residues;
+  // The residues must sum to 0. So the pole that is farthest from the others, by the sum of distances, takes what
+  // balances the ones; of two poles it is the second.
   std::size_t last = vertices.size() - 1;
   if (vertices.size() > 2) {
     std::vector<double> sum(vertices.size(), 0.0);

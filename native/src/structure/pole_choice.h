@@ -16,19 +16,19 @@ struct Poles {
   std::vector<int> labels;  ///< #V what a vertex is called in messages; empty: its index
 };
 
-/// Two vertices far apart. Takes the vertex farthest from vertex 0 along the edges, then the one farthest from that,
-/// and goes on as long as the distance grows. Their stars are apart; ties go to the lower index.
+/// Finds two vertices far apart. Takes the vertex farthest from vertex 0 along the edges, then the one farthest from
+/// that, and goes on as long as the distance grows. Their stars are apart; ties go to the lower index.
 /// @throws TopologyError if no two stars are apart
 std::vector<int> far_apart(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
 
-/// The vertex farthest from the boundary along the edges whose star does not touch it.
+/// Finds the vertex farthest from the boundary, along edges, among those whose star does not touch the boundary.
 /// @throws TopologyError if there is none
 int deepest_vertex(const mesh::Surface& surface, const mesh::HalfEdges& half_edges);
 
-/// Default residues: 1 and -1 for two poles of a closed surface. For more of them, 1 everywhere but at the one with the
-/// largest sum of distances to the others, which takes the rest. With a boundary, which takes the rest, 1.
+/// Returns the default residues: 1 and -1 for two poles of a closed surface. For more poles, the one with the largest
+/// sum of distances to the others takes minus the number of the others, which have 1. With a boundary all have 1.
 /// @throws Cancelled
-/// Cost: of more than two on a closed surface, a search over the whole surface from each.
+/// Cost: for more than two poles of a closed surface, a search over the whole surface from each.
 std::vector<std::complex<double>> default_residues(const mesh::Surface& surface, const mesh::HalfEdges& half_edges,
                                                    const std::vector<int>& vertices, bool closed, Execution& execution);
 

@@ -13,7 +13,7 @@ using Complex = std::complex<double>;
 using mesh::edge_of;
 using mesh::HalfedgeHandle;
 
-// With vertices, where none were chosen.
+// Chooses the vertices where none were given, and checks the poles.
 Poles placed(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Poles poles, bool closed) {
   if (poles.vertices.empty() && poles.residues.empty()) {
     if (closed)
@@ -49,7 +49,7 @@ Eigen::MatrixXd harmonic_part(const Structure& s, const mesh::Discretisation& di
                   : forms::harmonic_part(half_edges, pole_forms, own, G);
 }
 
-// The functions of the harmonic forms, and behind them those of the poles.
+// The functions of the harmonic forms, followed by those of the poles.
 std::shared_ptr<const forms::RowMajorMatrix> all_functions(const HarmonicForms& harmonic,
                                                            const forms::PoleFunctions& poles) {
   const auto& [u, v, harmonicity] = poles;
@@ -71,6 +71,7 @@ Eigen::MatrixXcd differentials_with_poles(const Structure& s) {
   Eigen::MatrixXcd all = Eigen::MatrixXcd::Zero(families.count(), 1 + holomorphic.cols());
   all.col(0).head(families.natural) = -(C * r);
   all.col(0).segment(families.harmonic(), families.poles) = r;
+  // r (u + i v): v has the coefficient i r.
   all.col(0).tail(families.poles) = Complex(0, 1) * r;
   all.topRightCorner(families.harmonic(), holomorphic.cols()) = holomorphic;
   return all;
@@ -86,6 +87,7 @@ double closedness(const Structure& s, const Eigen::VectorXcd& theta) {
   const mesh::Sides side(surface);
   double worst = 0, largest = 0;
   for (int t = 0; t < static_cast<int>(inside.size()); ++t) {
+    // In a star theta_0 is the singular part, which no edge values represent.
     if (inside[t]) continue;
     Complex sum = 0;
     for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,4 @@
-// What is told of the solution of the linear systems.
+// How the linear systems were solved.
 #pragma once
 
 #include <cstdint>

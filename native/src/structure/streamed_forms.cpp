@@ -25,8 +25,9 @@ HarmonicForms streamed_forms(const mesh::Surface& surface, const Topology& topol
   const auto measure = [&](int first, forms::RowMajorMatrix&& functions) {
     const auto width = functions.cols();
     const forms::ClosedForms solved{classes, functions, first}, on_surface{topology.classes, functions, first};
+    // <h_i, h_j> = <eta_i, h_j>, since h_j is coclosed: no other form has to be there (docs/method/harmonic.md).
     G.middleCols(first, width) = forms::class_products(half_edges, weights, classes, solved);
-    // A positive matrix is at most the number of its diagonal blocks times these.
+    // A positive matrix is at most the number of its diagonal blocks times the matrix of these blocks alone.
     if (!errors.empty()) {
       uncertain[0].block(first, first, width, width) =
           blocks * forms::gram_matrices(half_edges, errors, {}, solved, {static_cast<int>(width)}, execution)[0].value;
@@ -40,6 +41,7 @@ HarmonicForms streamed_forms(const mesh::Surface& surface, const Topology& topol
     on_sides.middleCols(first, width) = uv::values_on_sides(surface, side, on_surface, triangles);
   };
   solver.solve_in_blocks(classes, n, execution, measure);
+  // G is symmetric if the systems are solved exactly. The difference shows their residuals.
   certificate.asymmetry = (G - G.transpose()).cwiseAbs().maxCoeff() / G.cwiseAbs().maxCoeff();
   result.invariants = invariants(topology, certain_gram({(G + G.transpose()) / 2}, uncertain));
   return result;

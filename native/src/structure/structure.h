@@ -38,7 +38,7 @@ struct Structure {
   std::shared_ptr<const mesh::Surface> surface;  ///< diagonals that ended at poles are flipped
   Topology topology;
   std::optional<PoleData> poles;
-  /// With poles `harmonic.functions` has those of the pole forms behind the others, u_1 .. u_k, v_1 .. v_k.
+  /// With poles, the functions of the pole forms, u_1 .. u_k, v_1 .. v_k, follow the others in `harmonic.functions`.
   HarmonicForms harmonic;
   Eigen::MatrixXcd differentials;  ///< #forms x n: with poles theta_0 of the chosen residues, then holomorphic ones
   SolveRecord record;
@@ -50,16 +50,16 @@ struct Structure {
   const conformal::HolomorphicBasis& holomorphic() const { return harmonic.invariants.holomorphic; }
 };
 
-/// #V x 2, #C x 2: the UVs of the real and imaginary part of sum_k p_k h_k, from its function sum_k p_k f_k. Triangles
-/// of the stars of poles have an apex each (uv/apexes.h).
+/// Writes the UVs, #C x 2, of the real and imaginary part of sum_k p_k h_k, from its function sum_k p_k f_k, #V x 2.
+/// Triangles of the stars of poles have an apex each (uv/apexes.h).
 /// @throws SolverError where a UV is not finite
 void write_uv_map(const Structure& structure, const uv::UvArray& function, const Eigen::VectorXcd& p,
                   Eigen::Ref<uv::UvArray> corners, Workers& workers);
 
-/// UV area of the surface under sum_k p_k h_k, a holomorphic form: with real part r its energy <r, r>.
+/// Computes the UV area of the surface under a holomorphic form sum_k p_k h_k: the energy <r, r> of its real part r.
 double uv_area(const Structure& structure, const Eigen::VectorXcd& p);
 
-/// The same structure cut along the caller's polygon edges; the spokes of poles are cut in any case.
+/// Cuts the structure along the caller's polygon edges instead; the spokes of poles are cut in any case.
 /// @param labels what a vertex is called in messages; empty: its index
 /// @throws TopologyError where the map still jumps elsewhere
 Structure cut_along(Structure structure, std::vector<int> edges, const std::vector<int>& labels, Execution& execution);

@@ -32,11 +32,12 @@ void set_pairing(const mesh::HalfEdges& half_edges, const IntegerForms& natural,
   result.pairing = topology::pairing(half_edges, natural, relative);
   [[maybe_unused]] const auto handles = 2 * result.type.genus,
                               loops = static_cast<int>(result.pairing.rows()) - handles;
+  // W = [[J_h, 0], [X, 1]] (docs/method/boundaries.md).
   assert(result.pairing.topRightCorner(handles, loops).isZero());
   assert(result.pairing.bottomRightCorner(loops, loops).isIdentity());
 }
 
-// Those of the whole basis: what is a function alone has the class 0.
+// The classes of the whole basis. Harmonic measures of loops and the v of poles are functions, of class 0.
 IntegerForms all_classes(const mesh::HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms natural,
                          const std::vector<mesh::Star>& stars, Topology& result) {
   const int handles = 2 * result.type.genus;
@@ -44,6 +45,7 @@ IntegerForms all_classes(const mesh::HalfEdges& half_edges, const FundamentalDom
   families.natural = natural.form_count;
   families.dirichlet = result.type.closed() ? 0 : natural.form_count;
   if (families.dirichlet > 0)
+    // The Dirichlet family: the classes of the handles again, then zero classes for the harmonic measures of the loops.
     natural = topology::concatenated(natural, topology::first_forms(natural, handles, families.dirichlet));
   if (stars.empty()) return natural;
   const auto poles = topology::pole_classes(half_edges, domain, stars);
@@ -53,6 +55,7 @@ IntegerForms all_classes(const mesh::HalfEdges& half_edges, const FundamentalDom
 
 void add_spokes(const mesh::HalfEdges& half_edges, const std::vector<mesh::Star>& stars, std::vector<int>& seams) {
   for (const mesh::Star& star : stars) {
+    // At a pole every triangle has an apex of its own: all spokes are seams.
     for (const HalfedgeHandle h : star.link) seams.push_back(mesh::edge_of(mesh::next(half_edges, h)));
   }
   std::sort(seams.begin(), seams.end());
@@ -68,6 +71,7 @@ Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half
   execution.part(0.8, 1);
   Topology result;
   result.type = mesh::topological_type(surface);
+  // By default the bases are found here; otherwise they were lifted from a coarser mesh, and only the cut is new.
   if (!given)
     given = {topology::homology_basis(half_edges, domain), topology::natural_classes(half_edges, domain),
              domain.boundary};
@@ -96,6 +100,7 @@ void add_loop_indicators(const Topology& topology, Eigen::Ref<forms::RowMajorMat
   const int first = topology.families.natural + 2 * topology.type.genus;
   const auto& loop = topology.boundary.loop_of_vertex;
   for (int v = 0; v < static_cast<int>(loop.size()); ++v) {
+    // The harmonic measure of loop k is 1 on that loop. Loop 0 has none: the sum of all is 1.
     if (loop[v] > 0) functions(v, first + loop[v] - 1) += 1;
   }
 }

@@ -37,7 +37,7 @@ struct Topology {
   uv::CornerSheets sheets;         ///< integer potentials of the classes
 };
 
-/// Fundamental domain, homology basis, dual classes, pairing and cut.
+/// Finds fundamental domain, homology basis, dual classes, pairing and cut.
 /// @param given lifted loops and pulled-back dual classes of a progressive mesh's base
 /// @param stars of poles
 /// @pre connected, no isolated vertices
@@ -45,14 +45,14 @@ struct Topology {
 Topology find_topology(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, Execution& execution,
                        std::optional<topology::DualBases> given = {}, const std::vector<mesh::Star>& stars = {});
 
-/// The classes whose harmonic forms are solved for, on any triangulation of the same vertices. They are the natural
-/// ones, and with boundary the Dirichlet ones: those of the handles and d(1 on loop k, 0 elsewhere).
+/// Returns the classes whose harmonic forms are solved for, on any triangulation of the same vertices. They are the
+/// natural ones, and with boundary the Dirichlet ones: those of the handles and d(1 on loop k, 0 elsewhere).
 /// @param half_edges,flips of that triangulation, flipped from the surface's own
 topology::IntegerForms classes_on(const Topology& topology, const mesh::HalfEdges& half_edges,
                                   const std::vector<mesh::Flip>& flips);
 
-/// The loops' harmonic measures: adds 1 on boundary loop k to the functions of its Dirichlet form, whose class in
-/// `Topology::classes` is 0.
+/// Adds 1 on boundary loop k to the function of its Dirichlet form, whose class in `Topology::classes` is 0. The
+/// results are the harmonic measures of the loops.
 void add_loop_indicators(const Topology& topology, Eigen::Ref<forms::RowMajorMatrix> functions);
 
 }  // namespace holomorph::structure

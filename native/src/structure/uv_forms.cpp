@@ -9,7 +9,8 @@
 namespace holomorph::structure {
 namespace {
 
-// Largest relative gain in energy that is given away; it bounds the squared relative distance between the forms.
+// The intrinsic functions are taken as they are if at most this part of the energy could be gained. It bounds the
+// squared relative distance between the forms.
 constexpr double kNegligibleGain = 1e-9;
 
 mesh::Discretisation on_own_triangles(const mesh::Surface& surface, Execution& execution) {
@@ -21,6 +22,7 @@ class KeptForms final : public UvForms {
   KeptForms(const Structure& structure, const Options& options)
       : structure_(structure), options_(options), functions_(structure.harmonic.functions) {
     report_ = structure.record.solver;
+    // Without flips both triangulations are the same.
     ready_ = structure.record.flip_count == 0;
   }
 
@@ -96,6 +98,7 @@ class StreamedForms final : public UvForms {
     own_ = std::make_unique<const mesh::Discretisation>(on_own_triangles(*structure_.surface, execution));
     execution.stage("solver of the input triangulation", 0.3, 1.0);
     MemoryPlan plan = structure_.record.memory;
+    // A map is two right-hand sides, for which another solver may be the faster one.
     plan.choice = plan.map_choice;
     auto solver = std::make_unique<HarmonicSolver>(*own_, std::move(plan), Boundary::natural, execution);
     execution.finish();

@@ -18,13 +18,13 @@ class UvForms {
  public:
   virtual ~UvForms() = default;
 
-  /// Does what all calls below need; they do it themselves otherwise.
+  /// Prepares what all calls below need. Optional: they do so themselves.
   virtual void prepare(Execution& execution) = 0;
-  /// sum_k p_k f_k, #V x 2: real and imaginary part.
+  /// Returns sum_k p_k f_k, #V x 2: real and imaginary part.
   virtual uv::UvArray function(const Eigen::VectorXcd& p, Execution& execution) = 0;
   /// Writes the values of all forms of the basis on the edges, #forms x #E.
   virtual void write_edge_values(Eigen::Ref<forms::RowMajorMatrix> rows, Execution& execution) = 0;
-  /// What the balance needs, of the harmonic forms.
+  /// Returns the samples of the harmonic forms that the balanced map is found from.
   virtual uv::FormSamples samples(Execution& execution) = 0;
   /// How the forms were solved for.
   const SolverReport& solver() const { return report_; }

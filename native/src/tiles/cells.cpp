@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kNone = -1;
 
+// Joins the pieces of each tile across sides that are no walls, and reads off the outlines.
 class Joining {
  public:
   explicit Joining(const Pieces& pieces) : p_(pieces), is_wall_(pieces.is_wall) {
@@ -17,6 +18,7 @@ class Joining {
     for (int f = 0; f < count(); ++f) {
       for (int s = p_.offsets[f]; s < p_.offsets[f + 1]; ++s) piece_[s] = f;
     }
+    // At most two sides have the same segment: the pieces on both sides of it.
     std::vector<int> first(is_wall_.size(), kNone);
     twin_.assign(sides, kNone);
     for (int s = 0; s < sides; ++s) {
@@ -52,7 +54,7 @@ class Joining {
     return next;
   }
 
-  // A piece without area that lies on a line is no tile's: it is joined to a neighbour.
+  // A piece without area that lies on a line belongs to no tile: it is joined to a neighbour.
   void open_flat_pieces() {
     for (int f = 0; f < count(); ++f) {
       const int begin = p_.offsets[f], end = p_.offsets[f + 1];
@@ -90,7 +92,8 @@ class Joining {
     for (int f = 0; f < count(); ++f) cell_[f] = root(f);
   }
 
-  // The Euler characteristic of an open cell is 1 where it is a disk.
+  // An open cell is a disk if and only if its Euler characteristic is 1: its pieces, less the sides between them, plus
+  // the nodes inside.
   void find_what_is_no_disk() {
     std::vector<int> euler(count(), 0);
     std::vector<char> is_known(p_.nodes.triangles.size(), 0);  // nodes on walls, and those that are counted
@@ -111,6 +114,7 @@ class Joining {
     for (int f = 0; f < count(); ++f) is_broken_[f] = euler[cell_[f]] != 1;
   }
 
+  // Walks around the outline of each cell: it is not simple if it meets a node twice, or has fewer than three corners.
   void find_what_is_not_simple() {
     std::vector<int> seen(p_.nodes.triangles.size(), kNone);
     std::vector<char> visited(twin_.size(), 0);
@@ -131,7 +135,8 @@ class Joining {
     for (int f = 0; f < count(); ++f) is_broken_[f] |= is_broken_[cell_[f]];
   }
 
-  // Few disks instead of each broken cell: each grows as long as it stays one, then the next begins.
+  // Cuts each broken cell into a few disks. A disk grows by pieces as long as it stays a disk, then the next one
+  // begins.
   void part_broken_cells() {
     std::vector<int> region(count(), kNone), touched(p_.nodes.triangles.size(), kNone);
     for (int f = 0; f < count(); ++f) {
@@ -149,6 +154,7 @@ class Joining {
       }
     }
     for (int s = 0; s < std::ssize(twin_); ++s) {
+      // The sides between two of these disks are walls from now on.
       const bool is_between =
           is_broken_[piece_[s]] && twin_[s] != kNone && region[piece_[s]] != region[piece_[twin_[s]]];
       if (is_between) is_wall_[p_.side_segments[s]] = 1;
@@ -158,7 +164,8 @@ class Joining {
     }
   }
 
-  // Whether a disk and a piece are one together: what they share is one part of the piece's outline.
+  // Whether a disk and a piece together are a disk: they share one connected part of the piece's outline, and no other
+  // node.
   bool fits(int piece, int disk, const std::vector<int>& region, const std::vector<int>& touched) const {
     int nodes = 0, sides = 0, parts = 0;
     const auto is_shared = [&](int s) { return !is_wall(s) && region[piece_[twin_[s]]] == disk; };
@@ -182,6 +189,7 @@ class Joining {
         visited[at] = 1;
         const auto& own = p_.tiles[piece_[at]];
         Point point = p_.side_points[at];
+        // From the chart of the piece to that of the cell: between them lie whole tiles.
         for (int x = 0; x < 2 && p_.poles[cell] == kNone; ++x) point[x] += static_cast<double>(tile[x] - own[x]);
         cells.corner_vertices.push_back(p_.side_nodes[at]);
         cells.corner_points.push_back(point);
@@ -196,7 +204,7 @@ class Joining {
     return cells;
   }
 
-  // Those at walls alone remain; one with two walls may be left out.
+  // Numbers the nodes at walls. One with two walls lies on a side of cells, and may be left out.
   void number_vertices(Cells& cells) const {
     std::vector<int> walls(p_.nodes.triangles.size(), 0), number(walls.size(), kNone);
     for (int s = 0; s < std::ssize(twin_); ++s) {
@@ -214,6 +222,7 @@ class Joining {
       int& vertex = cells.corner_vertices[c];
       vertex = number[vertex];
       const auto& [x, y] = cells.corner_points[c];
+      // Corners of tiles are needed in any case.
       if (x == std::round(x) && y == std::round(y)) cells.is_needed[vertex] = 1;
     }
   }

@@ -17,8 +17,8 @@ struct Cells {
   std::vector<char> is_whole;                      ///< #F: a whole cell, not a part of one
 };
 
-/// The pieces of each tile joined, and the triangles of the star of a pole. Where that is no disk with a simple
-/// outline, it is cut into a few disks. A tile may have a hole, or meet itself around a limb. So polygons fit side by
+/// Joins the pieces of each tile to a polygon, and so the triangles of each pole's star. A tile may have a hole, or
+/// meet itself around a limb: what is no disk with a simple outline is cut into a few disks. So polygons fit side by
 /// side, and the Euler characteristic is that of the surface.
 /// Cost: nearly linear.
 Cells cells(const Pieces& pieces);

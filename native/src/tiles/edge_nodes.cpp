@@ -17,6 +17,7 @@ class Crossings {
   Crossings(double from, double to, double unit) : from_(from), length_(std::abs(to - from)), unit_(unit) {
     step_ = to > from ? 1 : -1;
     const double first = from / unit, last = to / unit;
+    // Lines strictly between the ends: one through an end is no crossing.
     next_ = step_ > 0 ? std::floor(first) + 1 : std::ceil(first) - 1;
     left_ = step_ > 0 ? std::ceil(last) - next_ : next_ - std::floor(last);
     const auto whole = static_cast<std::int64_t>(std::floor(first));
@@ -50,7 +51,8 @@ class Crossings {
 void cross(const Point& a, const Point& b, double unit, std::vector<Code>& codes, std::vector<double>& weights) {
   Crossings x(a[0], b[0], unit), y(a[1], b[1], unit);
   while (!x.done() || !y.done()) {
-    // Less than 0 where the line of x comes first.
+    // Compares distance / length of both without a division, and so exactly: less than 0 where the line of x comes
+    // first.
     const double order = x.done() ? 1 : y.done() ? -1 : determinant(x.distance(), x.length(), y.distance(), y.length());
     weights.push_back(order <= 0 ? x.distance() / x.length() : y.distance() / y.length());
     Code code{x.code(), y.code()};
@@ -91,6 +93,7 @@ EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordi
     const auto& [a, b] = surface.edges[e];
     return !coordinates.is_pole[a] && !coordinates.is_pole[b];
   };
+  // Counted before memory is taken.
   const double most = sum_over_rows(execution.workers(), count, 0.0, [&](int e, double& sum) {
     const auto [a, b] = ends(e);
     if (is_crossed(e)) sum += Crossings(a[0], b[0], unit).count() + Crossings(a[1], b[1], unit).count();

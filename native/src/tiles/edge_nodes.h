@@ -22,12 +22,12 @@ struct EdgeNodes {
   std::vector<double> weights;  ///< of the end of the side, strictly between 0 and 1
 };
 
-/// The nodes strictly between the ends of each edge, in an order that is decided exactly; what crosses two lines at
-/// once is one node.
+/// Finds the nodes strictly between the ends of each edge, in an order that is decided exactly. A crossing of two lines
+/// at one point is one node.
 /// @throws SolverError if there are more than memory is meant for. Cost: linear in edges and nodes.
 EdgeNodes edge_nodes(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
 
-/// The code of a point in integers.
+/// Returns the code of a point, whose coordinates are integers.
 Code code_of(const Point& point, double unit);
 
 /// The difference, in whole tiles, of coordinates in one triangle and in another, at a corner of each.

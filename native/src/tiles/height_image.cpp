@@ -9,7 +9,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-// Where x lies among `count` pixels, from 0 to 1 around the tile.
+// The pixel of `count` in which x lies; the tile is from 0 to 1, and repeats.
 Index cell(double x, Index count) {
   const double turn = x - std::floor(x);
   return std::min(static_cast<Index>(turn * static_cast<double>(count)), count - 1);
@@ -71,6 +71,7 @@ HeightImage::Level HeightImage::halved(const Level& fine) {
   for (Index i = 0; i < rows; ++i) {
     for (Index j = 0; j < columns; ++j) {
       const double u = middle(j, columns), v = middle(i, rows);
+      // The mean of the fine image at four points of the pixel. An odd number of pixels is no obstacle.
       coarse.mean(i, j) = (bilinear(fine.mean, u - x, v - y) + bilinear(fine.mean, u + x, v - y) +
                            bilinear(fine.mean, u - x, v + y) + bilinear(fine.mean, u + x, v + y)) /
                           4;
@@ -79,6 +80,8 @@ HeightImage::Level HeightImage::halved(const Level& fine) {
   for (Index i = 0; i < fine.mean.rows(); ++i) {
     for (Index j = 0; j < fine.mean.cols(); ++j) {
       const double u = middle(j, fine.mean.cols()), v = middle(i, fine.mean.rows());
+      // The error of the fine level, plus that of the coarse level against the fine one, at the middle of each fine
+      // pixel.
       double& rest = coarse.rest(cell(v, rows), cell(u, columns));
       rest = std::max(rest, fine.rest(i, j) + std::abs(fine.mean(i, j) - bilinear(coarse.mean, u, v)));
     }

@@ -1,4 +1,4 @@
-// A picture of heights that repeats in every tile, and how much of it is lost at coarser scales.
+// An image of heights that repeats in every tile, and bounds of what its coarser levels lose.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ class HeightImage {
   /// The height at a point in tiles: bilinear between the middles of pixels, of the picture halved `level` times.
   double at(const Point& tile, int level = 0) const { return bilinear(levels_[level].mean, tile[0], tile[1]); }
 
-  /// How far at most the picture is from what `at` gives for this level, as far from a point as its pixels are wide.
+  /// Bounds how far the image is from `at` of this level, within one pixel of the level around a point.
   double rest(const Point& tile, int level) const;
 
  private:

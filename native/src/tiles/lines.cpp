@@ -10,7 +10,8 @@ namespace {
 
 using Segment = std::array<int, 2>;  // from a node to a node, with what is less on the left
 
-// Across the triangles of a chunk, and along their sides: those of the first triangle at each edge.
+// The segments of lines across the triangles of a chunk, and along their sides. A side belongs to the first triangle at
+// its edge.
 std::vector<Segment> segments(const mesh::Surface& surface, const TileCoordinates& coordinates,
                               const EdgeNodes& edge_nodes, int begin, int end) {
   TriangleCut cut(surface, coordinates, edge_nodes, Pattern::columns);
@@ -32,6 +33,7 @@ std::vector<Segment> segments(const mesh::Surface& surface, const TileCoordinate
   return result;
 }
 
+// Chains segments at nodes where exactly two meet.
 class Chains {
  public:
   Chains(const std::vector<Segment>& segments, int nodes) : segments_(segments), offsets_(nodes + 1, 0) {
@@ -51,6 +53,7 @@ class Chains {
   void run(const Follow& follow) {
     std::vector<char> seen(segments_.size(), 0);
     const auto nodes = static_cast<int>(offsets_.size()) - 1;
+    // First the chains with ends, where not exactly two segments meet. What is left after them are closed chains.
     for (const bool closed : {false, true}) {
       for (int n = 0; n < nodes; ++n) {
         if (!closed && degree(n) == 2) continue;
@@ -79,6 +82,7 @@ class Chains {
       const int first = at_node_[offsets_[node]];
       segment = first == segment ? at_node_[offsets_[node] + 1] : first;
     }
+    // Segments may disagree where triangles are flipped: the majority decides the direction.
     if (along < 0) std::reverse(result.begin(), result.end());
     return result;
   }

@@ -12,8 +12,8 @@ struct Lines {
   std::vector<char> is_closed;  ///< #L
 };
 
-/// All lines of the first coordinate, from edge to edge. They end on the boundary, at the star of a pole, and where
-/// others meet them, as where the map branches. The order is that of the first edges.
+/// Finds all lines of the first coordinate, from edge to edge. A line ends on the boundary, at the star of a pole, and
+/// where other lines meet it, as at a branch point. The order is that of the first edges.
 /// Cost: linear in triangles and points. @throws SolverError if there are too many points
 Lines lines(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
 

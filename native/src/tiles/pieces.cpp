@@ -40,6 +40,7 @@ class Cutting {
                   static_cast<double>(node.code[1] / 2) * coordinates_.unit};
     std::array<double, 3> result;
     double sum = 0;
+    // Barycentric coordinates are areas: the signs are exact, so no weight is negative by rounding.
     for (int i = 0; i < 3; ++i) sum += result[i] = orientation(p[(i + 1) % 3], p[(i + 2) % 3], x);
     for (double& weight : result) weight /= sum;
     return result;
@@ -53,7 +54,7 @@ class Cutting {
     return kNone;
   }
 
-  // is_wall: by sides until all are known.
+  // Appends a piece. `is_wall` is by sides until all segments are known.
   static void append(const Piece& piece, int pole, const TriangleCut& cut, Pieces& pieces) {
     Code low = piece[0].code, high = low;
     for (std::size_t i = 0; i < piece.size(); ++i) {
@@ -65,6 +66,7 @@ class Cutting {
       pieces.side_nodes.push_back(corner.node);
       pieces.side_segments.push_back(corner.segment);
       pieces.side_points.push_back(corner.at);
+      // In the star of a pole only the link is a wall: its triangles become one polygon.
       const bool is_link = pole != kNone && corner.node != pole && next.node != pole;
       pieces.is_wall.push_back(is_link || (pole == kNone && cut.is_on_line(corner, next)));
     }
@@ -101,6 +103,7 @@ Locations edge_locations(const mesh::Surface& surface, const EdgeNodes& edge_nod
   Locations result;
   result.triangles.assign(surface.vertex_count, 0);
   result.barycentric.assign(surface.vertex_count, {0, 0, 0});
+  // Downwards, so that a vertex ends with the first of its triangles.
   for (int t = static_cast<int>(surface.triangles.size()) - 1; t >= 0; --t) {
     for (int i = 0; i < 3; ++i) {
       const int v = surface.triangles[t][i];
@@ -137,6 +140,8 @@ Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, 
   for (const Part& part : parts) {
     for (const char is_wall : part.pieces.is_wall) all.is_wall[all.side_segments[side++]] |= is_wall;
   }
+  // All segments of boundary edges are walls. An edge with k nodes has k + 1 segments, so that those of edge e begin at
+  // offsets[e] + e.
   for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
     if (surface.edge_face_count[e] == 2) continue;
     for (int s = edge_nodes.offsets[e] + e; s <= edge_nodes.offsets[e + 1] + e; ++s) all.is_wall[s] = 1;

@@ -1,4 +1,4 @@
-// A surface in the pieces that the lines between tiles leave of its triangles.
+// The pieces into which the lines between tiles cut the triangles of a surface.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct Pieces {
 Pieces pieces(const mesh::Surface& surface, const TileCoordinates& coordinates, const EdgeNodes& edge_nodes,
               Pattern pattern, Execution& execution);
 
-/// The vertices, and the nodes on edges, as TriangleCut numbers them.
+/// Returns the vertices and the nodes on edges, as TriangleCut numbers them.
 Locations edge_locations(const mesh::Surface& surface, const EdgeNodes& edge_nodes);
 
 }  // namespace holomorph::tiles

@@ -8,7 +8,7 @@
 namespace holomorph::tiles {
 namespace {
 
-constexpr double kRounding = 4;  // of where a row meets a side, in the integers of coordinates
+constexpr double kRounding = 4;  // bound of the rounding of where a row meets a side, in integer coordinates
 constexpr int kNone = -1;
 
 // Joins the places of one chunk of triangles to those before.
@@ -19,7 +19,7 @@ void append(Places& all, const Places& more) {
   all.flipped += more.flipped;
 }
 
-// Where the row at height y meets the triangle, a little more.
+// The interval in which the row at height y meets the triangle, and a little more. look_at() decides exactly.
 Point reach(const std::array<Point, 3>& p, double y) {
   double low = kLargestCoordinate, high = -kLargestCoordinate;
   for (int i = 0; i < 3; ++i) {
@@ -74,6 +74,7 @@ class Search {
       if (side[i] < 0) return;
       if (side[i] == 0) ++sides, last = i;
     }
+    // A point at a vertex or on a side lies in several triangles, and one of them has it.
     if (sides == 2 && !has_vertex(t, side)) return;
     if (sides == 1 && !has_side(t, (last + 1) % 3, turn, upright)) return;
     if (!upright) {

@@ -14,11 +14,11 @@ struct Places {
   int flipped = 0;                                   ///< in flipped triangles, which are left out
 };
 
-/// All of them, each once, in the order of the triangles, then of the rows and in each row. A point on an edge belongs
-/// to the triangle that it is in when all points move a little, by (d, d^2). So one of two adjacent triangles has it,
-/// of a fold both or none, and the number of points less `flipped` is that of the map's degree. A point at a vertex
-/// belongs to the first triangle there, also where the map branches. Points on the boundary are included. Triangles at
-/// a pole have UVs of their own: each counts the points in it, whatever lies in the next.
+/// Finds all such points, each once, in the order of the triangles, then of the rows and in each row. A point on an
+/// edge belongs to the triangle that it is in when all points move a little, by (d, d^2). So one of two adjacent
+/// triangles has it, of a fold both or none, and the number of points less `flipped` is that of the map's degree. A
+/// point at a vertex belongs to the first triangle there, also where the map branches. Points on the boundary are
+/// included. Triangles at a pole have UVs of their own: each counts the points in it, whatever lies in the next.
 /// Cost: linear in triangles, rows in these and places, in parallel; the same at any number of threads.
 Places places(const mesh::Surface& surface, const TileCoordinates& coordinates, Execution& execution);
 

@@ -9,7 +9,7 @@ namespace holomorph::tiles {
 namespace {
 
 constexpr int kNone = -1, kReported = 4096;
-constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side between which heights are looked at
+constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side, between which heights are sampled
 
 // Side i runs from corner i to corner i + 1.
 struct Triangle {
@@ -44,6 +44,8 @@ class Refining {
       own = {surface.triangles[t], {kNone, kNone, kNone}, {}, t};
       for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 2; ++k) own.tiles[i][k] = coordinates.points[t][i][k] / coordinates.unit;
+        // The same from every triangle at the vertex: tile coordinates differ by whole tiles, and the image has period
+        // 1. Around poles, where they do not, the share is 0.
         heights_[own.vertices[i]] = height(sites_[own.vertices[i]].share, own.tiles[i]);
         int& other = first[surface.triangle_edges[t][i]];
         if (other != kNone) {
@@ -60,6 +62,7 @@ class Refining {
     bool is_full = false;
     for (std::size_t i = 0; !candidates_.empty() && !is_full; ++i) {
       const Candidate next = candidates_.top();
+      // Candidates of triangles that were split since are out of date.
       if (triangles_[next.triangle].version == next.version) is_full = !split(next.triangle);
       if (!is_full) candidates_.pop();
       if (i % kReported == 0) execution.report(static_cast<double>(triangles_.size()) / options_.most_triangles);
@@ -80,7 +83,8 @@ class Refining {
       error_ = std::max(error_, error);
   }
 
-  // How far the triangle is from the picture at a grid of its points: of the picture so coarse that no pixel is missed.
+  // The largest error of the triangle's heights at a grid of its points. The level of the image is so coarse that its
+  // pixels cover the gaps of the grid, and the bound of what it loses is added.
   double error_of(const Triangle& t) const {
     const auto& [a, b, c] = t.vertices;
     if (sites_[a].share == 0 && sites_[b].share == 0 && sites_[c].share == 0) return 0;
@@ -131,8 +135,8 @@ class Refining {
     return i;
   }
 
-  // Splits t at its longest side, and before that those across which need it; false where that are too many. It ends:
-  // along the way sides get longer.
+  // Splits t at its longest side, after the triangles across that have a longer one (Rivara 1984). Returns false where
+  // there would be too many triangles. It ends, since sides get longer along the way.
   bool split(int t) {
     for (const int version = triangles_[t].version; triangles_[t].version == version;) {
       int at = t, i = longest_side(triangles_[t]);
@@ -154,6 +158,7 @@ class Refining {
     const Triangle& own = triangles_[t];
     const int a = own.vertices[i], b = own.vertices[(i + 1) % 3], other = own.across[i];
     const int middle = static_cast<int>(sites_.size());
+    // Position, normal and share stay linear along the side. The height alone is sampled anew.
     sites_.push_back({(sites_[a].position + sites_[b].position) / 2, (sites_[a].normal + sites_[b].normal) / 2,
                       (sites_[a].share + sites_[b].share) / 2});
     const Point &p = own.tiles[i], &q = own.tiles[(i + 1) % 3];
@@ -170,7 +175,8 @@ class Refining {
     look_at(second);
   }
 
-  // (a, b, c) becomes (a, m, c), and (m, b, c), whose number is given; the halves of the side are their sides 0.
+  // Makes (a, m, c) of (a, b, c), and a new triangle (m, b, c), whose number is returned. The halves of the side are
+  // their sides 0.
   int halve(int t, int i, int middle) {
     const int second = static_cast<int>(triangles_.size());
     Triangle& first = triangles_[t];
@@ -205,6 +211,7 @@ class Refining {
       made.tiles.push_back({t.tiles[0][0], t.tiles[0][1], t.tiles[1][0], t.tiles[1][1], t.tiles[2][0], t.tiles[2][1]});
     }
     made.heights = std::move(heights_);
+    // The triangle that could not be split is still in the queue, whose top has the largest error.
     made.error = is_full ? candidates_.top().error : error_;
     made.is_full = is_full;
     return made;

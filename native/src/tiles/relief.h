@@ -1,4 +1,4 @@
-// A surface refined to where a picture of heights on its tiles asks for it.
+// A surface refined where an image of heights on its tiles needs it.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,17 +8,17 @@
 
 namespace holomorph::tiles {
 
-/// What is linear on every triangle of the surface, at its vertices.
+/// The quantities at a vertex that are interpolated linearly on every triangle.
 struct ReliefSite {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;  ///< by which a height of 1 moves the surface
-  double share = 1;        ///< of the height; 0 at all vertices of triangles at poles, where UVs do not fit together
+  double share = 1;  ///< factor of the height; 0 at all vertices of triangles at poles, where UVs do not fit together
 };
 
 struct ReliefOptions {
-  double level = 0;          ///< the height that stays on the surface
-  double tolerance = 0;      ///< of heights: triangles are split until none is off by more
-  int most_triangles = 0;    ///< beyond which none is split, though it is off by more
+  double level = 0;          ///< the height that is not displaced
+  double tolerance = 0;      ///< of heights: triangles are split until no error is larger
+  int most_triangles = 0;    ///< beyond this number none is split, whatever its error
   double finest_pixels = 1;  ///< triangles whose sides are shorter are not split
 };
 
@@ -29,8 +29,8 @@ struct Relief {
   std::vector<std::array<int, 3>> triangles;     ///< #T
   std::vector<std::array<double, 6>> tiles;      ///< #T tile coordinates of the corners
   std::vector<int> parents;                      ///< #T triangle of the surface in which each lies
-  double error = 0;                              ///< height by which a triangle is off at most, where it was measured
-  bool is_full = false;                          ///< triangles were too many to be split further
+  double error = 0;                              ///< largest error of the height on a triangle, where it was measured
+  bool is_full = false;                          ///< whether the limit of triangles ended the refinement
 };
 
 /// Halves longest sides, in both triangles at once, the triangle with the largest error first. The mesh stays

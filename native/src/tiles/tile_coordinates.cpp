@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kWhole = 1e-3;     // of a tile: jumps nearer to whole tiles are, in single precision, too
-constexpr double kMostTiles = 3e8;  // whose places, with all that is told of them, are some 30 GB
+constexpr double kWhole = 1e-3;     // of a tile: nearer jumps count as whole tiles, also of UVs in single precision
+constexpr double kMostTiles = 3e8;  // beyond, the places and what is known of them would take some 30 GB
 constexpr int kNone = -1;
 
 Vector2d vector(const Point& p) { return {p[0], p[1]}; }
@@ -42,6 +42,7 @@ class Making {
     if (!lattice_.allFinite()) refuse("a UV is not finite");
     const Eigen::RowVector2d sum = frame.steps.cwiseAbs().cast<double>().rowwise().sum().transpose();
     const double largest = (lattice_.cwiseAbs().maxCoeff() + frame.origin.cwiseAbs().maxCoeff()) * sum.maxCoeff();
+    // Then about as many bits are left for parts of a tile as for whole tiles.
     if (!(largest < std::sqrt(kLargestCoordinate))) refuse("its UVs are " + std::to_string(largest) + " tiles apart");
     result_.unit = kLargestCoordinate / std::exp2(std::ceil(std::log2(largest + 2)));
   }
@@ -76,7 +77,7 @@ class Making {
     return {std::round(x[0]), std::round(x[1])};
   }
 
-  // The first corner at each vertex, and the vertices around which jumps are no whole tiles.
+  // Finds the first corner at each vertex, and the vertices around which jumps are no whole tiles: the poles.
   void find_bases() {
     base_.assign(surface_.vertex_count, kNone);
     result_.is_pole.assign(surface_.vertex_count, 0);
@@ -90,6 +91,8 @@ class Making {
     for (int e = 0; e < static_cast<int>(surface_.edges.size()); ++e) {
       const auto& [a, b] = surface_.edges[e];
       const bool is_border = surface_.edge_face_count[e] == 1;
+      // Stars of poles are apart from each other and from the boundary. Elsewhere a jump by parts of a tile is an
+      // error.
       if (result_.is_pole[a] + result_.is_pole[b] > (is_border ? 0 : 1))
         refuse("its UVs jump by parts of a tile at " + between(surface_, e));
     }
@@ -98,12 +101,14 @@ class Making {
   Point point(int t, int i) const {
     const int v = surface_.triangles[t][i];
     if (result_.is_pole[v]) return rounded(surface_.triangle_corners[t][i]);
+    // Only one corner at a vertex is rounded. The others are this one, moved by whole tiles: exact integers, so that
+    // both sides of a seam agree to the last bit.
     const Point base = rounded(base_[v]);
     const Vector2d moved = vector(base) + frame_.steps.cast<double>() * whole(jump(t, i)) * result_.unit;
     return {moved[0], moved[1]};
   }
 
-  // Both sides of an edge must be moved alike along all of it.
+  // The jump across an edge must be the same at both ends.
   void check_edges() const {
     std::vector<Vector2d> along(surface_.edges.size());
     std::vector<char> seen(surface_.edges.size(), 0);
@@ -112,6 +117,8 @@ class Making {
       for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, e = surface_.triangle_edges[t][i];
         if (result_.is_pole[v[i]] || result_.is_pole[v[j]]) continue;
+        // How the jump against the base corners changes along the edge. Both triangles must agree: then the jump
+        // between them is the same at both ends.
         const Vector2d step = whole(jump(t, j)) - whole(jump(t, i));
         const Vector2d side = v[i] < v[j] ? step : Vector2d(-step);
         if (seen[e] && side != along[e])

@@ -1,4 +1,5 @@
-// The UVs of a tiling as integers, exactly alike on both sides of every seam: what all that is made of one begins with.
+// The UVs of a tiling as integers, exactly alike on both sides of every seam. Everything made of a tiling begins with
+// them.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +14,10 @@ namespace holomorph::tiles {
 
 using Corners = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-/// Tile coordinates N (A^-1 uv - origin): what is looked for lies where they are whole numbers.
+/// Defines tile coordinates N (A^-1 uv - origin). Lines and places lie where these are whole numbers.
 struct TileFrame {
   Eigen::Matrix2d inverse_lattice;  ///< A^-1, the columns of A the translations by which UVs may jump
-  Eigen::Vector2d origin;           ///< in these
+  Eigen::Vector2d origin;           ///< in units of the lattice
   Eigen::Matrix2i steps;            ///< N; a row of it may be 0 where one coordinate is enough
 };
 
@@ -27,10 +28,12 @@ struct TileCoordinates {
   bool is_mirrored = false;            ///< most of the area is clockwise
 };
 
-/// The same place of a vertex in all its triangles, up to whole tiles: rounded once, and moved by the jumps.
+/// Computes the tile coordinates. Each vertex is rounded once, and moved by the jumps: so it has the same place in all
+/// its triangles, up to whole tiles.
 /// @param uv #C x 2
-/// @throws TopologyError where UVs are no tiling's, naming the place: not finite, too large, a jump that is no whole
-/// number of tiles, or one that differs at the two ends of an edge. SolverError for more tiles than memory is meant for
+/// @throws TopologyError where UVs are not those of a tiling, naming the place: not finite, too large, a jump that is
+/// no whole number of tiles, or one that differs at the two ends of an edge. SolverError for more tiles than memory is
+/// meant for
 TileCoordinates tile_coordinates(const mesh::Surface& surface, const Eigen::Ref<const Corners>& uv,
                                  const TileFrame& frame, Execution& execution);
 

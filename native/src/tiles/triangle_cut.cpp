@@ -47,7 +47,8 @@ Piece TriangleCut::outline(int t) const {
   return ring;
 }
 
-// The nodes of side i; names the segments from the last corner on.
+// Appends the nodes of side i, and names its segments from the last corner on. An edge lists its nodes along the side
+// of its first triangle; seen from the other one they are reversed, and moved by the jump.
 void TriangleCut::append_side(int t, int i, Piece& ring) const {
   const int e = surface_.triangle_edges[t][i], begin = edge_nodes_.offsets[e], end = edge_nodes_.offsets[e + 1];
   const int first = edge_nodes_.sides[e] / 3, side = edge_nodes_.sides[e] % 3, count = end - begin;
@@ -64,6 +65,7 @@ void TriangleCut::append_side(int t, int i, Piece& ring) const {
     for (int x = 0; x < 2; ++x) {
       corner.code[x] = here[x] + 2 * jump[x];
       const double between = (a[x] + edge_nodes_.weights[begin + k] * (b[x] - a[x])) / unit;
+      // On a line the coordinate is exact, not that of the rounded place on the edge.
       corner.at[x] = is_line(corner.code[x]) ? middle(corner.code[x]) : between + static_cast<double>(jump[x]);
     }
     ring.push_back(corner);
@@ -79,6 +81,7 @@ void TriangleCut::cut_along(int axis, Piece whole, std::vector<Piece>& pieces) {
     }
   }
   const std::int64_t row = between(low[1], high[1]);
+  // Lines have even codes. Those strictly between the lowest and the highest corner cut the piece.
   for (std::int64_t line = low[axis] + 2 - (low[axis] & 1); line < high[axis]; line += 2) {
     if (axis == 1 || has_column(line, row)) pieces.push_back(split(axis, line, whole));
   }
@@ -104,13 +107,14 @@ Piece TriangleCut::split(int axis, std::int64_t line, Piece& ring) {
   return low;
 }
 
-// With a corner wherever a column crosses the rows below and above: those of the pieces on the other side, too.
+// Adds a corner wherever a column crosses the rows below and above, also for columns of the pieces on the other side.
 Piece TriangleCut::with_crossings(const Piece& row) {
   Piece ring;
   for (std::size_t i = 0; i < row.size(); ++i) {
     ring.push_back(row[i]);
     if (row[i].segment != kRow) continue;
     const std::int64_t from = row[i].code[0], to = row[(i + 1) % row.size()].code[0], step = to > from ? 2 : -2;
+    // The next line after a corner on one is a step away. After a corner between two it is half a step away.
     const std::int64_t first = is_line(from) ? from + step : from + step / 2;
     for (std::int64_t line = first; (to - line) * step > 0; line += step)
       ring.push_back(crossing(line, row[i].code[1]));
@@ -123,7 +127,7 @@ Code TriangleCut::cell(const Code& low, const Code& high) const {
   return {has_column(2 * column, row) ? column : column - 1, row};
 }
 
-// Where a column crosses a row, inside of the triangle.
+// The node where a column crosses a row inside the triangle, the same for all pieces there.
 PieceCorner TriangleCut::crossing(std::int64_t column, std::int64_t row) {
   assert(is_line(row));
   const Code code{column, row};
@@ -132,7 +136,7 @@ PieceCorner TriangleCut::crossing(std::int64_t column, std::int64_t row) {
   return {found->second, kRow, code, {middle(column), middle(row)}};
 }
 
-// A row has the same corners on both of its sides.
+// Names the segments on rows. A row has the same corners on both sides, so its segments are known by their middles.
 void TriangleCut::name_rows() {
   for (Piece& piece : pieces_) {
     for (std::size_t i = 0; i < piece.size(); ++i) {

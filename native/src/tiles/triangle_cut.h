@@ -24,7 +24,7 @@ enum class Pattern { columns, grid, bricks };
 
 /// Nodes: the vertices, then those on edges, in their order; inside of triangles they are ~0, ~1 ... in the order in
 /// which they are found. Segments: edge e has segments(e) and following, one more than nodes; inside of triangles they
-/// are ~0, ~1 ... as well. Only integers are looked at: whatever the UVs are, pieces of triangles side by side fit.
+/// are ~0, ~1 ... as well. Only integers are compared, so pieces of neighbouring triangles fit, whatever the UVs are.
 class TriangleCut {
  public:
   struct Inside {

@@ -10,18 +10,20 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};  // how far poles may go, in square roots of the area: each is tried
-constexpr double kFollowing = 0.1;                  // likewise, those that follow one that is moved
-// Poles are not moved for more handles, of whose periods so few can mend little; and for fewer roundings where poles
-// times handles are more than this.
+// Limits of a pole's way, in square roots of the area; all are tried.
+constexpr double kMoves[] = {0, 0.015, 0.04, 0.1};
+constexpr double kFollowing = 0.1;  // the same limit for poles that follow another one
+// With more handles than this poles do not move: so few poles can cancel the defects of few periods only. Where poles
+// times handles exceed kMuch, they move for fewer roundings, in proportion.
 constexpr int kMostHandles = 40;
 constexpr std::size_t kMuch = 600;
 constexpr double kUsualSteps = 3000;
-constexpr std::ptrdiff_t kWeighed = 3;  // roundings for each, whose density is found with the poles where they are
+// Best roundings for each limit, which are measured again with the poles at their new places.
+constexpr std::ptrdiff_t kWeighed = 3;
 
 bool better(const Candidate& a, const Candidate& b) { return a.rounding.rank < b.rounding.rank; }
 
-// The best few of each way; candidate i went way i % ways.
+// The best few candidates for each limit of kMoves; candidate i had limit i % ways.
 std::vector<Candidate> best_of_each_way(const std::vector<Candidate>& candidates, int ways) {
   std::vector<Candidate> kept;
   for (int way = 0; way < ways; ++way) {
@@ -33,7 +35,7 @@ std::vector<Candidate> best_of_each_way(const std::vector<Candidate>& candidates
   return kept;
 }
 
-// For how many of so many roundings poles are moved.
+// The number of roundings for which poles are moved.
 std::size_t movable(std::size_t roundings, const LiftedPoles& poles, const PoleBasis& basis) {
   const std::size_t work = poles.vertices.size() * static_cast<std::size_t>(basis.form_count());
   return work <= kMuch ? roundings : std::max<std::size_t>(1, roundings * kMuch / work);
@@ -50,7 +52,8 @@ VectorXcd all_residues(bool closed, std::size_t poles, const VectorXcd& free) {
 // Upper R with |R t| the root mean square of the Beltrami coefficient.
 MatrixXcd beltrami_metric(const RoundingProblem& problem) { return problem.defect_metric / std::sqrt(problem.tiles); }
 
-// Splits the periods, `besides` and those of the residues, into the holomorphic and the antiholomorphic part.
+// Sets X, the sum of `besides` = n + i m and of the periods that the residues need, and splits it into its holomorphic
+// and its antiholomorphic part.
 void set_periods(const VectorXcd& besides, const Jacobian& jacobian, Candidate& c) {
   c.X = besides;
   for (std::size_t i = 0; i < c.poles.parts.size(); ++i) c.X += c.residues[static_cast<Index>(i)] * c.poles.parts[i];
@@ -60,7 +63,7 @@ void set_periods(const VectorXcd& besides, const Jacobian& jacobian, Candidate& 
   c.rounding.y.tail(g) = split.tail(g);
 }
 
-// Measures the rounding with the poles where they are.
+// Measures the rounding with the Green's functions at the present places of the poles.
 void measure_at_poles(const RoundingProblem& problem, const GreensFunctions& greens, Candidate& c) {
   RoundingProblem there = problem;
   there.forms.middleCols(greens.basis().form_count(), problem.residues.rows()) = greens.pole_forms(c.poles.vertices);
@@ -85,10 +88,12 @@ std::vector<char> place_at(const Placement& placement, const std::vector<PoleMov
   return moved;
 }
 
-// The poles that are not held move until the form is holomorphic again.
+// Lets the poles that were not moved by hand follow until the form is holomorphic again. Chosen poles stay.
 void follow_by_inversion(const Placement& placement, const RoundingProblem& problem, const std::vector<char>& moved,
                          Candidate& c) {
   const JacobiInversion& inversion = *placement.inversion;
+  // X = n + i m + sum r_i C_i. The lattice points n + i m stay, and every C_i follows its pole; of its values modulo
+  // integers the nearest one continues the path.
   VectorXcd periods = c.X;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     VectorXd& part = c.poles.parts[i];
@@ -102,7 +107,7 @@ void follow_by_inversion(const Placement& placement, const RoundingProblem& prob
   set_periods(periods, inversion.jacobian, c);
 }
 
-// On a surface with boundary.
+// Updates the periods on a surface with boundary, where no pole follows.
 void follow_with_boundary(const Placement& placement, const RoundingProblem& problem, Candidate& c,
                           Execution& execution) {
   const std::vector<Index> used = c.used();
@@ -117,10 +122,12 @@ void follow_with_boundary(const Placement& placement, const RoundingProblem& pro
     change += c.residues[used[i]] * (part - before);
   }
   if (problem.kind == uv::Coefficients::real) change.imag().setZero();
+  // X follows the C_i, so that n + i m stay the same.
   c.X += change;
   c.rounding.y.head(c.X.size()) = c.X;
   const Index defects = problem.defects.cols();
   const MatrixXd& star = placement.basis->structure().holomorphic().star.star;
+  // t = Im(n + i m) - C#^T Re X (rounding_problem.h).
   c.rounding.y.tail(defects) -= (star.transpose() * change.real()).head(defects);
 }
 
@@ -156,6 +163,7 @@ Candidate best_candidate(const Placement& placement, const RoundingProblem& prob
       c.poles = inversion->moved(lifted, periods, c.residues, metric,
                                  {placement.options.allowed, farthest, {}, [&] { watch(thread); }});
     set_periods(periods, inversion->jacobian, c);
+    // A first rank, with the density of the poles at their old places: that of the new ones costs a solve for each.
     measure(problem, c.rounding);
   });
   if (!moves) return *std::min_element(candidates.begin(), candidates.end(), better);

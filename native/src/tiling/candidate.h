@@ -1,4 +1,4 @@
-// From roundings to the form of a tiling: the poles move for each, and what comes out is compared.
+// Chooses the form of a tiling among roundings: moves the poles for each one, and compares the results.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,18 @@
 
 namespace holomorph::tiling {
 
-/// A rounding with its poles where they are.
+/// A rounding, and the poles that go with it.
 struct Candidate {
   Rounding rounding;
   LiftedPoles poles;
   VectorXcd residues;  ///< for all poles
   VectorXcd X;         ///< periods besides the poles; with boundary c
 
-  std::vector<Index> used() const;  ///< the poles of the tiling: a rounding may need fewer than there are
+  std::vector<Index> used() const;  ///< the poles of the tiling: those whose rounded residue is not 0
 };
 
-/// The best of what comes out of the roundings: of the lowest rank, with the poles where they then are.
-/// @param lifted the poles of the problem where they are
+/// Moves the poles for each rounding, and returns the candidate of lowest rank.
+/// @param lifted the poles of the problem, before they move
 /// @pre the list is not empty. @throws SolverError, Cancelled
 Candidate best_candidate(const Placement& placement, const RoundingProblem& problem, const std::vector<Rounding>& list,
                          const LiftedPoles& lifted, Execution& execution);
@@ -29,8 +29,8 @@ struct PoleMove {
   int vertex = 0;
 };
 
-/// The candidate with its poles moved. Residues and periods stay the same; each pole takes the shortest path. On a
-/// closed surface with handles the other poles, where they were not chosen, move until the form is holomorphic again.
+/// Moves poles of a candidate. Residues and periods stay the same; each pole takes the shortest path. On a closed
+/// surface with handles the other poles, where they were not chosen, move until the form is holomorphic again.
 /// @throws TopologyError for poles that do not fit; SolverError; Cancelled
 Candidate with_poles_moved(const Placement& placement, const RoundingProblem& problem,
                            const std::vector<PoleMove>& moves, Candidate candidate, Execution& execution);

@@ -6,7 +6,8 @@
 namespace holomorph::tiling {
 namespace {
 
-// The same form on the surface: the same residues, and c_j that fit it as a vector field in space.
+// Transfers the form from the level to the surface: the same residues, and the c_j with which it fits best as a vector
+// field in space. Then both are optimised on the surface.
 // @param greens of the level; afterwards of the surface. @param mirror the same
 MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::optional<Mirror>& mirror,
                             const CoarseLevel& level, std::shared_ptr<const mesh::Surface> surface,
@@ -31,7 +32,7 @@ MeromorphicForm transferred(MeromorphicForm form, GreensFunctions& greens, std::
   return optimised(greens, kind, mirror ? &*mirror : nullptr, std::move(form), execution);
 }
 
-// With the Green's functions of the poles alone.
+// Makes the placement. It keeps the Green's functions of the poles alone, and drops those of the search.
 Placement placement(PoleOptions options, uv::Coefficients kind, const GreensFunctions& greens, MeromorphicForm form,
                     std::optional<Mirror> mirror, Execution& execution) {
   const auto& basis = greens.shared_basis();
@@ -55,6 +56,7 @@ Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions option
   std::optional<Mirror> plane = options.is_chosen() ? std::nullopt : mirror(greens.basis());
   PlaceOptions place_options{kind,          {}, options.vertices, level.large_polygons, plane ? &*plane : nullptr,
                              options.evened};
+  // Where poles are allowed, in the numbers of the level.
   for (const int v : level.vertex) {
     if (!options.allowed.empty()) place_options.allowed.push_back(options.allowed[v]);
   }

@@ -22,12 +22,12 @@ struct PoleOptions {
                                ///< free ones would leave the map less conformal
   std::vector<int> labels;     ///< #V: what a vertex is called in messages; empty: its index
   structure::Options solving;  ///< how the linear systems are solved
-  bool evened = false;         ///< tilings will be evened, for which fewer poles do
+  bool evened = false;         ///< tilings will be evened: then fewer poles are enough
 
   bool is_chosen() const { return !vertices.empty(); }
 };
 
-/// The poles of a surface, and what tilings with them are made of. Threads may use one side by side.
+/// The poles of a surface, and all that tilings with them are made of. Several threads may use one.
 struct Placement {
   PoleOptions options;
   std::shared_ptr<const PoleBasis> basis;  ///< on the surface
@@ -37,7 +37,7 @@ struct Placement {
   double optimal_density_ratio = 1;        ///< 95 % over 5 % quantile of its density
   std::optional<Mirror> mirror;            ///< of the poles, where the form is its own mirror image
   std::shared_ptr<const JacobiInversion> inversion = nullptr;  ///< on a closed surface with handles, else null
-  /// Those of the last tiling, for another one with the same poles.
+  /// The maps of the last tiling, reused by the next one with the same poles.
   std::shared_ptr<LastMade<std::vector<int>, SeamlessMaps>> maps =
       std::make_shared<LastMade<std::vector<int>, SeamlessMaps>>();
 };
@@ -46,12 +46,12 @@ struct Placement {
 /// @pre connected, no isolated vertices. @throws TopologyError for poles that do not fit; SolverError; Cancelled
 Placement place(std::shared_ptr<const mesh::Surface> surface, PoleOptions options, Execution& execution);
 
-/// The seamless maps with poles at these vertices. @throws TopologyError for poles that do not fit; SolverError;
-/// Cancelled
+/// Returns the seamless maps with poles at these vertices. @throws TopologyError for poles that do not fit;
+/// SolverError; Cancelled
 std::shared_ptr<const SeamlessMaps> maps_at(const Placement& placement, const std::vector<int>& poles,
                                             Execution& execution);
 
-/// The placed poles and their harmonic parts. The same errors.
+/// Returns the placed poles and their harmonic parts. The same errors.
 LiftedPoles lifted_poles(const Placement& placement, Execution& execution);
 
 }  // namespace holomorph::tiling

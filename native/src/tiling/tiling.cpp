@@ -14,10 +14,10 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kSizeThatCounts = 1;
-constexpr double kReach = 0.05;  // how far poles are expected to move, in square roots of the area
-constexpr double kLeastTiles = 100, kTilesPerHandle = 64;
-constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;
+constexpr double kSizeThatCounts = 1;  // RoundingProblem::size_weight where the wanted size counts
+constexpr double kReach = 0.05;        // how far poles are expected to move, in square roots of the area
+constexpr double kLeastTiles = 100, kTilesPerHandle = 64;  // the usual number of tiles
+constexpr double kMoreTiles = 1.5, kMostTiles = 1e6;       // factor and end of the search for a number that is enough
 
 std::string text(double number) {
   std::ostringstream out;
@@ -26,7 +26,8 @@ std::string text(double number) {
   return out.str();
 }
 
-// Names the fewest tiles for which there is a rounding.
+// Throws. The message names a number of tiles, a power of 1.5 larger, for which there is a rounding. The reduced
+// lattices of the search serve all numbers.
 [[noreturn]] void refuse(RoundingProblem& problem, const RoundingSearch& search) {
   const std::string asked = text(problem.tiles);
   do {
@@ -37,7 +38,7 @@ std::string text(double number) {
                       " are enough");
 }
 
-// #natural x #free residues: the harmonic parts; closed, each against the last pole's.
+// Returns the harmonic parts, #natural x #free residues; on a closed surface each minus that of the last pole.
 MatrixXd parts_of(const LiftedPoles& poles, const PoleBasis& basis) {
   const auto count = static_cast<Index>(poles.parts.size());
   MatrixXd C(basis.structure().topology.families.natural, basis.closed() ? std::max<Index>(0, count - 1) : count);
@@ -95,7 +96,7 @@ std::vector<int> boundary_vertices(const mesh::Surface& surface) {
   return vertices;
 }
 
-// The rest of the current stages, from the fraction `begin` on.
+// Evens the tiling and makes its UVs: the rest of the stages, from the fraction `begin` on.
 Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double evenness, double begin,
                      Execution& execution) {
   const mesh::Surface& surface = *conformal->structure->surface;
@@ -104,6 +105,7 @@ Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double ev
     execution.stage("evening", begin, 0.9);
     evening::Kept kept{conformal->poles, {}, {}};
     if (conformal->straight) kept.v = boundary_vertices(surface);
+    // Evening adds a function on the vertices, so that jumps and straight boundaries stay.
     const uv::UvArray uv = seamless_uv(*conformal->structure, conformal->seamless, function, execution);
     function += evening::evened(surface, uv, kept, evenness, execution);
   }
@@ -114,7 +116,8 @@ Tiling with_evenness(std::shared_ptr<const ConformalTiling> conformal, double ev
   return result;
 }
 
-// Those that are their own mirror image, where there are some. @param problem the same; changed to theirs
+// Searches for roundings that are their own mirror image or, without any, for all. @param problem becomes the mirrored
+// one if those are found
 std::pair<std::vector<Rounding>, RoundingRecord> roundings(const Placement& placement, RoundingProblem& problem,
                                                            const RoundingOptions& options, Execution& execution) {
   RoundingOptions for_mirror = options;
@@ -147,6 +150,7 @@ Tiling tile(const Placement& placement, const TilingOptions& options, Execution&
   problem.median_density = problem.tiles / basis.area();
   if (options.size_counts) problem.size_weight = kSizeThatCounts;
   if (inversion && !placement.options.is_chosen() && problem.residues.rows() > 0) {
+    // Defects that poles can cancel by moving about kReach cost little in the rounding.
     problem.repairable =
         kReach * kReach * basis.area() * inversion->reach(placement.form.poles, placement.form.residues);
   }

@@ -11,13 +11,13 @@
 namespace holomorph::tiling {
 
 struct TilingOptions {
-  double tiles = 0;  ///< over the surface at its median density; 0: a number that suits it
+  double tiles = 0;  ///< number on the surface, at its median density; 0: a number that suits it
   TextureLattice lattice;
   std::optional<std::array<double, 3>> direction;  ///< in space, along which u runs as far as it can
-  std::optional<double> turn;                      ///< by which the texture is rotated beside that, in radians
-  double max_turn = 0.2;                           ///< largest change of these by the rounding, in radians
+  std::optional<double> turn;                      ///< further rotation of the texture, in radians
+  double max_turn = 0.2;                           ///< largest rotation that rounding may add to them, in radians
   double evenness = 0;                             ///< from 0, conformal, to 1 (evening/evening.h)
-  bool size_counts = false;                        ///< the wanted size, more than a little shear
+  bool size_counts = false;                        ///< the wanted size is more important than a little shear
 };
 
 /// A form whose periods and residues are points of the problem's lattice, with its poles at vertices.
@@ -36,7 +36,7 @@ struct ConformalTiling {
   SeamlessForm seamless;
   uv::UvArray function;     ///< #V x 2, of the form
   bool straight = false;    ///< boundary loops are lines of constant v
-  double distortion = 1;    ///< by the rounding alone: mean s1 / s2
+  double distortion = 1;    ///< mean s1 / s2 that comes from the rounding alone
   double beltrami_rms = 0;  ///< root mean square of the Beltrami coefficient of the rounding
 };
 
@@ -52,13 +52,13 @@ struct Tiling {
 /// @throws TopologyError where nothing with that few tiles is seamless; SolverError; Cancelled
 Tiling tile(const Placement& placement, const TilingOptions& options, Execution& execution);
 
-/// The tiling with some of its poles elsewhere (candidate.h). Nothing is rounded again: quick.
+/// Moves some poles of a tiling (candidate.h). Nothing is rounded again, so it is quick.
 /// @param tiling made of this placement
 /// @throws TopologyError for poles that do not fit; SolverError; Cancelled
 Tiling move_poles(const Placement& placement, const Tiling& tiling, const std::vector<PoleMove>& moves, double evenness,
                   Execution& execution);
 
-/// The tiling with another evenness: nothing is placed or rounded again. Its jumps stay, and so do straight boundaries.
+/// Gives the tiling another evenness. Nothing is placed or rounded again; jumps and straight boundaries stay.
 /// @throws SolverError, Cancelled
 Tiling evened(const Tiling& tiling, double evenness, Execution& execution);
 

@@ -1,11 +1,10 @@
 // The paper's fundamental domain D, its graph G and a spanning tree T of G (paper § 4), chosen so that loops are short.
 //
-// D grows face by face; each face is joined through one edge. So the crossed edges form a spanning tree C of the dual
-// graph, and D is the tree of a tree-cotree decomposition (Eppstein 2003). G is all other edges; what T leaves over of
-// G are the 2g edges e_i. The paper takes faces from a plain queue. Here C is the spanning tree of the edges whose
-// loops through T are longest (diagonals of polygons before all others, edges of T never). So the edges left over close
-// the shortest loops. This is the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a
-// root.
+// D grows face by face; each face is joined through one edge. So the edges crossed form a spanning tree C of the dual
+// graph: the cotree of a tree-cotree decomposition (Eppstein 2003). G is all other edges. Its 2g edges outside T are
+// the e_i. The paper takes faces from a plain queue. Here C is the spanning tree of the edges whose loops through T are
+// longest (diagonals of polygons before all others, edges of T never). So the edges left over close the shortest loops.
+// This is the greedy basis of Erickson and Whittlesey (2005), with T the shortest-path tree from a root.
 //
 // With boundary: no boundary edge is crossed. T has all edges of each loop but one, e_k. The search for shortest paths
 // runs along a loop at no cost, because the surface need not be cut there. Again 2g interior edges are left over.
@@ -22,7 +21,8 @@ namespace holomorph::topology {
 using mesh::HalfedgeHandle;
 using mesh::HalfEdges;
 
-/// @pre connected; every vertex has a face.
+/// Stores T and C as pointers to parents, with the orders in which they were grown. @pre the surface is connected, and
+/// every vertex has a face
 struct FundamentalDomain {
   Array<HalfedgeHandle>
       to_parent_face;     ///< #T half-edge of the face across which its parent in D lies; invalid at the first

@@ -39,6 +39,7 @@ class DualTree {
     const Array<int> peeled = peel_leaves(stars, execution);
     cut_core();
     root_core();
+    // A face was peeled before its parent, so the reverse order has parents first.
     domain_.face_order.insert(domain_.face_order.end(), peeled.rbegin(), peeled.rend());
     for (std::size_t i = 0; i < domain_.face_order.size(); ++i)
       domain_.face_rank[domain_.face_order[i]] = static_cast<int>(i);
@@ -51,6 +52,7 @@ class DualTree {
     return face_of(mesh_, h) == f ? h : opposite(h);
   }
   int across(int f, int e) const {
+    // The exclusive or of both faces of e and of f: the other one.
     return face_of(mesh_, HalfedgeHandle(2 * e)) ^ face_of(mesh_, HalfedgeHandle(2 * e + 1)) ^ f;
   }
 
@@ -59,7 +61,7 @@ class DualTree {
     int count, edges;
   };
 
-  // The faces of stars first, so that none of them becomes the root. @return the faces, each before its parent
+  // Peels the faces of stars first, so that none of them becomes the root. @return the faces, each before its parent
   Array<int> peel_leaves(const std::vector<mesh::Star>& stars, Execution& execution) {
     const int faces = static_cast<int>(mesh_.n_faces());
     Array<Links> links(faces, {0, 0});
@@ -83,6 +85,8 @@ class DualTree {
     }
     for (int f = 0; f < faces; ++f) {
       execution.step(f, faces, 0.7, 1.0);
+      // Peeling a face may make a leaf of its parent. What is left in the end is the core, whose faces have two free
+      // edges or more, or a single face.
       for (int leaf = f; links[leaf].count == 1;) leaf = peel(leaf);
     }
     return peeled;
@@ -104,6 +108,8 @@ class DualTree {
     for (int e = 0; e < static_cast<int>(free_.size()); ++e) {
       if (free_[e] && !domain_.crossed[e]) candidates.push_back({loop_length(e), e});
     }
+    // Kruskal's algorithm, the longest loops first: the edges that would close a circle of faces have the shortest
+    // loops. Ties go to the lower edge, so that the result is the same everywhere.
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
       return a.length != b.length ? a.length > b.length : a.edge < b.edge;
     });
@@ -125,7 +131,7 @@ class DualTree {
     std::sort(domain_.left_over.begin(), domain_.left_over.end());
   }
 
-  // Breadth first, from the first face that was not peeled. Without a core only one is left.
+  // Roots the core, breadth first, at the first face that was not peeled. Without a core that is the only one left.
   void root_core() {
     auto& order = domain_.face_order;
     const auto is_left = [](HalfedgeHandle h) { return !h.is_valid(); };
@@ -155,6 +161,7 @@ FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdg
                                      const std::vector<mesh::Star>& stars) {
   FundamentalDomain domain;
   domain.boundary = mesh::boundary_loops(surface, half_edges);
+  // With boundary the root lies on loop 0, along which T runs at no cost.
   const int root = domain.boundary.count() == 0 ? 0 : mesh::from_vertex(half_edges, domain.boundary.loops[0][0]);
   const auto distance = grow_shortest_paths(surface, half_edges, stars, root, domain, execution);
   DualTree(surface, half_edges, distance, domain).grow(stars, execution);
@@ -162,7 +169,7 @@ FundamentalDomain fundamental_domain(const mesh::Surface& surface, const HalfEdg
 }
 
 std::vector<HalfedgeHandle> domain_boundary(const HalfEdges& half_edges, const FundamentalDomain& domain) {
-  // The side of D that comes first around the tail of h.
+  // Turns h around its tail to the first edge that is not crossed: a side of D.
   const auto outside = [&](HalfedgeHandle h) {
     while (domain.crossed[edge_of(h)]) h = next(half_edges, opposite(h));
     return h;
@@ -171,6 +178,7 @@ std::vector<HalfedgeHandle> domain_boundary(const HalfEdges& half_edges, const F
   std::vector<HalfedgeHandle> around;
   HalfedgeHandle h = first;
   do {
+    // Step 3 of the paper: pairs h, -h cancel. With a stack, pairs that become neighbours by it cancel, too.
     if (!around.empty() && around.back() == opposite(h)) {
       around.pop_back();
     } else {
@@ -178,6 +186,7 @@ std::vector<HalfedgeHandle> domain_boundary(const HalfEdges& half_edges, const F
     }
     h = outside(next(half_edges, h));
   } while (h != first);
+  // The list is cyclic: pairs across its start cancel as well.
   auto begin = around.begin(), end = around.end();
   for (; end - begin > 1 && *begin == opposite(*(end - 1)); --end) ++begin;
   return {begin, end};

@@ -17,9 +17,10 @@ void add_crossing(HalfedgeHandle leaving, int form, int direction, IntegerForms&
   forms.rows.edit(edge_of(leaving)).emplace_back(form, direction * sign(leaving));
 }
 
-// The dual path inside D from one face to another.
+// Adds the dual path inside D from one face to another: up to the common ancestor, then down.
 void add_dual_path(const HalfEdges& half_edges, const FundamentalDomain& domain, int here, int there, int form,
                    IntegerForms& forms) {
+  // Parents have lower ranks. So the face of higher rank is no ancestor of the other one, and goes up.
   while (here != there) {
     if (domain.face_rank[here] > domain.face_rank[there]) {
       add_crossing(domain.to_parent_face[here], form, 1, forms);
@@ -39,6 +40,7 @@ std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& half_ed
     const HalfedgeHandle h(2 * e);
     int a = from_vertex(half_edges, h), b = to_vertex(half_edges, h);
     std::vector<HalfedgeHandle> from_b, towards_a;  // e, then b up to the common vertex, then down to a
+    // As for faces: the vertex of higher rank goes up, until both paths meet.
     while (a != b) {
       if (domain.vertex_rank[b] > domain.vertex_rank[a]) {
         from_b.push_back(domain.to_parent_vertex[b]);
@@ -70,6 +72,8 @@ IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDoma
 
 void add_paths_between_loops(const HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms& forms) {
   for (std::size_t k = 1; k < domain.gaps.size(); ++k) {
+    // The dual path enters the surface at the gap of loop k, against the half-edge of the face there, and leaves it at
+    // the gap of loop 0.
     const HalfedgeHandle in = opposite(domain.gaps[k]), out = opposite(domain.gaps[0]);
     const int i = forms.form_count++;
     add_crossing(in, i, -1, forms);
@@ -89,6 +93,7 @@ void add_loop_indicators(const HalfEdges& half_edges, const mesh::BoundaryLoops&
     auto& row = forms.rows.edit(e);
     if (head > 0) row.emplace_back(first + head, 1);
     if (tail > 0) row.emplace_back(first + tail, -1);
+    // Rows ascend by form.
     if (head > 0 && tail > 0 && tail < head) std::swap(row.back(), row[row.size() - 2]);
   }
 }
@@ -108,6 +113,8 @@ IntegerForms relative_classes(const HalfEdges& half_edges, const mesh::BoundaryL
 }
 
 IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b) {
+  // Twice the sum over faces of the wedge (a(h0) b(h1) - a(h1) b(h0)) / 2 (docs/method/conventions.md). It is even, as
+  // W is an integer.
   IntegerMatrix twice = IntegerMatrix::Zero(a.form_count, b.form_count);
   for (int f = 0; f < static_cast<int>(half_edges.n_faces()); ++f) {
     const HalfedgeHandle h0 = half_edges.halfedge_handle(mesh::FaceHandle(f)), h1 = next(half_edges, h0);

@@ -11,13 +11,13 @@
 
 namespace holomorph::topology {
 
-/// 2g closed loops zeta_i of consecutive half-edges: e_i in its own direction, closed through T. The common part of
-/// both paths to the root cancels.
+/// Returns 2g closed loops zeta_i of consecutive half-edges: e_i in its own direction, closed through T. The common
+/// part of both paths to the root cancels.
 std::vector<std::vector<HalfedgeHandle>> homology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain);
 
-/// 2g closed integer forms eta_i with eta_i(zeta_j) = delta_ij: the signed number of times an edge is crossed by the
-/// dual loop that closes e_i in D. Leaving a face through a half-edge counts +1 along it. The paper's § 5 recursion
-/// gives a form of the same class; this one is its special case with all free choices 0.
+/// Returns 2g closed integer forms eta_i with eta_i(zeta_j) = delta_ij. The value on an edge is the signed number of
+/// times it is crossed by the dual loop that closes e_i in D. Leaving a face through a half-edge counts +1 along it.
+/// The paper's § 5 recursion gives a form of the same class; this one is its special case with all free choices 0.
 IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDomain& domain);
 
 /// Appends b - 1 classes: the signed crossings of the dual path that enters through e_k, runs in D and leaves through
@@ -25,23 +25,24 @@ IntegerForms cohomology_basis(const HalfEdges& half_edges, const FundamentalDoma
 /// periods over the other loops and the zeta are 0.
 void add_paths_between_loops(const HalfEdges& half_edges, const FundamentalDomain& domain, IntegerForms& forms);
 
-/// Appends b - 1 classes of H^1(M, dM): d(1 on loop k, 0 at all other vertices), k = 1 .. b-1. Any triangulation on the
-/// same vertices.
+/// Appends b - 1 classes of H^1(M, dM): d(1 on loop k, 0 at all other vertices), k = 1 .. b-1. The triangulation may be
+/// any one of the same vertices.
 void add_loop_indicators(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary, IntegerForms& forms);
 
-/// A basis of H^1(M), dual to the loops zeta, then to the boundary loops 1 .. b-1.
+/// Returns a basis of H^1(M), dual to the loops zeta, then to the boundary loops 1 .. b-1.
 IntegerForms natural_classes(const HalfEdges& half_edges, const FundamentalDomain& domain);
 
-/// A basis of H^1(M, dM): the natural classes of the handles, which are zero along the boundary, then the loop
+/// Returns a basis of H^1(M, dM): the natural classes of the handles, which are zero along the boundary, then the loop
 /// indicators. @param boundary of the surface, with at least one loop. @param natural as above
 IntegerForms relative_classes(const HalfEdges& half_edges, const mesh::BoundaryLoops& boundary,
                               const IntegerForms& natural);
 
-/// W_ij = int a_i ^ b_j of closed integer forms, b zero along the boundary: it depends on the classes only, and is an
-/// integer.
+/// Computes W_ij = int a_i ^ b_j of closed integer forms, b zero along the boundary. It depends on the classes only,
+/// and is an integer.
 IntegerMatrix pairing(const HalfEdges& half_edges, const IntegerForms& a, const IntegerForms& b);
 
-/// W_ij = int eta_i ^ eta_j, integer because both are classes of integers; exact on any triangulation they live on.
+/// Computes W_ij = int eta_i ^ eta_j. It is an integer, because both are integer classes, and exact on any
+/// triangulation.
 IntegerMatrix wedge_matrix(const HalfEdges& half_edges, const IntegerForms& forms, Execution& execution);
 
 }  // namespace holomorph::topology

@@ -16,6 +16,7 @@ IntegerForms::Row add(const IntegerForms::Row& a, const IntegerForms::Row& b, in
       ++y;
     } else {
       const int value = x->second + factor * y->second;
+      // Rows hold no zeros: equal rows are equal sheets.
       if (value != 0) sum.emplace_back(x->first, value);
       ++x;
       ++y;
@@ -47,6 +48,7 @@ IntegerForms first_forms(const IntegerForms& forms, int count, int form_count) {
 void pull_back(const std::vector<mesh::Flip>& flips, IntegerForms& forms) {
   static const IntegerForms::Row kZero;
   for (const auto& [edge, a, b] : flips) {
+    // -(value along a + value along b): closedness around the new triangle (mesh::Flip).
     const auto& row_a = forms.rows[mesh::edge_of(a)];
     const auto& row_b = forms.rows[mesh::edge_of(b)];
     forms.rows.set(

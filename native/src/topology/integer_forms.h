@@ -10,8 +10,8 @@
 
 namespace holomorph::topology {
 
-/// For each edge a list of (form, value), value != 0, ascending by form. Most are empty: where all of a page of edges
-/// are, they take one number together.
+/// For each edge a list of (form, value), value != 0, ascending by form. Most lists are empty, so memory is kept by
+/// pages of edges: a page whose lists are all empty takes one number.
 class EdgeRows {
  public:
   using Row = std::vector<std::pair<int, int>>;
@@ -23,7 +23,7 @@ class EdgeRows {
   }
 
   const Row& operator[](std::size_t edge) const { return rows_[pages_[page_of_[edge / kPage]][edge % kPage]]; }
-  /// The row, to be changed. References to rows are no longer valid after the first call for an edge.
+  /// Returns the row, to be changed. The first call for an edge invalidates references to rows.
   Row& edit(std::size_t edge) {
     int& place = page(edge / kPage)[edge % kPage];
     if (place == 0) {
@@ -63,7 +63,7 @@ class EdgeRows {
   std::vector<int> edges_;
 };
 
-/// Row e is meant for the direction of half-edge 2e.
+/// m closed forms. The values in row e belong to the direction of half-edge 2e, from the lower to the higher vertex.
 struct IntegerForms {
   using Row = EdgeRows::Row;
   int form_count = 0;
@@ -92,7 +92,7 @@ IntegerForms concatenated(const IntegerForms& a, const IntegerForms& b);
 /// The first `count` forms, and zeros up to `form_count`.
 IntegerForms first_forms(const IntegerForms& forms, int count, int form_count);
 
-/// The same closed forms on a triangulation that was flipped: exact, by closedness.
+/// Replaces the forms by the same closed forms on a triangulation that was flipped: exact, by closedness.
 void pull_back(const std::vector<mesh::Flip>& flips, IntegerForms& forms);
 
 }  // namespace holomorph::topology

@@ -17,7 +17,8 @@ class MonotoneQueue {
     int index;
   };
 
-  /// @param width of the buckets, in the unit of the keys: some keys to a bucket, some buckets to the largest step
+  /// @param width of the buckets, in the unit of the keys. It suits where a bucket has a few keys, and the largest step
+  /// spans a few buckets
   explicit MonotoneQueue(double width) : width_(width), buckets_(1) {}
 
   /// @pre key is not lower than the last one taken, and not negative

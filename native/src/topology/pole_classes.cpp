@@ -16,6 +16,7 @@ IntegerForms pole_classes(const HalfEdges& half_edges, const FundamentalDomain& 
   forms.rows.resize(half_edges.n_edges());
   for (int i = 0; i < forms.form_count; ++i) {
     int here = face_of(half_edges, stars[i].link[0]), there = face_of(half_edges, out);
+    // Up from both ends to their common ancestor in D. Faces of stars are leaves of D, so no path crosses another star.
     while (here != there) {
       const bool leaving = domain.face_rank[here] > domain.face_rank[there];
       int& face = leaving ? here : there;
@@ -23,6 +24,7 @@ IntegerForms pole_classes(const HalfEdges& half_edges, const FundamentalDomain& 
       forms.rows.edit(edge_of(h)).emplace_back(i, leaving ? sign(h) : -sign(h));
       face = face_of(half_edges, opposite(h));
     }
+    // Through the gap of boundary loop 0, out of the surface.
     if (!closed) forms.rows.edit(edge_of(out)).emplace_back(i, sign(out));
   }
   return forms;

@@ -27,9 +27,12 @@ class LiftedLoops {
 
   void split(int s, int t, const std::vector<int>& moved) {
     first_.push_back(-1);
+    // An entry of v_s stays if both its neighbours do, and becomes v_t if both moved to v_t. If one moved, v_t is
+    // inserted on that side.
     const auto is_moved = [&](int entry) {
       return std::find(moved.begin(), moved.end(), entries_[entry].vertex) != moved.end();
     };
+    // The list of v_s is taken apart, and its entries are filed again under v_s or v_t.
     for (int e = std::exchange(first_[s], -1), following; e >= 0; e = following) {
       following = entries_[e].same_vertex;
       const bool before = is_moved(entries_[e].previous), after = is_moved(entries_[e].next);
@@ -121,6 +124,7 @@ IntegerForms pull_back_classes(const mesh::Surface& base, const IntegerForms& fo
   result.rows.resize(surface.edges.size());
   const std::vector<int> half_edges = base_half_edges(base, surface, map);
   for (std::size_t e = 0; e < half_edges.size(); ++e) {
+    // An edge that collapses to a vertex of the base has the value 0: its row stays empty.
     const int h = half_edges[e];
     if (h >= 0) result.rows.set(e, add({}, forms.rows[h / 2], h & 1 ? -1 : 1));
   }

@@ -14,12 +14,12 @@ namespace holomorph::topology {
 /// period over a loop is that over its image.
 /// @param forms closed forms on the edges of `base`
 /// @param surface a finer level, or the original
-/// @param map #V of `surface` vertex of `base`
+/// @param map #V of `surface`: the vertex of `base` that each one was collapsed into
 IntegerForms pull_back_classes(const mesh::Surface& base, const IntegerForms& forms, const mesh::Surface& surface,
                                const std::vector<int>& map);
 
-/// #E of `surface` edge of `base` to which the map takes each edge, as 2e or, against its direction, 2e + 1; -1
-/// where both ends have the same image. Real forms are pulled back by it, too.
+/// Returns for each edge of `surface` (#E) the edge e of `base` that the map takes it to: 2e along its direction, 2e +
+/// 1 against it, -1 where both ends have the same image. Real forms are pulled back with it, too.
 std::vector<int> base_half_edges(const mesh::Surface& base, const mesh::Surface& surface, const std::vector<int>& map);
 
 /// Lifts closed loops of vertices of the base to the level with this many splits. Where a split separates the two

@@ -52,6 +52,7 @@ class ShortestPathTree {
     queue_.push({0.0, root});
     while (!queue_.empty()) {
       const int v = queue_.pop().index;
+      // An entry of a longer path, overtaken since it was pushed.
       if (settled_[v]) continue;
       settle(v);
       if (!star_of_.empty() && star_of_[v] >= 0) settle_star(v, stars_[star_of_[v]]);
@@ -85,6 +86,8 @@ class ShortestPathTree {
     queue_.push({at, w});
   }
 
+  // T enters a star once, and has all its spokes: the centre is joined to the vertex that was reached first, the rest
+  // of the link to the centre.
   void settle_star(int first, const mesh::Star& star) {
     for (const HalfedgeHandle h : star.link) {
       if (to_vertex(mesh_, h) == first) join(star.vertex, first, next(mesh_, h));
@@ -92,7 +95,7 @@ class ShortestPathTree {
     for (const HalfedgeHandle h : star.link) join(to_vertex(mesh_, h), first, next(mesh_, h));
   }
 
-  // The half-edge `between` joins v and its parent, in either direction.
+  // Settles v at no further distance. The half-edge `between` joins v and its parent, in either direction.
   void join(int v, int first, HalfedgeHandle between) {
     if (settled_[v]) return;
     distance[v] = distance[first];
@@ -100,7 +103,7 @@ class ShortestPathTree {
     settle(v);
   }
 
-  // From v both ways to the edge opposite, which is not in T.
+  // Joins the whole loop to v, both ways around. The edge opposite v is the gap e_k, which is not in T.
   void settle_loop(int v) {
     std::vector<HalfedgeHandle> loop;
     const HalfedgeHandle start = mesh_.halfedge_handle(VertexHandle(v));

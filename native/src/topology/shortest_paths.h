@@ -12,7 +12,7 @@ namespace holomorph::topology {
 /// @return #V distances from the root along T
 /// Dijkstra along edges of polygons. The first vertex of a star that is settled settles its centre and link through
 /// the spokes. So does the first vertex of a boundary loop, at no cost, because the surface need not be cut along it.
-/// Cost: O(n log n), of which the logarithm is that of a bucket's few vertices.
+/// Cost: O(n log m), with m the few vertices of a bucket.
 Array<double> grow_shortest_paths(const mesh::Surface& surface, const HalfEdges& half_edges,
                                   const std::vector<mesh::Star>& stars, int root, FundamentalDomain& domain,
                                   Execution& execution);

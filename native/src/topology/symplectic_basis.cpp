@@ -57,6 +57,8 @@ class GramSchmidt {
         return;
       }
       if (other < 0) throw Error("the wedge matrix of the classes is not unimodular");
+      // The rest of the division is smaller than the least product: Euclid's algorithm goes on with it, until the least
+      // is 1.
       subtract(other, W_(k, other) / W_(k, least), least);
     }
   }
@@ -64,6 +66,7 @@ class GramSchmidt {
   void subtract(Eigen::Index i, std::int64_t factor, Eigen::Index j) {
     if (factor == 0) return;
     for (Eigen::Index c = 0; c < n_; ++c) rows_(i, c) = checked_subtract_product(rows_(i, c), factor, rows_(j, c));
+    // Rows, then columns: W stays the matrix of the products S_i W S_j^T.
     for (Eigen::Index c = 0; c < n_; ++c) W_(i, c) = checked_subtract_product(W_(i, c), factor, W_(j, c));
     for (Eigen::Index c = 0; c < n_; ++c) W_(c, i) = checked_subtract_product(W_(c, i), factor, W_(c, j));
   }

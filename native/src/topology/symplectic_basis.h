@@ -8,7 +8,8 @@ namespace holomorph::topology {
 
 using IntegerMatrix = Eigen::Matrix<std::int64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Rows S with S W S^T = J = [[0, I], [-I, 0]], |det S| = 1: integer symplectic Gram-Schmidt.
+/// Computes integer S with S W S^T = J = [[0, I], [-I, 0]], |det S| = 1, by symplectic Gram-Schmidt. Its rows are a
+/// canonical basis.
 /// @param W antisymmetric, |det| 1. @throws holomorph::Error if an entry leaves 64 bits
 IntegerMatrix symplectic_basis(const IntegerMatrix& W);
 

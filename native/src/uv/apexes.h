@@ -1,4 +1,4 @@
-// UVs at poles, which lie at infinity.
+// UVs of the triangles at poles, where the map is infinite.
 #pragma once
 
 #include <span>

@@ -26,7 +26,8 @@ constexpr int kStarts = 16, kThinning = 4, kRoughSteps = 40, kKept = 6, kFineSte
 // faster.
 constexpr int kManyForms = 64, kFewestSteps = 20;
 constexpr double kUsualValues = 1000;  // evaluations of the objective in all descents
-// Against the logarithm of the 95 % over 5 % quantile: the mean of s1 / s2, cut off, and a price of flipped triangles.
+// The judgement adds to the logarithm of the 95 % over 5 % quantile: the mean of s1 / s2, cut off here, and a price of
+// flipped triangles.
 constexpr double kMostSheared = 20, kFlipped = 20;
 constexpr double kSame = 1e-3;  // relative difference of the ends of two descents that are one
 const std::vector<double> kRoughFloors = {1.0, 0.1}, kFineFloors = {0.01, 1e-3, kDensityFloor};
@@ -44,6 +45,7 @@ MatrixXcd orthonormal(const MatrixXcd& M, Coefficients kind) {
   const Index n = M.cols();
   MatrixXcd gram = M.adjoint() * M / static_cast<double>(M.rows());
   if (kind == Coefficients::real) gram = gram.real().cast<Complex>().eval();
+  // Keeps the matrix definite where forms are dependent on the samples.
   gram += 1e-14 * gram.diagonal().real().maxCoeff() * MatrixXcd::Identity(n, n);
   const Eigen::LLT<MatrixXcd> factor(gram);
   return factor.matrixU().solve(MatrixXcd::Identity(n, n));
@@ -56,6 +58,7 @@ double judgement(const SampledParts& parts, const VectorXcd& c) {
   if (parts.N.rows() > 0) {
     const Eigen::ArrayXd a = q.sqrt(), b = (parts.N * c).cwiseAbs().array();
     const double tiny = std::numeric_limits<double>::min();
+    // s1 = |A| + |B| and s2 = | |A| - |B| |: their quotient, and below their product.
     price = ((a + b) / ((a - b).abs() + tiny)).min(kMostSheared).mean() + kFlipped * (b >= a).cast<double>().mean();
     q = (q - b.square()).abs() + kDensityFloor * q.mean() + tiny;
   }
@@ -75,7 +78,7 @@ Candidate finished(const SampledParts& parts, Coefficients kind, VectorXd x, int
   return best;
 }
 
-// The nearest forms to fields; beyond these, as on intrinsic surfaces, fixed pseudo-random ones.
+// Returns the forms nearest to given fields. Beyond these, as on intrinsic surfaces, come fixed pseudo-random forms.
 std::vector<Candidate> starts(const MatrixXcd& M, const MatrixXcd& fields, Coefficients kind, int count) {
   const auto unknowns = (kind == Coefficients::real ? 1 : 2) * M.cols();
   std::vector<Candidate> list(count, {INFINITY, VectorXd(unknowns)});
@@ -115,6 +118,7 @@ VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& 
   const auto same = [](const Candidate& a, const Candidate& b) {
     return b.value - a.value <= kSame * std::abs(a.value);
   };
+  // Descents that ended at one value are taken to have found one minimum.
   candidates.erase(std::unique(candidates.begin(), candidates.end(), same), candidates.end());
   if (const auto most = static_cast<std::size_t>(fewer(kKept, 1)); candidates.size() > most) candidates.resize(most);
   const int steps = fewer(kFineSteps, kFewestSteps);

@@ -9,8 +9,8 @@
 
 namespace holomorph::uv {
 
-/// Coefficients c, g numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most even. They
-/// have the least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against
+/// Finds coefficients c, g numbers, for which the texture density |theta|^2 of theta = sum_j c_j theta_j is most even.
+/// They have the least variance over the surface's area of log(|theta|^2 / mean + 1e-4), plus a small term against
 /// distortion (balance.cpp); the scale is free. The minimum is local, the best from several starts that are fixed in
 /// space; the same input gives the same bits.
 /// @param samples not used where g = 1
@@ -19,8 +19,8 @@ namespace holomorph::uv {
 Eigen::VectorXcd balanced_coefficients(const mesh::Surface& surface, const FormSamples& samples,
                                        const Eigen::MatrixXcd& basis, Coefficients kind, Execution& execution);
 
-/// The search for them on the samples alone, without the shortcut for one form and the choice of the phase. The result
-/// depends on the space of the forms, not on their basis. Of the ends of the descents it takes one whose map is even
+/// Searches for them on the samples alone, without the shortcut for one form and the choice of the phase. The result
+/// depends on the space of the forms, not on their basis. Among the ends of the descents it prefers a map that is even
 /// (95 % over 5 % quantile of the density), little sheared and not flipped.
 /// @param triangles where the samples are
 Eigen::VectorXcd lowest_variance(const mesh::Surface& surface, const std::vector<int>& triangles,

@@ -25,6 +25,8 @@ struct RowHash {
   }
 };
 
+// Numbers the sheets that occur. A sheet is the sum of the classes along a path from the first corner, a sparse row of
+// integers; sheet 0 is the empty row.
 class SheetTable {
  public:
   explicit SheetTable(const IntegerForms& classes) : classes_(classes) { number({}); }
@@ -54,7 +56,7 @@ struct Walk {
   Array<HalfedgeHandle> to_parent;
 };
 
-// Breadth first from the first face of each piece.
+// Walks breadth first from the first face of each piece.
 Walk walk_around(const mesh::HalfEdges& half_edges, const std::vector<char>& is_cut) {
   const int faces = static_cast<int>(half_edges.n_faces());
   Walk walk{{}, Array<HalfedgeHandle>(faces)};
@@ -95,6 +97,7 @@ Array<int> sheets_at_starts(const mesh::HalfEdges& half_edges, const Walk& walk,
       at_start[next(half_edges, h).idx()] = table.after(0, h);
     }
     const HalfedgeHandle h1 = next(half_edges, h);
+    // The third corner, along the side behind the one that is known.
     at_start[next(half_edges, h1).idx()] = table.after(at_start[h1.idx()], h1);
   }
   return at_start;
@@ -132,6 +135,7 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
   for (int e = 0; e < static_cast<int>(surface.edges.size()); ++e) {
     const HalfedgeHandle h(2 * e), o = opposite(h);
     if (is_cut[e] || !half_edges.face_handle(h).is_valid() || !half_edges.face_handle(o).is_valid()) continue;
+    // Both faces have the same sheets at both ends. Otherwise a loop through this edge, inside the piece, has a period.
     if (at_start[h.idx()] == at_start[next(half_edges, o).idx()] &&
         at_start[o.idx()] == at_start[next(half_edges, h).idx()])
       continue;

@@ -1,4 +1,4 @@
-// Integer potentials of the classes on the surface cut open along its cut graph (mathematics: forms to UV).
+// Integer potentials of the classes on the surface cut open along its cut graph (docs/method/uvs.md).
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,8 @@ CornerSheets corner_sheets(const mesh::Surface& surface, const mesh::HalfEdges& 
                            const topology::FundamentalDomain& domain, const topology::IntegerForms& classes,
                            Execution& execution);
 
-/// The same for a given cut. Potentials on the pieces of the surface cut along the edges of `cut`, each with the sheet
+/// Computes the same for a given cut: potentials on the pieces of the surface cut along the edges of `cut`, each with
+/// the sheet
 /// 0 at its first corner.
 /// @param cut polygon edges; boundary edges do not matter
 /// @param labels #V number of each vertex in messages; empty: its index

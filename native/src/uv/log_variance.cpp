@@ -56,7 +56,8 @@ std::vector<int> in_order(const mesh::Surface& surface) {
   return mesh::spatial_order(centres);
 }
 
-// What the unknowns are multiplied by: the real parts above the imaginary ones. Real products take half the time.
+// The matrix that takes the unknowns to the parts, real parts above imaginary ones. Real products take half the time of
+// complex ones.
 MatrixXd on_unknowns(const MatrixXcd& parts, Coefficients kind) {
   const Eigen::Index rows = parts.rows(), g = parts.cols();
   MatrixXd result(2 * rows, kind == Coefficients::real ? g : 2 * g);
@@ -162,6 +163,8 @@ double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
   const VectorXd A = M_ * x;
   const Eigen::ArrayXd q = squares(A);
   const double mean = q.mean(), count = static_cast<double>(q.size());
+  // The floor keeps the logarithm finite at zeros of the form, where q = 0. Divided by the mean, q is independent of
+  // the scale of the form.
   const Eigen::ArrayXd y = (q / mean + floor_).log(), deviation = y - y.mean();
   const Eigen::ArrayXd inverse = 1 / (q + floor_ * mean);
   // Derivatives by q and b of each sample, and through the mean, which is the same for all samples.
@@ -171,6 +174,7 @@ double LogVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
   if (N_.rows() > 0) {
     const VectorXd B = N_ * x;
     const Eigen::ArrayXd b = squares(B), sum = 1 / (q + b + floor_ * mean), r = b * sum;
+    // r = b / (q + b + floor mean): its derivatives by q, by b, and through the mean.
     value += kDistortion * r.mean();
     through_mean -= kDistortion * floor_ * (r * sum).mean();
     by_q -= kDistortion * r * sum;

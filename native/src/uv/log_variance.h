@@ -17,7 +17,8 @@ struct FormSamples {
   std::vector<int> triangles;      ///< evenly spaced by area; all of them on a small surface, some more than once
   forms::RowMajorMatrix on_sides;  ///< (2 #triangles) x #forms, along sides 0 and 1 of each
 };
-/// @param most_per_triangle on average: fewer samples do on a small surface
+/// Returns kSamples triangles, evenly spaced by area. @param most_per_triangle on average: a small surface has fewer
+/// samples
 std::vector<int> sample_triangles(const mesh::Surface& surface, int most_per_triangle = kSamples);
 forms::RowMajorMatrix values_on_sides(const mesh::Surface& surface, const mesh::Sides& sides,
                                       const forms::ClosedForms& forms, const std::vector<int>& triangles);
@@ -28,16 +29,16 @@ struct SampledParts {
   Eigen::MatrixXcd N;  ///< the same, or without rows where B is known to be 0
 };
 
-/// The parts of combinations of harmonic forms. @param basis #forms x #coefficients
+/// Computes the parts of combinations of harmonic forms. @param basis #forms x #coefficients
 SampledParts sampled_parts(const mesh::Surface& surface, const FormSamples& samples, const Eigen::MatrixXcd& basis);
 
-/// A of the holomorphic du + i dv from v alone, one column for each column of v. @param v #V x m
+/// Computes A of the holomorphic du + i dv from v alone, one column for each column of v. @param v #V x m
 Eigen::MatrixXcd parts_of_imaginary(const mesh::Surface& surface, const std::vector<int>& triangles,
                                     const forms::RowMajorMatrix& v);
 
 enum class Coefficients { complex, real };
 
-/// c as the unknowns of the minimiser: real parts, then imaginary ones where they are free; and back.
+/// Converts c to the unknowns of the minimiser, and back: real parts, then imaginary ones where they are free.
 Eigen::VectorXcd as_complex(const Eigen::VectorXd& x, Coefficients kind);
 Eigen::VectorXd as_unknowns(const Eigen::VectorXcd& c, Coefficients kind);
 

@@ -1,4 +1,5 @@
-// A small unconstrained minimiser: BFGS with backtracking (Nocedal & Wright, Numerical Optimization, algorithm 6.1).
+// A small unconstrained minimiser: BFGS with backtracking (Nocedal & Wright 2006, algorithm 6.1,
+// doi:10.1007/978-0-387-40065-5).
 #pragma once
 
 #include <Eigen/Core>
@@ -9,12 +10,12 @@ namespace holomorph::uv {
 /// When to stop.
 struct Minimising {
   int most_steps = 200;
-  double progress = 1e-9;   ///< a step that lowers the value by less than this part of it was the last
+  double progress = 1e-9;   ///< stops after a step that lowers the value by less than this part of it
   double shortest = 1e-12;  ///< step, relative to the full one
 };
 
 /// @param objective double(const VectorXd& x, VectorXd& gradient)
-/// @param x start in, minimum out. @return the least value
+/// Minimises a function of a few variables. @param x start in, minimum out. @return the least value
 /// @param H an inverse Hessian to begin with; empty: none is known
 template <class Objective>
 double minimise(const Objective& objective, Eigen::VectorXd& x, const Minimising& until, Eigen::MatrixXd H = {}) {

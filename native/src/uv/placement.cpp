@@ -41,6 +41,7 @@ Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, d
       }
     }
     extent.area +=
+        // Absolute values: flipped triangles do not take area away.
         0.5 * std::abs((at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) - (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]));
   };
   const Extent extent = sum_over_rows(workers, static_cast<int>(surface.triangles.size()), Extent(), add_triangle);

@@ -13,7 +13,8 @@ struct Frame {
   double area = 0;                 ///< sum of the absolute areas of the triangles
 };
 
-/// The frame of the map rotated by an angle about 0. @param uv #C x 2. @param rotation radians, counter-clockwise
+/// Computes the frame of the map rotated by an angle about 0. @param uv #C x 2. @param rotation radians,
+/// counter-clockwise
 /// The area is summed in a fixed order. Cost: O(#T).
 Frame frame(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, double rotation, Workers& workers);
 

@@ -86,6 +86,7 @@ class Distribution {
     return items;
   }
 
+  // The sign, the exponent and four bits of the mantissa: 16 classes in an octave.
   std::size_t class_of(double value) const { return (std::bit_cast<std::uint64_t>(value) >> 48) % classes_.size(); }
 
   const Array<double>& values_;
@@ -142,6 +143,7 @@ Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& u
     }
     const auto [A, B] = derivatives(at, a, b, c, areas[t]);
     const double size_A = std::sqrt(std::norm(A)), size_B = std::sqrt(std::norm(B));
+    // s1 = |A| + |B|, s2 = | |A| - |B| |; the map is flipped where |B| is larger.
     const double larger = size_A + size_B, smaller = std::abs(size_A - size_B);
     if (!(smaller > kCollapsed * larger) || !std::isfinite(larger)) {
       result.angle[t] = std::numeric_limits<double>::infinity();

@@ -20,7 +20,8 @@ struct Quality {
   double median_density = 0;  ///< 50 % quantile of s1 s2, by the surface's area
 };
 
-/// @param uv #C x 2. The sums are in a fixed order, so the bits do not depend on the number of threads. Cost: O(#T).
+/// Measures a UV map. @param uv #C x 2. The sums are in a fixed order, so the bits do not depend on the number of
+/// threads. Cost: O(#T).
 Quality quality(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, Workers& workers);
 
 }  // namespace holomorph::uv

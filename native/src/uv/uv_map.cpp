@@ -28,6 +28,7 @@ UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const U
 void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                   const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv, Workers& workers) {
   const UvArray coefficients = real_and_imaginary(p);
+  // One translation for each sheet; there are few sheets.
   UvArray translation = UvArray::Zero(static_cast<Eigen::Index>(sheets.sheets.size()), 2);
   for (std::size_t s = 0; s < sheets.sheets.size(); ++s) {
     for (const auto& [k, value] : sheets.sheets[s])

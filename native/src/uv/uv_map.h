@@ -12,16 +12,17 @@ namespace holomorph::uv {
 
 using UvArray = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-/// UV(corner) = sum_k p_k (f_k(vertex) + P_k(corner)) for complex coefficients p of the harmonic basis. Across each
+/// Computes UV(corner) = sum_k p_k (f_k(vertex) + P_k(corner)) for complex coefficients p of the harmonic basis. Across
+/// each
 /// cut the UV jump is a constant translation, an integer combination of the p_k.
 /// @param functions #V x 2g, the f_k. @return #C x 2
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const forms::RowMajorMatrix& functions,
                const Eigen::VectorXcd& p, Workers& workers);
 
-/// UV(corner) = at_vertex(vertex) + sum_k p_k P_k(corner): the same from any potentials, #V x 2.
+/// Computes UV(corner) = at_vertex(vertex) + sum_k p_k P_k(corner), from any function at the vertices, #V x 2.
 UvArray uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                const Eigen::VectorXcd& p, Workers& workers);
-/// The same into given memory, #C x 2.
+/// Writes the same into given memory, #C x 2.
 void write_uv_map(const mesh::Surface& surface, const CornerSheets& sheets, const UvArray& at_vertex,
                   const Eigen::VectorXcd& p, Eigen::Ref<UvArray> uv, Workers& workers);
 

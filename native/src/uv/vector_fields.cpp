@@ -68,6 +68,7 @@ MatrixXcd even_fields(const mesh::Surface& surface, const std::vector<int>& tria
   std::mt19937_64 numbers(1);
   for (int i = 0; i < count; ++i) {
     const Matrix3Xd direction = field(at, i, numbers);
+    // The field's components in the frame: A (e_x + i e_y) has the gradient of u along its tangential part.
     const Eigen::ArrayXcd A = frames.conjugate().cwiseProduct(direction.cast<Complex>()).colwise().sum().transpose();
     result.col(i) = A / (A.abs() + std::numeric_limits<double>::min());
   }

@@ -8,12 +8,12 @@
 
 namespace holomorph::uv {
 
-/// 3 x #triangles: e_x + i e_y of the plane of each triangle, x along side 0. The form A dz is the field A (e_x + i
-/// e_y), gradient of u plus i times gradient of v. @pre the surface has positions
+/// Returns e_x + i e_y of the plane of each triangle, 3 x #triangles, x along side 0. The form A dz is the field A (e_x
+/// + i e_y), gradient of u plus i times gradient of v. @pre the surface has positions
 Eigen::MatrixXcd tangent_frames(const mesh::Surface& surface, const std::vector<int>& triangles);
 
-/// #triangles x count: A of |A| = 1, with gradient u along smooth fields in space. They are fixed beside the surface's
-/// bounding box: whatever its numbering is they are the same. @pre the surface has positions
+/// Returns A with |A| = 1, #triangles x count, whose gradient of u runs along smooth fields in space. The fields are
+/// fixed relative to the bounding box, so they do not depend on the surface's numbering. @pre the surface has positions
 Eigen::MatrixXcd even_fields(const mesh::Surface& surface, const std::vector<int>& triangles, int count);
 
 }  // namespace holomorph::uv

@@ -44,8 +44,8 @@ struct Image {
   std::vector<std::pair<int, int>> flipped;  // triangles there whose angles are not pi together, by how many turns
 };
 
-// #E images from the lower to the higher vertex, where no pole's star is. Edges whose image is a point get any
-// direction, the same on both sides: where a form has decayed to rounding, the orders still add up.
+// #E images of the edges outside the stars of poles, from the lower to the higher vertex. Edges whose image is a point
+// get some direction, the same on both sides: so the orders still add up where a form has decayed to rounding.
 std::vector<Eigen::RowVector2d> directions(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv,
                                            const std::vector<char>& is_pole, const mesh::Sides& sides) {
   std::vector<Eigen::RowVector2d> direction(surface.edges.size(), Eigen::RowVector2d(1, 0));
@@ -78,6 +78,7 @@ Image image(const mesh::Surface& surface, const Eigen::Ref<const UvArray>& uv, c
       result.angle[surface.triangles[t][i]] += angle;
       sum += angle;
     }
+    // The signed angles of an upright triangle sum to pi, those of a flipped one to -pi, one turn less.
     const auto turns = static_cast<int>(std::lround((std::numbers::pi - sum) / (2 * std::numbers::pi)));
     if (turns != 0) result.flipped.emplace_back(t, turns);
   }
@@ -115,6 +116,8 @@ std::vector<int> indices(const mesh::Surface& surface, const std::vector<double>
   std::vector<int> index(surface.vertex_count, 0);
   for (const auto& triangle : surface.triangles) {
     for (const int v : triangle) {
+      // At a zero of order m the map is like z^(m + 1): the angles around an inner vertex sum to m + 1 full turns. On
+      // the boundary, m is the order on the double of the surface, and the turns are half ones.
       const double flat = (is_boundary[v] ? 1 : 2) * std::numbers::pi;
       index[v] = static_cast<int>(std::lround(angle[v] / flat)) - 1;
     }
@@ -122,12 +125,13 @@ std::vector<int> indices(const mesh::Surface& surface, const std::vector<double>
   return index;
 }
 
-// What touches: inside, and on the boundary, where an order is half as much.
+// A cluster of indices that touch: inside, and on the boundary, where an order counts half.
 struct Cluster {
   int vertex = kNone;  // that it is said to be at: on the boundary where there is one, then of the largest index
   bool is_boundary = false;
   int inside = 0, on_boundary = 0;
 
+  // On the double of the surface an inner zero occurs twice.
   int order() const { return is_boundary ? on_boundary + 2 * inside : inside; }
 
   void add(int v, bool is_on_boundary, const std::vector<int>& index) {

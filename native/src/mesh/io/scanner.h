@@ -22,7 +22,7 @@ class Scanner {
   std::string_view word();
   /// The next word, on this line or a later one. @throws InvalidMesh naming `what` if the text ends before it.
   std::string_view word_on_any_line(std::string_view what);
-  /// To the start of the next line, past whatever is left of this one.
+  /// Moves to the start of the next line, past whatever is left of this one.
   void next_line();
   /// No word is left on this line.
   bool at_line_end();

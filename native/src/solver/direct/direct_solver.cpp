@@ -40,7 +40,7 @@ Laplacian::Matrix pinned(const Eigen::Map<const Laplacian::Matrix>& L, Eigen::In
 
 class DirectSolver final : public LaplaceSolver {
  public:
-  // The pinned vertex is a fixed one where there is one: a single unknown less in both problems.
+  // If there are fixed vertices, one of them is pinned: then both problems lack the same unknown.
   DirectSolver(Laplacian&& L, std::vector<int> fixed, Execution& execution)
       : L_(std::move(L)), fixed_(std::move(fixed)) {
     pin_ = fixed_.empty() ? L_.size() - 1 : fixed_.back();
@@ -59,6 +59,7 @@ class DirectSolver final : public LaplaceSolver {
       condition_ = conditions[first];
       assert(condition_ == Condition::natural || !fixed_.empty());
       width = 1;
+      // Consecutive columns under one condition share a back-substitution.
       while (width < std::min(block, B.cols() - first) && conditions[first + width] == condition_) ++width;
       done_ = 0.8 + 0.2 * static_cast<double>(first) / static_cast<double>(B.cols());
       X.middleCols(first, width) = solve_block(B.middleCols(first, width), execution);
@@ -111,6 +112,7 @@ class DirectSolver final : public LaplaceSolver {
       Refined better{x.X + apply(x.R), {}, 0};
       better.R = residuals(better.X, B);
       better.size = relative(better.R, B);
+      // Rounding is reached: the better of the two is kept.
       if (!(better.size < x.size)) break;
       x = std::move(better);
       iterations_ = std::max(iterations_, step + 1);

@@ -5,8 +5,8 @@
 
 namespace holomorph::solver {
 
-/// While any lives, BLAS has one thread, and so the same bits at any number. That number belongs to the process: the
-/// end of the last puts it back.
+/// While an instance is alive, BLAS runs on one thread, so that the bits do not depend on the number of threads. That
+/// number belongs to the process: the destructor of the last instance restores it.
 class OneBlasThread {
  public:
   /// @throws std::bad_alloc where BLAS would wait for memory for ever

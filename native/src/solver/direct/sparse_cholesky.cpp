@@ -171,6 +171,8 @@ void SparseCholesky::compute(const Lower& lower, std::vector<char> fixed) {
 void SparseCholesky::factorise(const Lower& lower) {
   if (fixed_.empty()) {
     factor_->compute(lower);
+    // One factor serves both conditions if the fixed unknowns can come last at a fair price. Otherwise there are two:
+    // of all unknowns, and of the free ones.
   } else if (!factor_->compute_fixed_last(lower, fixed_)) {
     factor_ = std::make_unique<Factor>();
     factor_->compute(lower);

@@ -21,7 +21,7 @@ using Sums = Eigen::Array<double, K, 1>;
 /// Prefetch distance, in entries, 4 KB: the processor does not look beyond a page by itself.
 inline constexpr int kAhead = 512;
 
-/// A range of rows: a chunk.
+/// A range of rows, such as a chunk.
 struct Rows {
   int begin, end;
 };
@@ -30,14 +30,14 @@ inline Rows rows_of_chunk(int chunk, int rows, int each = kChunkRows) {
   return {std::min(chunk * each, rows), std::min((chunk + 1) * each, rows)};
 }
 
-/// loop(chunk, rows) for all chunks of so many rows, in parallel. @pre loop does not throw
+/// Calls loop(chunk, rows) for all chunks of so many rows, in parallel. @pre loop does not throw
 template <class Loop>
 void for_chunks(int rows, Workers& workers, const Loop& loop) {
   workers.run(row_chunks(rows), [&](int, int chunk) { loop(chunk, rows_of_chunk(chunk, rows)); });
 }
 
-// Bodies of the loops below capture pointers by value. To the compiler a block that is written may be one of the
-// pointers of an array, which would be read again for every row.
+// Bodies of the loops below capture pointers by value. Otherwise the compiler reads them again for every row: for all
+// it knows, the block that a body writes is one of them.
 
 /// body(i, (A x)_i) for the rows of a chunk, with (A x)_i = sum_j w_ij (x_i - x_j).
 template <int K, class Body>
@@ -86,7 +86,7 @@ EIGEN_STRONG_INLINE Block<K> jacobi_step(float omega, const Block<K>& r, const B
   return (-omega * natural) * r;
 }
 
-/// The r of a jacobi_step(), where the vertex is not fixed.
+/// Returns the residual r that gave a jacobi_step(), where the vertex is not fixed.
 template <int K>
 EIGEN_STRONG_INLINE Block<K> residual_of_step(float omega, const Block<K>& step) {
   const float size = std::abs(omega);

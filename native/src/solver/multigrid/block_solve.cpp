@@ -8,14 +8,14 @@
 namespace holomorph::solver {
 namespace {
 
-// Reduction of the residual that single precision is asked for at a time.
+// The reduction of the residual that each solve in single precision is asked for.
 constexpr double kInnerResidual = 1e-4;
-// The last time it goes a little below the goal, as the residual of the recurrence drifts from the true one.
+// The last of them goes a little below the goal, since the residual of the recurrence drifts from the true one.
 constexpr double kSafety = 0.99;
 constexpr int kMostInner = 100, kMostIterations = 300;
-// Where so many times the residual of the recurrence is left, it is the rounding of B - L X.
+// If the true residual is so many times that of the recurrence, the rounding of B - L X is reached.
 constexpr double kMostDrift = 10;
-// Corrections in a row that leave more than half of the residual.
+// The solve ends after so many corrections in a row that leave more than half of the residual.
 constexpr int kMostStalls = 2;
 
 // The Jacobi step with which the cycle begins, for the scaled residual r.
@@ -110,6 +110,7 @@ void BlockSolve<K>::correct_until_solved(const RightHandSides<K>& b, const Repor
     stalls = reached_ < 0.5 * before ? 0 : stalls + 1;
     const bool too_many = iterations_ >= kMostIterations;
     const bool rounding = reached_ > kMostDrift * largest_relative(scale_, norm_b_);
+    // The promise is kept, and no more is to be gained.
     if (reached_ <= kResidual && (stalls > 0 || too_many || rounding)) break;
     if (stalls == kMostStalls || too_many || !std::isfinite(reached_)) {
       std::ostringstream message;
@@ -130,6 +131,7 @@ void BlockSolve<K>::begin(RightHandSides<K>& b) {
     sums.second += here.square();
   });
   b.mean = moments.first * b.natural / static_cast<double>(n_);
+  // Residuals are divided by this scale, which keeps them in the range of single precision.
   scale_ = moments.second.sqrt();
   const Sums<K> zero = Sums<K>::Zero(), inverse = quotient<K>(Sums<K>::Ones(), scale_);
   norm_b_ = sum_over_rows(workers_, n_, zero, [=, x = x_.data(), s = cycle_.step()](int i, Sums<K>& sum) {
@@ -173,6 +175,7 @@ void BlockSolve<K>::conjugate_gradients(const Report& report) {
     const Sums<K> rz_before = rz;
     precondition(rz, zAz);
     const Sums<K> beta = quotient<K>(rz, rz_before);
+    // p = z + beta p_before, and p is A-orthogonal to p_before: so p.A p = z.A z - beta^2 p_before.A p_before.
     pAp = zAz - beta.square() * pAp;
     norm = step(quotient<K>(rz, pAp).template cast<float>(), beta.template cast<float>());
     ++iterations_;

@@ -17,6 +17,8 @@ Coarsening coarsening(const Operator& fine) {
   std::fill(number.begin(), number.end(), kUndecided);
   for (int i = 0; i < n; ++i) {
     if (number[i] == kFPoint) continue;
+    // An undecided vertex becomes a C-point. Its strong neighbours that are undecided can interpolate from it, and
+    // become F-points.
     number[i] = result.count++;
     for (const auto [j, w] : fine.A[i]) {
       // without branches, which could not be predicted

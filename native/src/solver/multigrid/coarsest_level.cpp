@@ -28,7 +28,8 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& A) {
   return factor.solve(Eigen::MatrixXd::Identity(A.rows(), A.rows()));
 }
 
-// The constants, the kernel, are lifted to an eigenvalue like the others and taken out again.
+// Adds a multiple of the matrix of ones, which gives the constants, the kernel of A, the mean of all eigenvalues. The
+// inverse has that part subtracted again.
 Eigen::MatrixXf pseudo_inverse(Eigen::MatrixXd A) {
   const auto n = static_cast<double>(A.rows());
   const double trace = A.trace();

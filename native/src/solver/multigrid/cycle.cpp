@@ -3,8 +3,8 @@
 namespace holomorph::solver {
 namespace {
 
-// The level that is corrected twice has at most this part of the finest level's rows: few percent of the work, in the
-// cache, for one iteration of twenty less, and more where a mesh is stretched.
+// The level that is corrected twice has at most one in so many of the finest level's rows. This costs a few percent
+// more work, in the cache, and saves one iteration of twenty, more where a mesh is stretched.
 constexpr int kTwice = 40;
 
 }  // namespace
@@ -23,7 +23,8 @@ Cycle<K>::Cycle(const Hierarchy& hierarchy, Workers& workers)
   first_.resize(rows(twice_));
 }
 
-// t = r - A s, and s = omega R t on the next level
+// The first Jacobi step from 0 is s = omega r. Computes t = r - A s, the residual after it, and s = omega R t on the
+// next level.
 template <int K>
 void Cycle<K>::restrict_residual(std::size_t k) {
   const Level &level = hierarchy_.levels[k], &next = hierarchy_.levels[k + 1];
@@ -52,7 +53,8 @@ void Cycle<K>::prolongate(std::size_t k, Rows rows) {
   for_products<K>(hierarchy_.levels[k].P, rows, coarse, [=](int i, const Block<K>& Pu) { t[i] = s[i] + Pu; });
 }
 
-// u = t + omega (r - A t)
+// The second Jacobi step, u = t + omega (r - A t). As it is the same as the first one, M is symmetric, which conjugate
+// gradients need.
 template <int K>
 void Cycle<K>::smooth(std::size_t k, Rows rows) {
   const Operator& op = hierarchy_.levels[k].op;
@@ -73,7 +75,7 @@ void Cycle<K>::correct(std::size_t k) {
   for (std::size_t j = coarsest; j-- > k;) prolongate_and_smooth(j, [](int, Rows) {});
 }
 
-// 2 M - M A M for the M of one correction.
+// Applies 2 M - M A M, M one correction: a correction, and another one of the residual that it leaves.
 template <int K>
 void Cycle<K>::correct_twice() {
   if (twice_ + 1 == work_.size()) return solve_coarsest();
@@ -96,6 +98,7 @@ template <int K>
 void Cycle<K>::solve_coarsest() {
   const Array<float>& omega = hierarchy_.levels.back().op.omega;
   Workspace& work = work_.back();
+  // Each right-hand side takes the inverse of its own condition; the other one is multiplied by 0.
   const auto add = [&](const Eigen::MatrixXf& inverse, const Block<K>& conditions) {
     for (Eigen::Index j = 0; j < inverse.cols(); ++j) {
       const Block<K> r = conditions * residual_of_step<K>(omega[j], work.s[j]);

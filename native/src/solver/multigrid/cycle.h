@@ -44,9 +44,9 @@ class Cycle {
     Blocks<K> s, u, t;  // the residual's step, the correction, intermediate values
   };
 
-  // From step() of level k to that of level k + 1.
+  // Computes step() of level k + 1 from that of level k.
   void restrict_residual(std::size_t k);
-  // From result() of level k + 1 to that of level k, and last(chunk, rows) as in run().
+  // Computes result() of level k from that of level k + 1, and calls last(chunk, rows) as run() does.
   template <class Last>
   void prolongate_and_smooth(std::size_t k, const Last& last) {
     const int rows = hierarchy_.levels[k].rows();

@@ -6,11 +6,11 @@
 namespace holomorph::solver {
 namespace {
 
-// Here coarsening ends, and a dense inverse is applied: about 30 us.
+// Coarsening ends at this size, where applying a dense inverse takes about 30 us.
 constexpr int kCoarsest = 250;
-// A step that leaves more than this part of the vertices has met a graph without strong edges.
+// Coarsening also ends if a step leaves more than this part of the vertices: such a graph has no strong edges.
 constexpr double kSlowest = 0.9;
-// Up to here a dense inverse is still possible where coarsening ended early.
+// The largest dense inverse, where coarsening ended early.
 constexpr int kLargestDense = 2000;
 // Entries of a row of P, finest level and below: the fewest that keep the number of iterations.
 constexpr int kFinestEntries = 2, kCoarseEntries = 3;
@@ -46,6 +46,7 @@ Hierarchy make_hierarchy(const Laplacian& L, const std::vector<int>& fixed, Exec
     fine.P = interpolation(fine.op, coarse, levels.size() == 1 ? kFinestEntries : kCoarseEntries, execution);
     fine.R = transposed(fine.P, coarse.count);
     Operator next = coarse_operator(fine.op, coarse, fine.P, fine.R, execution);
+    // Only coarsening and interpolation need it.
     fine.op.largest = {};
     order_loops(fine, execution.workers());
     levels.push_back({std::move(next), {}, {}, {}, {}});

@@ -28,8 +28,9 @@ inline int coarse_rows_per_chunk(const Level& level) {
   return (level.R.size() + chunks - 1) / chunks;
 }
 
-/// One hierarchy serves both conditions. The fixed vertices of a level are among those of the level above, and their
-/// values are means of theirs alone. So functions that are 0 at the fixed vertices of a level are so on all.
+/// One hierarchy serves both conditions. The fixed vertices of a coarse level are fixed on the finer one, too, and a
+/// fixed vertex takes its value from fixed ones alone. So a function that is 0 at the fixed vertices of one level is 0
+/// at those of all.
 struct Hierarchy {
   std::vector<Level> levels;  ///< finest first
   CoarsestInverse coarsest;

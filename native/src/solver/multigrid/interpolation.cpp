@@ -9,7 +9,7 @@
 namespace holomorph::solver {
 namespace {
 
-// Neighbours of at most this part of the largest weight say nothing about the value at a vertex.
+// Neighbours whose weight is at most this part of the largest one are left out of the mean at a vertex.
 constexpr float kWeak = 0.1F;
 // Weights of P but the largest are multiples of the inverse; half of single precision is left for sums of them.
 constexpr int kWeightSteps = 1 << 20;
@@ -91,6 +91,7 @@ void write_row(const Largest<Most>& sums, Entry* row) {
     row[k] = {steps > 0 ? sums.vertex(k) : sums.vertex(0), static_cast<float>(steps) / kWeightSteps};
     left -= steps;
   }
+  // The largest weight takes what rounding leaves, so that the row sums to 1 exactly.
   row[0] = {sums.vertex(0), static_cast<float>(left) / kWeightSteps};
 }
 
@@ -104,6 +105,8 @@ EqualRows interpolation_rows(const Operator& fine, const Coarsening& coarse, Exe
     for (const auto [j, w] : fine.A[i]) {
       if (w <= kWeak * fine.largest[i] || !may_follow(fine, i, j)) continue;
       const CNeighbours& next = neighbours[j];
+      // Extended+i: an F-neighbour j is replaced by (w x_i + sum_k w_jk x_k) / (w + sum_k w_jk). The part of x_i goes
+      // to the left side, and scaling the row to 1 accounts for it. A C-neighbour stands for itself.
       const float part = w / (next.is_F * w + next.total);
       for (int k = 0; k < kCNeighbours; ++k) sums.add(next.vertex[k], part * next.weight[k]);
     }

@@ -7,8 +7,8 @@ namespace holomorph::solver {
 
 /// P, n x #C: extended+i interpolation (De Sterck, Falgout, Nolting & Yang 2008, doi:10.1002/nla.559). The value at an
 /// F-point i is a mean over its neighbours. A neighbour that is an F-point is replaced by a mean over its own
-/// C-neighbours and i. The sum is solved for the value at i. Positive weights alone, and of the result the `most`
-/// largest entries.
+/// C-neighbours and i. The sum is solved for the value at i. Only positive weights are used, and only the `most`
+/// largest entries of the result are kept.
 ///
 /// Every row sums to 1 exactly: all weights but the largest are multiples of 2^-20. Then constants are interpolated
 /// exactly, and the rounding of a large weight of a sliver does not become a coupling on the coarse level. The row of a

@@ -110,6 +110,7 @@ Operator coarse_operator(const Operator& fine, const Coarsening& coarse, const E
     RowMeasures measures;
     sums.take([&](int J, double sum) {
       const auto weight = static_cast<float>(sum);
+      // The diagonal is not stored: rows sum to 0 (coarsening.h).
       if (J == I || weight == 0) return;
       part.push_back({J, weight});
       measures.add(weight);

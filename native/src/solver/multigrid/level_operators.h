@@ -6,13 +6,13 @@
 
 namespace holomorph::solver {
 
-/// The weights of L without those that are only rounding.
+/// Takes over the weights of L, without those that are only rounding.
 /// @param fixed one flag per vertex, or empty for none
 /// @throws std::bad_alloc, Cancelled
 Operator finest_operator(const Laplacian& L, Array<char> fixed, Execution& execution);
 
-/// P^T A P, summed in double precision, in the form of differences, as its rows sum to 0. A coarse vertex is fixed
-/// where its C-point is.
+/// Computes P^T A P, summed in double precision. It is kept as differences, since its rows sum to 0. A coarse vertex is
+/// fixed where its C-point is.
 /// @param P interpolation() @param R its transpose
 /// @throws std::bad_alloc, Cancelled
 /// Cost: linear, in parallel.

@@ -50,7 +50,7 @@ class MultigridSolver final : public LaplaceSolver {
  private:
   static constexpr double kSetUp = 0.3;  // part of the whole work, for the progress function
 
-  // From here on vertices have the numbers of the solver's own order, where the given one is scattered.
+  // Renumbers the vertices breadth first, if the given order is scattered.
   void renumber(Execution& execution) {
     if (!is_scattered(L_)) return;
     order_ = breadth_first_order(L_, execution);
@@ -61,7 +61,7 @@ class MultigridSolver final : public LaplaceSolver {
     std::sort(fixed_.begin(), fixed_.end());
   }
 
-  // `compute` of the right-hand sides in the solver's order, back in the given one.
+  // Applies `compute` to the right-hand sides in the solver's order, and returns the result in the given order.
   template <class Compute>
   Solution in_order(const Eigen::MatrixXd& B, const Compute& compute) {
     if (order_.empty()) return compute(B);
@@ -97,6 +97,7 @@ class MultigridSolver final : public LaplaceSolver {
   }
 
   void fall_back(const SolverError& error, Execution& execution) {
+    // The direct solver takes the Laplacian. The hierarchy is dropped first, since both need much memory.
     remark_ = std::string("the direct solver took over: ") + error.what();
     hierarchy_ = {};
     direct_ = make_direct_solver(std::move(L_), fixed_, execution);

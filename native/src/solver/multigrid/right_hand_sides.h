@@ -7,9 +7,9 @@
 
 namespace holomorph::solver {
 
-/// With the Dirichlet condition nothing is asked of x at a fixed vertex. With the natural one the mean is left out, the
-/// part of the rounding that no x can answer for. A value, to be captured as one: loops over it write doubles, behind
-/// which the compiler would look for each pointer and sum anew.
+/// With the Dirichlet condition nothing is asked of x at a fixed vertex. With the natural one the mean is subtracted:
+/// it is rounding, and no x solves for it. To be captured by value: loops over it write doubles, and the compiler would
+/// otherwise reload the pointers and sums after each write.
 template <int K>
 struct RightHandSides {
   std::array<const double*, K> columns;

@@ -54,13 +54,13 @@ void for_row_chunks(int rows, Execution& execution, const Body& body) {
   }
 }
 
-/// The matrix whose chunks of rows have these entries.
+/// Builds the matrix whose chunks of rows have these entries.
 /// @param ends #rows, of each row in its chunk's part
 SparseRows joined(Array<int>&& ends, const std::vector<std::vector<Entry>>& parts, Execution& execution);
 
 /// A matrix with `rows` rows, built in parallel: make_row(thread, i, part) appends the entries of row i to `part`. It
-/// lies in memory chunk by chunk, in each the shortest rows first. A loop whose number of rounds changes from row to
-/// row costs more by the processor's wrong guesses of its end than by its work.
+/// lies in memory chunk by chunk, in each the shortest rows first. Where the lengths of rows alternate, mispredicted
+/// ends of the loop over a row cost more than its work.
 /// @param make_row its result must not depend on the thread @throws std::bad_alloc, Cancelled
 template <class MakeRow>
 SparseRows build_rows(int rows, Execution& execution, const MakeRow& make_row) {
@@ -75,7 +75,7 @@ SparseRows build_rows(int rows, Execution& execution, const MakeRow& make_row) {
   return joined(std::move(ends), parts, execution);
 }
 
-/// The transpose, without zeros; entries of a row ascending. Cost: two passes over the entries, one thread.
+/// Returns the transpose, without zeros; entries of a row ascending. Cost: two passes over the entries, one thread.
 SparseRows transposed(const EqualRows& M, int columns);
 
 }  // namespace holomorph::solver

@@ -7,7 +7,7 @@
 namespace holomorph::solver {
 namespace {
 
-// Up to here a block of 8 right-hand sides is 1 MB.
+// The largest size at which a block of 8 right-hand sides fits into 1 MB, and any order will do.
 constexpr int kCached = 32'768;
 // An entry is far from a row where it is further than this from all entries of the row: another page of memory.
 constexpr int kFar = 256;

@@ -7,9 +7,9 @@ namespace holomorph::solver {
 namespace {
 
 constexpr int kLeft = std::numeric_limits<int>::max();
-// Fewer chunks leave too many between two segments.
+// The fewest chunks in a segment: with fewer, too many chunks need another segment.
 constexpr int kShortestSegment = 32;
-// So that a thread which comes late leaves work to the others.
+// Segments for each thread: more than one, so that others can take work from a thread that comes late.
 constexpr int kSegmentsPerThread = 2;
 
 // After which chunk of the first loop a chunk may be done, given those times for the loop before; kLeft if it needs
@@ -59,6 +59,7 @@ Wavefront::Wavefront(int chunks, const std::vector<ChunkNeeds>& needs, int threa
     std::vector<std::vector<Step>> at(end - begin);
     for (int loop = 0; loop < static_cast<int>(time.size()); ++loop) {
       for (int c = begin; c < end; ++c) {
+        // A chunk of a later loop follows, in its segment, as soon as the last chunk that it needs is done.
         time[loop][c] = loop == 0 ? c : ready(c, needs[loop - 1][c], time[loop - 1], begin, end);
         if (time[loop][c] != kLeft) at[time[loop][c] - begin].push_back({loop, c});
       }

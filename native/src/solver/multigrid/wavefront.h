@@ -1,4 +1,5 @@
-// Several loops over the same rows, each begun before the one before is over, while its rows are still in the cache.
+// Several loops over the same rows, interleaved: each starts before the previous one has ended, while its rows are
+// still in the cache.
 #pragma once
 
 #include <vector>
@@ -10,11 +11,11 @@ namespace holomorph::solver {
 /// For every chunk of a loop the chunks of the loop before whose results it reads.
 using ChunkNeeds = std::vector<std::vector<int>>;
 
-/// The chunks of kChunkRows that the rows of M have columns in, for `chunks` chunks of `each` rows.
+/// Lists the chunks of kChunkRows in which the rows of M have columns, for `chunks` chunks of `each` rows.
 /// Cost: linear, in parallel.
 ChunkNeeds chunk_needs(const SparseRows& M, int each, int chunks, Workers& workers);
 
-/// With the inverse relation: chunk d among those of c where c is among those of d.
+/// Adds the inverse relation: where d needs c, c needs d, too.
 ChunkNeeds symmetrised(const ChunkNeeds& needs);
 
 /// The order in which the chunks of several loops are done. Every thread goes through segments of consecutive chunks.

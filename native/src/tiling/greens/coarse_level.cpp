@@ -25,7 +25,8 @@ std::vector<int> inverse(const std::vector<int>& order) {
   return place;
 }
 
-// The triangles of a surface, its vertices in a given order.
+// Renumbers the vertices of a surface in a given order. Triangles begin with their lowest vertex and are sorted, so
+// that their order does not depend on the surface's either.
 mesh::Surface renumbered(const mesh::Surface& surface, const std::vector<int>& order, Execution& execution) {
   const std::vector<int> place = inverse(order);
   std::vector<std::array<double, 3>> vertices;
@@ -50,6 +51,7 @@ CoarseLevel level_of(const mesh::Surface& surface, const std::vector<int>& order
   std::vector<int> vertex, collapsed(surface.vertex_count);
   for (int v = 0; v < level->vertex_count; ++v) vertex.push_back(order[levels.vertex_index[v]]);
   const std::vector<int> map = progressive::vertex_map(levels, splits);
+  // vertex_index leads from the progressive mesh to `all`, `order` from there to the surface.
   for (std::size_t v = 0; v < map.size(); ++v) collapsed[order[levels.vertex_index[v]]] = map[v];
   return {std::move(level), std::move(vertex), std::move(collapsed)};
 }
@@ -75,6 +77,7 @@ std::vector<std::vector<int>> large_polygons(const mesh::Surface& surface, const
 CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution) {
   if (surface->intrinsic()) return the_surface_itself(surface);
   try {
+    // Vertices in an order of space, so that the level does not depend on the order of the mesh's elements.
     CoarseLevel level = level_of(*surface, mesh::spatial_order(surface->polygons.vertices), execution);
     level.large_polygons = large_polygons(*surface, level.vertex);
     return level;

@@ -1,4 +1,4 @@
-// A level of the progressive mesh on which poles are looked for: its vertices are vertices of the surface.
+// A level of the progressive mesh on which poles are searched for. Its vertices are vertices of the surface.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace holomorph::tiling {
 
-/// From this many triangles on poles are looked for on a level of about as many.
+/// On a surface with more triangles, poles are searched for on a level of about this many.
 inline constexpr int kLevelTriangles = 10'000;
 
 struct CoarseLevel {
@@ -23,8 +23,9 @@ struct CoarseLevel {
   bool is_whole(const mesh::Surface& all) const { return surface->triangles.size() == all.triangles.size(); }
 };
 
-/// Numbered by the positions of the vertices, so that the poles do not depend on how the surface numbers them. All its
-/// triangles where it is small; the surface itself where it is intrinsic or has no progressive mesh. @throws Cancelled
+/// Makes the coarse level of a surface. Its vertices are numbered by their positions, so that the poles do not depend
+/// on the surface's numbers. A small surface keeps all its triangles. An intrinsic surface, or one without a
+/// progressive mesh, is its own level. @throws Cancelled
 CoarseLevel coarse_level(const std::shared_ptr<const mesh::Surface>& surface, Execution& execution);
 
 }  // namespace holomorph::tiling

@@ -30,6 +30,7 @@ MatrixXcd GreensFunctions::at(const std::vector<int>& vertices, int every) const
   MatrixXcd values(rows, static_cast<Index>(vertices.size()));
   for (Index i = 0; i < values.cols(); ++i)
     values.col(i) = known_.at(basis_->solved_vertex(vertices[static_cast<std::size_t>(i)]))(wanted);
+  // Solved for on the level: A belongs to the frames of its triangles.
   if (basis_->from_level().size() == 0) return values;
   return basis_->from_level()(wanted).asDiagonal() * values;
 }

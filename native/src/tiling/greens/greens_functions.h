@@ -11,25 +11,29 @@
 
 namespace holomorph::tiling {
 
-/// Those of the vertices that were solved for. Has to be solved for before a parallel region, and is const in it.
+/// The Green's functions of the vertices that were solved for. Call `solve_at` before a parallel region: all other
+/// members are const.
 class GreensFunctions {
  public:
   explicit GreensFunctions(std::shared_ptr<const PoleBasis> basis) : basis_(std::move(basis)) {}
 
-  /// Those of the surface whose coarse level these are on, which are given up for them: each takes memory.
+  /// Takes these functions, on a coarse level, for those of its surface. This object is left without any, to save
+  /// memory.
   GreensFunctions on(std::shared_ptr<const PoleBasis> surface) &&;
 
   const PoleBasis& basis() const { return *basis_; }
   const std::shared_ptr<const PoleBasis>& shared_basis() const { return basis_; }
 
-  /// Solves for those at these vertices that are not there yet, kGreensBlock at a time. @throws SolverError, Cancelled
+  /// Solves for the functions of these vertices that are missing, kGreensBlock at a time. @throws SolverError,
+  /// Cancelled
   void solve_at(const std::vector<int>& vertices, Execution& execution);
 
-  /// #samples x #vertices: A of the differentials with the residue 1 at each vertex and v single-valued. With boundary,
-  /// v = 0 there. Closed, the residue -1 is spread over the area, and cancels where residues sum to 0.
-  /// @param every only so many-th samples are wanted. @pre solved for
+  /// Returns A, #samples x #vertices, of the differentials with the residue 1 at each vertex and v single-valued. With
+  /// boundary, v = 0 there. Closed, the residue -1 is spread over the area, and cancels where residues sum to 0.
+  /// @param every stride: returns every so many-th sample. @pre `solve_at` was called for these vertices
   MatrixXcd at(const std::vector<int>& vertices, int every = 1) const;
-  /// #samples x #free residues: the same; closed, each against the last vertex, whose residue is minus their sum.
+  /// Returns the same for the free residues, #samples x #free residues: on a closed surface each function minus that of
+  /// the last vertex, whose residue is minus the sum of the others.
   MatrixXcd pole_forms(const std::vector<int>& vertices, int every = 1) const;
 
  private:

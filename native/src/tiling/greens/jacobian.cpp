@@ -8,6 +8,7 @@ Jacobian::Jacobian(const PoleBasis& basis) : basis_(basis) {
   const auto& theta = basis.structure().differentials;
   MatrixXcd both(theta.rows(), 2 * theta.cols());
   both << theta, theta.conjugate();
+  // theta_j and conj(theta_j) are a basis of the complex classes: X = theta c + conj(theta) t.
   split_ = both.inverse();
   inverse_wedge_ = basis.structure().topology.pairing.cast<double>().inverse();
   const auto& triangles = basis.surface().triangles;
@@ -27,8 +28,9 @@ MatrixXcd Jacobian::abel_jacobi_derivatives(const std::vector<int>& triangles) c
   return inverse_wedge_ * basis_.derivatives(triangles).transpose();
 }
 
-// X loses r Re(D dz), D the derivative. The pairing of a class with theta_j is linear in its (0,1) part, and that of
-// J^-1 h(dz) is theta_j(dz): so t follows dz alone, and conj(D) is in the span of the theta_j.
+// X loses r Re(D dz), D the derivative of the Abel-Jacobi map. The pairing of a class with theta_j sees its (0,1) part
+// alone, and for J^-1 h(dz) it is theta_j(dz). So t depends on dz, not on its conjugate, and the real part of D is
+// enough.
 MatrixXcd Jacobian::tau(const std::vector<int>& triangles) const {
   const auto g = basis_.form_count();
   return -(split_.bottomRows(g) * abel_jacobi_derivatives(triangles).real().cast<Complex>());

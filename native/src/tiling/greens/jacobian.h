@@ -7,9 +7,9 @@
 
 namespace holomorph::tiling {
 
-/// On a closed surface with handles. A closed form with the integer periods X besides its poles is sum_j c_j theta_j +
-/// sum_j t_j conj(theta_j). It is conformal if t = 0. Moving a pole of residue r by dz (z along side 0 of its triangle)
-/// changes t by r tau dz.
+/// The Jacobian on a closed surface with handles. A closed form with the integer periods X besides its poles is sum_j
+/// c_j theta_j + sum_j t_j conj(theta_j). It is conformal if t = 0. Moving a pole of residue r by dz (z along side 0 of
+/// its triangle) changes t by r tau dz.
 class Jacobian {
  public:
   /// @pre the basis outlives this
@@ -23,7 +23,7 @@ class Jacobian {
   /// g x #triangles: tau on each.
   MatrixXcd tau(const std::vector<int>& triangles) const;
 
-  /// The first triangle at each vertex, which stands for it.
+  /// Returns the first triangle at each vertex, which stands for the vertex.
   std::vector<int> triangles_at(const std::vector<int>& vertices) const;
 
  private:
@@ -33,8 +33,8 @@ class Jacobian {
   MatrixXcd split_;
 };
 
-/// The Gram matrix W of conj(theta_j) in the mean of |q / theta_0|^2: the mean of theta_j conj(theta_k) / |theta_0|^2
-/// over the samples, theta_0 floored at 1e-4 of its mean square.
+/// Computes the Gram matrix W of conj(theta_j) in the mean of |q / theta_0|^2: the mean of theta_j conj(theta_k) /
+/// |theta_0|^2 over the samples, theta_0 floored at 1e-4 of its mean square.
 MatrixXcd weighted_gram(const MatrixXcd& theta, const ArrayXd& density);
 
 }  // namespace holomorph::tiling

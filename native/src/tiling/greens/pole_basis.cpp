@@ -10,10 +10,10 @@
 namespace holomorph::tiling {
 namespace {
 
-// Beyond this weight less than nine digits of a flux are certain.
+// Beyond this weight a flux has less than nine certain digits.
 constexpr double kUncertain = 1e7;
 
-// The search for poles costs as much as it has samples.
+// Samples for each triangle, at most: the cost of the search for poles is proportional to them.
 constexpr int kSamplesPerTriangle = 2;
 
 // The largest triangle at each vertex.
@@ -63,8 +63,10 @@ PoleBasis::PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structu
   structure_.surface = std::move(surface);
   const std::vector<int> triangle_at = largest_triangles(this->surface());
   const mesh::Surface& coarse = on_level_->surface();
+  // A sample of the level is a triangle of the level. The largest triangle at its first vertex stands for it.
   for (const int t : on_level_->samples()) samples_.push_back(triangle_at[level.vertex[coarse.triangles[t][0]]]);
-  // A (e_x + i e_y) there is the nearest to that here where A is multiplied by the product of the frames.
+  // The vector A (e_x + i e_y) of the level is nearest to one of the surface's triangle if A is multiplied by this
+  // product of the frames.
   const MatrixXcd there = uv::tangent_frames(coarse, on_level_->samples()),
                   here = uv::tangent_frames(this->surface(), samples_);
   from_level_ = (here.conjugate().cwiseProduct(there)).colwise().sum().transpose() / 2;
@@ -84,6 +86,7 @@ void PoleBasis::solve(const structure::Options& options, Execution& execution) {
   structure_.harmonic.functions = std::make_shared<const forms::RowMajorMatrix>(surface().vertex_count, 0);
   holomorphic_.M.resize(static_cast<Index>(samples_.size()), 0);
   holomorphic_.N = holomorphic_.M;
+  // A surface without forms needs no solver: its Green's functions come from the level.
   if (families.natural == 0 && on_level_) return;
   const int right_hand_sides = families.count() + (on_level_ ? 0 : kGreensBlock);
   solver_ = std::make_shared<const Solver>([=, this](Execution& asking) {
@@ -102,6 +105,8 @@ void PoleBasis::solve(const structure::Options& options, Execution& execution) {
 MatrixXcd PoleBasis::solve_greens(const std::vector<int>& vertices, Execution& execution) const {
   if (on_level_) return on_level_->solve_greens(vertices, execution);
   MatrixXd B(static_cast<Index>(vertex_share_.size()), static_cast<Index>(vertices.size()));
+  // L v = delta - share of the area: on a closed surface the right-hand side sums to 0. With boundary v = 0 there takes
+  // the rest.
   if (closed())
     B.colwise() = -Eigen::Map<const VectorXd>(vertex_share_.data(), B.rows());
   else

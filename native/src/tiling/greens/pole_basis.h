@@ -19,14 +19,14 @@ namespace holomorph::tiling {
 /// Green's functions that are solved for at a time.
 inline constexpr int kGreensBlock = 32;
 
-/// Everything is on the surface's own triangles, and does not change: threads may ask side by side.
+/// Everything belongs to the surface's own triangles. Immutable: several threads may use one.
 class PoleBasis {
  public:
   using Solver = Lender<structure::HarmonicSolver>;
 
   /// @pre connected, no isolated vertices. @throws SolverError, Cancelled
   PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options, Execution& execution);
-  /// Samples a large surface where its coarse level is sampled, and takes the level's Green's functions for its own.
+  /// Samples a large surface where its coarse level is sampled, and uses the level's Green's functions.
   PoleBasis(std::shared_ptr<const mesh::Surface> surface, const structure::Options& options,
             std::shared_ptr<const PoleBasis> on_level, const CoarseLevel& level, Execution& execution);
   PoleBasis(const PoleBasis&) = delete;
@@ -53,21 +53,22 @@ class PoleBasis {
   /// #triangles x #harmonic forms: h_x - i h_y of the harmonic forms on triangles, x along side 0.
   MatrixXcd derivatives(const std::vector<int>& triangles) const;
 
-  /// The vertex where the Green's function of a vertex is solved for: itself, or on the level what it collapsed into.
+  /// The vertex whose Green's function is solved for instead: itself, or the vertex of the level that it was collapsed
+  /// into.
   int solved_vertex(int vertex) const { return on_level_ ? level_vertex_[vertex] : vertex; }
   /// #samples x #vertices: A of the Green's functions of such vertices, in the frames of the level where there is one.
   /// @throws SolverError, Cancelled
   MatrixXcd solve_greens(const std::vector<int>& solved_vertices, Execution& execution) const;
-  /// #samples: what takes A from the frames of the level to those of the surface; empty without a level.
+  /// #samples, factors that take A from the frames of the level to those of the surface; empty without a level.
   const VectorXcd& from_level() const { return from_level_; }
 
-  /// What solves on the surface's own triangles; null where nothing has to be solved for.
+  /// The solver on the surface's own triangles; null where nothing has to be solved for.
   const std::shared_ptr<const Solver>& solver() const { return solver_; }
 
-  /// Whether rounding is not seen in the fluxes beside a vertex: its neighbours have no large weights. Elsewhere no
-  /// pole is placed.
+  /// Whether the fluxes beside a vertex are free of large rounding errors: its edges and its neighbours' have no large
+  /// weights. No pole is placed elsewhere.
   bool is_certain(int vertex) const { return uncertain_.empty() || !uncertain_[vertex]; }
-  /// Whether a pole may be at a vertex that has no others around. @param allowed #V; empty: anywhere
+  /// Whether a pole may be at a vertex, if no other pole is near. @param allowed #V; empty: anywhere
   bool is_place(int vertex, const std::vector<char>& allowed) const;
 
  private:

@@ -29,8 +29,8 @@ AbelJacobi::AbelJacobi(const PoleBasis& basis, Execution& execution)
   dual_potentials_.setZero(count, n);
   rounding_.assign(count, 0.0);
   std::vector<char> reached(count, 0);
-  // Fluxes through edges of large weight drown in rounding: these are crossed where there is no other way. The others
-  // in the order in which they are come upon.
+  // A tree of dual paths from triangle 0. Fluxes through edges of large weight drown in rounding, so these are crossed
+  // only where there is no other way. Other edges are crossed in the order in which they are found.
   using Crossing = std::tuple<double, int, HalfedgeHandle>;
   std::priority_queue<Crossing, std::vector<Crossing>, std::greater<>> crossings;
   int seen = 0, done = 0;
@@ -50,6 +50,7 @@ AbelJacobi::AbelJacobi(const PoleBasis& basis, Execution& execution)
     const int parent = mesh::face_of(half_edges, h), child = mesh::face_of(half_edges, opposite(h));
     if (reached[child]) continue;
     const double weight = basis.weights()[edge_of(h)];
+    // Across an edge the potential of *h_j changes by the flux k h_j.
     dual_potentials_.row(child) = dual_potentials_.row(parent) + weight * along(opposite(h));
     rounding_[child] = rounding_[parent] + rounding_of(weight);
     reach(child);
@@ -94,6 +95,8 @@ VectorXd AbelJacobi::computed(int vertex) const {
   };
   double rounding =
       rounding_[mesh::face_of(half_edges, opposite(star.link[0]))] + rounding_of(outer_weight(star.link[0]));
+  // P_j = <u_s, h_j> - b_u . h_j. First the class of u_s, along the dual path from the star's link[0]; then d(u_s) on
+  // the edges that leave the link; then b_u, with h_j measured from the pole.
   Eigen::RowVectorXd P = dual_potentials_.row(mesh::face_of(half_edges, opposite(star.link[0]))) +
                          outer_weight(star.link[0]) * along(star.link[0]);
   for (std::size_t j = 0; j < star.size(); ++j) {

@@ -13,15 +13,15 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr int kSteps = 40;                          // at most, in Newton's method
-constexpr double kDone = 1e-8;                      // rms |mu| that is nothing
-constexpr double kStride = 0.03;                    // longest step, in square roots of the area
-constexpr double kShortest = 1e-9;                  // step that is nothing, likewise
-constexpr double kDamping = 1e-6;                   // relative
-constexpr double kGain = 1e-9;                      // relative, of the squared defect: less is no gain
+constexpr double kDone = 1e-8;                      // rms |mu| that counts as 0
+constexpr double kStride = 0.03;                    // longest step, in square roots of the area: J changes with faces
+constexpr double kShortest = 1e-9;                  // shortest step, in the same unit
+constexpr double kDamping = 1e-6;                   // of J J^T, relative to its mean diagonal entry
+constexpr double kGain = 1e-9;                      // least relative fall of the squared defect in an exchange
 constexpr std::size_t kRounds = 12, kPairs = 2400;  // at most, that exchange pairs; and pairs in all rounds
-constexpr std::size_t kAround = 36;                 // vertices around a pole that are exchanged
+constexpr std::size_t kAround = 36;                 // vertices around a pole that it may be exchanged for
 
-// The poles while they move. One that has gone to a vertex is held there.
+// The poles while they move over the faces. `held_` marks those that are fixed at a vertex.
 class Moving {
  public:
   Moving(const JacobiInversion& inversion, const VectorXcd& periods, const VectorXcd& residues, const MatrixXcd& metric,
@@ -43,7 +43,7 @@ class Moving {
 
   LiftedPoles run() {
     newton();
-    for (const std::size_t i : by_effect()) {
+    for (const std::size_t i : by_effect()) {  // the largest first: those left can still cancel the error
       if (held_[i]) continue;
       hold(i);
       newton();
@@ -59,12 +59,12 @@ class Moving {
     return to_defect_ * X;
   }
 
-  // What a pole adds to the defect where its harmonic part is `part`.
+  // The part of a pole in the defect if its harmonic part is `part`.
   VectorXcd effect_of(std::size_t i, const VectorXd& part) const {
     return residues_[static_cast<Index>(i)] * (to_defect_ * part.cast<Complex>());
   }
 
-  // What a triangle has to do with the poles on it, found once.
+  // What the poles on a triangle have in common, found once.
   struct OnTriangle {
     VectorXcd derivative;  // the Abel-Jacobi map, differentiated
     VectorXcd tau;
@@ -91,7 +91,7 @@ class Moving {
     return order;
   }
 
-  // Steps of least length, minimal |J dz + defect|.
+  // Damped Newton steps: of all dz with minimal |J dz + defect|, the shortest one.
   void newton() {
     const double root = std::sqrt(basis_.area());
     std::vector<std::size_t> free;
@@ -107,7 +107,7 @@ class Moving {
       for (std::size_t f = 0; f < free.size(); ++f) {
         const VectorXcd l = effect_of_step(free[f]);
         const auto column = 2 * static_cast<Index>(f);
-        J.col(column) << l.real(), l.imag();
+        J.col(column) << l.real(), l.imag();  // the change is l dz, so i l for dz = i
         J.col(column + 1) << -l.imag(), l.real();
       }
       VectorXd residual(2 * g);
@@ -147,7 +147,7 @@ class Moving {
     return all;
   }
 
-  // At the nearest vertex that can take it, else back where it was.
+  // Places the pole at the nearest corner that can be one, or else back where it was. Its part is exact there.
   void hold(std::size_t i) {
     const std::vector<int> others = corners_but(i, i);
     for (const int v : mesh::nearest_corners(basis_.surface(), points_[i])) {
@@ -179,7 +179,7 @@ class Moving {
     return list;
   }
 
-  void exchange_pairs() {
+  void exchange_pairs() {  // two poles have many more values than one, some of which nearly cancel the defect
     std::vector<std::vector<Neighbour>> near(held_.size());
     const std::size_t pairs = near.size() * near.size() / 2 + 1;
     for (std::size_t round = 0; round < std::clamp<std::size_t>(kPairs / pairs, 1, kRounds); ++round) {

@@ -9,7 +9,7 @@
 
 namespace holomorph::tiling {
 
-/// Poles at vertices, and the harmonic parts C there that the periods are meant with.
+/// Poles at vertices. C there is known modulo integers; `parts` are the representatives that the periods refer to.
 struct LiftedPoles {
   std::vector<int> vertices;
   std::vector<VectorXd> parts;  ///< C at each, 2g
@@ -18,11 +18,11 @@ struct LiftedPoles {
 struct MoveOptions {
   std::vector<char> allowed;   ///< #V, empty: anywhere
   double farthest = 0.12;      ///< how far a pole may go, in square roots of the area
-  std::vector<char> held;      ///< #poles: those that stay at their vertices; empty: none
+  std::vector<char> held;      ///< #poles, 1 for poles that stay at their vertices; empty: none
   std::function<void()> tick;  ///< called for each step; it may throw
 };
 
-/// What poles of a closed surface with handles are moved by.
+/// Moves the poles of a closed surface with handles.
 struct JacobiInversion {
   /// @pre the basis outlives this. @throws Cancelled
   JacobiInversion(const PoleBasis& surface, Execution& execution)
@@ -32,7 +32,7 @@ struct JacobiInversion {
   const AbelJacobi abel_jacobi;
   const Jacobian jacobian;
 
-  /// g x g: the covariance of the t that moving these poles by about 1 takes up.
+  /// Returns the covariance, g x g, of the t that moving these poles by about 1 can cancel.
   MatrixXcd reach(const std::vector<int>& vertices, const VectorXcd& residues) const;
 
   /// Moves the poles anywhere on the surface by Newton's method until t vanishes, or is as small as it becomes. Then

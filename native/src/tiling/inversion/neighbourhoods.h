@@ -8,7 +8,7 @@
 
 namespace holomorph::tiling {
 
-/// About `most` vertices around one, itself among them, the nearest along edges first. @pre closed
+/// Returns about `most` vertices around one, itself among them, the fewest edges away first. @pre the surface is closed
 std::vector<int> vertices_around(const mesh::HalfEdges& half_edges, int vertex, std::size_t most);
 
 /// Whether two ascending lists have nothing in common.

@@ -13,10 +13,10 @@ using mesh::edge_of;
 using mesh::HalfedgeHandle;
 using topology::IntegerForms;
 
-constexpr int kMantissa = 24;  // bits of a single precision number
+constexpr int kMantissa = 24;  // bits of the mantissa in single precision
 
-// The classes on the surface with some diagonals flipped, by closedness: a diagonal is known where two other sides of a
-// triangle are, and in every polygon some triangle has two sides of the polygon.
+// Returns the classes on the surface with some diagonals flipped. By closedness a diagonal is known once the two other
+// sides of a triangle are. In every polygon some triangle has two sides of the polygon, so that this ends.
 IntegerForms on_flipped(IntegerForms classes, const mesh::Surface& before, const mesh::Surface& after,
                         const mesh::HalfEdges& half_edges) {
   std::vector<int> pending;
@@ -42,7 +42,7 @@ IntegerForms on_flipped(IntegerForms classes, const mesh::Surface& before, const
   return classes;
 }
 
-// What X differs by from points of the lattice is taken away.
+// Takes the points of the lattice nearest to n + i m = X - sum r_i C_i as periods: the rest is rounding.
 SeamlessForm form_of(const structure::Structure& s, const VectorXcd& X, const VectorXcd& r,
                      const TextureLattice& lattice, bool straight) {
   const auto& families = s.topology.families;
@@ -54,13 +54,15 @@ SeamlessForm form_of(const structure::Structure& s, const VectorXcd& X, const Ve
       s.poles ? VectorXcd(s.poles->harmonic_part * r) : VectorXcd(VectorXcd::Zero(families.natural));
   for (Index j = 0; j < form.periods.size(); ++j) {
     const Complex period = X[j] - from_poles[j];
+    // Along straight loops v does not change, and periods are real.
     form.periods[j] =
         straight ? Complex(std::round(period.real() / lattice.a.real()) * lattice.a.real()) : lattice.nearest(period);
   }
   if (!s.topology.type.closed())
     p.head(families.harmonic()) = s.holomorphic().differentials * (form.periods + from_poles);
   p.head(families.natural) = form.periods;
-  // The v-periods of the handles.
+  // With straight loops the v-periods of the handles are those of the Dirichlet forms, i times real coefficients.
+  // Together with u they are points of the lattice.
   const int handles = straight ? 2 * s.topology.type.genus : 0;
   for (Index j = families.natural; j < families.natural + handles; ++j) {
     auto& u = form.periods[j - families.natural];
@@ -81,6 +83,7 @@ SeamlessMaps::SeamlessMaps(std::shared_ptr<const PoleBasis> basis, bool straight
   if (vertices.empty()) {
     structure_ = {basis_, &plain};
   } else if (basis_->closed()) {
+    // Any residues will do here: the maps take their own.
     poles.residues.back() = -static_cast<double>(vertices.size() - 1);
     set_up_closed(std::move(poles), options, execution);
     return;
@@ -134,6 +137,7 @@ void SeamlessMaps::cut_at(structure::Poles poles, Execution& execution) {
 
 SeamlessForm SeamlessMaps::form(const VectorXcd& X, const VectorXcd& residues, const TextureLattice& lattice) const {
   if (!solver_) return form_of(*structure_, change_ * X, residues, lattice, straight_);
+  // The residues sum to 0, so that the last pole has no form of its own.
   const VectorXcd r = residues.head(residues.size() - 1);
   VectorXcd periods = X - pole_parts_ * r;
   for (Complex& period : periods) period = lattice.nearest(period);
@@ -156,6 +160,7 @@ uv::UvArray SeamlessMaps::function(const SeamlessForm& form, Execution& executio
 
 MatrixXd change_of_basis(const topology::IntegerForms& old, const structure::Structure& s) {
   const int count = s.topology.families.natural;
+  // The periods of the old classes over the new loops, integers.
   MatrixXd N = MatrixXd::Zero(count, count);
   for (int i = 0; i < count; ++i) {
     for (const mesh::HalfedgeHandle h : s.topology.homology_basis[i]) {
@@ -180,10 +185,13 @@ uv::UvArray function_of(const structure::Structure& s, const SeamlessForm& form,
 uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, uv::UvArray function,
                         Execution& execution) {
   const auto& p = form.coefficients;
+  // Moves the map to the origin, where single precision is finest.
   const Eigen::RowVector2d middle = (function.colwise().maxCoeff() + function.colwise().minCoeff()) / 2;
   function.rowwise() -= middle.array().round().matrix();
   uv::UvArray uv(static_cast<Index>(s.surface->polygons.corner_vertices.size()), 2);
   structure::write_uv_map(s, function, p, uv, execution.workers());
+  // The spacing of single precision at the largest coordinate, known after a first pass. On this grid UVs that jump by
+  // whole units are exact in single precision.
   const double grid = std::exp2(std::ceil(std::log2(uv.cwiseAbs().maxCoeff())) - kMantissa);
   function = (function / grid).array().round() * grid;
   structure::write_uv_map(s, function, p, uv, execution.workers());

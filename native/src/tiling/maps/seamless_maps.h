@@ -17,8 +17,8 @@ struct SeamlessForm {
   VectorXcd coefficients;  ///< for the harmonic forms
 };
 
-/// The maps with poles at given vertices. On a closed surface the function of each is solved for, and no basis of
-/// forms; else it is a combination of those of a structure. Does not change: threads may ask side by side.
+/// The maps with poles at given vertices. On a closed surface the function of each map is solved for, without a basis
+/// of forms. With boundary it is a combination of the functions of a structure. Immutable: several threads may use one.
 class SeamlessMaps {
  public:
   /// @param straight u of the loops of a boundary is rounded alone
@@ -30,13 +30,13 @@ class SeamlessMaps {
   SeamlessMaps(const SeamlessMaps&) = delete;
   SeamlessMaps& operator=(const SeamlessMaps&) = delete;
 
-  /// On a closed surface with poles surface, topology and poles alone.
+  /// With poles on a closed surface, it has only surface, topology and poles.
   const std::shared_ptr<const structure::Structure>& structure() const { return structure_; }
   /// #natural x #free residues: harmonic parts of the poles in the classes of the basis; closed, each against the last.
   const MatrixXd& pole_parts() const { return pole_parts_; }
 
-  /// @param X periods besides the poles in the classes of the basis; with boundary c. What they differ by from points
-  /// of the lattice is taken away
+  /// Returns the form whose periods are the points of the lattice nearest to those that X and the residues give. @param
+  /// X periods besides the poles, in the classes of the basis; with boundary c
   SeamlessForm form(const VectorXcd& X, const VectorXcd& residues, const TextureLattice& lattice) const;
   /// #V x 2. @throws SolverError, Cancelled
   uv::UvArray function(const SeamlessForm& form, Execution& execution) const;
@@ -58,15 +58,16 @@ class SeamlessMaps {
   std::shared_ptr<const PoleBasis::Solver> solver_;  // that of the basis where it has the same triangles
 };
 
-/// The natural classes of `old` over the loops of `s`, a structure of the same polygons: integers, #loops x #loops.
+/// Returns the periods of the natural classes of `old` over the loops of `s`, a structure of the same polygons:
+/// integers, #loops x #loops.
 MatrixXd change_of_basis(const topology::IntegerForms& old, const structure::Structure& s);
 
-/// #V x 2: the function of the form, from those of the forms of `s`.
+/// Returns the function of the form, #V x 2, a combination of those of the forms of `s`.
 uv::UvArray function_of(const structure::Structure& s, const SeamlessForm& form, Execution& execution);
 
-/// #C x 2: the UVs of the form with this function, moved by whole tiles to the middle of the plane. They are rounded to
-/// a grid of powers of two that single precision holds. So the two sides of a cut differ by their jump there, too,
-/// exactly.
+/// Returns the UVs, #C x 2, of the form with this function, moved by whole tiles to the middle of the plane. They are
+/// rounded to a grid of powers of two that single precision holds. So the two sides of a cut differ by their jump
+/// there, too, exactly.
 uv::UvArray seamless_uv(const structure::Structure& s, const SeamlessForm& form, uv::UvArray function,
                         Execution& execution);
 

@@ -31,7 +31,8 @@ float log2_of(float x) {
   return exponent + t * (1.44183587F + t * (-0.70837215F + t * (0.41355505F + t * (-0.19126251F + t * 0.04424374F))));
 }
 
-// The median of logarithms, to a part of a bin.
+// The median of logarithms of base 2, from a histogram, by interpolation inside its bin. Zero and infinity have bins,
+// too.
 float middle(const std::vector<float>& logarithms) {
   std::array<int, kBins> counts{};
   for (const float l : logarithms) ++counts[static_cast<int>((l + kBias + 1) * kBinsPerOctave)];
@@ -77,6 +78,7 @@ double CandidateScores::operator()(int vertex, Complex residue) const {
     const float u = a[i] + (re * x[i] - im * y[i]), v = b[i] + (re * y[i] + im * x[i]);
     l[i] = log2_of(u * u + v * v);
   }
+  // max(q, floor) in place of q + floor: in logarithms this needs no exponential.
   const float floor = middle(logarithms) + static_cast<float>(std::log2(uv::kDensityFloor));
   const Eigen::ArrayXf above = Eigen::Map<const Eigen::ArrayXf>(l, count).max(floor) - floor;
   return kOctave * kOctave * (above - above.mean()).square().mean();

@@ -1,4 +1,4 @@
-// What candidates for poles are told apart by: quick to compute, and in the order of what it stands for.
+// Scores that rank candidates for poles: quick to compute, and nearly in the order of their unevenness.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,11 +10,12 @@
 
 namespace holomorph::tiling {
 
-/// Variances of the logarithm of a density, in single precision, by a polynomial. The floor is a bound below the
-/// median, which is known to a quarter of an octave. Some 1e-3 from `unevenness`, at a tenth of its time.
+/// Variances of the logarithm of a density, in single precision, the logarithm by a polynomial. Densities are cut off
+/// below the floor, which is relative to a median from a histogram. Some 1e-3 from `unevenness`, in a tenth of its
+/// time.
 class CandidateScores {
  public:
-  /// @param every of the samples every so many-th is used. @param mirror null, or each pole comes with its image
+  /// @param every stride: every so many-th sample is used. @param mirror null, or each pole comes with its image
   /// @pre these outlive this
   CandidateScores(const GreensFunctions& greens, int every, const Mirror* mirror = nullptr)
       : greens_(greens), every_(every), mirror_(mirror) {}
@@ -22,12 +23,12 @@ class CandidateScores {
   /// Looks up the Green's functions of these vertices, and of their images. @pre they were solved for
   void prepare(const std::vector<int>& vertices);
 
-  /// A on the samples used, of what is the same for all candidates. @param A on these samples
-  /// @param median of a density that is near those of the candidates
+  /// Sets the part of the form that all candidates share. @param A on the samples used
+  /// @param median of a density near those of the candidates
   void set_rest(const VectorXcd& A, double median);
 
-  /// The score of the rest and `residue` times the Green's function of a vertex, and its conjugate at the image.
-  /// Threads may ask side by side.
+  /// Returns the score of the shared part plus `residue` times the Green's function of a vertex; with a mirror, also
+  /// plus the conjugate residue at the image. Several threads may call it.
   /// @pre `prepare` was called for the vertex
   double operator()(int vertex, Complex residue) const;
 

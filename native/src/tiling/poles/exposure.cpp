@@ -11,10 +11,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kRays = 128;         // over the whole sphere, of which half are above a vertex
-constexpr double kLowest = 0.1;    // cosine with the normal: lower rays meet the faces around
-constexpr double kBegin = 0.0025;  // of the rays, in square roots of the area
+constexpr double kLowest = 0.1;    // least cosine with the normal: lower rays meet the faces around the vertex
+constexpr double kBegin = 0.0025;  // height above the vertex where rays begin, in square roots of the area
 
-// A Fibonacci lattice: nearly even.
+// Direction i of a Fibonacci lattice on the sphere, nearly evenly spread.
 Vector3d direction(int i) {
   const double z = 1 - (2 * i + 1.0) / kRays, radius = std::sqrt(1 - z * z);
   const double angle = 2 * std::numbers::pi * std::numbers::phi * i;

@@ -8,7 +8,7 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kLeast = 1e-200;  // relative
+constexpr double kLeast = 1e-200;  // least median, relative to the largest density
 constexpr double kNoLine = 1e-6;   // mean square of the cosine, below which it is rounding
 
 double quantile(std::vector<double>& values, double q) {
@@ -55,6 +55,8 @@ std::optional<double> phase_along(const std::array<double, 3>& axis, const Matri
                                 A.array().abs().max(std::numeric_limits<double>::min()).cast<Complex>();
   const Complex line = along.square().mean();  // as a line, without a sense
   if (std::abs(line) <= kNoLine * direction.squaredNorm()) return std::nullopt;
+  // Half the angle of the mean square is the direction of the line. Its sense is the one in which more of the surface
+  // runs.
   const Complex turn = std::polar(1.0, -std::arg(line) / 2);
   return std::arg((turn * along.sum()).real() < 0 ? -turn : turn);
 }
@@ -64,6 +66,7 @@ VectorXcd fitted_coefficients(const VectorXcd& wanted, const MatrixXcd& wanted_f
   MatrixXcd rows(3 * wanted.size(), forms.cols());
   VectorXcd right(3 * wanted.size());
   for (Index s = 0; s < wanted.size(); ++s) {
+    // Relative errors: the field counts alike where it is strong and where it is weak.
     const double weight = 1 / (std::abs(wanted[s]) + std::numeric_limits<double>::min());
     rows.middleRows(3 * s, 3) = weight * frames.col(s) * forms.row(s);
     right.segment(3 * s, 3) = weight * (wanted[s] * wanted_frames.col(s) - known[s] * frames.col(s));

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kAround = 36;  // vertices around a pole, of which one may be nearer to the plane
-constexpr double kNear = 1e-3;       // what their distance from the pole counts beside that from the plane
+constexpr double kNear = 1e-3;       // weight of their distance from the pole against that from the plane
 
 Vector3d position(const mesh::Surface& surface, int vertex) {
   return Vector3d(surface.polygons.vertices[vertex].data());
@@ -61,6 +61,7 @@ std::optional<Mirror> mirror(const PoleBasis& basis) {
   std::vector<int> nearest;
   for (int v = 0; v < surface.vertex_count; ++v)
     nearest.push_back(nearest_vertex(surface, tree, plane->image(position(surface, v))));
+  // Only vertices that are nearest to each other's reflection are images.
   for (int v = 0; v < surface.vertex_count; ++v) result.image[v] = nearest[nearest[v]] == v ? nearest[v] : -1;
   return result;
 }
@@ -73,15 +74,20 @@ Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_pol
   for (std::size_t i = 0; i < poles.size(); ++i) {
     const Index size = orbit_size(level_poles, static_cast<Index>(i), &on_level);
     const Vector3d at = position(surface, poles[i]);
+    // A pole that is its own image goes to the plane: of the vertices around it to the nearest one, near the pole where
+    // some are equally near.
     if (size == 1) {
       poles[i] = best_place(
           basis, allowed, vertices_around(basis.half_edges(), poles[i], kAround), poles, poles[i], [&](int v) {
             return std::abs(plane.height(position(surface, v))) + kNear * (position(surface, v) - at).norm();
           });
       result.image[poles[i]] = poles[i];
+      // Two poles that are images: the second goes to the vertex nearest to the image of the first, or to one around it
+      // that can be a pole.
     } else if (size == 2) {
       const Vector3d image = plane.image(at);
       const auto distance = [&](int v) { return (position(surface, v) - image).norm(); };
+      // A search of all vertices: there are only a few poles.
       int nearest = 0;
       for (int v = 1; v < surface.vertex_count; ++v) {
         if (distance(v) < distance(nearest)) nearest = v;
@@ -98,6 +104,7 @@ Mirror mirror_of_poles(const Mirror& on_level, const std::vector<int>& level_pol
 
 Index orbit_size(const std::vector<int>& poles, Index i, const Mirror* mirror) {
   const auto at = static_cast<std::size_t>(i);
+  // Images follow each other in the list: 2 at the first of the two, 0 at the second.
   if (!mirror || mirror->image[poles[at]] == poles[at]) return 1;
   return at + 1 < poles.size() && mirror->image[poles[at]] == poles[at + 1] ? 2 : 0;
 }

@@ -19,8 +19,9 @@ struct Mirror {
   bool is_on_plane(int vertex) const { return image[vertex] == vertex; }
 };
 
-/// The mirror of a closed surface of genus 0 that is its own mirror image up to a small distance, see
-/// mesh::mirror_plane; none for others. Each vertex and its image are the nearest to where the other is seen.
+/// Finds the mirror of a closed surface of genus 0 that is its own mirror image up to a small distance, see
+/// mesh::mirror_plane; none for others. A vertex and its image are each the vertex nearest to the reflection of the
+/// other.
 std::optional<Mirror> mirror(const PoleBasis& basis);
 
 /// Moves poles of a level to the mirror of its surface, where poles are allowed. A pole on the plane goes to the nearby

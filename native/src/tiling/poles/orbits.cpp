@@ -21,6 +21,7 @@ MatrixXcd symmetric_residues(const std::vector<int>& poles, const Mirror& mirror
     if (size == 0) continue;
     real.conservativeResize(Eigen::NoChange, real.cols() + 1);
     real.rightCols(1).setZero();
+    // Real parts of a pair are equal, imaginary parts opposite. A pole on the plane has a real residue.
     real.col(real.cols() - 1).segment(i, size).setConstant(1 / static_cast<double>(size));
     if (size == 1) continue;
     imaginary.conservativeResize(Eigen::NoChange, imaginary.cols() + 1);
@@ -45,6 +46,7 @@ MeromorphicForm without_last(MeromorphicForm form, Index size, bool closed) {
   const Complex last = form.residues.tail(size).sum();
   form.poles.resize(k);
   form.residues.conservativeResize(k);
+  // On a closed surface residues sum to 0: what is removed is shared by the rest.
   if (closed) form.residues.array() += last / static_cast<double>(k);
   return form;
 }

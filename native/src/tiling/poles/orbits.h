@@ -8,19 +8,19 @@
 
 namespace holomorph::tiling {
 
-/// The vertices and their images. @param mirror null: every pole is an orbit, here and below
+/// Returns the vertices and their images. @param mirror null: every pole is an orbit, here and below
 std::vector<int> with_images(std::vector<int> vertices, const Mirror* mirror);
 
-/// #poles x n: a real basis of the residues that are their own mirror image and sum to 0.
+/// Returns a real basis, #poles x n, of the residues that are their own mirror image and sum to 0.
 MatrixXcd symmetric_residues(const std::vector<int>& poles, const Mirror& mirror);
 
-/// Takes the first orbit to the end. @return its size
+/// Moves the first orbit to the end of the lists. @return its size
 Index first_to_last(MeromorphicForm& form, const Mirror* mirror);
 
-/// The form without its last `size` poles: the others share their residues where these have to sum to 0.
+/// Removes the last `size` poles; the others share their residues where the sum has to be 0.
 MeromorphicForm without_last(MeromorphicForm form, Index size, bool closed);
 
-/// The form with a pole more, and its image; the others share what they need where residues sum to 0.
+/// Adds a pole, and its image; the others share the opposite of its residue where the sum has to be 0.
 MeromorphicForm joined(MeromorphicForm form, int vertex, Complex residue, bool closed, const Mirror* mirror);
 
 }  // namespace holomorph::tiling

@@ -12,11 +12,11 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kApart = 0.06;  // poles are this far from each other, in square roots of the area
+constexpr double kApart = 0.06;  // least distance of two poles, in square roots of the area
 constexpr int kSpread = 200;     // candidates all over the surface
 constexpr int kOnPlane = 40;     // more of them on the plane of a mirror
-// Around a pole some of the vertices within each radius: of so many of all. Poles near to each other, and a pole that
-// moved, so have candidates in common, and few systems are solved.
+// Around a pole, candidates come from fixed subsets of all vertices, some {600, 1800, 5400} of them, within these
+// radii. So poles near each other, and a pole that moved, have candidates in common, and fewer systems are solved.
 constexpr std::pair<int, double> kAround[] = {{600, 0.15}, {1800, 0.08}, {5400, 0.04}};
 
 std::vector<int> evenly(const std::vector<int>& list, int count) {
@@ -39,10 +39,13 @@ std::vector<int> PoleCandidates::first() {
   if (!options_.allowed.empty()) return first_candidates();
   if (!basis_.closed()) return {structure::deepest_vertex(basis_.surface(), basis_.half_edges())};
   std::vector<int> pair = structure::far_apart(basis_.surface(), basis_.half_edges());
+  // far_apart() asks only that the stars are apart. Here poles also keep a distance, and are not corners of one large
+  // polygon.
   return free_ones({pair[1]}, {pair[0]}).empty() ? first_candidates() : pair;
 }
 
-// Two on the plane, the second far from the first; else a pair far apart. None where there is no room.
+// Two poles on the plane, the second far from the first; else the pair farthest from the plane. None where there is no
+// room.
 std::vector<int> PoleCandidates::first_mirrored() {
   const Mirror& mirror = *options_.mirror;
   std::vector<int> on_plane = everywhere({}), off_plane = on_plane;
@@ -66,7 +69,7 @@ std::vector<int> PoleCandidates::first_mirrored() {
   return {one, mirror.image[one]};
 }
 
-// Candidates far from each other.
+// The first poles where only some vertices are allowed: candidates far from each other.
 std::vector<int> PoleCandidates::first_candidates() {
   std::vector<int> poles;
   for (const std::size_t count = basis_.closed() ? 2 : 1; poles.size() < count;) {
@@ -94,7 +97,7 @@ std::vector<int> PoleCandidates::for_move(int vertex, const std::vector<int>& ot
   return free_ones(std::move(all), others);
 }
 
-// Corners of evenly spaced samples, inside where a triangle has one there.
+// A corner of each of some evenly spaced samples, the first that can be a pole.
 std::vector<int> PoleCandidates::spread() const {
   const mesh::Surface& surface = basis_.surface();
   std::vector<int> corners;
@@ -130,6 +133,7 @@ std::vector<int> PoleCandidates::near(int vertex) {
   std::vector<int> all;
   for (const auto& [most, ball] : kAround) {
     const double radius = ball * std::sqrt(basis_.area());
+    // The plane has few vertices: all of them are candidates there.
     const int step = on_plane ? 1 : 1 + (count - 1) / most;
     for (int v = 0; v < count; v += step) {
       if (distance[v] < radius && is_allowed(v) && may_replace(vertex, v)) all.push_back(v);
@@ -146,6 +150,7 @@ std::vector<int> PoleCandidates::free_ones(std::vector<int> candidates, const st
   std::set<int> opposite;  // in the large polygons of the others
   for (const int pole : others) {
     if (const auto found = polygons_at_.find(pole); found != polygons_at_.end()) {
+      // Diagonals are flipped away from poles, which two corners of one polygon do not allow.
       for (const int polygon : found->second)
         opposite.insert(options_.polygons[polygon].begin(), options_.polygons[polygon].end());
     }

@@ -13,9 +13,9 @@ struct PlaceOptions {
   uv::Coefficients kind = uv::Coefficients::complex;
   std::vector<char> allowed;                    ///< #V of the basis: may a pole be there; empty: anywhere
   std::vector<int> fixed;                       ///< poles that stay where they are
-  std::vector<std::vector<int>> polygons = {};  ///< vertices of which one may be a pole, beside faces of the surface
-  const Mirror* mirror = nullptr;               ///< poles lie as it says
-  bool evened = false;                          ///< the number of poles is to do for an evened map
+  std::vector<std::vector<int>> polygons = {};  ///< sets of vertices that, like a face, have room for one pole
+  const Mirror* mirror = nullptr;               ///< null, or poles lie in pairs and on its plane
+  bool evened = false;                          ///< the number of poles is to be enough for an evened map
 };
 
 /// Vertices are candidates where a pole is allowed, its star is apart from those of the other poles, and it is not too
@@ -25,13 +25,13 @@ class PoleCandidates {
   /// @pre both outlive this
   PoleCandidates(const PoleBasis& basis, const PlaceOptions& options);
 
-  /// Where a surface without forms has its first poles: two far apart on a closed one, one deep inside another.
+  /// Returns the first poles of a surface without forms: two far apart on a closed surface, one deep inside a disk.
   /// @throws TopologyError if there is no room
   std::vector<int> first();
-  /// Some 200 all over the surface, ascending.
+  /// Returns some 200 candidates all over the surface, ascending. @param others the poles of the form besides
   std::vector<int> everywhere(const std::vector<int>& others);
-  /// Those, and some around `vertex`, the more the nearer, which is none of them; ascending. With a mirror all are
-  /// on the plane, or none, as the vertex is.
+  /// Returns such candidates, and more of them near `vertex`, without `vertex` itself; ascending. With a mirror all are
+  /// on its plane if `vertex` is, else none.
   std::vector<int> for_move(int vertex, const std::vector<int>& others);
 
  private:
@@ -51,7 +51,7 @@ class PoleCandidates {
   const PoleBasis& basis_;
   const PlaceOptions& options_;
   std::map<int, std::vector<int>> polygons_at_;   // by vertex
-  std::map<int, std::vector<double>> distances_;  // along edges, from poles there have been
+  std::map<int, std::vector<double>> distances_;  // along edges, from all poles so far
 };
 
 }  // namespace holomorph::tiling

@@ -11,8 +11,8 @@
 
 namespace holomorph::tiling {
 
-constexpr double kWeight = 0.06;  // of the Jacobian beside the variance
-constexpr double kEnough = 0.4;   // singular values that are enough
+constexpr double kWeight = 0.06;  // of the Jacobian's term, against the variance
+constexpr double kEnough = 0.4;   // singular value at which the term is small
 // Least square of a singular value, relative to that: the term stays finite where no pole moves some part of t.
 constexpr double kLeastSquare = 6.25e-9;
 constexpr int kSteps = 25;      // at most, for the minimiser
@@ -40,10 +40,12 @@ void PoleObjective::prepare(const std::vector<int>& vertices, Index poles, Execu
 
 bool PoleObjective::has_many_forms() const { return theta_.cols() >= kManyForms; }
 
+// With fewer poles than forms the Jacobian has no full rank, wherever they are.
 bool PoleObjective::has_jacobian(Index poles) const { return jacobian_ && poles >= theta_.cols(); }
 
 void PoleObjective::optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const {
   if (!has_many_forms()) return descend_quickly(theta_, form, floors, tick);
+  // sum_j c_j theta_j stands for all theta_j, with one coefficient that scales and turns it.
   const VectorXcd c = form.coefficients;
   form.coefficients = VectorXcd::Ones(1);
   descend_quickly(theta_ * c, form, floors, tick);
@@ -63,6 +65,7 @@ void PoleObjective::descend(const MatrixXcd& forms, MeromorphicForm& form, const
   ArrayXd density;
   for (const double floor : floors) {
     density = (parts.M * unknowns(form)).cwiseAbs2().array();
+    // The floor is relative to the median, that of the minimiser to the mean.
     uv::descend(parts, kind_, x, {floor * median(density) / density.mean()}, steps, tick);
     set(uv::as_complex(x, kind_), form);
   }
@@ -102,6 +105,7 @@ MatrixXcd PoleObjective::columns(const MatrixXcd& forms, const std::vector<int>&
 
 VectorXcd PoleObjective::unknowns(const MeromorphicForm& form) const {
   if (mirror_) {
+    // The real coordinates of the residues in the basis of symmetric ones, by least squares.
     const MatrixXcd basis = symmetric_residues(form.poles, *mirror_);
     MatrixXd rows(2 * basis.rows(), basis.cols());
     VectorXd right(2 * basis.rows());
@@ -143,6 +147,7 @@ double PoleObjective::jacobian_term(const std::vector<int>& vertices, const Vect
   MatrixXcd S = V * V.adjoint();
   S += kLeastSquare * kEnough * kEnough * MatrixXcd::Identity(g, g);
   const MatrixXcd sum = S + kEnough * kEnough * MatrixXcd::Identity(g, g);
+  // The sum of log(1 + (kEnough / sigma)^2) is log det(S + kEnough^2) - log det S, without an eigenproblem.
   return kWeight / static_cast<double>(g) *
          (std::log(std::abs(sum.determinant())) - std::log(std::abs(S.determinant())));
 }

@@ -1,4 +1,5 @@
-// What poles are judged by: how even the density of the best form with them is, and what moving them can repair.
+// The objective of the search for poles: how uneven the density of the best form with them is, and how well moving them
+// can cancel defects.
 #pragma once
 
 #include <functional>
@@ -16,28 +17,31 @@ class PoleObjective {
  public:
   using Tick = std::function<void()>;
 
-  /// The Green's functions and the mirror outlive this. @param every of the samples every so many-th is used
+  /// @pre the Green's functions and the mirror outlive this. @param every stride: every so many-th sample is used
   /// @param mirror null, or forms stay their own mirror image
   PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1, const Mirror* mirror = nullptr);
 
   /// Solves for the Green's functions of these vertices, which the methods below look up.
-  /// @param poles how many a form has that is judged. @throws SolverError, Cancelled
+  /// @param poles number of poles of the forms to be judged. @throws SolverError, Cancelled
   void prepare(const std::vector<int>& vertices, Index poles, Execution& execution);
 
-  /// Whether `optimise` keeps the ratios of the coefficients, as each costs as much as a pole; `fit` does not.
+  /// Whether there are so many holomorphic forms that `optimise` keeps the ratios of their coefficients, each of which
+  /// costs as much as a pole. `fit` changes them all.
   bool has_many_forms() const;
-  /// The best form with these poles, from the coefficients given, and its objective, as a search needs it
-  /// (quick_variance.h). One for each floor of the density. @pre `prepare` was called for the poles, here and below
+  /// Finds the best form with these poles, from the coefficients given, and its objective, to the accuracy of a search
+  /// (quick_variance.h). Descends once for each floor of the density. @pre `prepare` was called for the poles, here and
+  /// below
   /// @param tick called every few milliseconds; it may throw
   void optimise(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
-  /// The same to double precision, with all coefficients free.
+  /// Does the same to double precision, with all coefficients free.
   void fit(MeromorphicForm& form, const std::vector<double>& floors, const Tick& tick) const;
 
-  /// A on the samples used.
+  /// Returns A on the samples used.
   VectorXcd samples_of(const MeromorphicForm& form) const;
-  /// The metric of a density with which the Jacobian of so many poles is measured; empty where it does not count.
+  /// Returns the metric in which the Jacobian of so many poles is measured, for a form of this density; empty where the
+  /// Jacobian does not count.
   MatrixXcd jacobian_metric(const ArrayXd& density, Index poles) const;
-  /// What the Jacobian adds to the variance of the density.
+  /// Returns the term that the Jacobian adds to the variance of the density.
   double jacobian_term(const std::vector<int>& vertices, const VectorXcd& residues, const MatrixXcd& metric) const;
 
  private:

@@ -22,18 +22,18 @@ constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is 
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 14, 16};
 constexpr double kEvenedWithout = 2.85, kEvened = 2.75;  // spread of the evened density
 constexpr double kHopefulEvened = 1.2 * kEvened;
-constexpr double kAllowed = 3;                             // of it, where hiding and a mirror cost some
-constexpr double kUsualValues = 30;                        // of the objective, in the last descent
+constexpr double kAllowed = 3;                             // the same, where hiding and a mirror have cost some
+constexpr double kUsualValues = 30;                        // usual evaluations of the objective in the last descent
 constexpr double kMirrorCosts = 1.25, kMirrorPoles = 1.5;  // at most, of the (evened) ratio, and of poles
-constexpr int kFewMirrored = 8;                            // so many poles that do are not compared with others
-constexpr double kWorth = 0.9;  // more poles are taken where the spread falls to this part of itself
+constexpr int kFewMirrored = 8;  // up to so many mirrored poles that are enough need no comparison
+constexpr double kWorth = 0.9;   // more poles are taken where the spread falls to this part of itself
 
-// Every so many-th of the samples is used in a search for so many poles.
+// The stride of the samples in a search for so many poles.
 int thinning(const GreensFunctions& greens, int count) {
   return count <= kFew && greens.basis().form_count() < kManyForms ? 1 : kEvery;
 }
 
-// What spread of the density evening leaves.
+// The spread of the density that evening is expected to leave.
 double evened(double spread) { return std::pow(spread, evening::kUsualPower); }
 
 MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
@@ -41,9 +41,11 @@ MeromorphicForm at_the_best_places(PoleSearch& search, MeromorphicForm form) {
   return static_cast<int>(form.poles.size()) > kFew ? search.pruned(std::move(form)) : form;
 }
 
-// Places are polished only where that may be enough, and so for few counts.
+// Finds the number of poles for an evened map. Poles move to their best places only for numbers with which that may be
+// enough, and so for few.
 MeromorphicForm enough_for_evening(GreensFunctions& greens, const PlaceOptions& options, Execution& execution) {
   PoleSearch few(greens, options, thinning(greens, kFew), execution), more(greens, options, kEvery, execution);
+  // The spread of the conformal map that evening takes to kEvened.
   const double enough = std::pow(kEvened, 1 / evening::kUsualPower);
   MeromorphicForm added = few.begin(), best = added;
   if (options.mirror && added.poles.empty()) return added;
@@ -83,7 +85,7 @@ MeromorphicForm enough(GreensFunctions& greens, const PlaceOptions& options, Exe
   return optimised(greens, options.kind, options.mirror, std::move(best), execution);
 }
 
-// So many poles; with a mirror none, where there is no room for them in pairs.
+// Places so many poles. With a mirror it returns none where there is no room for them in pairs.
 MeromorphicForm so_many(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution) {
   PoleSearch search(greens, options, thinning(greens, count), execution);
   MeromorphicForm form = search.begin();
@@ -96,8 +98,8 @@ MeromorphicForm so_many(GreensFunctions& greens, const PlaceOptions& options, in
   return optimised(greens, options.kind, options.mirror, std::move(form), execution);
 }
 
-// What `place` finds, mirrored where that is hardly less even and takes hardly more poles.
-// @param options without the mirror, afterwards, where not
+// Returns what `place` finds, with the mirror if that is hardly less even and takes hardly more poles.
+// @param options afterwards without the mirror if the result has none
 MeromorphicForm mirrored_or_not(GreensFunctions& greens, PlaceOptions& options,
                                 const std::function<MeromorphicForm()>& place) {
   MeromorphicForm mirrored = place();

@@ -6,21 +6,22 @@
 
 namespace holomorph::tiling {
 
-/// The most even form with `count` poles. Poles are added one by one where they help most. Then each in turn moves to
-/// where the density becomes more even, or is removed and added anew, until nothing is gained. At last some more are
-/// added, and those that matter least are removed. On a closed surface with handles a small term keeps them where
-/// moving them can take up the rounding of the periods (jacobian.h). The fixed ones are among them. With a mirror they
-/// lie in pairs and on its plane, unless they have no room there.
+/// Finds the most even form with `count` poles. Poles are added one by one where they help most. Then each in turn
+/// moves to where the density becomes more even, or is removed and added anew, until nothing is gained. At last some
+/// more are added, and those that matter least are removed. On a closed surface with handles a small term keeps them
+/// where moving them can take up the rounding of the periods (jacobian.h). The fixed ones are among them. With a mirror
+/// they lie in pairs and on its plane, unless they have no room there.
 /// @throws TopologyError for a single pole on a closed surface, for none on a surface of genus 0, and where no vertex
 /// is left whose star is apart from the others. SolverError; Cancelled
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, int count, Execution& execution);
 
-/// Chooses the number of poles by the spread of the density. None where it is at most 3 without; else the first of 2,
-/// 4, 8, 12, 16 with which it is at most 5, or the last with which it fell. Where maps will be evened, the spread is
-/// the one expected of the evened map: none where it is at most 2.85, else the first number with which it is 2.75.
+/// Chooses the number of poles by the spread of the density. There are none if the spread is at most 3 without poles.
+/// Else it is the first of 2, 4, 8, 12, 16 with which the spread is at most 5, or the last that lowered it by a tenth.
+/// Where maps will be evened, the spread is the one expected of the evened map. Then there are no poles if it is at
+/// most 2.85, else the first number with which it is at most 2.75.
 MeromorphicForm placed_poles(GreensFunctions& greens, PlaceOptions& options, Execution& execution);
 
-/// The same poles with the best coefficients and residues near those given. @param mirror null, or of these poles
+/// Optimises coefficients and residues from those given; the poles stay the same. @param mirror null, or of these poles
 MeromorphicForm optimised(GreensFunctions& greens, uv::Coefficients kind, const Mirror* mirror, MeromorphicForm start,
                           Execution& execution);
 

@@ -8,13 +8,14 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr int kRounds = 3, kSweeps = 5;
-constexpr int kRelocated = 8;  // poles that are taken away and added anew, at most
-constexpr int kSpare = 4;      // so many more poles are placed, and taken away again
-// By what part the objective may grow where poles are hidden, and what it is worth that none is seen.
+constexpr int kRelocated = 8;  // poles that are removed and added anew, at most
+constexpr int kSpare = 4;      // poles that are placed beyond the number wanted, and removed again
+// Hiding: the part by which the objective may grow in all, and the weight of exposure relative to the objective.
 constexpr double kHiding = 0.1, kWorth = 1;
+// Floors of the density, one descent for each. High floors give a smoother objective; the last one is wanted.
 const std::vector<double> kFromAfar = {1.0, 0.1, 0.01, 1e-3, uv::kDensityFloor};
 
-// The first pole of a form that another one has not.
+// The first pole of a form that the other one lacks.
 int lost(const MeromorphicForm& form, const MeromorphicForm& other) {
   return *std::ranges::find_if(form.poles,
                                [&](int v) { return std::ranges::find(other.poles, v) == other.poles.end(); });
@@ -32,6 +33,7 @@ MeromorphicForm PoleSearch::begin() {
   if (options_.mirror && k == 0) return form;  // there is no room
   form.residues = VectorXcd::Ones(k);
   if (basis_.closed() && k > 0) form.residues[k - 1] = -static_cast<double>(k - 1);
+  // Images have conjugate residues that sum to 0: i and -i.
   if (k > 0 && is_pair(form.poles[0])) form.residues *= Complex(0, 1);
   form.coefficients = VectorXcd::Zero(basis_.form_count());
   if (basis_.form_count() > 0 && k == 0) {
@@ -96,12 +98,12 @@ MeromorphicForm PoleSearch::hidden(MeromorphicForm form) {
   return form;
 }
 
-// The coefficients of many forms, which stay behind while places are compared.
+// Fits all coefficients of many forms, whose ratios were kept while places were compared.
 void PoleSearch::refit(MeromorphicForm& form) {
   if (objective_.has_many_forms()) objective_.fit(form, kFromNear, tick_);
 }
 
-// Until every pole has stayed where it is beside the others as they are.
+// Sweeps until every pole in turn has stayed in its place.
 void PoleSearch::sweep_to_the_end(MeromorphicForm& form) {
   const Index count = form.residues.size();
   Index unmoved = 0;
@@ -117,7 +119,8 @@ void PoleSearch::sweep_to_the_end(MeromorphicForm& form) {
   }
 }
 
-// Takes those poles away that matter least, one by one, and adds one where it does best, with a residue of its own.
+// Removes the poles that matter least, one at a time, and adds one instead where it does best, with a residue of its
+// own.
 // @return whether that was better
 bool PoleSearch::relocate(MeromorphicForm& form) {
   const std::size_t count = form.poles.size();
@@ -127,6 +130,7 @@ bool PoleSearch::relocate(MeromorphicForm& form) {
     const auto least = least_missed(form, stay, least_count(basis_));
     if (!least) break;
     MeromorphicForm other = *least;
+    // The next round removes another pole.
     stay.push_back(lost(form, other));
     fill(other, static_cast<int>(count));
     if (other.poles.size() < count) continue;
@@ -138,7 +142,8 @@ bool PoleSearch::relocate(MeromorphicForm& form) {
   return moved;
 }
 
-// The form without the pole, or the pair, that it is most even without. @param least poles are left
+// Returns the form without the pole, or the pair, that is missed least. @param least number of poles that have to be
+// left
 std::optional<MeromorphicForm> PoleSearch::least_missed(MeromorphicForm form, const std::vector<int>& stay,
                                                         Index least) {
   std::vector<MeromorphicForm> tried;

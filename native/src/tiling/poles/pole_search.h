@@ -9,25 +9,25 @@
 
 namespace holomorph::tiling {
 
-/// The least number of poles that a form needs.
+/// Returns the least number of poles that a form on this surface needs.
 int least_count(const PoleBasis& basis);
 
 class PoleSearch : private SearchSteps {
  public:
   using SearchSteps::SearchSteps;
 
-  /// The fixed poles, or as few as there can be.
+  /// Returns the best form with the fixed poles or, without any, with as few poles as possible.
   MeromorphicForm begin();
   /// Adds poles up to `count`, one by one where they help most. @return whether there was room for so many; with a
-  /// mirror for one less
+  /// mirror one may be missing
   bool add(MeromorphicForm& form, int count);
   /// Moves each pole in turn to where it does best beside the others. @return whether one moved
   bool sweep(MeromorphicForm& form);
   /// Moves poles, and removes those that matter least and adds them anew. Ends where nothing is gained, or the spread
   /// is small enough. Their number stays.
   MeromorphicForm settled(MeromorphicForm form, double enough = 0);
-  /// Places extra poles and keeps the best, where that is more even: another optimum, which relocating one pole after
-  /// the other does not reach. @pre more than a few poles
+  /// Places extra poles and keeps the best, where that is more even. This reaches optima that relocating one pole after
+  /// the other does not. @pre more than a few poles
   MeromorphicForm pruned(MeromorphicForm form);
   /// Moves each pole in turn to where it is less visible, while the objective grows by a tenth at most. That is a
   /// twentieth of the evened density's spread. @pre the surface has positions

@@ -13,11 +13,11 @@ using Eigen::ArrayXf;
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
-// Near its zeros a logarithm is bent more than its derivative tells: densities count as this part of their geometric
-// mean at least.
+// Near a zero of the form the logarithm is too curved for its derivative to be of use. There densities count as this
+// part of their geometric mean.
 constexpr float kBent = 0.1F;
 constexpr double kDamping = 0.01;                      // of the mean curvature
-constexpr double kProgress = 1e-5, kShortest = 0.001;  // beyond them is rounding
+constexpr double kProgress = 1e-5, kShortest = 0.001;  // smaller progress and shorter steps are rounding
 
 ArrayXf squares(const VectorXf& A) {
   const Index count = A.size() / 2;
@@ -40,6 +40,7 @@ double QuickVariance::operator()(const VectorXd& x, VectorXd& gradient) const {
   ArrayXf deviation = (q / mean + floor_).log();
   deviation -= deviation.mean();
   const ArrayXf inverse = 1 / (q + floor_ * mean);
+  // The mean depends on all unknowns: this is its part, the same for all samples.
   const float through_mean = -2 * (deviation * q * inverse).mean() / mean;
   const ArrayXf by_q = (2 * deviation * inverse + through_mean) * (2 / static_cast<float>(count));
   A.head(count).array() *= by_q;
@@ -60,7 +61,7 @@ void QuickVariance::descend(VectorXd& x, int most_steps, const std::function<voi
 
 ArrayXd QuickVariance::density(const VectorXd& x) const { return squares(M_ * x.cast<float>()).cast<double>(); }
 
-// The curvature is that of the derivatives of the logarithms alone (Gauss and Newton).
+// The inverse Hessian of Gauss and Newton: it has first derivatives of the logarithms alone.
 MatrixXd QuickVariance::inverse_curvature(const VectorXd& x) const {
   const VectorXf A = M_ * x.cast<float>();
   const Index count = A.size() / 2;

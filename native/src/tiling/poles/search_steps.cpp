@@ -9,16 +9,16 @@
 namespace holomorph::tiling {
 namespace {
 
-// Candidates that are optimised when a pole is added, beside these on a plane, and when one moves.
+// Candidates that are optimised: when a pole is added, on a mirror's plane besides, and when a pole moves.
 constexpr int kTried = 4, kTriedOnPlane = 2, kRefined = 2;
-// Residues that a new pole is tried with, relative to the root of mean density times area.
+// Sizes of residues that a new pole is tried with, relative to the root of mean density times area.
 constexpr double kTrialSizes[] = {0.1, 0.3, 1.0};
 constexpr int kTrialPhases = 6;
 const std::vector<double> kWithTrial = {0.03, uv::kDensityFloor};
 
-constexpr double kWorthOnPlane = 3;    // of hiding a pole there, beside others
-constexpr int kThinning = 3;           // a third of the samples tells what is worth a trial
-constexpr double kUsualValues = 3000;  // of the objective, in a search
+constexpr double kWorthOnPlane = 3;    // weight of the exposure of a pole on the plane of a mirror
+constexpr int kThinning = 3;           // a third of the samples is enough to choose what is tried
+constexpr double kUsualValues = 3000;  // usual evaluations of the objective in a search
 
 VectorXcd thinned(const VectorXcd& samples) { return samples(Eigen::seq(0, Eigen::last, kThinning)); }
 
@@ -42,7 +42,7 @@ void SearchSteps::begin_hiding(const std::vector<int>& poles, double worth, doub
   share_ = share;
 }
 
-// The objective, and how much of the poles is seen while they are hidden.
+// The objective; while poles are hidden, with their weighted exposure, and infinite if it has grown too much.
 double SearchSteps::price(const MeromorphicForm& form) const {
   if (!exposure_) return form.objective;
   if (form.objective > limit_) return INFINITY;
@@ -51,13 +51,13 @@ double SearchSteps::price(const MeromorphicForm& form) const {
   return form.objective + weight_ * seen / static_cast<double>(form.poles.size());
 }
 
-// What hiding a pole there is worth. On the plane of a mirror, where it is seen in the middle of a face, places are
-// few.
+// The weight of the exposure of a pole. On the plane of a mirror it is in the middle of a face, where it is seen most,
+// and places are few.
 double SearchSteps::worth_of(int vertex) const {
   return options_.mirror && options_.mirror->is_on_plane(vertex) ? kWorthOnPlane : 1;
 }
 
-// Scores all candidates for pole i with everything else as it is, and optimises the best ones.
+// Scores all candidates for pole i, with residues and coefficients as they are, and optimises the best ones.
 bool SearchSteps::exchange(MeromorphicForm& form, Index i) {
   std::vector<int> others = form.poles;
   const Index size = orbit_size(form, i);
@@ -71,6 +71,7 @@ bool SearchSteps::exchange(MeromorphicForm& form, Index i) {
   objective_.prepare(with_images(candidates, options_.mirror), k, execution_);
   scores_.prepare(candidates);
   const VectorXcd A = objective_.samples_of(form), now = thinned(A);
+  // The form without the poles that move is common to all candidates.
   scores_.set_rest(now - greens_.at(own, every_ * kThinning) * form.residues.segment(i, size),
                    median(now.cwiseAbs2().array()));
   objective_.prepare(form.poles, k, execution_);
@@ -96,7 +97,7 @@ bool SearchSteps::exchange(MeromorphicForm& form, Index i) {
   return true;
 }
 
-// @param most poles, of which an orbit has one or two: what a pole gains is what counts
+// Tries the best-scored places and residues. @param most poles, of which an orbit has one or two
 bool SearchSteps::add_one(MeromorphicForm& form, int most) {
   const std::size_t count = form.poles.size();
   std::vector<MeromorphicForm> tried;
@@ -117,6 +118,7 @@ bool SearchSteps::add_one(MeromorphicForm& form, int most) {
   objective_.prepare(vertices, tried.front().residues.size(), execution_);
   tried = all_optimised(std::move(tried), kWithTrial);
   form = *std::ranges::min_element(tried, {}, [&](const MeromorphicForm& each) {
+    // A pair gains more than a pole on the plane, and costs two poles: gains are compared by the root of their number.
     return options_.mirror
                ? (each.objective - form.objective) / std::sqrt(static_cast<double>(each.poles.size() - count))
                : each.objective;
@@ -124,7 +126,7 @@ bool SearchSteps::add_one(MeromorphicForm& form, int most) {
   return true;
 }
 
-// All candidates with all trial residues beside the form as it is, the best first.
+// Scores all candidates with all trial residues, the form as it is, and returns them the best first.
 std::vector<SearchSteps::Trial> SearchSteps::trials_everywhere(const MeromorphicForm& form) {
   const std::vector<int> candidates = candidates_.everywhere(form.poles);
   greens_.solve_at(with_images(candidates, options_.mirror), execution_);

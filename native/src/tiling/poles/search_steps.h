@@ -13,10 +13,10 @@
 
 namespace holomorph::tiling {
 
-/// With a mirror every step is one of an orbit: of a pole on the plane, or of a pair.
+/// With a mirror every step concerns an orbit: a pole on the plane, or a pair of images.
 class SearchSteps {
  public:
-  /// @param every of the samples every so many-th is used. @pre what is referred to outlives the steps
+  /// @param every stride: every so many-th sample is used. @pre what is referred to outlives the steps
   SearchSteps(GreensFunctions& greens, const PlaceOptions& options, int every, Execution& execution);
 
  protected:
@@ -27,8 +27,8 @@ class SearchSteps {
   bool exchange(MeromorphicForm& form, Index i);
   /// @param most poles, of which an orbit has one or two. @return whether there was room
   bool add_one(MeromorphicForm& form, int most);
-  /// From now on poles pay for being seen. @param worth of the mean exposure, beside the objective
-  /// @param share by what the objective may grow for each pole that moves
+  /// Adds the exposure of poles to the objective until end_hiding(). @param worth weight of their mean exposure
+  /// @param share amount by which the objective may grow for each pole that moves
   void begin_hiding(const std::vector<int>& poles, double worth, double share);
   void end_hiding() { exposure_.reset(); }
   MeromorphicForm best_optimised(std::vector<MeromorphicForm> list, const std::vector<double>& floors);

@@ -14,22 +14,23 @@ namespace {
 
 constexpr double kDefects[] = {0.3, 0.1, 0.03, 0.01, 0.003};  // |mu| that costs 1
 constexpr int kPhases = 30, kScales = 7;
-constexpr std::size_t kWanted = 8;  // roundings at most
-constexpr int kSteps = 3;           // rounds, each from the best of the last
-constexpr int kNearPhases = 7;      // around a phase that is given
-// Beyond so many integers reducing their lattice as a whole takes more than a few seconds, and grows with the fourth
+constexpr std::size_t kWanted = 8;  // roundings that are returned, at most
+constexpr int kSteps = 3;           // rounds of short steps, each from the best of the last
+constexpr int kNearPhases = 7;      // phases around a given one
+// Reducing a lattice of more integers as a whole takes more than a few seconds, a time that grows with the fourth
 // power. Then it is reduced by blocks, for fewer prices of defects, and fewer phases and scales are tried.
 constexpr Index kWhole = 160;
 constexpr double kDefectsByBlocks[] = {0.1, 0.01};
 constexpr int kPhasesByBlocks = 8, kScalesByBlocks = 3;
-constexpr double kUsualSteps = 10000, kUsualTargets = 1000;  // of a reduction; of what is rounded
-constexpr double kScaleRange = 0.12;
-constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1;  // terms and bounds for the rank
-// Around a zero of the form every rounding flips a small disk: a sample there counts so much. A rounding with a larger
-// mean than the next, or so much less even than the target, is none.
+// Usual steps of a reduction, and usual number of roundings, for the progress function.
+constexpr double kUsualSteps = 10000, kUsualTargets = 1000;
+constexpr double kScaleRange = 0.12;                                  // scales of the target from 1 - this to 1 + this
+constexpr double kConformal = 5, kEvenness = 0.15, kTolerated = 1.1;  // weights and bound in the rank (Rounding::rank)
+// Every rounding flips a small disk around a zero of the form: a flipped sample counts as kFlipped. A rounding with a
+// mean of kNoMap or more, or less even than the target by the factor kUneven, is dropped.
 constexpr double kFlipped = 10, kNoMap = 2, kUneven = 8;
 
-// Complex rows as real ones.
+// Stacks real parts above imaginary ones: the lattice is real.
 MatrixXd as_real(const MatrixXcd& rows) {
   MatrixXd result(2 * rows.rows(), rows.cols());
   result << rows.real(), rows.imag();
@@ -40,7 +41,7 @@ double excess(const ArrayXd& lengths) {
   return lengths.size() == 0 ? 1 : std::sqrt(lengths.square().mean()) / std::exp(lengths.log().mean());
 }
 
-// The best of a list and of those with these integers.
+// Measures the roundings with these integers, and returns the best of them and of a list.
 std::vector<Rounding> best_of(const RoundingProblem& p, const std::set<std::vector<std::int64_t>>& integers,
                               std::vector<Rounding> list, Execution& execution, Watch& watch) {
   const std::size_t known = list.size();
@@ -59,12 +60,14 @@ std::vector<Rounding> best_of(const RoundingProblem& p, const std::set<std::vect
   return list;
 }
 
-// Integers that differ from those of a rounding by one of the steps, which are columns, are not known, and turn the
-// texture no further than is allowed or the others do.
+// Returns new integers that differ from those of a rounding by one step, a column of `steps`. They turn the texture no
+// further than is allowed, or than the roundings of the list do. Nearest planes leave gaps of sizes, which short
+// vectors fill.
 std::set<std::vector<std::int64_t>> a_step_away(const RoundingProblem& p, const RoundingOptions& options,
                                                 const std::vector<Rounding>& list, const lattice::IntegerMatrix& steps,
                                                 const std::set<std::vector<std::int64_t>>& known) {
   const VectorXcd weights = mean_weights(p.target_density);
+  // The weighted product of the target with the form of z: its argument is the angle by which z turns the texture.
   const Eigen::RowVectorXcd along = ((p.forms * p.target).adjoint() * weights.asDiagonal() * p.forms) * p.Z;
   const Complex back = std::polar(1.0, -options.phase.value_or(0));
   const auto turn = [&](const lattice::IntegerVector& z) {
@@ -94,6 +97,7 @@ void measure(const RoundingProblem& p, Rounding& rounding) {
   const ArrayXd density = (p.forms * rounding.y).cwiseAbs2().array();
   rounding.density_ratio = density_ratio(density);
   if (p.defects.cols() > 0) {
+    // mu = B / A, and s1 / s2 = (1 + |mu|) / (1 - |mu|).
     const ArrayXd mu = ((p.defects * rounding.y.tail(p.defects.cols())).cwiseAbs2().array() / density).sqrt();
     const ArrayXd K = (mu < 1).select((1 + mu) / (1 - mu), kFlipped).min(kFlipped);
     rounding.distortion = K.mean();
@@ -115,7 +119,7 @@ RoundingSearch::RoundingSearch(const RoundingProblem& problem, const RoundingOpt
 
 bool RoundingSearch::is_whole() const { return problem_.Z.cols() <= kWhole; }
 
-// The rotations of the texture that are tried.
+// The rotations of the texture that are tried: all up to the lattice's symmetry, or those near a given one.
 std::vector<double> RoundingSearch::phases() const {
   if (problem_.kind == uv::Coefficients::real)
     return {options_.phase && std::cos(*options_.phase) < 0 ? std::numbers::pi
@@ -158,6 +162,7 @@ lattice::IntegerVector RoundingSearch::nearest(const Weighted& weighted, Complex
 }
 
 std::vector<Rounding> RoundingSearch::best() const {
+  // The target at the wanted number of tiles.
   const double scale = std::sqrt(problem_.median_density / median(problem_.target_density));
   const std::vector<double> turns = phases();
   const int scales = this->scales();

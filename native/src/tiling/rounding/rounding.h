@@ -11,10 +11,10 @@
 namespace holomorph::tiling {
 
 struct RoundingOptions {
-  std::optional<double> phase;  ///< which the target is given, in radians; none: any
+  std::optional<double> phase;  ///< rotation of the target, in radians; none: any will do
   double max_turn = 0;          ///< largest change of a given phase, in radians
-  bool only_phase = false;      ///< a given phase is not changed, and more sizes are tried
-  bool steps = false;           ///< also those a short step away from the best are looked at: other sizes
+  bool only_phase = false;      ///< the given phase alone is tried, with more sizes
+  bool steps = false;           ///< also tries short lattice steps away from the best roundings: other sizes
 };
 
 struct Rounding {
@@ -22,7 +22,7 @@ struct Rounding {
   VectorXcd y;               ///< Z z
   double distortion = 1;     ///< added by the rounding: mean of (1 + |mu|) / (1 - |mu|), mu = B / A
   double density_ratio = 1;  ///< 95 % over 5 % quantile of |A|^2
-  /// The less the better: 5 (distortion - 1) + 0.15 log+(density ratio / 1.1 that of the target)
+  /// Lower is better: 5 (distortion - 1) + 0.15 log+(density ratio / 1.1 that of the target)
   /// + size weight |log(median of |A|^2 / the wanted one)|.
   double rank = 0;
 };
@@ -30,22 +30,23 @@ struct Rounding {
 /// How integers were found.
 struct RoundingRecord {
   int integers = 0;        ///< for periods and residues
-  int blocks = 1;          ///< 1: their lattice was reduced as a whole; else so many parts of it, one by one
-  std::int64_t steps = 0;  ///< of the reductions
+  int blocks = 1;          ///< blocks in which their lattice was reduced; 1: as a whole
+  std::int64_t steps = 0;  ///< steps of the reductions
   /// Root mean square of the Gram-Schmidt lengths of the basis, over their geometric mean. It tells how much farther a
   /// rounding is from the target than with an orthogonal basis of the same volume.
   double excess = 1;
 };
 
-/// Searches for the best roundings. Of many integers, the lattice is reduced by blocks, for fewer weights, and fewer
-/// targets are rounded.
+/// Searches for the best roundings. With many integers, the lattice is reduced by blocks and for fewer weights, and
+/// fewer targets are rounded.
 class RoundingSearch {
  public:
   /// @pre the problem outlives this; its number of tiles may change. @throws SolverError as lattice.h does; Cancelled
   /// Cost: a reduction for each of five weights.
   RoundingSearch(const RoundingProblem& problem, const RoundingOptions& options, Execution& execution);
 
-  /// The best roundings, the best first: none where every one has a residue 0 or is flipped somewhere. The same errors.
+  /// Returns the best roundings, the best first. There is none if each one distorts too much or is much less even than
+  /// the target. The same errors.
   /// Cost: some thousand nearest planes, and 16 D more roundings with steps.
   std::vector<Rounding> best() const;
   const RoundingRecord& record() const { return record_; }
@@ -70,7 +71,7 @@ class RoundingSearch {
   RoundingRecord record_;
 };
 
-/// What follows from y.
+/// Computes the distortion, density ratio and rank of a rounding from its y.
 void measure(const RoundingProblem& problem, Rounding& rounding);
 
 }  // namespace holomorph::tiling

@@ -9,9 +9,9 @@
 namespace holomorph::tiling {
 namespace {
 
-constexpr double kChange = 0.2;                     // relative change of the form that costs 1
-constexpr double kRegular = 1e-12;                  // part of the largest diagonal entry: keeps a Gram matrix definite
-constexpr Index kManyColumns = 192, kColumns = 32;  // from so many on, products are made so many columns at a time
+constexpr double kChange = 0.2;     // relative change of the form that costs 1
+constexpr double kRegular = 1e-12;  // of the largest diagonal entry, added to keep a Gram matrix definite
+constexpr Index kManyColumns = 192, kColumns = 32;  // matrices with many columns are multiplied in blocks of columns
 
 // Upper R with R^H R = H.
 MatrixXcd root(MatrixXcd H) {
@@ -20,7 +20,7 @@ MatrixXcd root(MatrixXcd H) {
   return Eigen::LLT<MatrixXcd>(H).matrixU();
 }
 
-// task(begin, size) for columns.
+// Calls task(begin, size) for blocks of columns, in parallel.
 template <class Task>
 void for_columns(Index count, Execution& execution, const Task& task) {
   const auto blocks = static_cast<int>((count + kColumns - 1) / kColumns);
@@ -34,7 +34,7 @@ void for_columns(Index count, Execution& execution, const Task& task) {
   }
 }
 
-// forms^H weights forms; of many columns its lower half alone.
+// Computes forms^H weights forms; for many columns only the lower half, which the Cholesky factorisation reads.
 MatrixXcd gram(const MatrixXcd& forms, const VectorXcd& weights, Execution& execution) {
   const Index count = forms.cols();
   if (count < kManyColumns) return forms.adjoint() * weights.asDiagonal() * forms;
@@ -67,6 +67,8 @@ MatrixXcd RoundingMetric::rows(double defect) const {
   rows.topRows(all) = of_change_;
   if (l == 0) return rows;
   const MatrixXcd& metric = problem_.defect_metric;
+  // Defects as a Gaussian: those of size `defect` cost 1, and those that moving poles repairs are as likely. The
+  // inverse covariance is the metric.
   MatrixXcd covariance = defect * defect * (metric.adjoint() * metric).inverse();
   if (problem_.repairable.size() > 0) covariance += problem_.repairable;
   rows.bottomRightCorner(l, l) = root(covariance.inverse());

@@ -21,24 +21,24 @@ struct RoundingProblem {
   TextureLattice lattice;       ///< which periods and residues are rounded to
   MatrixXcd defect_metric;      ///< l x l, upper R: |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target, floored
   MatrixXcd repairable;         ///< l x l covariance of the t that moving the poles takes up; empty: none
-  double tiles = 1;             ///< over the surface at its median density, which are wanted
+  double tiles = 1;             ///< number wanted on the surface, at its median density
   double size_weight = 0.05;    ///< how much the median density counts in the rank of a rounding
-  double median_density = 1;    ///< the same number over the area
+  double median_density = 1;    ///< wanted median of |A|^2: `tiles` over the area
 };
 
-/// 1 / |theta_0|^2, floored, for means over samples with this density.
+/// Returns 1 / |theta_0|^2, floored, as weights of means over samples with this density.
 VectorXcd mean_weights(const ArrayXd& density);
 
-/// Upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target of that density, floored.
+/// Computes the upper R with |R t|^2 = mean |defects t / theta_0|^2, theta_0 the target of that density, floored.
 MatrixXcd defect_metric(const MatrixXcd& defects, const ArrayXd& target_density, Execution& execution);
 
-/// Rows that measure y near the target: its change, and its defects at a price.
+/// Measures y near the target by the length of rows * y: the change of the form, and its defects at a price.
 class RoundingMetric {
  public:
   /// @pre the problem outlives this
   RoundingMetric(const RoundingProblem& problem, Execution& execution);
 
-  /// (#rows) x (n + k + l). @param defect |mu| that costs 1
+  /// Returns #rows x (n + k + l). @param defect |mu| that costs 1
   MatrixXcd rows(double defect) const;
 
  private:

@@ -8,10 +8,10 @@ namespace holomorph::tiling {
 namespace {
 
 struct Sizes {
-  Index n, loops, handles, k, l;  // with straight loops and a boundary the handles' loops have v-periods, too
+  Index n, loops, handles, k, l;  // `handles`: loops with v-periods besides, if boundary loops are straight
 };
 
-// Which period or residue each integer stands for, and the translation that it counts.
+// Sets for each integer the period or residue that it belongs to, and the translation that it counts.
 void set_integers(const TextureLattice& lattice, const Sizes& size, bool real, RoundingProblem& p) {
   const Index both = (real ? size.loops + size.handles : 2 * size.loops), D = both + (real ? 1 : 2) * size.k;
   p.periods = MatrixXcd::Zero(size.loops, D);
@@ -27,7 +27,8 @@ void set_integers(const TextureLattice& lattice, const Sizes& size, bool real, R
   }
 }
 
-// The Dirichlet forms of the handles, those of the loops subtracted that lower their energy: A on the samples, up to i.
+// A of the Dirichlet forms of the handles on the samples, up to the factor i. Forms of the loops, whose periods are
+// free, are subtracted so that the energy is least.
 MatrixXcd handle_forms(const PoleBasis& basis, const Sizes& size) {
   if (size.handles == 0) return MatrixXcd(static_cast<Index>(basis.samples().size()), 0);
   const MatrixXd& G = basis.structure().holomorphic().star.dirichlet_gram;
@@ -60,10 +61,12 @@ RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFuncti
   p.target.head(size.n) = form.coefficients;
   p.target.segment(size.n, size.k) = form.residues.head(size.k);
 
+  // Columns: X and the residues for each integer. Z takes the integers on to coefficients.
   const MatrixXcd X = p.periods + parts * p.residues;
   p.Z = MatrixXcd::Zero(p.forms.cols(), p.periods.cols());
   p.Z.middleRows(size.n, size.k) = p.residues;
   if (closed) {
+    // theta = M dz + N d conj(z), so conj(theta) has A = conj(N) and B = conj(M).
     p.forms << basis.holomorphic().M, at_poles, basis.holomorphic().N.conjugate();
     p.defects = basis.holomorphic().M.conjugate();
     if (jacobian) {
@@ -73,6 +76,7 @@ RoundingProblem rounding_problem(const MeromorphicForm& form, const GreensFuncti
     }
   } else {
     const MatrixXcd of_handles = handle_forms(basis, size);
+    // A real form is A dz + conj(A) d conj(z), and v enters with i.
     p.forms << basis.holomorphic().M, at_poles, Complex(0, 1) * of_handles;
     p.defects = Complex(0, 1) * of_handles.conjugate();
     p.Z.topRows(size.n) = real ? MatrixXcd(X.real().cast<Complex>()) : X;

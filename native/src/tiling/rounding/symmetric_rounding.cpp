@@ -10,7 +10,7 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr double kQuarter = std::numbers::pi / 2;
-constexpr double kTurned = 0.1;  // radians, by which a phase may differ from a quarter turn
+constexpr double kTurned = 0.1;  // radians by which a phase may differ from a multiple of a quarter turn
 
 lattice::IntegerVector coordinates(const TextureLattice& lattice, Complex z) {
   return lattice.coordinates(z).array().round().cast<std::int64_t>();
@@ -24,6 +24,7 @@ std::optional<RoundingProblem> mirrored(const RoundingProblem& problem, const st
   const double quarters = std::round(options.phase.value_or(0) / kQuarter);
   if (!lattice.is_mirrored() || std::abs(options.phase.value_or(0) - quarters * kQuarter) > kTurned)
     return std::nullopt;
+  // r' = conj(r) for u -> -u; a quarter turn, r -> i r, makes it r' = -conj(r) (docs/method/symmetry.md).
   const double sign = std::fmod(quarters, 2) == 0 ? 1 : -1;
   const auto count = static_cast<Index>(poles.size());
   MatrixXcd residues(count, problem.residues.cols());
@@ -32,6 +33,7 @@ std::optional<RoundingProblem> mirrored(const RoundingProblem& problem, const st
   for (Index i = 0; i < count; ++i) {
     const Index size = orbit_size(poles, i, &mirror), image = size == 2 ? i + 1 : size == 1 ? i : i - 1;
     for (Index j = 0; j < residues.cols(); ++j) {
+      // Each integer's part in r' - sign conj(r), in coordinates of the lattice. The integers wanted are its kernel.
       unequal.col(j).segment(2 * i, 2) =
           coordinates(lattice, residues(image, j)) - coordinates(lattice, sign * std::conj(residues(i, j)));
     }

@@ -6,7 +6,7 @@
 
 namespace holomorph::tiling {
 
-constexpr double kSame = 1e-9;  // relative distance of points of a lattice that are one
+constexpr double kSame = 1e-9;  // relative distance up to which points count as the same
 
 Eigen::Vector2d TextureLattice::coordinates(Complex z) const {
   Eigen::Matrix2d A;

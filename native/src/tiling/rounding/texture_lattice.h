@@ -1,4 +1,4 @@
-// The lattice that jumps of a tiling are points of.
+// The lattice to which the jumps of a tiling belong.
 #pragma once
 
 #include "tiling/notation.h"
@@ -14,9 +14,9 @@ struct TextureLattice {
   Eigen::Vector2d coordinates(Complex z) const;
   Complex nearest(Complex z) const;
   bool has(Complex z) const;  ///< up to rounding, z not 0
-  /// The least turn that takes it to itself, in radians: pi / 2, pi / 3 or, of most lattices, pi.
+  /// The least rotation that takes the lattice to itself, in radians: pi / 2, pi / 3 or, for most lattices, pi.
   double symmetry() const;
-  /// Whether z -> conj z takes it to itself.
+  /// Whether z -> conj z takes the lattice to itself.
   bool is_mirrored() const;
 };
 
