@@ -80,19 +80,30 @@ def test_the_same_sources_give_the_same_extension(dist, tmp_path):
     assert extension(tmp_path).read_bytes() == extension(dist).read_bytes()
 
 
-@pytest.mark.timeout(1300)  # it compiles everything
-@pytest.mark.parametrize("source", ["wheel", "checkout"])
-def test_pip_installs_the_package_without_blender(dist, tmp_path, source):
-    venv.create(tmp_path / "venv", with_pip=True)
-    python = tmp_path / "venv" / "bin" / "python"
-    what = one(dist, "*-cp311-*.whl") if source == "wheel" else ROOT
-    # Compiled as scripts/build does, so that ccache knows most of it.
-    options = {
+@pytest.fixture
+def folder_of_ccache():
+    """Settings with which ccache knows what scripts/build compiled: its folders are as deep."""
+    folder = ROOT / "build" / "cmake" / "pip"
+    shutil.rmtree(folder, ignore_errors=True)
+    yield {
         "CXX": "c++",
         "CMAKE_CXX_COMPILER_LAUNCHER": shutil.which("ccache") or "",
         "CMAKE_BUILD_PARALLEL_LEVEL": 2,
+        "CCACHE_BASEDIR": ROOT,
+        "CCACHE_NOHASHDIR": 1,
+        "SKBUILD_BUILD_DIR": folder,
     }
-    run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", what, seconds=1200, **options)
+    shutil.rmtree(folder, ignore_errors=True)
+
+
+@pytest.mark.timeout(1300)  # without ccache it compiles everything
+@pytest.mark.parametrize("source", ["wheel", "checkout"])
+def test_pip_installs_the_package_without_blender(dist, tmp_path, source, folder_of_ccache):
+    venv.create(tmp_path / "venv", with_pip=True)
+    python = tmp_path / "venv" / "bin" / "python"
+    what = one(dist, "*-cp311-*.whl") if source == "wheel" else ROOT
+    install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", what]
+    run(*install, seconds=1200, **folder_of_ccache)
     write_torus(tmp_path / "torus.obj")
     run(python, "-m", "holomorph", tmp_path / "torus.obj", "--report", tmp_path / "report.json")
     assert (tmp_path / "report.json").stat().st_size > 0
