@@ -82,9 +82,11 @@ void RefinedSolver::refine(RowMajorMatrix& functions, const std::vector<solver::
     // L^-1 r is the error of the functions, up to the solver's accuracy, and r . L^-1 r its energy.
     const solver::Solution corrections = solver_->solve(residuals.R, conditions, execution);
     const double now = energy_error(residuals, corrections);
+    const bool gains = now <= kLeastGain * error;
+    // A last correction that made it worse, or not a number, counts as it is.
+    if (gains || !(now <= error)) error = now;
     // The rounding of the functions is reached: another correction would gain nothing.
-    if (!(now <= kLeastGain * error)) break;
-    error = now;
+    if (!gains) break;
     functions += corrections;
   }
   energy_error_ = std::max(energy_error_, error);

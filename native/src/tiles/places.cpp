@@ -78,7 +78,7 @@ class Search {
     if (sides == 2 && !has_vertex(t, side)) return;
     if (sides == 1 && !has_side(t, (last + 1) % 3, turn, upright)) return;
     if (!upright) {
-      found.flipped += sides < 2;
+      ++found.flipped;
       return;
     }
     const double sum = side[0] + side[1] + side[2];
