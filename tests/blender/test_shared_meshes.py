@@ -92,8 +92,13 @@ def test_every_shared_mesh_is_listed():
     assert {f for f in files if not f.endswith((".md", ".nii.gz"))} == SHARED.keys()
 
 
+def with_long_ones(names):
+    marks = {name: [pytest.mark.long] for name in names if name.startswith("big_")}
+    return [pytest.param(name, marks=marks.get(name, [])) for name in names]
+
+
 @needs_program
-@pytest.mark.parametrize("name", SHARED)
+@pytest.mark.parametrize("name", with_long_ones(SHARED))
 def test_every_part_gets_a_map(name, tmp_path):
     path = unpacked(name, tmp_path)
     report, blend = tmp_path / "report.json", tmp_path / "out.blend"

@@ -51,6 +51,8 @@ def file_state():
 
 def differences(before, after):
     """Lines that tell what is another."""
+    if before == after:
+        return []
     paths = sorted(path for path in before.keys() | after.keys() if before.get(path) != after.get(path))
     return [f"{path}: {before.get(path)!r:.200} -> {after.get(path)!r:.200}" for path in paths]
 

@@ -28,10 +28,10 @@ def program(monkeypatch, tmp_path):
 def run(program, monkeypatch):
     """run(command, ...): the answer of a suite that has these commands."""
 
-    def run(*commands, **options):
+    def run(*commands, with_long=False, **options):
         suite = program.SUITES["lint"]._replace(commands=[list(command) for command in commands], **options)
         monkeypatch.setitem(program.SUITES, "small", suite)
-        return program.run("small")
+        return program.run("small", with_long)
 
     return run
 
@@ -48,6 +48,19 @@ def test_tests_are_counted_and_failed_ones_named(run, tmp_path, capfd):
     lines = capfd.readouterr().out.splitlines()
     assert lines[0] == answer[3][0] and lines[-1].startswith("small: 1 passed, 1 failed, 1 skipped, ")
     assert (tmp_path / "small.log").read_text().splitlines()[-1] in lines
+
+
+@pytest.mark.parametrize("with_long", [False, True])
+def test_long_tests_are_left_out_of_the_default(run, tmp_path, with_long):
+    (tmp_path / "test_small.py").write_text(
+        "import pytest\n@pytest.mark.long\ndef test_a(): pass\ndef test_b(): pass\n"
+    )
+    pytest_command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", tmp_path / "test_small.py"]
+    assert run([*pytest_command, "--junit-xml", tmp_path / "small.xml"], with_long=with_long)[:3] == (
+        1 + with_long,
+        0,
+        0,
+    )
 
 
 def test_a_line_of_the_log_counts(run):
@@ -114,7 +127,7 @@ def test_what_cannot_run_is_skipped(program, run, monkeypatch):
 def test_all_suites_have_a_row(program):
     rows = set(program.SUITES)
     assert set(program.DEFAULT) < set(program.ALL) == rows - {"platforms"}
-    assert program.chosen([]) == program.DEFAULT and program.chosen(["--all"]) == program.ALL
-    assert program.chosen(["--suite", "fuzz", "--suite", "lint"]) == ["fuzz", "lint"]
+    assert program.chosen([]) == (program.DEFAULT, False) and program.chosen(["--all"]) == (program.ALL, True)
+    assert program.chosen(["--suite", "fuzz", "--suite", "lint"]) == (["fuzz", "lint"], True)
     with pytest.raises(SystemExit, match="2"):
         program.chosen(["--suite", "nothing"])

@@ -215,6 +215,7 @@ def test_the_estimate_and_the_peak(mesh, solver):
 # ---- many handles -------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_genus_540():
     """A scaffold of 6^3 cubes, in blocks: exact integers in the topology, the solver's accuracy in the matrices."""
     surface = surface_of(families.scaffold(6))
