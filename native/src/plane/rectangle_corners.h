@@ -12,10 +12,11 @@ namespace holomorph::plane {
 /// Side i: the boundary vertices from corner i to the next, both included.
 using Sides = std::array<std::vector<int>, 4>;
 
+/// Returns the sides of a disk between four corners.
 /// @param corners four vertices on the boundary, in its order, the surface on its left
 /// @param labels #V number of each vertex in messages; empty: its index
-/// @throws TopologyError for a surface that is no disk, corners that are repeated, out of range, not on the boundary or
-/// not in its order
+/// @throws TopologyError for a surface that is not a disk, corners that are repeated, out of range, not on the boundary
+/// or not in its order
 Sides rectangle_sides(const mesh::Surface& surface, const mesh::HalfEdges& half_edges, const std::vector<int>& corners,
                       const std::vector<int>& labels);
 

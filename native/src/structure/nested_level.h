@@ -21,12 +21,12 @@ using SideClasses = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 SideClasses side_classes(const Structure& structure);
 
 struct NestedLevel {
-  std::vector<mesh::Triple> triangles,
-      triangle_edges;               ///< triangles of the Delaunay triangulation; side i from corner i
-  std::vector<double> lengths;      ///< #E
-  std::vector<double> errors;       ///< #T mesh::FaceError::largest
-  SideClasses classes;              ///< on that triangulation
-  forms::RowMajorMatrix functions;  ///< #V x m
+  std::vector<mesh::Triple> triangles;       ///< #T corners in the Delaunay triangulation
+  std::vector<mesh::Triple> triangle_edges;  ///< #T edges; side i begins at corner i
+  std::vector<double> lengths;               ///< #E
+  std::vector<double> errors;                ///< #T mesh::FaceError::largest
+  SideClasses classes;                       ///< on that triangulation
+  forms::RowMajorMatrix functions;           ///< #V x m
   CertainGram energies;
   double mollification = 0;  ///< other than 0: bounds belong to another surface
 };

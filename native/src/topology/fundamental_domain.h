@@ -8,6 +8,7 @@
 
 namespace holomorph::topology {
 
+/// Finds the fundamental domain of a connected surface.
 /// @param surface,half_edges the input triangulation; C has all its diagonals, so G and T consist of edges of polygons
 /// @param stars of poles, all of whose spokes are in T. C enters each face of a star across its link edge, as a leaf.
 /// So the surface is cut as if the stars were holes. @pre no spoke is a diagonal.

@@ -5,7 +5,7 @@
 
 namespace holomorph::mesh {
 
-/// @throws InvalidMesh "name: reason"
+/// Reads a file of the format OBJ. @throws InvalidMesh "name: reason"
 GivenPolygons read_obj(const FileText& file);
 
 }  // namespace holomorph::mesh

@@ -5,7 +5,7 @@
 
 namespace holomorph::mesh {
 
-/// @throws InvalidMesh "name: reason"
+/// Reads a file of the format OFF. @throws InvalidMesh "name: reason"
 GivenPolygons read_off(const FileText& file);
 
 }  // namespace holomorph::mesh

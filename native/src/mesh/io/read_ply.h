@@ -5,7 +5,7 @@
 
 namespace holomorph::mesh {
 
-/// @throws InvalidMesh "name: reason"
+/// Reads a file of the format PLY. @throws InvalidMesh "name: reason"
 GivenPolygons read_ply(const FileText& file);
 
 }  // namespace holomorph::mesh
