@@ -56,11 +56,8 @@ def test_long_tests_are_left_out_of_the_default(run, tmp_path, with_long):
         "import pytest\n@pytest.mark.long\ndef test_a(): pass\ndef test_b(): pass\n"
     )
     pytest_command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", tmp_path / "test_small.py"]
-    assert run([*pytest_command, "--junit-xml", tmp_path / "small.xml"], with_long=with_long)[:3] == (
-        1 + with_long,
-        0,
-        0,
-    )
+    answer = run([*pytest_command, "--junit-xml", tmp_path / "small.xml"], with_long=with_long)
+    assert answer[:3] == (1 + with_long, 0, 0)
 
 
 def test_a_line_of_the_log_counts(run):
