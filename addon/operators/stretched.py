@@ -49,7 +49,7 @@ class HOLOMORPH_OT_select_stretched(AtOnce, bpy.types.Operator):
             return False
         for obj, elements in found.items():
             bad.select(obj.data, elements)
-        step.context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
+        step.context.scene.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
         if not self._is_editing:
             edit(step.context, [obj for obj, elements in found.items() if elements])
         return True

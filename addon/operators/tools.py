@@ -136,7 +136,7 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
         for obj, elements in found.items():
             if elements is not None:
                 bad.select(obj.data, elements)
-        context.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
+        context.scene.tool_settings.mesh_select_mode = bad.select_mode([e for e in found.values() if e])
         if not self._is_editing:
             edit(context, [obj for obj, elements in found.items() if elements])
         return True

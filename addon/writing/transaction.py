@@ -103,7 +103,7 @@ class _Before:
         self._hidden = {obj for obj in layer.objects if obj.hide_get()}
         self.modes = modes.Modes(context)
         self._blocks = {block.as_pointer() for block in _blocks()}
-        self._kept = [states.Attributes(context.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
+        self._kept = [states.Attributes(context.scene.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
 
     def read(self, objects, step):
         """Notes the state of the objects. @pre their modes are left"""

@@ -32,7 +32,7 @@ def test_an_edge_of_three_faces():
     obj, edge = fin()
     assert run() == {"FINISHED"}
     assert press() == {"FINISHED"}
-    assert obj.mode == "EDIT" and tuple(bpy.context.tool_settings.mesh_select_mode) == (False, True, False)
+    assert obj.mode == "EDIT" and tuple(bpy.context.scene.tool_settings.mesh_select_mode) == (False, True, False)
     assert selected(obj) == (sorted(edge), {tuple(sorted(edge))}, [])
 
 
@@ -42,7 +42,7 @@ def test_where_a_one_sided_part_is_cut_and_nothing_of_the_sound_one():
     obj = two_parts("Both", torus_arrays(), part)
     run()
     assert press() == {"FINISHED"}
-    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (False, True, False)
+    assert tuple(bpy.context.scene.tool_settings.mesh_select_mode) == (False, True, False)
     vertices, edges, faces = selected(obj)
     assert len(edges) == 1 and not faces and min(vertices) >= len(torus_arrays()[0])
 
@@ -73,7 +73,7 @@ def test_vertices_where_faces_touch_and_loose_ones_on_demand():
     obj = mesh_object("Grid", [*vertices, (0, 0, 9)], faces[[0, 1, 8, 9]])
     assert press() == {"CANCELLED"} and obj.mode == "OBJECT"
     assert press("TOUCHING") == {"FINISHED"}
-    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (True, False, False)
+    assert tuple(bpy.context.scene.tool_settings.mesh_select_mode) == (True, False, False)
     assert selected(obj)[0] == [9]
     press("LOOSE")
     assert 49 in selected(obj)[0] and 9 not in selected(obj)[0]

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from headless_runs import BLENDER, SCRIPT, SECONDS, headless, needs_program, our_lines, refusal, write_obj
+from loaded_addon import module
 from repository import ROOT
 from scenes import limb_arrays, mesh_io, mesh_object, sphere_arrays, torus, torus_arrays, uv_maps
 
@@ -117,6 +118,12 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
 def test_usage_errors_are_one_sentence(arguments, word, torus_file, tmp_path):
     arguments = [str(tmp_path / a) if a.endswith((".obj", ".blend")) else a for a in arguments]
     assert word in refusal(*arguments)
+
+
+def test_the_context_belongs_to_no_scene_after_the_command(torus_file, tmp_path):
+    """See tests/core/repository/test_architecture.py."""
+    module("command_line.command").main([str(torus_file), "--seamless", "--report", str(tmp_path / "report.json")])
+    assert bpy.context.id_data is None and bpy.context.window.id_data is None
 
 
 def test_a_usage_error_of_a_program_of_its_own():

@@ -34,7 +34,7 @@ def squares(stretch):
 def test_the_face_that_is_too_large_too_small_or_sheared(stretch):
     obj = squares(stretch)
     assert press() == {"FINISHED"}
-    assert obj.mode == "EDIT" and tuple(bpy.context.tool_settings.mesh_select_mode) == (False, False, True)
+    assert obj.mode == "EDIT" and tuple(bpy.context.scene.tool_settings.mesh_select_mode) == (False, False, True)
     assert selected(obj) == [0]
     assert press(size=4, shear=4) == {"CANCELLED"} and obj.mode == "OBJECT"
 
