@@ -131,7 +131,7 @@ class Mapper:
     def _shared(self, solved, wanted):
         """The `options.TileOptions` for one of the objects."""
         if self._density:
-            return replace(wanted, density=self._density, tiles=0.0)
+            return replace(wanted, density=self._density, tiles=0.0, is_shared=True)
         share = sum(component.area for component in solved.done) / self._area if self._area else 1.0
         return replace(wanted, tiles=share * wanted.tiles)
 
@@ -223,6 +223,7 @@ def _tilings(asked, options, progress):
         main=[main for _, main in asked],
         tiles=None if wanted.density else wanted.tiles or None,
         density=wanted.density or None,
+        **({"density_tolerance": 0.0} if wanted.is_shared else {}),
         poles=wanted.poles,
         allowed=None if wanted.allowed is None else np.frombuffer(wanted.allowed, bool),
         moves=wanted.moved,

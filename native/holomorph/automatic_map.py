@@ -5,7 +5,7 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from .array_types import Progress
-from .automatic_maps import sized_maps
+from .automatic_maps import TOLERANCE, sized_maps
 from .automatic_structure import AnyStructure
 from .checks import check_type
 from .map import Map
@@ -21,6 +21,7 @@ def automatic_map(
     main: str = "automatic",
     tiles: float | None = None,
     density: float | None = None,
+    density_tolerance: float = TOLERANCE,
     poles: Poles = "auto",
     lattice: str | ArrayLike = "square",
     direction: ArrayLike | str | None = "upright",
@@ -48,7 +49,8 @@ def automatic_map(
     main : "automatic"; "seamless" for a tiling in any case; "untiled" for the best of the other maps; "balanced" for a
         map of forms, as when something about the structure was chosen
     tiles, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
-    density : tiles per unit of area. Where whole tiles cannot have it, the map is no tiling
+    density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
+        they miss it by more, the map is no tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
     threads : as in `conformal_structure`
@@ -61,7 +63,7 @@ def automatic_map(
     options = {"lattice": lattice, "direction": direction, "boundary": boundary, "evenness": evenness}
     options |= {"turn": turn, "max_turn": max_turn, "max_added": max_added}
     structures = None if structure is None else [structure]
-    size = {"tiles": tiles, "density": density}
+    size = {"tiles": tiles, "density": density, "tolerance": density_tolerance}
     (made,) = sized_maps([surface], structures, [main], [(poles, options)], **size, threads=threads, progress=progress)
     if isinstance(made, Map):
         return made

@@ -27,6 +27,7 @@ from .tiling import Poles
 
 LEADING = 0.25  # part of the area of the largest part, from which on a part may say the density of all
 TRYING = 0.9  # part of the work on tilings, for numbers of tiles
+TOLERANCE = 0.2  # of a density that is given, a tenth of lengths: less is seen of that than of a seam
 SCALE_DIGITS = 3  # to which the logarithm of a copy's scale is rounded: parts that differ by less have the same tiles
 
 
@@ -37,6 +38,7 @@ def automatic_maps(
     main: str | Sequence[str] = "automatic",
     tiles: float | None = None,
     density: float | None = None,
+    density_tolerance: float = TOLERANCE,
     poles: Poles = "auto",
     allowed: ArrayLike | None = None,
     moves: Sequence[tuple[int, int]] = (),
@@ -57,8 +59,9 @@ def automatic_maps(
     surfaces : the connected parts, or a Surface whose components they are
     structures : of all parts, as in `automatic_map`
     main : of all parts, or of each
-    tiles, density : tiles over all parts, in proportion to their areas, or per unit of area; default `usual_density`.
-        All parts have the density that is given, the largest one too
+    tiles, density : tiles over all parts, in proportion to their areas, or per unit of area; default `usual_density`
+    density_tolerance : relative amount by which the median density of the largest part, and so of all, may differ from
+        the one given, where whole tiles cannot have it; 0 where other meshes have that density
     poles : "auto", a number for each part, or a list of vertices; "auto" on parts without any
     allowed : (#V,) bool, where poles may be that are not chosen; parts without such vertices get none
     moves : (index of a pole in the tiling of its part, vertex) for each pole that is moved after the rounding
@@ -71,7 +74,7 @@ def automatic_maps(
     common = {"direction": direction, "evenness": evenness} | options
     choices = [_own_choices(part, poles, allowed, moves) for part in parts]
     choices = [(own, common | more) for own, more in choices]
-    size = {"tiles": tiles, "density": density}
+    size = {"tiles": tiles, "density": density, "tolerance": density_tolerance}
     return sized_maps(parts, structures, mains, choices, **size, threads=threads, progress=progress)
 
 
@@ -82,6 +85,7 @@ def sized_maps(
     choices: Sequence[tuple[Poles, dict[str, Any]]],
     tiles: float | None,
     density: float | None,
+    tolerance: float,
     threads: int | None,
     progress: Progress | None,
 ) -> list[Map | Refusal]:
@@ -95,7 +99,8 @@ def sized_maps(
     kinds = {Undecided: Sizing, Divided: MixedSizing}
     sizings = {k: kinds[type(found)](found, *choices[k]) for k, found in made.items() if type(found) in kinds}
     wanted = _density(parts, tiles) if density is None else density
-    sized = _sized(parts, alike, sizings, wanted, _tries(tiles, density), threads, scaled(progress, done, 1.0))
+    tries, near = TRIES if tiles or density is not None else 1, math.inf if density is None else tolerance
+    sized = _sized(parts, alike, sizings, wanted, tries, near, threads, scaled(progress, done, 1.0))
     found = [sized[k] if k in sized else made[copy.first] for k, copy in enumerate(alike)]
     return [
         one if alike[k].first == k else _of_copy(one, parts[k], structures and structures[k], alike[k].scale)
@@ -134,25 +139,29 @@ def _first_maps(parts, structures, mains, alike, choices, threads, progress):
     return dict(zip(firsts, found))
 
 
-def _sized(parts, alike, sizings, density, tries, threads, progress):
+def _sized(parts, alike, sizings, density, tries, near, threads, progress):
     """{part: its map or its error} of parts that may get tilings. Those of copies are maps of the first part.
 
-    tries : numbers of tiles that are tried on the largest part, whose density is then that of the others; 0 where the
-        density is given"""
+    tries : numbers of tiles that are tried on the largest part
+    near : relative difference from `density`, up to which the density of that is then the one of the others"""
     if not sizings:
         return {}
     members = [k for k, copy in enumerate(alike) if copy.first in sizings]
     names = {k: (alike[k].first, round(math.log(alike[k].scale), SCALE_DIGITS)) for k in members}
     areas, largest = _areas(parts, names), _leader(parts, alike, sizings, members)
     share, made = 0.0, {}
-    if tries:
+    if near:
         share, sizing = parts[largest].area / (sum(areas.values()) or 1.0), sizings[alike[largest].first]
-        leader = sizing.about(_on_first(density, alike[largest]), tries, scaled(progress, 0.0, share))
-        if isinstance(leader, Map) and leader.is_tiled:
+        wanted = _on_first(density, alike[largest])
+        leader = sizing.about(wanted, tries, scaled(progress, 0.0, share))
+        is_tiled = isinstance(leader, Map) and leader.is_tiled
+        is_near = is_tiled and abs(relative_size(leader, wanted) - 1) <= near
+        if is_near:
             density = leader.density / alike[largest].scale ** 2
-        made[names[largest]] = leader
+        if is_near or math.isinf(near):
+            made[names[largest]] = leader
     wanted = {names[k]: _on_first(density, alike[k]) for k in reversed(members) if names[k] not in made}
-    made |= _of_one_size(parts, sizings, wanted, areas, not tries, threads, scaled(progress, share, 1.0))
+    made |= _of_one_size(parts, sizings, wanted, areas, not made, threads, scaled(progress, share, 1.0))
     return {k: made[names[k]] for k in members}
 
 
@@ -197,12 +206,6 @@ def _of_one_size(parts, sizings, wanted, areas, is_given, threads, progress):
         return sizings[name[0]].settled(found[name], wanted[name], window, step)
 
     return done(list(wanted), settled, TRYING, 1.0)
-
-
-def _tries(tiles, density):
-    if density is not None:
-        return 0
-    return TRIES if tiles else 1
 
 
 def _on_first(density, copy):

@@ -171,6 +171,19 @@ def test_tilings_have_one_density():
             assert sum(m.density * part.area for m, part in zip(made, parts)) == pytest.approx(400.0, rel=0.1)
 
 
+@pytest.mark.parametrize("tiles", [60, 80, 100, 120, 140, 160])
+@pytest.mark.parametrize("radii", [(2, 1), (3, 0.6), (2, 0.5), (4, 1.2)])
+def test_a_single_part_rather_misses_a_density_than_has_seams(radii, tiles):
+    """But not where other meshes have that density, or by more than is asked for."""
+    surface = surface_of(families.torus(36, 20, R=radii[0], r=radii[1]))
+    wanted = tiles / surface.area
+    made = holomorph.automatic_map(surface, density=wanted)
+    assert made.kind == "tiling" and abs(made.density / wanted - 1) <= 0.2
+    shared = holomorph.automatic_map(surface, density=wanted, density_tolerance=0)
+    assert not shared.is_tiled or abs(shared.density / wanted - 1) <= 0.05
+    assert shared.is_tiled or abs(made.density / wanted - 1) > 0.04
+
+
 def test_a_part_on_which_whole_tiles_are_too_few_has_the_same_density_without():
     parts = surface_of(united(torus(24, 12, R=3.0), torus(24, 12, R=0.3, r=0.1))).components
     made = holomorph.automatic_maps(parts, main="seamless", tiles=40)
