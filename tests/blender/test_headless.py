@@ -123,7 +123,7 @@ def test_usage_errors_are_one_sentence(arguments, word, torus_file, tmp_path):
 def test_the_context_belongs_to_no_scene_after_the_command(torus_file, tmp_path):
     """See tests/core/repository/test_architecture.py."""
     module("command_line.command").main([str(torus_file), "--seamless", "--report", str(tmp_path / "report.json")])
-    assert bpy.context.id_data is None and bpy.context.window.id_data is None
+    assert bpy.context.id_data is None
 
 
 def test_a_usage_error_of_a_program_of_its_own():
