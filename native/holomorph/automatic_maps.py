@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from .array_types import Progress
 from .arrays import integer
 from .automatic_structure import AnyStructure
-from .checks import check_type
+from .checks import check_type, real_number
 from .copies import Copy, copies
 from .given_vertices import on_part
 from .map import Map
@@ -93,6 +93,8 @@ def sized_maps(
     vertices."""
     if tiles is not None and density is not None:
         raise ValueError("a density is given without tiles: either says how many there are")
+    if real_number(tolerance, "density_tolerance") < 0:
+        raise ValueError(f"density_tolerance is {tolerance!r}; it cannot be negative")
     alike = _alike(parts, mains, choices)
     done = SOLVING if structures is None else 0.0
     made = _first_maps(parts, structures, mains, alike, choices, threads, scaled(progress, 0.0, done))
@@ -152,6 +154,7 @@ def _sized(parts, alike, sizings, density, tries, near, threads, progress):
     share, made = 0.0, {}
     if near:
         share, sizing = parts[largest].area / (sum(areas.values()) or 1.0), sizings[alike[largest].first]
+        share *= 1.0 if math.isinf(near) else 0.5  # the rest is for another map of this part
         wanted = _on_first(density, alike[largest])
         leader = sizing.about(wanted, tries, scaled(progress, 0.0, share))
         is_tiled = isinstance(leader, Map) and leader.is_tiled

@@ -203,6 +203,12 @@ def test_the_density_of_tiles_is_one_or_the_other():
         holomorph.automatic_maps(parts, tiles=3, density=2.0)
 
 
+@pytest.mark.parametrize("tolerance", [-0.1, math.nan, math.inf, "0.1"])
+def test_a_tolerance_is_a_number_from_0(tolerance):
+    with pytest.raises(ValueError, match="density_tolerance is"):
+        holomorph.automatic_map(surface_of(torus(24, 12)), density=5.0, density_tolerance=tolerance)
+
+
 def test_upright():
     """Rows run level: on a tube that stands, v runs up."""
     tube, ring = surface_of(cylinder(24, 12)), surface_of(torus(24, 12))
