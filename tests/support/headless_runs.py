@@ -42,8 +42,8 @@ def headless(*arguments, blend="", seconds=SECONDS):
 
 
 def refusal(*arguments, blend=""):
-    """The sentence with which the command ends when it is run in this Blender, with status 1: hundreds of times as fast
-    as in a Blender of its own."""
+    """The sentence with which the command ends, with status 1, when it is run in this Blender: to start another one
+    takes a second."""
     if blend:
         bpy.ops.wm.open_mainfile(filepath=str(blend))
     said, told = io.StringIO(), io.StringIO()

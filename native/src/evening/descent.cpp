@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kMemory = 6;  // steps
 constexpr double kProgress = 3e-3;  // the descent ends at a step that lowers the energy by less than this part of it
 constexpr double kFar = 0.03;       // after a step that lowers it by more, the preconditioner is made anew
-constexpr double kDecrease = 1e-4;  // of Armijo's condition
+constexpr double kDecrease = 1e-4;  // Armijo's condition: least part of the decrease along the slope
 constexpr double kShortest = 1e-6;  // shortest step, relative to the full one
 
 // The inner product: the sum of the products of u and of v.

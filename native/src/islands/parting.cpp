@@ -10,7 +10,7 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr double kMostSquares = 64;  // of the grid, from 0 to the farthest corner
+constexpr double kMostSquares = 64;  // along the grid, from 0 to the farthest corner
 
 // Triangles in the plane by the squares of a grid that they meet.
 class Grid {
