@@ -9,7 +9,7 @@ BUILD = ROOT / "build"
 RESULTS = BUILD / "test"
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
 # The longest ones first, so that two at a time end together.
-DEFAULT = ["lint", "native", "blender-3.4", "core", "bpy-5.2", "window", "package", "batch"]
+DEFAULT = ["lint", "native", "blender-3.4", "core", "package", "bpy-5.2", "window", "batch"]
 ALL = ["lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz", "tsan"]
 ALL += ["bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
 # The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
