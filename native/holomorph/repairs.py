@@ -12,13 +12,13 @@ from .value import Value, counted
 # By the reason of a cut: what is said of one element, and of several.
 SENTENCES = {
     "many_faces": ("cut along 1 edge that has three or more faces", "cut along {} edges that have three or more faces"),
-    "twice": ("1 face stands twice: its copy is apart", "{} faces stand twice: their copies are apart"),
-    "opposite": ("1 face has two sides: each is apart", "{} faces have two sides: each side is apart"),
+    "twice": ("1 face occurs twice: its copy is separate", "{} faces occur twice: their copies are separate"),
+    "opposite": ("1 face has two sides: each is separate", "{} faces have two sides: each side is separate"),
     "one_sided": (
         "cut along 1 edge of a part that has only one side",
         "cut along {} edges of parts that have only one side",
     ),
-    "repeated": ("1 face meets a vertex twice: it is apart", "{} faces meet a vertex twice: they are apart"),
+    "repeated": ("1 face meets a vertex twice: it is separate", "{} faces meet a vertex twice: they are separate"),
     "touching": (
         "cut at 1 vertex where faces touch without a common edge",
         "cut at {} vertices where faces touch without a common edge",

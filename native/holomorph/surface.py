@@ -15,7 +15,7 @@ from .origin import AS_GIVEN
 from .repairs import Refused, Repairs
 from .value import Value, freeze
 
-UNWELDED = "every face is apart: strict=False joins those that touch along a whole side"
+UNWELDED = "every face is separate: strict=False joins those that touch along a whole side"
 
 
 class Surface(Value):

@@ -72,7 +72,7 @@ def verdict(quality: Quality, poles: int | None = None, added_distortion: float 
     poles, added_distortion : of a seamless tiling, how many it has, and `Tiling.added_distortion`; None for other maps
     """
     if math.isinf(quality.mean_angle):
-        return Verdict("unusable", "No texture is seen: the map has no area", "unwrap it again")
+        return Verdict("unusable", "No texture is visible: the map has no area", "unwrap it again")
     ranks = [
         _rank(quality.density_ratio, UNEVEN),
         _rank(quality.capped_mean_angle - quality.unseen_angle, SHEARED),
@@ -107,7 +107,7 @@ def overall(
     if unmapped:
         found.append((_rank(unmapped, LOST), f"{_percent(unmapped)} of the faces have no map", ""))
     if sizes > SAME_SIZE:
-        told = f"squares of parts differ by a factor of {_factor(math.sqrt(sizes))}"
+        told = f"squares differ in size between parts by a factor of {_factor(math.sqrt(sizes))}"
         found.append((LEVELS.index("poor"), told, "ask for more tiles"))
     if ranks.max() > rank:
         count = int(np.count_nonzero(ranks > rank))
@@ -137,7 +137,7 @@ def _sentence(quality, poles, ranks):
     if lost:
         words.append(f"{_percent(quality.lost_part)} flipped or collapsed")
     if overlapping:
-        words.append(f"{_percent(quality.overlapping_part)} of the island lies over itself")
+        words.append(f"{_percent(quality.overlapping_part)} of the island overlaps itself")
     if poles is not None:
         words.append({0: "no poles", 1: "1 pole"}.get(poles, f"{poles} poles"))
     sentence = ", ".join(word for word in words if word)

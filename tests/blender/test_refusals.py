@@ -74,8 +74,8 @@ BAD = [not_a_number, infinite, zero_area, flattened_by_its_scale, empty, no_face
 CUT = {
     "fin": (fin, "Bad: cut along 1 edge that has three or more faces"),
     "moebius": (moebius, "Bad: cut along 1 edge of a part that has only one side"),
-    "twice": (doubled, "Bad: 288 faces stand twice: their copies are apart"),
-    "two sides": (lambda: doubled(-1), "Bad: 288 faces have two sides: each side is apart"),
+    "twice": (doubled, "Bad: 288 faces occur twice: their copies are separate"),
+    "two sides": (lambda: doubled(-1), "Bad: 288 faces have two sides: each side is separate"),
 }
 
 

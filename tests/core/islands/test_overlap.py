@@ -73,7 +73,7 @@ def test_a_strip_that_winds_more_than_once_overlaps_itself(turns, overlaps):
     assert not quality.flipped.any()
     if overlaps:
         assert 0.3 < quality.overlapping_part < 1 and not quality.verdict.is_fit
-        assert "lies over itself" in quality.verdict.sentence and "one more seam" in quality.verdict.advice
+        assert "overlaps itself" in quality.verdict.sentence and "one more seam" in quality.verdict.advice
     else:
         assert quality.overlapping_part == 0 and quality.verdict.level == "good"
 
