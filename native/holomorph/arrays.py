@@ -96,4 +96,4 @@ def unpacked(kind, data, corner_count):
             raise ValueError(kind)
         return frozen(np.frombuffer(data, dtype).reshape((corner_count, *shape)))
     except (ValueError, TypeError, RecursionError) as error:
-        raise InvalidMesh("the progressive mesh is damaged: its corner data are of no known type") from error
+        raise InvalidMesh("the progressive mesh is damaged: its corner data have an unknown type") from error

@@ -92,7 +92,7 @@ def sized_maps(
     """Like `automatic_maps`, with poles and other options of `Structure.tile` for each part, in the part's own
     vertices."""
     if tiles is not None and density is not None:
-        raise ValueError("a density is given without tiles: either says how many there are")
+        raise ValueError("give tiles or a density, not both")
     if real_number(tolerance, "density_tolerance") < 0:
         raise ValueError(f"density_tolerance is {tolerance!r}; it cannot be negative")
     alike = _alike(parts, mains, choices)

@@ -39,7 +39,7 @@ class BoundedStructure(CertifiedStructure):
     def description(self) -> str:
         """What was made, in one phrase."""
         n = len(self.pairing)
-        return "1 form, its boundaries straight" if n == 1 else f"{n} forms, their boundaries straight"
+        return "1 form, straight boundaries" if n == 1 else f"{n} forms, straight boundaries"
 
     @cached_property
     def boundary_loops(self) -> tuple[Integers, ...]:
@@ -139,13 +139,13 @@ class BoundedStructure(CertifiedStructure):
     def _check_planar(self, what):
         genus = self._component.genus
         if genus:
-            raise TopologyError(f"a {what} belongs to planar surfaces; the surface has genus {genus}")
+            raise TopologyError(f"only planar surfaces have a {what}; the surface has genus {genus}")
 
     def _check_annulus(self):
         component = self._component
         if (component.genus, component.boundary_count) != (0, 2):
             found = component._topology.text()
-            raise TopologyError(f"a modulus belongs to annuli; the surface has {found}")
+            raise TopologyError(f"only annuli have a modulus; the surface has {found}")
 
     def invariants(self) -> dict[str, Any]:
         """Period matrix of the double, capacities and modulus with their bounds, as plain data."""

@@ -96,9 +96,9 @@ def why_uncertain(structure):
     """One sentence, or "" where the bounds are proven for the surface as given."""
     mollification, rounding = structure._native.mollification(), structure._native.metric_error()
     if mollification:
-        return f"degenerate triangles were lengthened, by up to {mollification:.1e}: another surface was solved on"
+        return f"degenerate triangles were lengthened by up to {mollification:.1e}: the solved surface differs slightly"
     if rounding >= OPEN:
-        return "a triangle is so thin that the rounding of its sides leaves its shape open"
+        return "a triangle is so thin that rounding its sides leaves its shape uncertain"
     memory = getattr(structure, "memory", None)
     if memory is not None and not memory.keeps_forms:
         return "the forms were solved for in blocks, and their energies measured up to the solver's residual"

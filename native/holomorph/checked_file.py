@@ -20,5 +20,5 @@ def read(path):
         whole = file.read()
     content, checksum = whole[:-4], whole[-4:]
     if len(whole) >= 12 and zlib.crc32(content).to_bytes(4, "little") != checksum and content[:6] == b"HoloPM":
-        raise InvalidMesh("the progressive mesh is damaged: its checksum does not fit")
+        raise InvalidMesh("the progressive mesh is damaged: its checksum does not match")
     return content

@@ -38,7 +38,7 @@ def check_thresholds(thresholds, solver):
     if thresholds is None:
         return None
     if solver != "paper":
-        raise ValueError(f"thresholds are those of the paper's solver, and solver is {solver!r}")
+        raise ValueError(f"thresholds need solver='paper', but solver is {solver!r}")
     return [int(min(real_number(faces, "a threshold", positive=True), 2**62)) for faces in thresholds]
 
 
@@ -61,7 +61,7 @@ def real_number(value, name, positive=False):
 def checked_evenness(value):
     """An evenness as a float. @throws ValueError"""
     if not isinstance(value, numbers.Real) or not 0 <= value <= 1:
-        raise ValueError(f"evenness is {value!r}; a number from 0, for angles, to 1, for one size, is needed")
+        raise ValueError(f"evenness is {value!r}; a number from 0 (keeps angles) to 1 (equal sizes) is needed")
     return float(value)
 
 
@@ -89,13 +89,13 @@ def own_vertices(surface, component, vertices, noun):
         raise TopologyError(f"{noun}s must be a list of vertex indices, not an array of {given.dtype} of {given.shape}")
     count = surface._native.vertex_count
     for vertex in given[(given < 0) | (given >= count)]:
-        raise TopologyError(f"{noun} {vertex} is no vertex: there are {count}")
+        raise TopologyError(f"{noun} {vertex} is not a vertex: there are {count}")
     if component is surface:
         return given.tolist(), []
     own = np.full(count, -1)
     own[component.vertex_index] = np.arange(len(component.vertex_index))
     for vertex in given[own[given.astype(int)] < 0]:
-        raise TopologyError(f"{noun} {vertex} is a vertex of no face")
+        raise TopologyError(f"{noun} {vertex} belongs to no face")
     return own[given.astype(int)].tolist(), component.vertex_index.tolist()
 
 

@@ -34,7 +34,7 @@ def cut_to_cones(disk: Surface, most_stretch: float = 3.0, *, progress: Progress
     """
     check_type(disk, Surface)
     if (disk.genus, disk.boundary_count) != (0, 1) or disk.vertices is None:
-        raise TopologyError("cone points are made in a disk with positions: genus 0 and 1 boundary")
+        raise TopologyError("cone points need a disk with positions: genus 0 and 1 boundary")
     most = real_number(most_stretch, "most_stretch", positive=True)
     if most <= 1:
         raise ValueError(f"most_stretch is {most}; a factor above 1 is needed")

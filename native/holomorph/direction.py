@@ -28,7 +28,7 @@ def along(direction, turn, surface):
 
 def _vector(direction, surface):
     if surface.vertices is None:
-        raise InvalidMesh("an intrinsic surface, without positions, knows no direction in space; use turn")
+        raise InvalidMesh("an intrinsic surface, without positions, has no direction in space; use turn")
     vector = arrays.numbers(direction, "direction")
     if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
         raise ValueError(f"direction is {direction!r}; three numbers, not all 0, are needed")

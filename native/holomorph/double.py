@@ -85,7 +85,7 @@ def symmetrised(double: Surface, forms: ArrayLike) -> Reals:
     """
     check_type(double, Surface, "double")
     if double.dual_vertex is None:
-        raise TopologyError("the surface is no double_cover, whose edges have duals")
+        raise TopologyError("the surface is not a double_cover; only the edges of one have duals")
     forms, count = arrays.numbers(forms, "forms"), len(double._native.edges)
     if forms.ndim == 0 or forms.shape[-1] != count:
         raise ValueError(f"forms has the shape {forms.shape}; (..., {count}) is needed")

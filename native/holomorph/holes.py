@@ -84,7 +84,7 @@ def _check_disks(component, goes, hole_of_vertex, given):
     vertices = np.flatnonzero(hole_of_vertex >= 0)
     numbers = [np.bincount(hole_of_vertex[at], minlength=len(given)) for at in (vertices, sides // count, faces)]
     for hole in np.flatnonzero(numbers[0] - numbers[1] + numbers[2] != 1):
-        raise TopologyError(f"the faces around hole {given[hole]} are no disk: refine the mesh there")
+        raise TopologyError(f"the faces around hole {given[hole]} do not form a disk: refine the mesh there")
 
 
 def _without(component, goes, sizes):

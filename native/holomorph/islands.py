@@ -36,7 +36,7 @@ def islands(
     """
     check_type(surface, Surface)
     if surface.vertices is None:
-        raise TopologyError("islands are cut out of surfaces with positions; this one has edge lengths alone")
+        raise TopologyError("islands need a surface with positions; this one has edge lengths only")
     edges = surface._native.edges
     diagonals = len(surface.triangles) - (len(surface.face_offsets) - 1)  # a polygon of n corners has n - 2 triangles
     sides = edge_keys(surface.vertex_index[edges[: len(edges) - diagonals]], surface.given_vertex_count)

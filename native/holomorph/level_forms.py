@@ -33,7 +33,7 @@ def lift_loops(mesh: ProgressiveMesh, loops: Sequence[Integers], n_faces: int | 
     given = [arrays.integer(loop, "loop") for loop in loops]
     for loop in given:
         if len(loop) == 0 or loop.min() < 0 or loop.max() >= mesh._native.base_vertex_count:
-            raise InvalidMesh("a loop is empty or names a vertex that the base mesh has not")
+            raise InvalidMesh("a loop is empty or names a vertex that is not in the base mesh")
     lifted = mesh._native.lift_loops(splits, [loop.tolist() for loop in given])
     if n_faces is None:
         lifted = [arrays.frozen(mesh._native.vertex_index[loop]) for loop in lifted]

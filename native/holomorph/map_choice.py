@@ -186,7 +186,7 @@ def _whole(tiling):
     lost = tiling.quality.lost_part
     if lost < MOST_LOST:
         return tiling
-    raise TopologyError(f"a tiling would lose {100 * lost:.2g} % of its area, the mesh is too coarse: subdivide it")
+    raise TopologyError(f"a tiling would lose {100 * lost:.2g} % of its area, as the mesh is too coarse: subdivide it")
 
 
 def _drawback(tiling, balanced):

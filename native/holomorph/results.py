@@ -155,7 +155,7 @@ class Structure(Value):
 
     def _tiles_of(self, density, tiles):
         if tiles is not None:
-            raise ValueError("a density is given without tiles: either says how many there are")
+            raise ValueError("give tiles or a density, not both")
         return real_number(density, "density", positive=True) * self._component.area
 
     def _rounded(self, tiler, options, evenness, progress):

@@ -19,7 +19,7 @@ SAME_SIZE = 0.045  # relative difference of a median density from the wanted one
 LIKE_SIZE = 1.095  # largest over smallest median density of tilings, for parts whose squares have one size
 TRIES = 4  # numbers of tiles, until the median density is the wanted one
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
-TOO_FEW = "whole tiles are too few on it for squares of the wanted size"
+TOO_FEW = "too few whole tiles fit on it for squares of the wanted size"
 
 Window: TypeAlias = tuple[float, float]  # least and largest median density, over the wanted one
 

@@ -99,5 +99,5 @@ def _native_structure(component, boundary, thresholds, solver, threads, memory_l
 def _narrowed(native, narrowing, solver, threads, memory_limit, progress):
     """The `Refinement`; the bounds of `native` become narrower."""
     if not native.memory().keeps_forms:
-        raise SolverError("bounds are narrowed with all forms in memory; they were solved for in blocks")
+        raise SolverError("narrowing the bounds needs all forms in memory; these were solved for in blocks")
     return narrow(native, *narrowing, "auto" if solver == "paper" else solver, threads, memory_limit, progress)

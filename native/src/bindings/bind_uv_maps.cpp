@@ -79,7 +79,7 @@ mesh::IntrinsicTriangulation own_triangles(const mesh::Surface& surface, Executi
 // The star of a form on the edges of any surface.
 py::array averaged_star(const mesh::Surface& surface, const Contiguous<double>& form) {
   if (form.size() != static_cast<py::ssize_t>(surface.edges.size()))
-    throw py::value_error("a form has one value for each edge");
+    throw py::value_error("a form needs one value for each edge");
   Execution execution;
   return copy(forms::averaged_star(own_triangles(surface, execution), values(form)));
 }

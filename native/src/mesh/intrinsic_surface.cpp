@@ -99,7 +99,7 @@ class EdgeBuilder {
         "edge " + to_string(edge) + " (vertices " + to_string(ends[0]) + ", " + to_string(ends[1]) + ")";
     if (end - begin > 2) throw InvalidMesh(name + " has " + to_string(end - begin) + " faces; a surface has at most 2");
     for (const Side* s = begin; s != end; ++s) {
-      if (ends_of(*s) != ends) throw InvalidMesh(name + " has other ends in face " + to_string(s->triangle));
+      if (ends_of(*s) != ends) throw InvalidMesh(name + " has different ends in face " + to_string(s->triangle));
       if (std::abs(length(*s) - length(*begin)) > kLengthAgreement * length(*begin)) {
         throw InvalidMesh(name + " has two lengths, in faces " + to_string(begin->triangle) + " and " +
                           to_string(s->triangle));

@@ -150,8 +150,8 @@ solver::Solution PaperSolver::correction(const Eigen::MatrixXd& B, Execution& ex
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
   const auto report = solver::conjugate_gradients(L_, B, X, {}, execution);
   if (report.converged) return X;
-  throw SolverError("conjugate gradients do not refine the harmonic forms, on a system of " + std::to_string(B.rows()) +
-                    " unknowns; take one of auto, direct, multigrid");
+  throw SolverError("conjugate gradients failed to refine the harmonic forms on a system of " +
+                    std::to_string(B.rows()) + " unknowns; take one of auto, direct, multigrid");
 }
 
 }  // namespace holomorph::multiresolution

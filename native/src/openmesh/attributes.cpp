@@ -13,7 +13,7 @@ void require_count(std::ptrdiff_t given, const char* what, std::size_t count, co
 void require_edges(std::span<const int> edges, const SurfaceOfMesh& part) {
   for (const int e : edges) {
     if (e < 0 || e >= static_cast<int>(part.edges.size())) {
-      throw InvalidMesh("edge " + std::to_string(e) + " is none of the mesh: the surface has " +
+      throw InvalidMesh("edge " + std::to_string(e) + " is not an edge of the mesh: the surface has " +
                         std::to_string(part.edges.size()) + " edges of polygons");
     }
   }

@@ -24,7 +24,7 @@ std::vector<int> numbers(const std::vector<mesh::Triple>& base, std::size_t vert
     const int v = records[i].v0.idx();
     if (v < 0 || v >= static_cast<int>(vertex_count) || number[v] >= 0) {
       throw InvalidMesh("record " + std::to_string(i) + " removes vertex " + std::to_string(v) +
-                        ", which is none, or is there still, or is removed twice");
+                        ", which does not exist, is still in the mesh, or is removed twice");
     }
     number[v] = next++;
   }
@@ -53,7 +53,7 @@ progressive::ProgressiveMesh detail::from_records(const std::vector<mesh::Triple
   const std::vector<int> number = numbers(base, positions.size(), records);
   const auto at = [&](VertexHandle v) {
     if (v.idx() >= static_cast<int>(number.size())) {
-      throw InvalidMesh("a record names vertex " + std::to_string(v.idx()) + ", which is none");
+      throw InvalidMesh("a record names vertex " + std::to_string(v.idx()) + ", which does not exist");
     }
     return v.is_valid() ? number[v.idx()] : -1;
   };

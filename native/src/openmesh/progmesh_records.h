@@ -48,7 +48,7 @@ progressive::ProgressiveMesh from_progmesh_records(const Mesh& mesh, const Recor
   std::vector<mesh::Triple> base;
   for (std::size_t f = 0; f < part.faces.size(); ++f) {
     if (polygons.face_offsets[f] != 3 * (static_cast<int>(f) + 1)) {
-      throw InvalidMesh("face " + std::to_string(part.faces[f].idx()) + " is no triangle");
+      throw InvalidMesh("face " + std::to_string(part.faces[f].idx()) + " is not a triangle");
     }
     const int* v = &polygons.corner_vertices[3 * f];
     base.push_back({v[0], v[1], v[2]});

@@ -58,7 +58,7 @@ void append_face(const Mesh& mesh, OpenMesh::FaceHandle f, SurfaceOfMesh& part, 
   OpenMesh::HalfedgeHandle h = first;
   do {
     const bool linked = h.is_valid() && mesh.face_handle(h) == f && part.corners.size() < mesh.n_halfedges();
-    if (!linked) throw InvalidMesh("the half-edges of face " + std::to_string(f.idx()) + " are no closed loop");
+    if (!linked) throw InvalidMesh("the half-edges of face " + std::to_string(f.idx()) + " do not form a closed loop");
     const OpenMesh::VertexHandle v = mesh.to_vertex_handle(h);
     if (is_deleted(mesh, v)) {
       throw InvalidMesh("face " + std::to_string(f.idx()) + " has the deleted vertex " + std::to_string(v.idx()));

@@ -35,7 +35,7 @@ void check_corners(const std::vector<int>& corners, const std::vector<int>& plac
     throw TopologyError("there are " + std::to_string(corners.size()) + " rectangle corners; four are needed");
   for (const int v : corners) {
     if (v < 0 || v >= static_cast<int>(place.size()))
-      throw TopologyError("rectangle corner " + std::to_string(v) + " is no vertex: there are " +
+      throw TopologyError("rectangle corner " + std::to_string(v) + " is not a vertex: there are " +
                           std::to_string(place.size()));
     if (std::count(corners.begin(), corners.end(), v) > 1)
       throw TopologyError("rectangle corner " + label(v) + " is given twice");

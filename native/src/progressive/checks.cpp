@@ -19,7 +19,7 @@ void check_permutation(const std::vector<int>& index, const char* what) {
   std::vector<char> found(index.size(), 0);
   for (const int i : index) {
     require(i >= 0 && static_cast<std::size_t>(i) < index.size() && !found[i],
-            std::string(what) + " are no permutation");
+            std::string(what) + " are not a permutation");
     found[i] = 1;
   }
 }
@@ -53,7 +53,7 @@ void check_corners(const ProgressiveMesh& mesh, const std::vector<Triple>& trian
     const int last = polygon.empty() ? first + 3 : mesh.face_offsets[polygon[original] + 1];
     for (int i = 0; i < 3; ++i) {
       const int c = corners[t][i];
-      require(c >= first && c < last, "a triangle has a corner of another polygon");
+      require(c >= first && c < last, "a triangle has a corner from another polygon");
       require(vertex[c] < 0 || vertex[c] == triangles[t][i], "corner " + std::to_string(c) + " has two vertices");
       vertex[c] = triangles[t][i];
     }

@@ -101,15 +101,14 @@ std::vector<Split> read_splits(Reader& reader, std::uint64_t count) {
 Counts read_header(Reader& reader, std::uint32_t& parts) {
   const auto magic = reader.numbers<char>(kMagic.size());
   if (!std::equal(magic.begin(), magic.end(), kMagic.begin()))
-    throw InvalidMesh("the file is no progressive mesh: it does not begin with HoloPM");
+    throw InvalidMesh("the file is not a progressive mesh: it does not begin with HoloPM");
   const auto version = reader.number<std::uint32_t>();
   if (version != kVersion) {
     throw InvalidMesh("the file of the progressive mesh has version " + std::to_string(version) + "; version " +
                       std::to_string(kVersion) + " can be read");
   }
   parts = reader.number<std::uint32_t>();
-  if (parts > (kCorners | kPolygons))
-    throw InvalidMesh("the file of the progressive mesh has parts that are not known");
+  if (parts > (kCorners | kPolygons)) throw InvalidMesh("the file of the progressive mesh has unknown parts");
   const auto n = reader.numbers<std::uint64_t>(8);
   for (std::size_t i = 0; i < 6; ++i) {
     // Sides of triangles are numbered 4 t + i (corner_table.h).
@@ -165,7 +164,7 @@ ProgressiveMesh from_bytes(std::string_view bytes) {
   const auto type = reader.numbers<char>(n.corner_type);
   mesh.corner_type.assign(type.begin(), type.end());
   mesh.corner_data = reader.numbers<char>(n.corner_data);
-  if (!reader.at_end()) throw InvalidMesh("the file of the progressive mesh goes on behind its end");
+  if (!reader.at_end()) throw InvalidMesh("the file of the progressive mesh continues past its end");
   if (!(parts & kPolygons) && n.polygons != n.triangles)
     throw InvalidMesh("the file of the progressive mesh miscounts its polygons");
   set_base(mesh, base_triangles, static_cast<std::size_t>(n.base_vertices));

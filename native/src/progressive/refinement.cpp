@@ -41,7 +41,7 @@ void Refinement::require(bool valid, const char* what) const {
 void Refinement::check_vertices(const Split& split, int t) const {
   require(split.slot_l < 3 && split.slot_r < 3, "names a corner beyond the third");
   require(split.v_l < t && split.v_r < t && split.v_l != split.v_r,
-          "has the same vertex on both sides, or one too early");
+          "has the same vertex on both sides, or one that does not exist yet");
 }
 
 Refinement::Sector Refinement::sector_of(const Split& split, int t) const {
@@ -52,7 +52,7 @@ Refinement::Sector Refinement::sector_of(const Split& split, int t) const {
   };
   const int from = split.v_r < 0 ? 0 : place(split.v_r), to = split.v_l < 0 ? n : place(split.v_l);
   check_vertices(split, t);
-  require(from < count && (to < count || split.v_l < 0), "names a vertex that is no neighbour of v_s");
+  require(from < count && (to < count || split.v_l < 0), "names a vertex that is not a neighbour of v_s");
   // v_l or v_r is missing if the new edge lies on the boundary. Then the sector reaches the end of an open star.
   const bool open_end = split.v_l < 0 || split.v_r < 0;
   require(closed ? !open_end : from < to || (open_end && from == to), "crosses the boundary");
@@ -118,7 +118,7 @@ void Refinement::split() {
   const Split& split = mesh_.splits[made_];
   const auto& [s, l, r, slot_l, slot_r] = split;
   const int t = mesh_.base.vertex_count + made_;
-  require(s >= 0 && s < t && l >= -1 && r >= -1, "names a vertex that is not there yet");
+  require(s >= 0 && s < t && l >= -1 && r >= -1, "names a vertex that does not exist yet");
   find_star(s);
   const Sector sector = sector_of(split, t);
   const auto& [from, to, closed] = sector;

@@ -51,12 +51,12 @@ void check_vertices(const Poles& poles, int vertex_count, bool closed) {
   std::vector<char> met(vertex_count, 0);
   for (const int v : vertices) {
     if (v < 0 || v >= vertex_count)
-      throw TopologyError("pole " + std::to_string(v) + " is no vertex: there are " + std::to_string(vertex_count));
+      throw TopologyError("pole " + std::to_string(v) + " is not a vertex: there are " + std::to_string(vertex_count));
     if (std::exchange(met[v], 1)) throw TopologyError("pole " + label(poles, v) + " is given twice");
   }
   if (closed && vertices.size() == 1) {
     throw TopologyError("pole " + label(poles, vertices[0]) +
-                        " is the only one: a closed surface needs two or more, as the residues sum to 0");
+                        " is the only one: a closed surface needs at least two, as the residues sum to 0");
   }
 }
 

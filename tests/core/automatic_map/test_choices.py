@@ -61,7 +61,7 @@ def test_thresholds():
     tube = surface_of(cylinder(24, 20))
     chosen = {"solver": "paper", "thresholds": [200]}
     assert len(automatic_structure(tube, **chosen).solver.levels) == 3
-    with pytest.raises(ValueError, match="thresholds are those of the paper's solver"):
+    with pytest.raises(ValueError, match="thresholds need solver='paper'"):
         automatic_structure(SHEET, thresholds=[200])
 
 

@@ -156,7 +156,7 @@ def test_certificate_says_where_bounds_do_not_hold():
     vertices[1] = vertices[0]
     certificate = conformal_structure(Surface(vertices, handle.corners.reshape(-1, 3))).certificate
     assert not certificate.holds
-    assert "another surface" in certificate.reason or "leaves its shape open" in certificate.reason
+    assert "differs slightly" in certificate.reason or "leaves its shape uncertain" in certificate.reason
 
 
 def test_certificate_of_streamed_forms():

@@ -174,7 +174,7 @@ def test_shear_that_was_there_is_not_forgiven():
 
 @pytest.mark.parametrize("evenness", [-0.1, 1.001, np.nan, "much", None])
 def test_bad_evenness_is_refused(evenness):
-    with pytest.raises(ValueError, match="a number from 0, for angles, to 1"):
+    with pytest.raises(ValueError, match="a number from 0 .keeps angles. to 1"):
         form_map(structure("free").surface, structure("free"), evenness=evenness)
 
 

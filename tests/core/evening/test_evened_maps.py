@@ -196,7 +196,7 @@ def test_cancelled():
 
 @pytest.mark.parametrize("evenness", [-0.1, 1.001, np.nan, np.inf, "much", None, 0.5j])
 def test_bad_evenness_is_refused(evenness):
-    with pytest.raises(ValueError, match="a number from 0, for angles, to 1"):
+    with pytest.raises(ValueError, match="a number from 0 .keeps angles. to 1"):
         evened(*case("hemisphere"), evenness)
 
 

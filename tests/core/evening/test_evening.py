@@ -161,7 +161,7 @@ def test_cancelling_keeps_the_tiling():
 def test_refused(evenness):
     own, made = tiler("sphere"), tiling("sphere", 0)
     for ask in (lambda: own.tile(40, evenness=evenness), lambda: own.even(made, evenness)):
-        with pytest.raises(ValueError, match="a number from 0, for angles, to 1"):
+        with pytest.raises(ValueError, match="a number from 0 .keeps angles. to 1"):
             ask()
 
 

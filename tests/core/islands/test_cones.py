@@ -87,7 +87,7 @@ def test_a_hand_becomes_even():
     ids=["torus", "tube", "sphere"],
 )
 def test_other_surfaces_are_refused(mesh):
-    with pytest.raises(TopologyError, match="cone points are made in a disk"):
+    with pytest.raises(TopologyError, match="cone points need a disk"):
         cut_to_cones(surface_of(mesh))
 
 

@@ -63,8 +63,8 @@ def neighbour(surface, vertex):
     ("holes", "message"),
     [
         ([0, 1, 0], "hole 0 is named twice"),
-        ([-1], "hole -1 is no vertex: there are 432"),
-        ([432], "hole 432 is no vertex: there are 432"),
+        ([-1], "hole -1 is not a vertex: there are 432"),
+        ([432], "hole 432 is not a vertex: there are 432"),
         ([0.5], "holes must be a list of vertex indices"),
         ([[0]], "holes must be a list of vertex indices"),
     ],
@@ -96,7 +96,7 @@ def test_holes_at_the_boundary():
 
 def test_polygons_that_meet_behind_the_hole():
     """C-shaped ones, which close up around the tube."""
-    with pytest.raises(TopologyError, match="the faces around hole 20 are no disk: refine the mesh there"):
+    with pytest.raises(TopologyError, match="the faces around hole 20 do not form a disk: refine the mesh there"):
         punch_holes(surface_of(CLOSED["washer of C-shaped n-gons"]), [20])
 
 

@@ -164,7 +164,7 @@ def test_thresholds(name):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"solver": "direct", "thresholds": []}, "thresholds are those of the paper's solver, and solver is 'direct'"),
+        ({"solver": "direct", "thresholds": []}, "thresholds need solver='paper', but solver is 'direct'"),
         ({"solver": "paper", "thresholds": [0]}, "a threshold is 0; a positive number is needed"),
         ({"solver": "paper", "thresholds": ["all"]}, "a threshold is 'all'; a positive number is needed"),
     ],

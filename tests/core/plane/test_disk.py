@@ -231,7 +231,7 @@ DISK = flat(6)
 REFUSED = {
     "on the boundary": (DISK, {"poles": [126]}, "vertex 126 lies on the boundary"),
     "next to the boundary": (DISK, {"poles": [80]}, "faces around vertex 80 touch the boundary at vertex"),
-    "out of range": (DISK, {"poles": [127]}, "pole 127 is no vertex: there are 127"),
+    "out of range": (DISK, {"poles": [127]}, "pole 127 is not a vertex: there are 127"),
     "repeated": (DISK, {"poles": [3, 3]}, "given twice"),
     "stars": (DISK, {"poles": [0, 10]}, "share vertex|corners of one face"),
     "zero": (DISK, {"poles": [0], "residues": [0]}, "residue 0 is 0"),
@@ -243,7 +243,7 @@ REFUSED = {
     [
         (126, "vertex 126 lies on the boundary"),
         (80, "faces around vertex 80 touch the boundary at vertex"),
-        (127, "centre 127 is no vertex: there are 127"),
+        (127, "centre 127 is not a vertex: there are 127"),
         (0.5, "list of vertex indices"),
     ],
 )

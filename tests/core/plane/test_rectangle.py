@@ -153,7 +153,7 @@ def test_isolated_vertices_keep_their_numbers():
     chosen = [v + 1 for v in corners_of(6, 5)]
     structure = rectangle_map(surface, chosen)
     assert structure.corners.tolist() == chosen
-    with pytest.raises(TopologyError, match="rectangle corner 0 is a vertex of no face"):
+    with pytest.raises(TopologyError, match="rectangle corner 0 belongs to no face"):
         rectangle_map(surface, [0, *chosen[1:]])
 
 
@@ -163,7 +163,7 @@ REFUSED = {
     "three": (GRID, [A, B, C], "3 rectangle corners; four are needed"),
     "repeated": (GRID, [A, B, C, A], f"rectangle corner {A} is given twice"),
     "inside": (GRID, [A, B, C, 8], "rectangle corner 8 does not lie on the boundary"),
-    "out of range": (GRID, [A, B, C, 42], "rectangle corner 42 is no vertex: there are 42"),
+    "out of range": (GRID, [A, B, C, 42], "rectangle corner 42 is not a vertex: there are 42"),
     "out of order": (GRID, [A, C, B, D], f"not in the order of the boundary.*: that is {A}, {B}, {C}, {D}"),
     "clockwise": (GRID, [A, D, C, B], f"not in the order of the boundary.*: that is {A}, {B}, {C}, {D}"),
     "no integers": (GRID, [0.5, 1, 2, 3], "list of vertex indices"),

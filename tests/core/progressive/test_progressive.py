@@ -309,11 +309,11 @@ def test_malformed_files_are_refused(body, tmp_path):
     path.write_bytes(b"")
     with pytest.raises(InvalidMesh):
         ProgressiveMesh.load(path)
-    refused(b"solid teapot" + bytes(100), path, "is no progressive mesh")
+    refused(b"solid teapot" + bytes(100), path, "is not a progressive mesh")
     refused(body[:8] + b"\x02" + body[9:], path, "version 2; version 1 can be read")
-    refused(body[:12] + b"\x08" + body[13:], path, "parts that are not known")
+    refused(body[:12] + b"\x08" + body[13:], path, "unknown parts")
     refused(body[:-1], path, "ends too early")
-    refused(body + b"\0", path, "behind its end")
+    refused(body + b"\0", path, "past its end")
     refused(body[:19] + b"\xff" + body[20:], path, "ends too early|too many elements")
     path.write_bytes(body + b"abcd")
     with pytest.raises(InvalidMesh, match="checksum"):

@@ -250,7 +250,7 @@ def test_isolated_vertices_keep_their_numbers():
     structure = log_map(surface_of(shifted), poles=[4, 401])
     assert (structure.poles == [4, 401]).all()
     assert np.isnan(structure.sphere_map()[0]).all()
-    with pytest.raises(TopologyError, match="pole 0 is a vertex of no face"):
+    with pytest.raises(TopologyError, match="pole 0 belongs to no face"):
         log_map(surface_of(shifted), poles=[0, 401])
     with pytest.raises(TopologyError, match="poles 4 and 4[0-9]* .*vertex|is given twice"):
         log_map(surface_of(shifted), poles=[4, 4])
@@ -264,8 +264,8 @@ QUADS = CLOSED["torus of quads"]
 REFUSED = {
     "one pole": (SPHERE, {"poles": [5]}, "5 is the only one"),
     "repeated": (SPHERE, {"poles": [5, 70, 5]}, "pole 5 is given twice"),
-    "out of range": (SPHERE, {"poles": [5, 492]}, "pole 492 is no vertex: there are 492"),
-    "negative": (SPHERE, {"poles": [-1, 5]}, "pole -1 is no vertex"),
+    "out of range": (SPHERE, {"poles": [5, 492]}, "pole 492 is not a vertex: there are 492"),
+    "negative": (SPHERE, {"poles": [-1, 5]}, "pole -1 is not a vertex"),
     "no integers": (SPHERE, {"poles": [0.5, 5]}, "list of vertex indices"),
     "no list": (SPHERE, {"poles": 7}, "list of vertex indices"),
     "sum": (SPHERE, {"poles": [5, 300], "residues": [1, -2]}, "residues sum to -1;.* must sum to 0"),

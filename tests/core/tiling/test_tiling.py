@@ -162,7 +162,7 @@ REFUSED = [
     (SPHERE, {"poles": 0}, TopologyError, "not enough"),
     (SPHERE, {"poles": [5]}, TopologyError, "two or more"),
     (SPHERE, {"poles": [5, 5]}, TopologyError, "pole 5 is given twice"),
-    (SPHERE, {"poles": [5, 10**6]}, TopologyError, "1000000 is no vertex"),
+    (SPHERE, {"poles": [5, 10**6]}, TopologyError, "1000000 is not a vertex"),
     (SPHERE, {"poles": 500}, TopologyError, "room for"),
     (SPHERE, {"poles": "many"}, ValueError, "poles is 'many'"),
     (SPHERE, {"poles": 2.5}, ValueError, "whole number"),
@@ -180,7 +180,7 @@ REFUSED = [
     (SPHERE, {"direction": "up"}, ValueError, "direction is"),
     (SPHERE, {"lattice": [["a", 1], [0, 1]]}, ValueError, "lattice is"),
     (SPHERE, {"boundary": ["free"]}, ValueError, "boundary is"),
-    (SPHERE, {"tiles": 3, "density": 1}, ValueError, "without tiles"),
+    (SPHERE, {"tiles": 3, "density": 1}, ValueError, "not both"),
     (SPHERE, {"boundary": "round"}, ValueError, "boundary is 'round'"),
     (DOUBLE, {"tiles": 0.01, "poles": 0}, TopologyError, "are enough"),
     (DISK, {"poles": [len(DISK.vertices) - 1]}, TopologyError, "boundary"),
@@ -272,7 +272,7 @@ def test_places_that_are_none_are_refused():
     made = tiler.tile(60)
     with pytest.raises(TopologyError, match="no pole 4: the tiling has 4"):
         tiler.move_poles(made, {4: 0})
-    with pytest.raises(TopologyError, match="no vertex"):
+    with pytest.raises(TopologyError, match="not a vertex"):
         tiler.move_poles(made, {0: 10**6})
     with pytest.raises(TopologyError, match="given twice"):
         tiler.move_poles(made, {0: made.poles[1], 1: made.poles[1]})

@@ -98,7 +98,7 @@ def test_symmetric_part_of_an_exact_form():
 
 def test_symmetrised_refuses_other_surfaces_and_forms():
     surface = surface_of(families.cylinder(8, 2))
-    with pytest.raises(TopologyError, match="no double_cover"):
+    with pytest.raises(TopologyError, match="not a double_cover"):
         symmetrised(surface, np.zeros(len(surface._native.edges)))
     with pytest.raises(TypeError, match="double is of type list"):
         symmetrised([], [0.0])

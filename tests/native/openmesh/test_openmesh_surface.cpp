@@ -148,7 +148,7 @@ TEST_F(OpenMeshRefusals, FacesOfDeletedVertices) {
 TEST_F(OpenMeshRefusals, HalfEdgesThatCloseNoLoop) {
   const HalfedgeHandle first = mesh_.halfedge_handle(FaceHandle(3)), second = mesh_.next_halfedge_handle(first);
   mesh_.set_next_halfedge_handle(second, second);
-  EXPECT_EQ(message(mesh_), "the half-edges of face 3 are no closed loop");
+  EXPECT_EQ(message(mesh_), "the half-edges of face 3 do not form a closed loop");
 }
 
 TEST_F(OpenMeshRefusals, EmptyMeshes) { EXPECT_NE(message(DoublePolygons()), ""); }

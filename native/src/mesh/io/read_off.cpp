@@ -23,10 +23,10 @@ void read_header(const FileText& file, Scanner& scan) {
   for (const std::string_view prefix : {"ST", "C", "N"})
     if (keyword.starts_with(prefix)) keyword.remove_prefix(prefix.size());
   if (keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF")
-    ahead.fail("the file has vertices in another dimension than 3 (" + std::string(whole) + ")");
+    ahead.fail("the vertices of the file do not have 3 dimensions (" + std::string(whole) + ")");
   if (keyword != "OFF") ahead.fail("an OFF file starts with OFF, but found " + quoted(whole));
   Scanner after = ahead;
-  if (after.word() == "BINARY") after.fail("binary OFF files are not read; save the mesh as text");
+  if (after.word() == "BINARY") after.fail("binary OFF files cannot be read; save the mesh as text");
   scan = ahead;
 }
 

@@ -75,7 +75,7 @@ std::vector<int> PoleCandidates::first_candidates() {
   for (const std::size_t count = basis_.closed() ? 2 : 1; poles.size() < count;) {
     const std::vector<int> candidates = everywhere(poles);
     if (candidates.empty()) {
-      throw TopologyError((options_.allowed.empty() ? "the vertices of the mesh" : "the vertices where poles may be") +
+      throw TopologyError((options_.allowed.empty() ? "the vertices of the mesh" : "the vertices allowed for poles") +
                           std::string(" have no room for ") + std::to_string(count) +
                           " poles: the faces around poles must not touch; subdivide the mesh");
     }
