@@ -6,7 +6,7 @@ from .. import native
 from ..solving import jobs
 
 MAP_SHARE = 0.6  # part of the work, after the structures
-FORMLESS = "a sphere or a disk has no forms by which the map could be found, and there are many such maps"
+FORMLESS = "a sphere or a disk has many such maps, and no forms that single one out"
 
 
 class CarriedMap(jobs.Work):

@@ -10,15 +10,16 @@ from .modal import WorkOperator
 
 
 class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
-    """Give the active mesh the UV map of the other selected one: by the conformal map between the two, which keeps all
-    angles. For two meshes of one shape, such as a simplification, a bent or a mirrored copy, with handles or holes"""
+    """Give the active mesh the UV map of the other selected mesh, by the conformal map between the two, which keeps
+    all angles. For two meshes of one shape, such as a simplification, a bent or a mirrored copy, with handles or
+    holes"""
 
     bl_idname = "object.holomorphic_carry"
     bl_label = "Transfer UVs Conformally"
 
     tolerance: FloatProperty(
         name="Tolerance",
-        description="By how much the periods of the two surfaces may differ, which no map brings to nothing",
+        description="Allowed difference between the periods of the two surfaces, which no map removes",
         subtype="PERCENTAGE",
         default=5.0,
         min=0.0,
@@ -41,7 +42,7 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
         if reason:
             raise ValueError(f"{taking.name}: {reason}")
         if len(taking.data.uv_layers) >= compatibility.UV_MAP_LIMIT:
-            raise ValueError(f"{taking.name} has {compatibility.UV_MAP_LIMIT} UV maps, and Blender takes no more")
+            raise ValueError(f"{taking.name} has {compatibility.UV_MAP_LIMIT} UV maps, the most that Blender allows")
         self._sides = self.read_sides([given, taking])
         self._map = layer.name
         self._uv = uv_maps.read_corners(given.data, self._sides[0].polygons, layer.name)
@@ -63,7 +64,7 @@ class HOLOMORPH_OT_carry(TwoMeshes, WorkOperator, bpy.types.Operator):
         obj = bpy.data.objects.get(self._taking)
         problem = native.sentence(work.error) if work.error else ""
         if obj is None or (time_has_passed and not targets.read(obj).equals(taking.polygons)):
-            problem = f"{taking.name} was changed meanwhile"
+            problem = f"{taking.name} changed during the run; please run it again"
         if problem:
             return self.refuse(problem)
         written = uv_maps.write_map(obj.data, taking.polygons, self._map, work.uv)

@@ -30,7 +30,7 @@ class TwoMeshes:
 
 
 class HOLOMORPH_OT_compare(TwoMeshes, WorkOperator, bpy.types.Operator):
-    """Say whether there is a map between the two selected meshes that keeps all angles: whether they are the same
+    """Find out whether a map between the two selected meshes keeps all angles: whether they are the same
     surface, mirror images, different, or cannot be told apart at this resolution"""
 
     bl_idname = "object.holomorphic_compare"

@@ -16,7 +16,7 @@ def compare(arguments):
     codes = ", ".join(f"{code} {verdict}" for verdict, code in EXIT_CODES.items())
     parser = Parser(
         prog="python -m holomorph compare",
-        description="Whether there is a conformal map between two surfaces.",
+        description="Decide whether there is a conformal map between two surfaces.",
         epilog=f"Exit code: {codes}; 1 where a file cannot be compared.",
     )
     parser.add_argument("meshes", nargs=2, metavar="mesh", help="OBJ, OFF, PLY or STL file of one connected surface")

@@ -97,12 +97,10 @@ def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Pro
     """
     for structure in (a, b):
         if not isinstance(structure, Mapped):
-            raise TypeError(
-                f"maps are made of structures with forms, without poles, not of a {type(structure).__name__}"
-            )
+            raise TypeError(f"a map needs structures with forms and without poles, not a {type(structure).__name__}")
     found = conformally_equivalent(a, b, tolerance=tolerance, progress=scaled(progress, 0.0, 0.2))
     if found.verdict not in ("equivalent", "mirror_image"):
-        raise TopologyError(f"there is no map to be made; {found.sentence}")
+        raise TopologyError(f"no map can be made; {found.sentence}")
     matching = _Matching(sides(a, b, found), found.verdict == "mirror_image", progress)
     return _result(a, b, matching, found, scaled(progress, FOUND, 1.0))
 
@@ -196,7 +194,9 @@ def _result(a, b, matching, found, progress):
     made = matching.run()
     mismatch = math.sqrt(_size(made))
     if mismatch > MOST_RESIDUAL:
-        raise SolverError(f"no map was found: the forms' integrals differ by {mismatch:.2g} where it ends")
+        raise SolverError(
+            f"no map was found: the forms' integrals still differ by {mismatch:.2g} where the search ended"
+        )
     # What lies beyond the boundary, in the other copy of the double, is reflected.
     first, second = a._triangulation, b._triangulation
     count = len(second.triangles)

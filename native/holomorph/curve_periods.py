@@ -48,13 +48,13 @@ def _branch_points(coefficients):
     """The roots from left to right."""
     given = np.array(coefficients, dtype=np.complex128)
     if given.ndim != 1 or not np.isfinite(given).all():
-        raise ValueError("coefficients are a row of finite numbers, that of the highest power first")
+        raise ValueError("coefficients must be a row of finite numbers, the highest power first")
     roots = np.roots(given)
     if len(roots) < 3:
-        raise ValueError(f"f has the degree {len(roots)}; from 3 on the curve has periods")
+        raise ValueError(f"f has the degree {len(roots)}; a curve has periods from degree 3")
     apart = np.abs(roots[:, None] - roots) + np.diag(np.full(len(roots), np.inf))
     if apart.min() < APART * np.abs(roots).max():
-        raise ValueError("f has a multiple root, or roots too near each other")
+        raise ValueError("f has a multiple root, or roots too close together")
     return roots[np.lexsort((roots.imag, roots.real))]
 
 

@@ -83,7 +83,7 @@ def conformally_equivalent(
     Source: Plesken & Souvignier (1997), with lattice points near a point for its candidates.
     """
     if real_number(tolerance, "tolerance") < 0:
-        raise ValueError(f"tolerance is {tolerance!r}; it is not negative")
+        raise ValueError(f"tolerance is {tolerance!r}; it must not be negative")
     first, second = side_of(a), side_of(b)
     found = _by_topology(first, second)
     if found is not None:
@@ -152,12 +152,12 @@ def _sentence(verdict, residual, tolerance, margin, is_complete, is_exact):
             f"Not equivalent: every map stretches some direction at least {_factor(margin)} times as much as another."
         )
     agree = "agree to rounding" if residual <= ROUNDING else f"differ by {_percent(residual)}"
-    near = f"their periods {agree}, certainly to less than {_percent(tolerance)}"
+    near = f"their periods {agree}, with an error certainly below {_percent(tolerance)}"
     if verdict in ("equivalent", "mirror_image"):
         begin = "Equivalent" if verdict == "equivalent" else "Mirror images of each other"
         return f"{begin}: {near}."
     if not is_exact:
-        return "Undecided: a surface has degenerate triangles, and the bounds of its periods are those of another one."
+        return "Undecided: a surface has degenerate triangles, so the bounds hold for a slightly different one."
     if not is_complete:
         return f"Undecided: the search among integer matrices reached its limit of {STEPS} steps."
     return f"Undecided: {near}; finer meshes have narrower bounds."

@@ -80,7 +80,7 @@ def igusa_invariants(
     """
     check_type(structure, Structure, "structure")
     if not isinstance(structure, ConformalStructure) or structure._component.genus != 2:
-        raise TopologyError("Igusa's invariants belong to closed surfaces of genus 2")
+        raise TopologyError("Igusa's invariants need a closed surface of genus 2")
     found = _of(structure)
     if width is None:
         return found

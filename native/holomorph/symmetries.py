@@ -55,7 +55,7 @@ def automorphisms(
     Cost: grows with the number of matrices that the bounds allow.
     """
     if not isinstance(structure, ConformalStructure):
-        raise TypeError(f"automorphisms belong to the structure of a closed surface, not to {type(structure).__name__}")
+        raise TypeError(f"automorphisms need the structure of a closed surface, not a {type(structure).__name__}")
     lattice = period_lattice(structure)
     allowed = max(real_number(tolerance, "tolerance"), AGREEMENT * lattice.radius(), ROUNDING)
     projected = lattice.projected()
@@ -78,7 +78,7 @@ def _largest_group(matrices, residuals, allowed):
     for count in ends[::-1]:
         if _table(matrices[:count]) is not None:
             return int(count)
-    raise Error("the symmetries of the periods are no group")
+    raise Error("the symmetries of the periods do not form a group")
 
 
 def _table(matrices):

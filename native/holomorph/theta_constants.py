@@ -35,7 +35,9 @@ def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     """
     genus = structure._component.genus
     if not isinstance(structure, ConformalStructure) or genus > 3:
-        raise TopologyError(f"theta constants tell hyperelliptic surfaces up to genus 3; the surface has genus {genus}")
+        raise TopologyError(
+            f"theta constants recognise hyperelliptic surfaces only up to genus 3; the surface has genus {genus}"
+        )
     if genus < 3:
         return Hyperelliptic("yes")
     omega = siegel_reduction(structure.period_matrix).period_matrix

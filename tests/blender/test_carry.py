@@ -89,13 +89,13 @@ def test_refusals(capfd, source):
         assert all(sentence in said for sentence in sentences), said
         return target
 
-    target = refused(torus("Other"), "there is no map to be made; Not equivalent", "genus 1 and 0 boundaries")
+    target = refused(torus("Other"), "no map can be made; Not equivalent", "genus 1 and 0 boundaries")
     assert not target.data.uv_layers
-    refused(mesh_object("Ball", *sphere_arrays()), "Ball: a sphere or a disk has no forms")
+    refused(mesh_object("Ball", *sphere_arrays()), "Ball: a sphere or a disk has many such maps")
     full = mesh_object("Full", *holed_torus())
     for index in range(FULL):
         full.data.uv_layers.new(name=f"Map {index}")
-    refused(full, "Full has 8 UV maps, and Blender takes no more")
+    refused(full, "Full has 8 UV maps, the most that Blender allows")
     for layer in [layer.name for layer in source.data.uv_layers]:
         source.data.uv_layers.remove(source.data.uv_layers[layer])
     refused(torus("Third"), "Source has no UV map")

@@ -115,7 +115,7 @@ def test_exact_periods_are_within_the_bounds(name, bounds):
 
 
 def test_automorphisms_belong_to_closed_surfaces():
-    with pytest.raises(TypeError, match="closed surface, not to BoundedStructure"):
+    with pytest.raises(TypeError, match="closed surface, not a BoundedStructure"):
         automorphisms(conformal_structure(surface_of(families.cylinder(8, 4))))
 
 

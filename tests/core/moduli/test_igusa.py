@@ -111,5 +111,5 @@ def test_what_keeps_them_wide_is_told():
 
 @pytest.mark.parametrize("mesh", [families.torus(12, 8), families.cylinder(8, 4)], ids=["torus", "cylinder"])
 def test_other_surfaces_have_none(mesh):
-    with pytest.raises(TopologyError, match="closed surfaces of genus 2"):
+    with pytest.raises(TopologyError, match="closed surface of genus 2"):
         igusa_invariants(conformal_structure(surface_of(mesh)))
