@@ -11,47 +11,47 @@ from .modal import WorkOperator
 from .properties import ONCE, items
 
 PIECES = items(
-    SCALE="Scales of a fish or a dragon, one over the other",
+    SCALE="Overlapping scales of a fish or a dragon",
     SHINGLE="Shingles of a roof",
     BRICK="Bricks with gaps",
     PLATE="Plates that fill the surface: hexagons in shifted rows",
     STUD="Pyramids, as on leather",
     RIVET="Heads of rivets",
     RING="Rings of chain mail, each in four others",
-    STITCH="Plain knitting, one stitch a cell",
-    OBJECT="An object of yours, a cell being 1 wide",
-    COLLECTION="The objects of a collection, by chance or in turn",
+    STITCH="Plain knitting, one stitch per cell",
+    OBJECT="Your own object; a cell is 1 unit wide",
+    COLLECTION="Objects of a collection, at random or in turn",
 )
 ROWS = items(
-    AUTOMATIC="As the piece wants it",
+    AUTOMATIC="As suits the piece",
     STRAIGHT="One above the other",
-    SHIFTED="Every other row is moved by half a cell; an even number of rows",
+    SHIFTED="Every other row is shifted by half a cell; needs an even number of rows",
 )
 PLACES = items(
-    CENTRES="In the middles of the cells",
-    CORNERS="At their corners",
-    LOWER_EDGES="On their lower sides",
-    LEFT_EDGES="On their left sides",
+    CENTRES="At the centres of the cells",
+    CORNERS="At the corners of the cells",
+    LOWER_EDGES="On the lower sides of the cells",
+    LEFT_EDGES="On the left sides of the cells",
 )
 DIRECTIONS = items(BOTH="Along both sides of tiles", U="Along u, the rows", V="Along v, across the rows")
 ABOUT = {
-    "piece": "What is put on the surface",
-    "columns": "Cells beside each other in a tile",
-    "rows": "Cells above each other in a tile; 0 for as many as suit the piece",
-    "arrangement": "How rows lie",
-    "place": "Where in its cell a piece is",
-    "source": "Its name",
-    "direction": "Which lines there are",
-    "per_tile": "Lines for each tile, the first between tiles",
-    "shifted": "Every other row is moved by half a cell, as bricks are; an even number of rows",
-    "simple": "Corners of tiles alone, straight between them: quads, but where there is a pole, a branch or the border."
-    " Off: cells lie on the surface, with a vertex on each edge that their sides cross",
+    "piece": "Pieces to put on the surface",
+    "columns": "Number of cells across a tile",
+    "rows": "Number of rows of cells in a tile; 0 chooses what suits the piece",
+    "arrangement": "Arrangement of the rows",
+    "place": "Position of a piece in its cell",
+    "source": "Name of the object or collection",
+    "direction": "Directions of the lines",
+    "per_tile": "Lines per tile, the first on the border between tiles",
+    "shifted": "Shift every other row by half a cell, as bricks are laid; needs an even number of rows",
+    "simple": "Join only the corners of cells, by straight edges: quads, except at poles, branch points and borders. "
+    "Off: cells lie on the surface, with a vertex wherever a side crosses an edge",
 }
 
 
 def _check_rows(are_shifted, count):
     if are_shifted and count % 2:
-        raise ValueError("shifted rows close up where a tile has an even number of them")
+        raise ValueError("shifted rows need an even number of rows per tile")
 
 
 class OnTiling(WorkOperator):
@@ -91,7 +91,7 @@ class OnTiling(WorkOperator):
         obj = bpy.data.objects.get(self._name)
         problem = native.sentence(work.error) if work.error else work.problem
         if obj is None or (time_has_passed and not geometry.source(obj)[0].equals(self._source[0])):
-            problem = "it was changed meanwhile; please run it again"
+            problem = "it changed during the run; please run it again"
         if problem:
             return self.refuse(f"{self._name[0]}: {problem}")
         try:
@@ -103,8 +103,8 @@ class OnTiling(WorkOperator):
 
 class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
     """Put scales, bricks, chain mail or pieces of your own on the active mesh, one in every cell of its seamless
-    tiling. They are instances by Geometry Nodes, and follow the mesh; the modifier has their size, tilt, chance and
-    mask"""
+    tiling. Geometry Nodes instance them, and they follow the mesh; set their size, tilt, randomness and mask in the
+    modifier"""
 
     bl_idname = "object.holomorphic_geometry"
     bl_label = "Geometry on Tiling"
@@ -113,7 +113,7 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
     source: StringProperty(name="Object", description=ABOUT["source"], options=ONCE)
     columns: IntProperty(name="Columns", description=ABOUT["columns"], default=4, min=1, soft_max=32, max=1000)
     rows: IntProperty(name="Rows", description=ABOUT["rows"], default=0, min=0, soft_max=32, max=1000)
-    arrangement: EnumProperty(name="Rows Are", description=ABOUT["arrangement"], items=ROWS, default="AUTOMATIC")
+    arrangement: EnumProperty(name="Arrangement", description=ABOUT["arrangement"], items=ROWS, default="AUTOMATIC")
     place: EnumProperty(name="Place", description=ABOUT["place"], items=PLACES, default="CENTRES")
 
     def draw_options(self, layout, _obj):
@@ -136,7 +136,7 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
         kind = self.piece.lower()
         found = getattr(bpy.data, f"{kind}s").get((self.source, None))
         if found is None:
-            raise ValueError(f"choose the {kind} that is to be put on the surface")
+            raise ValueError(f"choose the {kind} to put on the surface")
         if found == obj or (kind == "collection" and obj.name in found.all_objects):
             raise ValueError(f"{obj.name} cannot be put on itself")
         if kind == "collection" and not found.all_objects:
@@ -156,14 +156,14 @@ class HOLOMORPH_OT_geometry(OnTiling, bpy.types.Operator):
 
         values, lattice = points.joined(found)
         if not len(values["tile_u"]):
-            raise ValueError("its tiles are so large that no place lies on it: more columns have one")
+            raise ValueError("its tiles are so large that no place lies on it: use more columns")
         made = geometry.write_pieces(step, obj, values, self._piece, self._arranged(lattice).cell(lattice))
-        return f"{made.name}: {len(made.data.vertices):,} pieces; its modifier has the dials"
+        return f"{made.name}: {len(made.data.vertices):,} pieces; adjust them in its modifier"
 
 
 class HOLOMORPH_OT_lines(OnTiling, bpy.types.Operator):
-    """Make wires along the lines between the tiles of the active mesh's seamless tiling. They follow the mesh; the
-    modifier has their thickness"""
+    """Make wires along the lines between the tiles of the active mesh's seamless tiling. They follow the mesh; set
+    their thickness in the modifier"""
 
     bl_idname = "object.holomorphic_lines"
     bl_label = "Lines of Tiling"
@@ -185,21 +185,21 @@ class HOLOMORPH_OT_lines(OnTiling, bpy.types.Operator):
 
         values = wires.joined(found)
         if not len(values["edges"]):
-            raise ValueError("its tiles are so large that no line crosses it: more lines per tile do")
+            raise ValueError("its tiles are so large that no line crosses it: use more lines per tile")
         made = geometry.write_wires(step, obj, values)
-        return f"{made.name}: {values['count'].sum():,} lines; its modifier has their thickness"
+        return f"{made.name}: {values['count'].sum():,} lines; set their thickness in its modifier"
 
 
 class HOLOMORPH_OT_cells(OnTiling, bpy.types.Operator):
-    """Make a mesh of the tiles of the active mesh's seamless tiling, a polygon each, with their UVs: to extrude bricks
-    and panels, or as quads"""
+    """Make a mesh with one polygon per tile of the active mesh's seamless tiling, and its UVs: for bricks and panels
+    to extrude, or as quads"""
 
     bl_idname = "object.holomorphic_cells"
     bl_label = "Cut along Tiling"
 
     columns: IntProperty(name="Columns", description=ABOUT["columns"], default=2, min=1, soft_max=16, max=1000)
     rows: IntProperty(
-        name="Rows", description="Cells above each other in a tile", default=2, min=1, soft_max=16, max=1000
+        name="Rows", description="Number of rows of cells in a tile", default=2, min=1, soft_max=16, max=1000
     )
     shifted: BoolProperty(name="Shifted Rows", description=ABOUT["shifted"], default=False)
     simple: BoolProperty(name="Corners Only", description=ABOUT["simple"], default=False)
@@ -222,8 +222,8 @@ class HOLOMORPH_OT_cells(OnTiling, bpy.types.Operator):
 
         mesh = cut.joined(found)
         made, quads = geometry.write_cells(step, obj, mesh), int(mesh.faces["is_quad"].sum())
-        irregular = f", {mesh.irregular:,} vertices inside without four edges" if self.simple else ""
-        return f"{made.name}: {len(made.data.polygons):,} cells, {quads:,} of them whole with four corners{irregular}"
+        irregular = f", {mesh.irregular:,} interior vertices without four edges" if self.simple else ""
+        return f"{made.name}: {len(made.data.polygons):,} cells, {quads:,} of them complete quads{irregular}"
 
 
 register, unregister = bpy.utils.register_classes_factory(

@@ -9,20 +9,20 @@ from .properties import ONCE
 
 MILLIMETRES = 1000.0  # in a metre
 ABOUT = {
-    "image": "Whose white is raised, once in every tile; of colours it is the brightness",
-    "depth": "Of white over black, in millimetres: of the scene's units, or one in a unit where it has none. 0 for a"
-    " tenth of a tile",
-    "repeats": "How often the image lies across a tile; 0 for as often as the material shows it",
-    "level": "Grey that stays on the surface: 0 raises, 1 engraves",
-    "tolerance": "Height by which triangles may be off, from 0 to 1",
-    "most_triangles": "Where the picture asks for more, those that are farthest off are halved first",
-    "pole_fade": "Around a pole the picture fades out over so many tiles",
+    "image": "Image to raise once in every tile: the brighter, the higher",
+    "depth": "Height of white over black, in millimetres by the scene's units; without units, one unit is 1 mm. 0: a "
+    "tenth of a tile",
+    "repeats": "Number of images across a tile; 0 for as many as the material shows",
+    "level": "Grey level that stays on the surface: 0 raises, 1 engraves",
+    "tolerance": "Largest error of the triangles, from 0 to 1 of the depth",
+    "most_triangles": "Limit on the triangles; those with the largest errors are halved first",
+    "pole_fade": "Number of tiles over which the picture fades out around a pole",
 }
 
 
 class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
-    """Make a mesh of the active one on which an image is raised, once in every tile of its seamless tiling. It is
-    refined to where the image asks for it, closes up around every limb, and is as closed as the mesh"""
+    """Make a copy of the active mesh with an image raised on it, once in every tile of its seamless tiling. It is
+    refined where the image needs it, closes up around every limb, and is closed if the mesh is"""
 
     bl_idname = "object.holomorphic_relief"
     bl_label = "Relief"
@@ -56,7 +56,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
         shown, repeats = heights.shown(obj.active_material)
         image = bpy.data.images.get(self.image) if self.image else shown
         if image is None:
-            raise ValueError("choose the image that is to be raised")
+            raise ValueError("choose the image to raise")
         self._repeats = self.repeats or (repeats if image == shown else 1)
         try:
             self._heights = relief.heights_of(image_io.read_pixels(image), heights.weights(image))

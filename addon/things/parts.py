@@ -10,7 +10,7 @@ from ..solving import jobs
 from . import following
 
 FOUND = 0.7  # part of the work until something is found on all parts
-NO_TILING = "its UV map is no seamless tiling: press Seamless Tiling first"
+NO_TILING = "its UV map is not a seamless tiling: press Seamless Tiling first"
 
 
 @dataclass
@@ -37,7 +37,7 @@ class PartsWork(jobs.Work):
                 self.ask, done / len(components) * FOUND, (done + 1) / len(components) * FOUND
             )
             if not ask(0.0, "tiles"):
-                raise library.Cancelled("cancelled while tiles were looked for")
+                raise library.Cancelled("cancelled during the search for tiles")
             uv = self.uv if part.is_whole else self.uv[part.corner_index]
             try:
                 tiled = library.TiledSurface(part, uv, self.lattice)

@@ -15,11 +15,11 @@ def heights_of(pixels, weights):
     """(h, w) heights, the top row first, of (h, w, channels) pixels, the lowest row first, and what red, green and blue
     count. @throws ValueError"""
     if not pixels.size:
-        raise ValueError("it has no pixels: is its file there?")
+        raise ValueError("it has no pixels: check that its file exists")
     colours = pixels[::-1, :, :3].astype(np.float64)
     heights = colours @ weights if colours.shape[2] == 3 else colours[:, :, 0]
     if not np.isfinite(heights).all():
-        raise ValueError("some of its pixels are no numbers")
+        raise ValueError("some of its pixels are not numbers")
     return native.load().relief.checked_heights(np.clip(heights, 0, 1))
 
 
@@ -59,7 +59,7 @@ class RaisingWork(parts.PartsWork):
             return
         made = native.load().relief.joined(self.found)
         if not self.ask(parts.FOUND, "crossings"):
-            raise native.load().Cancelled("cancelled while triangles were looked for that cross")
+            raise native.load().Cancelled("cancelled during the search for crossing triangles")
         made.safe_depth  # noqa: B018  which is kept
         self.found = [made]
 
@@ -76,12 +76,14 @@ def sentence(relief, millimetres, skipped):
     """The sentence that tells of a relief. millimetres : in a unit of its positions"""
     told = [f"{len(relief.triangles):,} triangles, {relief.depth * millimetres:.3g} mm deep"]
     if skipped:
-        told.append(f"{skipped} parts without a tiling stay plain")
+        told.append(f"{skipped} parts without a tiling stay flat")
     if relief.is_full:
-        told.append(f"up to {relief.error * relief.depth * millimetres:.2g} mm off: more triangles follow the picture")
+        told.append(
+            f"up to {relief.error * relief.depth * millimetres:.2g} mm off: allow more triangles to follow the picture"
+        )
     if len(relief.crossings):
         safe = relief.safe_depth * millimetres
         least = relief.depth * native.load().relief.LEAST_PART * millimetres
-        told_of = f"up to {safe:.2g} mm it does not" if safe else f"at {least:.2g} mm it does, too"
+        told_of = f"up to {safe:.2g} mm deep it does not" if safe else f"at {least:.2g} mm it still does"
         told.append(f"it crosses itself in {len(np.unique(relief.crossings)):,} triangles: {told_of}")
     return "; ".join(told)

@@ -22,7 +22,7 @@ def height_image(path: FilePath) -> Reals:
         from PIL import Image, UnidentifiedImageError
     except ImportError as error:
         raise ValueError(
-            "pictures are read by Pillow, which is not installed: pip install holomorph[relief]"
+            "reading pictures needs Pillow, which is not installed: pip install holomorph[relief]"
         ) from error
     with open(path, "rb") as file:
         try:
@@ -30,5 +30,5 @@ def height_image(path: FilePath) -> Reals:
                 grey = picture if picture.mode in WHITE else picture.convert("L")
                 values = np.asarray(grey, dtype=np.float64)
         except (UnidentifiedImageError, Image.DecompressionBombError, SyntaxError, ValueError, OSError) as error:
-            raise ValueError(f"{Path(path).name} is no picture that can be read") from error
+            raise ValueError(f"{Path(path).name} is not a readable picture") from error
     return frozen(values / WHITE.get(grey.mode, 255))

@@ -122,7 +122,7 @@ class Map(Value):
         """The surface under the tiling, where things are placed in tiles. Raises TopologyError for a map that is
         none."""
         if not self.tiling:
-            raise TopologyError(f'the map is no tiling: its kind is {self.kind!r}; main="seamless" makes one')
+            raise TopologyError(f'the map is not a tiling: its kind is {self.kind!r}; main="seamless" makes one')
         return TiledSurface(self.surface, self.uv, self.tiling.lattice)
 
     @property

@@ -186,7 +186,7 @@ def checked_heights(heights):
     if pixels.ndim != 2 or not pixels.size:
         raise ValueError(f"heights has the shape {pixels.shape}; (rows, columns) are needed")
     if not (np.isfinite(pixels).all() and pixels.min() >= 0 and pixels.max() <= 1):
-        raise ValueError("heights has others than finite numbers from 0 to 1")
+        raise ValueError("heights must be finite numbers from 0 to 1")
     if pixels.min() == pixels.max():
         raise ValueError(f"the picture has the height {pixels.min():.3g} everywhere: nothing can be raised")
     return pixels
@@ -197,7 +197,7 @@ def checked_depth(depth, vertices):
     depth = real_number(depth, "depth", positive=True)
     size = float(np.linalg.norm(vertices.max(axis=0) - vertices.min(axis=0)))
     if depth >= size:
-        raise ValueError(f"a depth of {depth:.6g} is more than the whole mesh has: it is {size:.6g} across")
+        raise ValueError(f"a depth of {depth:.6g} is more than the size of the whole mesh, {size:.6g}")
     return depth
 
 

@@ -39,24 +39,31 @@ def relief(arguments):
 def _parser():
     parser = Parser(
         prog="python -m holomorph relief",
-        description="Raises a picture of heights on a mesh, once in every tile of a seamless tiling, for printing: "
-        "the pattern closes up around every limb, and the mesh stays as closed as it was.",
-        epilog="Exit status: 1 nothing was done, one sentence says why; 2 the command was misspelled; 3 with --strict.",
+        description="Raise a picture of heights on a mesh, once in every tile of a seamless tiling, for printing: "
+        "the pattern closes up around every limb, and a closed mesh stays closed.",
+        epilog="Exit status: 1 if nothing was done (a message says why), 2 for a mistake in the command, 3 with "
+        "--strict.",
     )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("heights", metavar="image", help="picture whose white is raised; it repeats in every tile")
-    parser.add_argument("--output", metavar="FILE", required=True, help="what is written: .3mf, .stl or .obj")
-    parser.add_argument("--depth", required=True, help=f"of white over black, such as 1.2mm; units: {', '.join(UNITS)}")
-    parser.add_argument("--tiles", type=float, help="over the whole mesh (default: as the map suits it)")
-    parser.add_argument("--repeats", type=int, default=1, help="how often the picture lies across a tile (default 1)")
-    parser.add_argument("--unit", choices=UNITS, default="mm", help="of the mesh's coordinates; mm are written")
-    parser.add_argument("--level", type=float, default=0.0, help="grey that stays: 0 raises (default), 1 engraves")
-    text = "height by which triangles may be off, from 0 to 1 (default 0.02)"
+    parser.add_argument("--output", metavar="FILE", required=True, help="file to write: .3mf, .stl or .obj")
+    parser.add_argument(
+        "--depth", required=True, help=f"height of white over black, such as 1.2mm; units: {', '.join(UNITS)}"
+    )
+    parser.add_argument("--tiles", type=float, help="number over the whole mesh (default: chosen to suit the map)")
+    parser.add_argument("--repeats", type=int, default=1, help="number of pictures across a tile (default 1)")
+    parser.add_argument("--unit", choices=UNITS, default="mm", help="unit of the coordinates; the output is in mm")
+    parser.add_argument(
+        "--level", type=float, default=0.0, help="grey that stays on the surface: 0 raises (default), 1 engraves"
+    )
+    text = "largest error of the triangles, from 0 to 1 of the depth (default 0.02)"
     parser.add_argument("--tolerance", type=float, default=0.02, help=text)
-    parser.add_argument("--most-triangles", type=int, default=1_000_000, help="that are made (default 1000000)")
-    parser.add_argument("--overwrite", action="store_true", help="let --output be the file that is read")
+    parser.add_argument(
+        "--most-triangles", type=int, default=1_000_000, help="limit on the triangles (default 1000000)"
+    )
+    parser.add_argument("--overwrite", action="store_true", help="allow --output to replace the input")
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
-    parser.add_argument("--strict", action="store_true", help="end with 3 where the result crosses itself or is open")
+    parser.add_argument("--strict", action="store_true", help="exit with 3 if the result crosses itself or is open")
     return parser
 
 
@@ -71,9 +78,9 @@ def _millimetres(text):
     try:
         depth = float(number) * UNITS[unit.lower() or "mm"]
     except ValueError as error:
-        raise ValueError(f"--depth is {text}: {number} is no number") from error
+        raise ValueError(f"--depth is {text}: {number} is not a number") from error
     if not 0 < depth < np.inf:
-        raise ValueError(f"--depth is {text}: it is more than 0 and finite; --level 1 engraves")
+        raise ValueError(f"--depth is {text}: it must be positive and finite; --level 1 engraves")
     return depth
 
 
@@ -117,10 +124,12 @@ def _outward(surface):
 def _told(made, refused, parts, depth):
     sentences = [f"{len(made.triangles):,} triangles, {depth:.4g} mm deep, {made.volume / 1000:.4g} cm3"]
     if refused:
-        sentences.append(f"{len(refused)} of {len(parts)} parts stay plain: {refused[0]}")
+        sentences.append(f"{len(refused)} of {len(parts)} parts stay flat: {refused[0]}")
     if made.is_full:
         off = made.error * depth
-        sentences.append(f"no more triangles were allowed: they are up to {off:.2g} mm off; see --most-triangles")
+        sentences.append(
+            f"the limit on the triangles was reached: they are up to {off:.2g} mm off; see --most-triangles"
+        )
     return sentences
 
 
@@ -131,7 +140,7 @@ def _faults(made, parts, depth):
     if len(made.crossings):
         at = made.vertices[made.triangles[made.crossings[0, 0]]].mean(axis=0)
         safe = made.safe_depth
-        least = f"up to {safe:.2g} mm it does not" if safe > 0 else f"at {LEAST_PART * depth:.2g} mm it does, too"
+        least = f"up to {safe:.2g} mm deep it does not" if safe > 0 else f"at {LEAST_PART * depth:.2g} mm it still does"
         place = ", ".join(f"{x:.4g}" for x in at)
         count = len(np.unique(made.crossings))
         sentences.append(f"it crosses itself in {count:,} triangles, the first near ({place}): {least}")

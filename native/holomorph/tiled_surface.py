@@ -48,7 +48,7 @@ class TiledSurface(Value):
     ) -> None:
         check_type(surface, Surface)
         if surface.vertices is None:
-            raise TopologyError("tiles lie on surfaces with positions; this one has edge lengths alone")
+            raise TopologyError("tiles need a surface with positions; this one has edge lengths only")
         self._threads = check_options("auto", threads)
         given, count = arrays.numbers(uv, "uv"), len(surface.corner_vertices)
         if given.shape != (count, 2):
@@ -208,7 +208,7 @@ def _pair(values, name):
 def _grid(per_tile, shifted_rows):
     columns, rows = (_count(number, "per_tile") for number in _pair(per_tile, "per_tile"))
     if shifted_rows and rows % 2:
-        raise ValueError(f"shifted rows close up where a tile has an even number of them; per_tile is {per_tile}")
+        raise ValueError(f"shifted rows need an even number of rows per tile; per_tile is {per_tile}")
     return columns, rows
 
 

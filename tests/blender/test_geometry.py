@@ -409,9 +409,9 @@ def refused(sentence, **options):
 def test_a_map_that_is_no_tiling_is_refused():
     torus()
     bpy.ops.uv.holomorphic_maps(main="BALANCED")
-    refused("no seamless tiling: press Seamless Tiling")
+    refused("not a seamless tiling: press Seamless Tiling")
     for other in (bpy.ops.object.holomorphic_lines, bpy.ops.object.holomorphic_cells):
-        with pytest.raises(RuntimeError, match="no seamless tiling: press Seamless Tiling"):
+        with pytest.raises(RuntimeError, match="not a seamless tiling: press Seamless Tiling"):
             other()
 
 

@@ -156,13 +156,13 @@ def test_what_cannot_be_is_one_sentence():
     tiled(obj)
     assert "choose the image" in refused(obj, image="None")
     assert "everywhere: nothing can be raised" in refused(obj, image=plain.name)
-    assert "more than the whole mesh" in refused(obj, image="Dots", depth=1e6)
+    assert "more than the size of the whole mesh" in refused(obj, image="Dots", depth=1e6)
     missing = bpy.data.images.new("Missing", 4, 4)
     missing.source, missing.filepath = "FILE", "//none.png"
     assert "it has no pixels" in refused(obj, image="Missing")
     for loop in obj.data.uv_layers.active.data:
         loop.uv *= 0.9
-    assert "is no seamless tiling" in refused(obj, image="Dots")
+    assert "is not a seamless tiling" in refused(obj, image="Dots")
 
 
 def test_it_tells_of_crossings_and_of_plain_parts():
@@ -171,8 +171,8 @@ def test_it_tells_of_crossings_and_of_plain_parts():
         depth, safe_depth, error, is_full = 0.2, 0.1, 0.5, True
 
     assert relief.sentence(Found, 1000.0, 2) == (
-        "9 triangles, 200 mm deep; 2 parts without a tiling stay plain; up to 1e+02 mm off: more triangles follow the"
-        " picture; it crosses itself in 3 triangles: up to 1e+02 mm it does not"
+        "9 triangles, 200 mm deep; 2 parts without a tiling stay flat; up to 1e+02 mm off: allow more triangles to "
+        "follow the picture; it crosses itself in 3 triangles: up to 1e+02 mm deep it does not"
     )
 
 

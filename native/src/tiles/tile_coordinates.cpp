@@ -32,7 +32,7 @@ std::string between(const mesh::Surface& surface, int edge) {
   return "the edge between the vertices " + std::to_string(a) + " and " + std::to_string(b);
 }
 
-[[noreturn]] void refuse(const std::string& what) { throw TopologyError("the map is no tiling: " + what); }
+[[noreturn]] void refuse(const std::string& what) { throw TopologyError("the map is not a tiling: " + what); }
 
 class Making {
  public:
@@ -94,7 +94,7 @@ class Making {
       // Stars of poles are apart from each other and from the boundary. Elsewhere a jump by parts of a tile is an
       // error.
       if (result_.is_pole[a] + result_.is_pole[b] > (is_border ? 0 : 1))
-        refuse("its UVs jump by parts of a tile at " + between(surface_, e));
+        refuse("its UVs jump by a fraction of a tile at " + between(surface_, e));
     }
   }
 
@@ -122,8 +122,8 @@ class Making {
         const Vector2d step = whole(jump(t, j)) - whole(jump(t, i));
         const Vector2d side = v[i] < v[j] ? step : Vector2d(-step);
         if (seen[e] && side != along[e])
-          refuse("its UVs jump by other tiles at the two ends of " + between(surface_, e) + ", which differ by " +
-                 text(side - along[e]));
+          refuse("its UVs jump by different numbers of tiles at the two ends of " + between(surface_, e) +
+                 ", which differ by " + text(side - along[e]));
         seen[e] = 1;
         along[e] = side;
       }

@@ -85,7 +85,7 @@ def test_it_tells_that_it_crosses_itself(folder, capsys):
     assert run("--strict", depth="14mm") == 3
     told = capsys.readouterr().out
     assert "it crosses itself in" in told
-    assert "mm it does not" in told
+    assert "mm deep it does not" in told
 
 
 def test_it_tells_that_the_mesh_itself_crosses(folder, capsys):
@@ -93,12 +93,12 @@ def test_it_tells_that_the_mesh_itself_crosses(folder, capsys):
     both = np.concatenate([torus.vertices, torus.vertices + (15, 3, 1)])
     Surface(both, np.concatenate([torus.triangles, torus.triangles + len(torus.vertices)])).write("two.obj")
     assert run(mesh="two.obj") == 0
-    assert "mm it does, too" in capsys.readouterr().out
+    assert "mm it still does" in capsys.readouterr().out
 
 
 def test_it_tells_how_far_triangles_are_off(folder, capsys):
     assert run("--most-triangles", "2000") == 0
-    assert "no more triangles were allowed" in capsys.readouterr().out
+    assert "the limit on the triangles was reached" in capsys.readouterr().out
 
 
 def test_parts_without_a_tiling_stay_plain(folder, capsys, monkeypatch):
@@ -112,7 +112,7 @@ def test_parts_without_a_tiling_stay_plain(folder, capsys, monkeypatch):
     refusal = relief_command.Error("too small")
     monkeypatch.setattr(relief_command, "automatic_maps", lambda *a, **k: [made(*a, **k)[0], refusal])
     assert run(mesh="two.obj") == 0
-    assert "1 of 2 parts stay plain: too small" in capsys.readouterr().out
+    assert "1 of 2 parts stay flat: too small" in capsys.readouterr().out
     assert sorted(len(part.triangles) for part in written().components)[0] == len(faces)
     monkeypatch.setattr(relief_command, "automatic_maps", lambda *a, **k: [refusal, refusal])
     assert run(mesh="two.obj", output="none.stl") == 1
@@ -121,21 +121,21 @@ def test_parts_without_a_tiling_stay_plain(folder, capsys, monkeypatch):
 
 
 BAD = {
-    "no depth": (dict(depth="0mm"), 2, "more than 0"),
-    "negative depth": (dict(depth="-1mm"), 2, "more than 0"),
-    "depth that is no number": (dict(depth="nan"), 2, "more than 0"),
-    "endless depth": (dict(depth="inf"), 2, "more than 0"),
-    "depth of two points": (dict(depth="1.2.3mm"), 2, "is no number"),
+    "no depth": (dict(depth="0mm"), 2, "must be positive"),
+    "negative depth": (dict(depth="-1mm"), 2, "must be positive"),
+    "depth that is no number": (dict(depth="nan"), 2, "must be positive"),
+    "endless depth": (dict(depth="inf"), 2, "must be positive"),
+    "depth of two points": (dict(depth="1.2.3mm"), 2, "is not a number"),
     "no length": (dict(depth="deep"), 2, "a length such as 1.2mm"),
     "unknown unit": (dict(depth="1 furlong"), 2, "the units are mm, cm, m, in, um"),
-    "depth above the mesh": (dict(depth="10m"), 1, "more than the whole mesh"),
+    "depth above the mesh": (dict(depth="10m"), 1, "more than the size of the whole mesh"),
     "ending": (dict(output="part.txt"), 2, "must end with .stl, .3mf or .obj"),
     "own mesh": (dict(output="torus.obj"), 2, "--overwrite"),
     "no mesh": (dict(mesh="none.obj"), 1, "none.obj"),
     "no image": (dict(image="none.png"), 1, "none.png"),
-    "mesh for an image": (dict(image="torus.obj"), 1, "no picture that can be read"),
+    "mesh for an image": (dict(image="torus.obj"), 1, "not a readable picture"),
     "one pixel": (dict(image="pixel.png"), 1, "the height 0.0275 everywhere"),
-    "half an image": (dict(image="half.png"), 1, "no picture that can be read"),
+    "half an image": (dict(image="half.png"), 1, "not a readable picture"),
     "no such folder": (dict(output="none/part.stl"), 1, "No such file or directory"),
 }
 

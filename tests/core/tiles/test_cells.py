@@ -31,7 +31,7 @@ def test_several_components_and_other_options():
     one = grid_torus(12, 9, 4, 3)
     both = TiledSurface(surface_of(mesh), np.concatenate([one.uv, one.uv]))
     assert len(both.cells()) == 2 * len(one.cells()) and len(both.places()) == 24 and len(both.lines()) == 6
-    with pytest.raises(ValueError, match="an even number of them"):
+    with pytest.raises(ValueError, match="an even number of rows"):
         one.cells(shifted_rows=True)
     with pytest.raises(ValueError, match="per_tile has 0"):
         one.cells(per_tile=(0, 1))

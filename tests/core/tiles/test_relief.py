@@ -272,9 +272,9 @@ def test_parts_are_joined_and_others_stay_plain():
 
 def test_a_map_that_is_no_tiling_is_refused():
     found = automatic_map(surface_of(CASES["torus"][0]), main="balanced")
-    with pytest.raises(holomorph.TopologyError, match="no tiling"):
+    with pytest.raises(holomorph.TopologyError, match="not a tiling"):
         found.tiled.relief(waves(), DEPTH)
-    with pytest.raises(holomorph.TopologyError, match="no tiling"):
+    with pytest.raises(holomorph.TopologyError, match="not a tiling"):
         TiledSurface(surface_of(CASES["torus"][0]), tiling("torus").uv * 0.9)
 
 
@@ -283,7 +283,7 @@ BAD = {
     "negative depth": ({"depth": -1}, "depth is -1; a positive"),
     "depth that is no number": ({"depth": float("nan")}, "depth is nan"),
     "endless depth": ({"depth": float("inf")}, "depth is inf"),
-    "depth above the mesh": ({"depth": 1e3}, "more than the whole mesh"),
+    "depth above the mesh": ({"depth": 1e3}, "more than the size of the whole mesh"),
     "no array": ({"heights": "hills"}, "heights is not an array"),
     "colours": ({"heights": np.ones((4, 4, 3))}, r"heights has the shape \(4, 4, 3\)"),
     "no pixels": ({"heights": np.empty((0, 4))}, r"heights has the shape \(0, 4\)"),
