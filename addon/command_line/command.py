@@ -39,7 +39,7 @@ def main(arguments):
     except NotFit as error:
         _fail(EXIT_STRICT, error)
     except KeyboardInterrupt:
-        _fail(EXIT_INTERRUPTED, "interrupted; what is written is whole")
+        _fail(EXIT_INTERRUPTED, "interrupted; files already written are complete")
 
 
 def _shown(sentence):

@@ -70,7 +70,7 @@ def read(path, up):
     made = [obj for obj in layer.objects if obj.type == "MESH" and obj not in before]
     meshes = sorted((obj for obj in made if not gathering.is_helper(obj)), key=lambda obj: obj.name)
     if not meshes:
-        raise ExchangeError(f"{path}: there is no mesh in it")
+        raise ExchangeError(f"{path}: it contains no mesh")
     for mesh in {obj.data for obj in meshes} if path.suffix.lower() in GLTF else ():
         joining.join(mesh)
     for obj in layer.objects:
@@ -101,7 +101,7 @@ def write(path, forms=False, texture=False):
     with native.load().whole_file.folder_beside(path) as folder:
         _export(path, folder / path.name)
         if not (folder / path.name).is_file():
-            raise ExchangeError(f"{path}: Blender has not written it")
+            raise ExchangeError(f"{path}: Blender did not write it")
 
 
 def _export(path, place):

@@ -41,11 +41,11 @@ def parse(arguments):
     parser.add_argument("mesh", nargs="?", type=Path, help="OBJ, OFF, PLY, STL, glTF, FBX or USD; else the .blend")
     parser.add_argument("--output", type=Path, help="where to save the result: .blend, .glb, .gltf, .fbx, .usd, .obj")
     parser.add_argument(
-        "--export-forms", action="store_true", help="keep maps of single forms in what is no .blend file"
+        "--export-forms", action="store_true", help="keep maps of single forms in files other than .blend"
     )
-    text = "put the texture on the objects in what is no .blend file, in place of their materials"
+    text = "put the texture on the objects in files other than .blend, in place of their materials"
     parser.add_argument("--export-texture", action="store_true", help=text)
-    parser.add_argument("--overwrite", action="store_true", help="let --output be the file that is read")
+    parser.add_argument("--overwrite", action="store_true", help="allow --output to replace the input")
     parser.add_argument("--render", type=Path, help="where to save a picture (PNG)")
     parser.add_argument("--report", type=Path, help="where to save the report (JSON)")
     parser.add_argument("--object", action="append", default=[], help="only this object (may be repeated)")
@@ -56,13 +56,17 @@ def parse(arguments):
     parser.add_argument("--fill-each", dest="equal", action="store_false", help=text)
     parser.add_argument("--no-checker", dest="checker", action="store_false", help="leave materials alone")
     parser.add_argument("--up", choices=("Y", "Z"), help="the mesh file's up axis (OBJ: Y, others: Z)")
-    parser.add_argument("--resolution", type=int, default=800, help="pixels of the picture's sides")
+    parser.add_argument("--resolution", type=int, default=800, help="width and height of the picture, in pixels")
     parser.add_argument("--samples", type=int, default=24, help="samples per pixel")
-    parser.add_argument("--levels", type=int, default=0, help="make so many levels of detail of each object")
-    parser.add_argument("--ratio", type=float, default=0.25, help="triangles of a level over those of the one before")
-    parser.add_argument("--side-by-side", action="store_true", help="the levels in a row, not in one place")
-    parser.add_argument("--strict", action="store_true", help="end with 3 unless every part has a map that is fit")
-    parser.add_argument("--lod0", action="store_true", help="a copy of the object as the finest level")
+    parser.add_argument("--levels", type=int, default=0, help="number of levels of detail to make of each object")
+    parser.add_argument(
+        "--ratio", type=float, default=0.25, help="triangles of a level, as a share of the level before"
+    )
+    parser.add_argument(
+        "--side-by-side", action="store_true", help="place the levels in a row, not at the object's location"
+    )
+    parser.add_argument("--strict", action="store_true", help="exit with 3 unless every part has a good or fair map")
+    parser.add_argument("--lod0", action="store_true", help="add a copy of the object as the finest level")
     _add_choices(parser)
     _add_tilings(parser)
     _add_bake(parser)
@@ -130,29 +134,29 @@ def _add_choices(parser):
         "--boundary",
         choices=("natural", "double_cover", "automatic", "straight", "free"),
         default="natural",
-        help="how holes are solved; with --seamless automatic (default), straight or free",
+        help="treatment of holes; with --seamless: automatic (default), straight or free",
     )
     group.add_argument("--solver", default="auto", help="as in holomorph.conformal_structure")
 
 
 def _add_tilings(parser):
-    group = parser.add_argument_group("seamless tilings, with --seamless alone")
+    group = parser.add_argument_group("seamless tilings, only with --seamless")
     group.add_argument("--seamless", action="store_true", help="one map, cut by whole tiles of a texture")
     group.add_argument("--poles", default="automatic", help="automatic, selected (in the .blend), or a number per part")
     _add_properties(group, TileProperties, "tiles", "pole_group", "lattice", "direction")
 
 
 def _add_bake(parser):
-    group = parser.add_argument_group("baking what tilings show into an atlas")
+    group = parser.add_argument_group("baking the texture of tilings into an atlas")
     group.add_argument("--bake", type=Path, metavar="FOLDER", help="bake, and save the images in this folder")
-    text = "texels on a metre of the surface; 0: images of 2,048 texels a side"
+    text = "texels per metre of the surface; 0: images of 2,048 texels a side"
     group.add_argument("--texels", type=float, default=BakeOptions.texels, help=text)
     names, usual = [name.lower() for name in CHANNELS], [name.lower() for name in CHANNELS if name in USUAL_CHANNELS]
-    group.add_argument("--bake-channels", nargs="+", choices=names, default=usual, help="what is baked")
+    group.add_argument("--bake-channels", nargs="+", choices=names, default=usual, help="channels to bake")
     images = [name.lower() for name in (EACH, ONE, UDIM)]
     text = "images for each object, one atlas for all, or one with a UDIM tile for each"
     group.add_argument("--bake-images", choices=images, default=BakeOptions.images.lower(), help=text)
-    text = "texels around islands that show what their border shows"
+    text = "texels around islands, filled with the colours of their border"
     group.add_argument("--bake-margin", type=int, default=BakeOptions.margin, help=text)
 
 
@@ -160,7 +164,7 @@ def _check_suffixes(options):
     for name, suffixes in SUFFIXES.items():
         path = getattr(options, name)
         wrong = path is not None and path.suffix.lower() not in suffixes
-        _refuse_if(wrong, f"--{name}: {path} must end with {' or '.join(suffixes)}, for that is what is written")
+        _refuse_if(wrong, f"--{name}: {path} must end with {' or '.join(suffixes)}")
 
 
 def _check_folders(*files):
@@ -174,24 +178,24 @@ def _check_values(options):
     is_ratio = 0 < options.ratio < 1
     _refuse_if(options.levels < 0 or not is_ratio, "--levels cannot be negative, and --ratio must be between 0 and 1")
     is_shown = options.checker or not options.export_texture
-    _refuse_if(not is_shown, "--export-texture and --no-checker exclude each other")
-    _refuse_if(options.pole and options.rectangle, "--pole and --rectangle exclude each other")
+    _refuse_if(not is_shown, "--export-texture and --no-checker cannot be combined")
+    _refuse_if(options.pole and options.rectangle, "--pole and --rectangle cannot be combined")
     is_factor = options.most_stretch == 0 or 1 < options.most_stretch < math.inf
     _refuse_if(not is_factor, "--most-stretch must be above 1, or 0 for no cuts")
     is_used = options.main == "islands"
-    _refuse_if(options.hard_edges and not is_used, "--hard-edges cuts islands: it goes with --main islands")
-    _refuse_if(options.most_stretch and not is_used, "--most-stretch cuts islands: it goes with --main islands")
+    _refuse_if(options.hard_edges and not is_used, "--hard-edges cuts islands: it needs --main islands")
+    _refuse_if(options.most_stretch and not is_used, "--most-stretch cuts islands: it needs --main islands")
     boundaries = ("natural", "automatic", "straight", "free") if options.seamless else ("natural", "double_cover")
-    sentence = "--boundary is automatic, straight or free with --seamless, natural or double_cover without"
+    sentence = "--boundary must be automatic, straight or free with --seamless, natural or double_cover without"
     _refuse_if(options.boundary not in boundaries, sentence)
     poles = options.poles
     is_number = poles.isdecimal() and int(poles) <= MOST_POLES
-    sentence = f"--poles: {poles!r} is none of automatic, selected, and 0 to {MOST_POLES}"
+    sentence = f"--poles: {poles!r} is not automatic, selected, or a number from 0 to {MOST_POLES}"
     _refuse_if(poles not in ("automatic", "selected") and not is_number, sentence)
     chosen = options.pole or options.rectangle
-    _refuse_if(options.seamless and chosen, "--pole and --rectangle go without --seamless: it has --poles")
+    _refuse_if(options.seamless and chosen, "--pole and --rectangle cannot be combined with --seamless: use --poles")
     is_file = options.bake is not None and options.bake.exists() and not options.bake.is_dir()
-    _refuse_if(is_file, f"--bake: {options.bake} is no folder")
+    _refuse_if(is_file, f"--bake: {options.bake} is not a folder")
     is_number = 0 <= options.texels < math.inf and options.bake_margin >= 0
     _refuse_if(not is_number, "--texels and --bake-margin cannot be negative")
     _refuse_if(min(options.resolution, options.samples) < 1, "--resolution and --samples must be at least 1")

@@ -37,7 +37,7 @@ def _request(options):
     """What is asked of every object; vertices are named for a single one. @throws ValueError"""
     solvers = native.load().SOLVERS
     if options.solver not in solvers:
-        raise UsageError(f"--solver: {options.solver!r} is none of {', '.join(solvers)}")
+        raise UsageError(f"--solver: {options.solver!r} is not one of {', '.join(solvers)}")
     asked = replace(options.choices().request(options), solver=options.solver)
     if asked.faces != choices.ASKED:
         asked = replace(asked, faces=choices.WHOLE)

@@ -53,23 +53,23 @@ def main(arguments=None):
 def _parser():
     parser = Parser(
         prog="python -m holomorph",
-        description="Conformal structure of a mesh file. A library of meshes is mapped by: holomorph batch --help. "
-        "Two surfaces are compared by: holomorph compare --help. A picture is raised on one, to be printed, by: "
-        "holomorph relief --help",
+        description="Compute the conformal structure of a mesh file. See also holomorph batch --help (map a library "
+        "of meshes), holomorph compare --help (compare two surfaces) and holomorph relief --help (raise a picture on "
+        "a mesh for printing).",
     )
     parser.add_argument("mesh", help="OBJ, OFF, PLY or STL file")
     parser.add_argument("--output", metavar="FILE", help="write the mesh with its main map: .obj, .ply or .glb")
     text = "with --output FILE.glb: a PNG or JPEG image on the mesh, or checker"
     parser.add_argument("--texture", metavar="IMAGE", help=text)
-    parser.add_argument("--overwrite", action="store_true", help="let --output be the file that is read")
+    parser.add_argument("--overwrite", action="store_true", help="allow --output to replace the input")
     parser.add_argument("--report", metavar="FILE", help="write the report as JSON (default without output: print it)")
-    text = "with --output default automatic: a seamless tiling where that is no less even; else balanced"
+    text = "default with --output: automatic, a seamless tiling where it is at least as even, else balanced"
     parser.add_argument("--main", choices=MAIN_MAPS, help=text)
     parser.add_argument("--solver", default="auto", help=f"{', '.join(SOLVERS)}: as in holomorph.conformal_structure")
-    text = "of --solver paper: numbers of faces, such as 1000,5000, at which forms are refined on the way, or none"
+    text = "for --solver paper: numbers of faces at which to refine the forms, such as 1000,5000, or none"
     parser.add_argument("--thresholds", type=_thresholds, metavar="FACES", help=text)
     parser.add_argument("--threads", type=int, help="number of threads (default: one per core)")
-    parser.add_argument("--strict", action="store_true", help="end with 3 unless every map is good or fair")
+    parser.add_argument("--strict", action="store_true", help="exit with 3 unless every map is good or fair")
     parser.add_argument("--version", action="version", version=__version__)
     return parser
 
@@ -79,14 +79,14 @@ def _thresholds(text):
     try:
         return [] if text == "none" else [int(number) for number in text.split(",")]
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r} is no list of numbers of faces such as 1000,5000") from error
+        raise argparse.ArgumentTypeError(f"{text!r} is not a list of numbers of faces such as 1000,5000") from error
 
 
 def _check_output(path, texture):
     """Raises ValueError or OSError, before any work."""
     if path is None:
         if texture is not None:
-            raise ValueError("--texture goes with --output FILE.glb")
+            raise ValueError("--texture needs --output FILE.glb")
         return
     name = formats.of_path(path)
     if texture is not None:

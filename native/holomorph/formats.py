@@ -22,7 +22,7 @@ def write(surface, path, uv=None, texture=None):
     if texture is not None:
         check_texture(name, texture)
         if uv is None:
-            raise ValueError("a texture needs uv, the map by which it lies on the surface")
+            raise ValueError("a texture needs uv, its map on the surface")
         image = textures.image(texture, surface, uv)
     whole_file.write(path, content(name, surface, uv, image))
 
@@ -47,7 +47,7 @@ def of_path(path):
     if name not in WRITERS:
         endings = [f".{known}" for known in WRITERS]
         wanted = f"{', '.join(endings[:-1])} or {endings[-1]}"
-        raise ValueError(f"{path} must end with {wanted}, for that is what is written")
+        raise ValueError(f"{path} must end with {wanted}")
     return name
 
 

@@ -44,7 +44,7 @@ def of_path(path):
     """The name in `WRITERS`. @throws ValueError"""
     name = Path(path).suffix.lower().removeprefix(".")
     if name not in WRITERS:
-        raise ValueError(f"{path} must end with .stl, .3mf or .obj, for that is what is written")
+        raise ValueError(f"{path} must end with .stl, .3mf or .obj")
     return name
 
 

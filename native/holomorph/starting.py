@@ -24,7 +24,7 @@ def prepare():
     signal.signal(signal.SIGINT, lambda number, frame: _end(130, "interrupted before anything was done"))
     limit = _address_space()
     if limit < LEAST_MEMORY:
-        _end(1, f"the limit of memory (ulimit -v) is {limit >> 20} MB, and {LEAST_MEMORY >> 20} MB are the least")
+        _end(1, f"the memory limit (ulimit -v) is {limit >> 20} MB; at least {LEAST_MEMORY >> 20} MB are needed")
     if limit < ROOM:
         for name in ("OPENBLAS_NUM_THREADS", "OMP_THREAD_LIMIT"):
             os.environ.setdefault(name, "1")

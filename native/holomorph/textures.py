@@ -40,4 +40,4 @@ def read(path):
     for signature, media_type in SIGNATURES.items():
         if content.startswith(signature):
             return Image(media_type, content)
-    raise ValueError(f"{path} is neither a PNG nor a JPEG image, which are what glTF files hold")
+    raise ValueError(f"{path} is not a PNG or JPEG image, the only kinds that glTF files hold")

@@ -43,11 +43,11 @@ def check_places(source, output, others, overwrite):
     Raises ValueError."""
     read, new, *more = (None if path is None else _place(path) for path in (source, output, *others))
     if new is not None and new == read and not overwrite:
-        raise ValueError(f"{output} is the file that is read: --overwrite replaces it")
+        raise ValueError(f"{output} is the input file: use --overwrite to replace it")
     taken = {read, new}
     for path, place in zip(others, more):
         if place is not None and place in taken:
-            raise ValueError(f"{path} is another file of this run, too: it would be written over")
+            raise ValueError(f"{path} is used twice in this run and would be overwritten")
         taken.add(place)
 
 

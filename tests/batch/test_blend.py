@@ -55,7 +55,7 @@ def done(tmp_path_factory):
 def test_each_object_is_an_asset(done):
     folder, result, _ = done
     assert result.returncode == 1 and "3 assets: 2 done, 1 refused" in result.stdout, result.stderr
-    assert "broken.blend: refused: Blender ended with" in result.stderr
+    assert "broken.blend: refused: Blender exited with" in result.stderr
     assert statuses(folder / "out") == {"scene.blend/Ring": "done", "scene.blend/A%2FB": "done"}
 
 

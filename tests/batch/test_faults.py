@@ -53,7 +53,7 @@ def test_each_fault_costs_one_asset(faulty, recipe, tmp_path):
     assert len(found) == 9
     assert "abort_1.obj: crashed: its process was ended by SIGABRT" in result.stderr
     assert "hang_1.obj: time: not done after 8 s" in result.stderr
-    assert "more than 600 MB, the limit of memory, are needed" in result.stderr
+    assert "more than 600 MB, the memory limit, are needed" in result.stderr
     again = run(*arguments)  # a failure is a result: without --retry nothing is done, and nothing is planted any more
     assert again.returncode == 1
     assert statuses(tmp_path / "out") == found
@@ -76,7 +76,7 @@ def test_no_space_stops_the_run_and_the_same_command_goes_on(meshes, undisturbed
     arguments = (meshes, "--out", tmp_path / "out", "--recipe", recipe, "--workers", 2)
     result = run(*arguments, preexec_fn=full_file_limit)
     assert result.returncode == 4
-    assert len(result.stderr.splitlines()) == 1 and "the same command goes on" in result.stderr
+    assert len(result.stderr.splitlines()) == 1 and "the same command continues" in result.stderr
     assert outputs(tmp_path / "out").items() <= undisturbed.items()
     assert run(*arguments).returncode == 0
     assert outputs(tmp_path / "out") == undisturbed

@@ -101,17 +101,17 @@ def test_a_file_that_cannot_be_done(make, tmp_path):
         ([], "mesh file"),
         (["missing.obj"], "no such file"),
         (["--bogus"], "bogus"),
-        (["ring.obj", "--solver", "guess"], "'guess' is none of auto"),
+        (["ring.obj", "--solver", "guess"], "'guess' is not one of auto"),
         (["ring.obj", "--density", "-1"], "density"),
         (["ring.obj", "--forms", "many"], "forms"),
         (["ring.obj", "--evenness", "1.5"], "1.5 is not from 0 to 1"),
         (["ring.obj", "--margin", "-1"], "-1 is not from 0"),
         (["ring.obj", "--levels", "2", "--ratio", "1.5"], "ratio"),
-        (["ring.obj", "--export-texture", "--no-checker"], "exclude each other"),
+        (["ring.obj", "--export-texture", "--no-checker"], "cannot be combined"),
         (["ring.obj", "--output", "nowhere/out.blend"], "folder"),
         (["ring.obj", "--output", "foo.txt"], "must end with .blend"),
         (["ring.obj", "--render", "picture.jpg"], "must end with .png"),
-        (["ring.obj", "--output", "ring.obj"], "--overwrite replaces it"),
+        (["ring.obj", "--output", "ring.obj"], "--overwrite to replace it"),
         (["ring.obj", "--report", "report"], "must end with .json"),
     ],
 )
@@ -209,7 +209,7 @@ def test_choices_that_do_not_fit_are_one_sentence(torus_file, tmp_path):
         (torus_file, ("--pole", 3), "pole 3"),
         (torus_file, ("--pole", 3, "--pole", 100000), "100000"),
         (torus_file, ("--pole", 3, "--pole", 150, "--residues", "1 1"), "residues"),
-        (torus_file, ("--pole", 3, "--rectangle", 0, 1, 2, 3), "exclude"),
+        (torus_file, ("--pole", 3, "--rectangle", 0, 1, 2, 3), "cannot be combined"),
         (torus_file, ("--pole", 3, "--pole", 150, "--residues", "a b"), "'a' is not a number"),
         (grid_file(tmp_path), ("--rectangle", 0, 168, 156, 84), "84"),
     ):
@@ -302,7 +302,7 @@ def test_tiles_are_over_all_objects_of_a_file(tmp_path):
 @pytest.mark.parametrize(
     ("options", "word"),
     [
-        (("--seamless", "--poles", "many"), "'many' is none of automatic"),
+        (("--seamless", "--poles", "many"), "'many' is not automatic"),
         (("--seamless", "--tiles", -3), "-3 is not from 0"),
         (("--seamless", "--pole-group", "Hidden"), "no vertex group 'Hidden'"),
         (("--seamless", "--boundary", "double_cover"), "--boundary"),
@@ -387,6 +387,6 @@ def test_interrupted(torus_file, tmp_path):
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=SECONDS)
     assert process.returncode == 130, said
-    assert "Holomorph: interrupted; what is written is whole" in said.splitlines()
+    assert "Holomorph: interrupted; files already written are complete" in said.splitlines()
     with bpy.data.libraries.load(str(output)) as (there, _):
         assert there.objects == ["ring"]

@@ -55,7 +55,7 @@ def program(wanted):
     """The Blender to use. @throws UsageError"""
     found = shutil.which(wanted or "blender")
     if found is None:
-        where = f"there is no program {wanted}" if wanted else "there is no Blender on the PATH; name one by --blender"
+        where = f"there is no program {wanted}" if wanted else "no Blender is on the PATH; name one with --blender"
         raise UsageError(f"Scenes are read, and .blend files written, by Blender: {where}")
     return found
 
@@ -80,4 +80,4 @@ def _run(blender, scene, *arguments):
     run = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
     if run.returncode != 0:
         said = [line for line in run.stderr.splitlines() if line.strip()] or ["nothing"]
-        raise InvalidMesh(f"Blender ended with {run.returncode}; it last said: {said[-1].strip()}")
+        raise InvalidMesh(f"Blender exited with {run.returncode}; its last message: {said[-1].strip()}")

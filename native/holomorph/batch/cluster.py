@@ -72,7 +72,7 @@ class Cluster:
                 return
             except (*GONE, ValueError) as error:
                 if time.monotonic() > end:
-                    raise EngineError(f"the scheduler at {self._address} does not come back") from error
+                    raise EngineError(f"the scheduler at {self._address} did not come back") from error
                 time.sleep(LOOK_SECONDS)
 
     def _done(self, waiting):
@@ -100,7 +100,7 @@ class Cluster:
         try:
             return future.result()
         except distributed.KilledWorker as error:
-            message = f"several Dask workers ended while they had it: {error}"
+            message = f"several Dask workers stopped while working on it: {error}"
             return publish(task, {"status": CRASHED, "message": message, "seconds": 0.0}, {})
 
 

@@ -29,11 +29,13 @@ def main(arguments):
     except UsageError as error:
         return failed(USAGE, error)
     except StorageError as error:
-        return failed(STORAGE, f"{error}; what is done stays done, and the same command goes on")
+        return failed(STORAGE, f"{error}; finished assets are kept, and the same command continues")
     except EngineError as error:
-        return failed(ENGINE, f"{error}; the same command goes on")
+        return failed(ENGINE, f"{error}; the same command continues")
     except (OSError, MemoryError, ImportError) as error:  # the last of a library that finds no memory
-        return failed(MACHINE, f"this machine refuses what the run needs: {_reason(error)}; the same command goes on")
+        return failed(
+            MACHINE, f"this machine does not provide what the run needs: {_reason(error)}; the same command continues"
+        )
 
 
 def _reason(error):
@@ -42,23 +44,29 @@ def _reason(error):
 
 def _options(arguments):
     parser = Parser(
-        prog="holomorph batch", description="Maps a library of meshes; a second run does only what is missing."
+        prog="holomorph batch", description="Map a library of meshes; a second run does only what is missing."
     )
     parser.add_argument("source", nargs="+", help=sources.KINDS)
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="where results go")
-    parser.add_argument("--recipe", metavar="FILE", help="TOML: which maps, tilings, levels and files")
+    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results")
+    parser.add_argument("--recipe", metavar="FILE", help="TOML file that chooses maps, tilings, levels and files")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument("--workers", type=_positive, metavar="N", help="processes here (default: one per core)")
-    where.add_argument("--dask", metavar="ADDRESS", help="of a Dask scheduler (tcp://...), or its scheduler file")
-    parser.add_argument("--memory", type=_bytes, metavar="SIZE", help="of each asset, such as 4G")
-    parser.add_argument("--time", type=_seconds, default=DEFAULT_SECONDS, metavar="S", help="of each asset, in seconds")
-    parser.add_argument("--blender", metavar="PROGRAM", help="for .blend files (default: blender)")
-    parser.add_argument("--retry", action="store_true", help="do again what was not done")
-    parser.add_argument(
-        "--share", type=_share, metavar="K/N", help="only the K-th of N shares; a run without it sums up"
+    where.add_argument(
+        "--workers", type=_positive, metavar="N", help="processes on this machine (default: one per core)"
     )
-    parser.add_argument("--report-only", action="store_true", help="end with 0 where assets were not done, too")
-    parser.add_argument("--strict", action="store_true", help="end with 3 unless every map is good or fair")
+    where.add_argument(
+        "--dask", metavar="ADDRESS", help="address of a Dask scheduler (tcp://...), or its scheduler file"
+    )
+    parser.add_argument("--memory", type=_bytes, metavar="SIZE", help="memory limit of each asset, such as 4G")
+    parser.add_argument(
+        "--time", type=_seconds, default=DEFAULT_SECONDS, metavar="S", help="time limit of each asset, in seconds"
+    )
+    parser.add_argument("--blender", metavar="PROGRAM", help="program for .blend files (default: blender)")
+    parser.add_argument("--retry", action="store_true", help="retry assets that were not done")
+    parser.add_argument(
+        "--share", type=_share, metavar="K/N", help="do the K-th of N shares only; run without it to sum up"
+    )
+    parser.add_argument("--report-only", action="store_true", help="exit with 0 even if assets were not done")
+    parser.add_argument("--strict", action="store_true", help="exit with 3 unless every map is good or fair")
     return parser.parse_args(arguments)
 
 
@@ -91,7 +99,9 @@ def _exit_code(records, options):
     unfit = [record["name"] for record in records if record.get("verdict") in UNFIT or record.get("skipped")]
     if not (options.strict and unfit):
         return ALL_DONE
-    return failed(STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without; the first is {unfit[0]}")
+    return failed(
+        STRICT, f"{len(unfit)} assets have a poor or unusable map, or parts without a map; the first is {unfit[0]}"
+    )
 
 
 def _engine(options):

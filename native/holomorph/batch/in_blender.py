@@ -128,7 +128,7 @@ def add_map(mesh, name, uv, corner_index):
         mesh.uv_layers.remove(mesh.uv_layers[name])
     layer = mesh.uv_layers.new(name=name)
     if layer is None:
-        sys.exit(f"there is no place for the UV map {name}: Blender holds 8")
+        sys.exit(f"no slot is free for the UV map {name}: Blender allows 8")
     rows = np.zeros((len(mesh.loops), 2), np.float32)
     rows[corner_index if len(corner_index) != len(rows) else slice(None)] = uv
     layer.data.foreach_set("uv", rows.ravel())

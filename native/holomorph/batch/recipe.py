@@ -35,7 +35,7 @@ def _optional_number(wanted, is_valid):
     return _option(None, wanted, lambda value: _is_number(value) and is_valid(value))
 
 
-def _count(default, wanted="a whole number from 0 on", least=0):
+def _count(default, wanted="a whole number of at least 0", least=0):
     return _option(default, wanted, lambda value: _is_count(value) and value >= least)
 
 
@@ -196,18 +196,18 @@ def _check_names(given, known, noun):
     for name in given:
         if name not in known:
             near = difflib.get_close_matches(name, known, 1)
-            hint = f"; did you mean {near[0]}?" if near else f"; there are {', '.join(known)}"
-            raise UsageError(f"{name} is no {noun}{hint}")
+            hint = f"; did you mean {near[0]}?" if near else f"; use one of {', '.join(known)}"
+            raise UsageError(f"{name} is not a {noun}{hint}")
 
 
 def _check_together(recipe):
     if recipe.maps.poles and recipe.maps.rectangle_corners:
-        raise UsageError("maps.poles and maps.rectangle_corners exclude each other")
+        raise UsageError("maps.poles and maps.rectangle_corners cannot be combined")
     if recipe.maps.thresholds is not None and recipe.maps.solver != "paper":
-        raise UsageError('maps.thresholds are those of maps.solver = "paper"')
+        raise UsageError('maps.thresholds need maps.solver = "paper"')
     if recipe.maps.residues and len(recipe.maps.residues) != len(recipe.maps.poles):
-        raise UsageError("maps.residues has not as many entries as maps.poles")
+        raise UsageError("maps.residues and maps.poles differ in length")
     if recipe.output.texture is not None and not set(formats.TEXTURED) & set(recipe.output.formats):
-        raise UsageError(f"output.texture goes into files of output.formats that are {' or '.join(formats.TEXTURED)}")
+        raise UsageError(f"output.texture needs one of output.formats to be {' or '.join(formats.TEXTURED)}")
     if recipe.tiling.density is not None and recipe.tiling.tiles:
-        raise UsageError("tiling.density and tiling.tiles exclude each other")
+        raise UsageError("tiling.density and tiling.tiles cannot be combined")

@@ -65,7 +65,7 @@ class Worker:
             connection.send(task)
             if not connection.poll(self._limits.seconds):
                 self._renew()
-                return TIME, f"not done after {self._limits.seconds:g} s, the limit of time"
+                return TIME, f"not done after {self._limits.seconds:g} s, the time limit"
             answer = connection.recv()
         except (EOFError, OSError):
             return CRASHED, f"its process {self._renew()}"
@@ -73,7 +73,7 @@ class Worker:
             raise answer
         if answer["status"] == MEMORY:
             self._renew()
-            return MEMORY, f"more than {self._limits.memory / 2**20:.0f} MB, the limit of memory, are needed"
+            return MEMORY, f"more than {self._limits.memory / 2**20:.0f} MB, the memory limit, are needed"
         return None, answer
 
     def _connected(self):

@@ -136,7 +136,7 @@ def test_pngs_are_what_was_drawn():
 @pytest.mark.parametrize("name, uv, texture, told", [
     ("out.obj", UV, "checker", r"a texture goes into \.glb files alone, not into \.obj"),
     ("out.glb", None, "checker", "a texture needs uv"),
-    ("out.glb", UV, "none.gif", "neither a PNG nor a JPEG"),
+    ("out.glb", UV, "none.gif", "not a PNG or JPEG"),
 ])  # fmt: skip
 def test_textures_that_do_not_fit_are_refused(name, uv, texture, told, tmp_path):
     (tmp_path / "none.gif").write_bytes(b"GIF89a")
@@ -172,7 +172,7 @@ def test_command_puts_the_texture_on_the_map(cube, tmp_path):
 @pytest.mark.parametrize("options, told", [
     (["--output", "out.ply", "--texture", "checker"], "not into .ply"),
     (["--output", "out.glb", "--texture", "absent.png"], "absent.png"),
-    (["--texture", "checker"], "--texture goes with --output"),
+    (["--texture", "checker"], "--texture needs --output"),
 ])  # fmt: skip
 def test_command_refuses_textures_before_it_reads(options, told, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)

@@ -121,9 +121,9 @@ def test_no_file_is_moved_after_an_error(old):
         ("new.obj", ["report.json", None], False, None),
         (None, [None], False, None),
         ("./in.obj", [], True, None),
-        ("./in.obj", [], False, "in.obj is the file that is read: --overwrite replaces it"),
-        ("new.obj", ["in.obj"], True, "in.obj is another file of this run"),
-        ("new.obj", ["folder/../new.obj"], True, "new.obj is another file of this run"),
+        ("./in.obj", [], False, "in.obj is the input file: use --overwrite to replace it"),
+        ("new.obj", ["in.obj"], True, "in.obj is used twice in this run"),
+        ("new.obj", ["folder/../new.obj"], True, "new.obj is used twice in this run"),
     ],
 )
 def test_no_file_of_a_run_is_written_over(output, others, overwrite, problem, monkeypatch, tmp_path):
@@ -137,5 +137,5 @@ def test_the_command_keeps_its_mesh(tmp_path):
     surface_of(families.torus(8, 6)).write(path)
     before, command = path.read_bytes(), [sys.executable, "-m", "holomorph", path, "--output", path]
     done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 2 and "--overwrite replaces it" in done.stderr and path.read_bytes() == before
+    assert done.returncode == 2 and "--overwrite to replace it" in done.stderr and path.read_bytes() == before
     assert subprocess.run([*command, "--overwrite"]).returncode == 0 and b"\nvt " in path.read_bytes()

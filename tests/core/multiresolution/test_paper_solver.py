@@ -245,7 +245,7 @@ def test_thresholds_of_the_command(tmp_path, text, thresholds):
     [
         (("--thresholds", "200"), 1, "thresholds need solver='paper', but solver is 'auto'"),
         (("--solver", "paper", "--thresholds", "0"), 1, "a threshold is 0; a positive number is needed"),
-        (("--solver", "paper", "--thresholds", "few"), 2, "'few' is no list of numbers of faces such as 1000,5000"),
+        (("--solver", "paper", "--thresholds", "few"), 2, "'few' is not a list of numbers of faces such as 1000,5000"),
     ],
 )
 def test_thresholds_that_the_command_refuses(tmp_path, options, status, message):
