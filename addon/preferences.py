@@ -10,8 +10,8 @@ class HOLOMORPH_preferences(bpy.types.AddonPreferences):
 
     show_in_viewport: BoolProperty(
         name="Show the Result in the 3D View",
-        description="After the button, 3D views of this window in solid or wireframe shading show the texture; Restore "
-        "Materials brings their shading back",
+        description="After mapping, show the texture in the 3D views of this window that are in solid or wireframe "
+        "shading; Restore Materials brings their shading back",
         default=True,
     )
 

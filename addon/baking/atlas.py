@@ -61,7 +61,9 @@ def _packed(context, mesh, joined, islands, options):
         if width >= NEAR * options.room:
             return found, side, side * before * factor
         margin *= CLOSER * options.room / max(width, NEAR)
-    raise ValueError(f"margins of {options.margin} texels leave islands no room: ask for more texels or less margin")
+    raise ValueError(
+        f"margins of {options.margin} texels leave no room for islands: ask for more texels or a smaller margin"
+    )
 
 
 def _area(polygons, uv):

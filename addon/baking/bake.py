@@ -32,16 +32,16 @@ def why_not(obj):
     if gathering.why_fixed(obj):
         return gathering.why_fixed(obj)
     if not stored.tilings(obj.get(report.PROPERTY)) or not uv_maps.main_map(obj.data):
-        return "it has no seamless tiling, and another map needs no bake; Seamless Tiling makes one"
+        return "it has no seamless tiling to bake; press Seamless Tiling first (other maps need no bake)"
     if not obj.material_slots:
-        return "it has no material that could be baked"
-    return "" if uv_maps.has_room_for_bake_map(obj.data) else "it has no UV map slot free for the bake; remove a UV map"
+        return "it has no material to bake"
+    return "" if uv_maps.has_room_for_bake_map(obj.data) else "no UV map slot is free for the bake; remove a UV map"
 
 
 def bakeable(objects):
     """The objects that are baked, one of each mesh. @throws ValueError one of them cannot be"""
     if "cycles" not in bpy.types.Scene.bl_rna.properties:
-        raise ValueError("Cycles bakes, and is off: the preferences have it among the add-ons")
+        raise ValueError("Cycles is off: enable it in the preferences, among the add-ons")
     for obj in objects:
         reason = why_not(obj)
         if reason:

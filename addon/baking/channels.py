@@ -47,7 +47,7 @@ def _check(material):
     _, shader = _ends(material.node_tree)
     if shader is None or _named(shader.node, SOCKETS[COLOUR]) is None:
         what = f"ends in {shader.node.bl_label}" if shader else "has no surface"
-        raise ValueError(f"its material {material.name!r} {what}; what can be baked is a shader with a colour")
+        raise ValueError(f"its material {material.name!r} {what}; only a shader with a colour can be baked")
 
 
 def _ends(tree):

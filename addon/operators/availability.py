@@ -6,10 +6,10 @@ import bpy
 from .. import native
 
 CONVERTIBLE = {"FONT", "CURVE", "SURFACE", "META"}
-CONVERT = "Object > Convert > Mesh makes this a mesh"
-INSTANCES = "Object > Apply > Make Instances Real makes these meshes"
+CONVERT = "Convert this to a mesh first: Object > Convert > Mesh"
+INSTANCES = "Turn these into meshes first: Object > Apply > Make Instances Real"
 PAINTING = {"SCULPT", "PAINT_VERTEX", "PAINT_WEIGHT", "PAINT_TEXTURE", "PARTICLE"}  # modes that are left meanwhile
-DYNTOPO = "Turn Dyntopo off: it keeps no UV maps"
+DYNTOPO = "Turn Dyntopo off: it does not keep UV maps"
 
 
 class Explained:
@@ -37,7 +37,7 @@ class Explained:
             return ""
         if context.mode in cls.left_modes:
             return DYNTOPO if context.object.use_dynamic_topology_sculpting else ""
-        return f"Go to {' or '.join(cls.modes.values())}"
+        return f"Switch to {' or '.join(cls.modes.values())}"
 
     def refuse(self, sentence):
         """Says why nothing is done, and gives what the operator returns."""

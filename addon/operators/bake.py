@@ -14,19 +14,19 @@ CHANNELS = items(
     ROUGHNESS="The roughness",
     METALLIC="The metallic",
     HEIGHT="The height of bumps or of displacement, in floating point",
-    NORMAL="Normals in the tangent space of the map that is baked with",
+    NORMAL="Normals in the tangent space of the baked UV map",
 )
 IMAGES = (
-    ("EACH", "Each Its Own", "Images for each object"),
+    ("EACH", "Per Object", "Images for each object"),
     ("ONE", "One Atlas", "All objects lie in the same images"),
-    ("UDIM", "UDIM Tiles", "The same images, in which each object has a tile"),
+    ("UDIM", "UDIM Tiles", "All objects share the images, each in a tile of its own"),
 )
 ABOUT = {
-    "channels": "What is baked",
-    "images": "Which images the objects get",
-    "texels": "Texels on a metre of the surface. 0: images of 2,048 texels a side",
-    "margin": "Texels around islands that show what their border shows, so that nothing else is seen at seams",
-    "folder": "Where the images are saved. Empty: they are packed into the file",
+    "channels": "Channels to bake",
+    "images": "How objects share images",
+    "texels": "Texels per metre of the surface. 0: images of 2,048 texels a side",
+    "margin": "Texels around islands, filled with the colours of their border so that seams do not show",
+    "folder": "Folder for the images. Empty: pack them into the file",
 }
 
 

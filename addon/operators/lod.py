@@ -7,19 +7,19 @@ from bpy.props import BoolProperty, FloatProperty, IntProperty
 from .modal import WorkOperator
 
 ABOUT = {
-    "levels": "How many levels are made",
-    "ratio": "Triangles of each level over those of the one before",
-    "coarsest": "Triangles of the last level; 0 lets the ratio decide. A surface with handles needs some, and is never "
-    "made coarser than that",
-    "side_by_side": "Place the levels in a row along X beside the object. Off: at its location, as engines want them",
-    "hidden": "Hide the levels, in the view and in renders: the eyes in the Outliner show them",
-    "finest": "A copy of the object becomes the finest level, Name_LOD0, unless the object itself is called so",
+    "levels": "Number of levels",
+    "ratio": "Triangles of each level, as a share of the level before",
+    "coarsest": "Triangles of the last level; 0 lets the ratio decide. A surface with handles keeps the few that it "
+    "needs",
+    "side_by_side": "Place the levels in a row along X beside the object. Off: at its location, as engines expect",
+    "hidden": "Hide the levels in the viewport and in renders; the eye icons in the Outliner show them",
+    "finest": "A copy of the object becomes the finest level, Name_LOD0, unless the object itself has that name",
 }
 
 
 class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
-    """Make coarser copies of the active object, of triangles, on which every texture stays in place: UV maps have the
-    same values at the same vertices and the same seams. Where there is no map "Holomorphic" it is made first.
+    """Make coarser triangle meshes of the active object on which every texture stays in place: vertices and seams
+    that remain keep their UVs. Makes the map "Holomorphic" first where there is none.
     Levels of an earlier run are replaced"""
 
     bl_idname = "object.holomorphic_levels"
@@ -73,7 +73,7 @@ class HOLOMORPH_OT_levels(WorkOperator, bpy.types.Operator):
         for sentence in told:
             self.report({"WARNING"}, sentence)
         counts = ", ".join(str(len(level.surface.triangles)) for level in work.levels)
-        kept = f"; {name} allows no coarser one" if len(work.levels) < self.levels else ""
+        kept = f"; {name} cannot be made coarser" if len(work.levels) < self.levels else ""
         self.report({"INFO"}, f"{name}: levels of {counts} triangles{kept}")
         return {"FINISHED"}
 

@@ -20,13 +20,14 @@ def items(**texts):
 
 
 SELECTION_USES = items(
-    AUTOMATIC="In edit mode: selected faces alone are mapped. Without any, four selected boundary vertices of a disk "
-    "become the corners of a rectangle, other single vertices poles; edges and what does not fit are no choice",
+    AUTOMATIC="In edit mode: map only the selected faces. If none is selected, four boundary vertices of a disk "
+    "become the corners of a rectangle, and other single vertices become poles; anything else, such as edges, is "
+    "ignored",
     FACES="The selected faces are mapped, as a surface with a boundary; the others keep their UVs",
-    POLES="The texture runs around each selected vertex, and its density grows towards it without end: at least "
-    "two on a closed surface, one on a disk",
+    POLES="The texture runs around each selected vertex, finer and finer towards it: select at least two on a closed "
+    "surface, one on a disk",
     RECTANGLE="The four selected vertices on the boundary of a disk become the corners of an exact rectangle",
-    NONE="The selection does not matter",
+    NONE="Ignore the selection",
 )
 BOUNDARIES = items(
     natural="Solve on the surface itself: fast",
@@ -34,29 +35,29 @@ BOUNDARIES = items(
     "more than twice the cost",
 )
 SOLVER_TEXTS = {
-    "auto": ("Automatic", "By size and number of forms"),
+    "auto": ("Automatic", "Chosen by size and number of forms"),
     "direct": ("Direct", "Sparse Cholesky factorisation"),
     "multigrid": ("Multigrid", "Linear time and memory"),
     "paper": ("Paper", "The published multiresolution method, on parts with handles or several boundaries"),
 }
 MAIN_MAPS = items(
-    AUTOMATIC="Seamless on each part where that is no less even; balanced where something else is chosen for a part, "
-    "or density, rotation or the forms' shares are set",
-    SEAMLESS="A texture that tiles shows no seam; density, rotation and forms' shares do not matter",
+    AUTOMATIC="Seamless on each part where that is at least as even; balanced where you choose something else for a "
+    "part, or set density, rotation or the shares of forms",
+    SEAMLESS="A texture that tiles shows no seam; density, rotation and the shares of forms have no effect",
     BALANCED="The combination of the forms whose density is most even, with seams; at evenness 0 exactly conformal",
     ISLANDS="The mesh is cut along the seams that you marked, each part is flattened, and Blender packs the parts "
     "without overlap: for baking and painting",
 )
 TEXTURES = items(
     CHECKER="Squares",
-    NUMBERED="Coloured tiles from A1 to H8 with arrows: seams, flips and rotations are seen at once",
+    NUMBERED="Coloured tiles from A1 to H8 with arrows: seams, flips and rotations show at once",
     BRICKS="A brick wall",
     SCALES="Scales of a dragon or a fish",
     WEAVE="Woven cloth",
     PLANKS="Wooden boards",
     HEXAGONS="Glazed hexagonal tiles",
-    IMAGE="An image of yours; one that is not square in pixels is not squeezed",
-    MATERIAL="A material of yours, of which a copy reads the map. It is taken to repeat with its images",
+    IMAGE="Your own image; one that is not square keeps its proportions",
+    MATERIAL="Your own material: a copy of it reads the map. It is assumed to repeat as its images do",
 )
 OWN_TEXTURES = {"IMAGE": "images", "MATERIAL": "materials"}  # where Blender has them
 OF_ISLANDS = {"hard_edges", "most_stretch"}
@@ -64,39 +65,39 @@ ABOUT = {
     "modifiers": "In object mode: map the mesh as the modifiers make it. Where they change its faces, the result "
     "becomes an object of its own and the object is hidden",
     "checker": "Show the map by a material; the mesh's own materials stay and can be brought back",
-    "texture": "What the material shows",
-    "source": "Its name. It is not changed",
-    "size": "How wide an image of the texture is on the surface. Seamless maps have it within a tenth, for whole tiles "
-    "must fit. 0: as the number of tiles or squares says",
-    "evenness": "0: squares keep their angles, and differ in size. 1: they have one size, and are sheared. Nothing is "
-    "placed anew when it changes",
+    "texture": "Texture that the material shows",
+    "source": "Name of the image or material, which is not changed",
+    "size": "Width of one image of the texture on the surface; seamless maps keep it within a tenth, as whole tiles "
+    "must fit. 0: follows from the number of tiles or squares",
+    "evenness": "0: squares keep their angles but differ in size. 1: they have one size but are sheared. Poles stay "
+    "in place when it changes",
     "seams": "Mark the edges where the maps are cut as seams; existing seams are kept",
-    "main": "What the main map is",
-    "forms": "At most so many maps of single forms, besides the main one: one for each handle, more with holes",
+    "main": "Kind of the main map",
+    "forms": "Largest number of maps of single forms, besides the main one: one for each handle, more with holes",
     "shown": "The map that the texture shows: 0 is the main one, 1 that of the first form",
-    "density": "How fine the texture is: at 2 squares are half as large. At 1 the parts fill the UV square together, "
+    "density": "How fine the texture is: at 2, squares are half as large. At 1, the parts fill the UV square together, "
     "with equal texel density",
-    "equal": "Several objects get the same texels per metre, that of a tiling if there is one, else that of the object "
-    "with the largest map, which fills the UV square. Off: each object fills it",
+    "equal": "Give several objects the same texels per metre: that of a tiling if there is one, else that of the "
+    "object with the largest map, which fills the UV square. Off: each object fills it",
     "margin": "Empty space between connected parts in the UV editor, as a share of the UV square; less where there are "
     "many",
-    "rotation": "Turns the squares on the surface, by turning every part of all maps",
-    "hard_edges": "Islands are cut along edges that are sharper than this, and those marked sharp, as well as along "
-    "seams. 0: along seams alone",
-    "most_stretch": "Islands are cut open, from the place that is stretched or squeezed most to its border, until "
-    "lengths change by less than this factor: seams for an even texture. 0: no such cuts",
-    "selection": "What the selection is. Hidden faces are not mapped in edit mode",
+    "rotation": "Turn the squares on the surface, by turning every part of all maps",
+    "hard_edges": "Cut islands along edges sharper than this and edges marked sharp, as well as along seams. 0: along "
+    "seams only",
+    "most_stretch": "Cut islands open, from the most stretched or squeezed place to the border, until lengths change "
+    "by less than this factor: more seams, but an even texture. 0: no such cuts",
+    "selection": "Meaning of the selection. Hidden faces are not mapped in edit mode",
     "residues": "One number for each pole, in the order of selection, for example 1 1 -2; they sum to 0 on a "
-    "closed surface, and may be complex (1+0.5j). Empty: chosen by themselves",
+    "closed surface, and may be complex (1+0.5j). Empty: chosen automatically",
     "cut": "Cut the maps along your seams where these make each part a disk; else the report says why not",
     "boundary": "How surfaces with a boundary are solved",
     "solver": "How the linear systems are solved",
-    "amounts": "How much of each form is in the main map: it moves the places where squares are large and small. At 1 "
-    "their sizes are most even. While forms are mixed, meshes of more than 20,000 triangles keep their angles",
-    "turns": "Turns each form's share in the main map: squares turn and change their size around its handle. Not on "
+    "amounts": "Share of each form in the main map: it moves the places where squares are large and small. At 1, "
+    "their sizes are most even. While you mix forms, Evenness has no effect on parts of more than 20,000 triangles",
+    "turns": "Turn each form's share in the main map: squares turn and change size around its handle. No effect on "
     "parts with a boundary, which stays straight",
-    "squares": "Squares, bricks, scales ... per UV unit, rounded to whole images of a texture: more are smaller. 0 "
-    "chooses a number that suits the object's size",
+    "squares": "Number of squares, bricks or scales per UV unit, rounded to whole images of the texture: more are "
+    "smaller. 0 chooses a number that suits the object's size",
     "shape": "Store the conformal map to the unit sphere (parts without handles and holes) or to the unit disk as a "
     "vector attribute of the vertices, for Geometry Nodes",
 }

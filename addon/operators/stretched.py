@@ -16,7 +16,7 @@ class HOLOMORPH_OT_select_stretched(AtOnce, bpy.types.Operator):
 
     bl_idname = "mesh.holomorphic_select_stretched"
     bl_label = "Select Stretched Faces"
-    nothing = "No face is stretched so much"
+    nothing = "No face is stretched that much"
 
     size: FloatProperty(
         name="Size",

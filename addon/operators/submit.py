@@ -17,10 +17,10 @@ class HOLOMORPH_OT_submit(Explained, bpy.types.Operator):
     bl_options = {"REGISTER"}
 
     sources: StringProperty(
-        name="Sources", description="A folder, a file, a pattern or a list; none for this file", subtype="FILE_PATH"
+        name="Sources", description="Folder, file, pattern or list; empty for this file", subtype="FILE_PATH"
     )
-    output: StringProperty(name="Output", description="Where the results go", subtype="DIR_PATH", default="//maps")
-    recipe: StringProperty(name="Recipe", description="TOML file; none for the defaults", subtype="FILE_PATH")
+    output: StringProperty(name="Output", description="Folder for the results", subtype="DIR_PATH", default="//maps")
+    recipe: StringProperty(name="Recipe", description="TOML file; empty for the defaults", subtype="FILE_PATH")
     shares: IntProperty(name="Tasks", description="Number of tasks that share the work", default=8, min=1, max=1000)
 
     needs_library, modes = False, {}

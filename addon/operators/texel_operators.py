@@ -7,7 +7,7 @@ from bpy.props import FloatProperty, IntProperty
 from .availability import AtOnce
 
 TEXELS, IMAGE = "holomorphic_texels", "holomorphic_image"  # properties of the window manager
-TEXELS_TEXT = "Texels of the image on a metre of the surface"
+TEXELS_TEXT = "Texels of the image per metre of the surface"
 IMAGE_TEXT = "Width of the image in texels"
 DEFAULT_IMAGE = 2048
 
@@ -48,7 +48,7 @@ class _TexelOperator(AtOnce):
 
 class HOLOMORPH_OT_texels_get(_TexelOperator, bpy.types.Operator):
     """Measure the texels per metre of the active UV maps of the selected meshes, in edit mode of the selected faces.
-    Those of the active object are taken over for Set"""
+    Set takes over the value of the active object"""
 
     bl_idname = "uv.holomorphic_texels_get"
     bl_label = "Get Texels per Metre"
@@ -61,7 +61,7 @@ class HOLOMORPH_OT_texels_get(_TexelOperator, bpy.types.Operator):
 
 class HOLOMORPH_OT_texels_set(_TexelOperator, bpy.types.Operator):
     """Scale the active UV maps of the selected meshes, in edit mode the selected faces, to this number of texels per
-    metre, each map as a whole. Seamless tilings are scaled by whole numbers alone, so that they stay seamless"""
+    metre, each map as a whole. Seamless tilings are scaled by whole numbers only, so that they stay seamless"""
 
     bl_idname = "uv.holomorphic_texels_set"
     bl_label = "Set Texels per Metre"
@@ -74,7 +74,7 @@ class HOLOMORPH_OT_texels_set(_TexelOperator, bpy.types.Operator):
         factor = texels.scale(target, self.texels / before)
         if not texels.is_met(self.texels, factor, before):
             nearest = f"{before * factor:.5g} texels per metre, the nearest that stays seamless"
-            self.report({"INFO"}, f"{target.name}: {nearest}; Tiles changes them, too")
+            self.report({"INFO"}, f"{target.name}: {nearest}; Tiles also changes them")
 
 
 _register, _unregister = bpy.utils.register_classes_factory([HOLOMORPH_OT_texels_get, HOLOMORPH_OT_texels_set])

@@ -10,45 +10,45 @@ from .properties import ONCE, SharedProperties, items
 
 MOST_POLES = 16
 POLES = (
-    ("AUTOMATIC", "Automatic", "As many as the evenness of the texture asks for, where they are hardly seen"),
-    ("COUNT", "Number", "So many on each part, placed by themselves"),
+    ("AUTOMATIC", "Automatic", "As many as an even texture needs, where they hardly show"),
+    ("COUNT", "Number", "This many on each part, placed automatically"),
     ("KEPT", "As They Are", "Those of the object's last tiling, as they were placed or dragged"),
     (
         "COARSE",
         "Where It Is Coarse",
-        "Those of the object's last tiling, and one on each place that it left coarse; automatic without a tiling",
+        "Those of the object's last tiling, and one at each place that it left coarse; automatic without a tiling",
     ),
     ("SELECTED", "Selected Vertices", "The selected vertices; automatic on parts without any"),
 )
 LATTICES = (
-    ("automatic", "Automatic", "That of an image of yours, where its cells are alike; else square"),
+    ("automatic", "Automatic", "Taken from your own image where its cells are alike, else square"),
     ("square", "Square", "The texture repeats in rows and columns"),
     ("brick", "Brick", "Each row is shifted by half a tile"),
     ("hex", "Hexagonal", "The texture repeats in three directions, 60 degrees apart"),
 )
 DIRECTIONS = (
-    ("UPRIGHT", "Upright", "The texture stands as the object does: its rows run level, as far as they can"),
-    ("NONE", "Any", "The one that is most even"),
-    *((axis, axis, f"Rows run along the object's {axis} axis, as far as they can") for axis in "XYZ"),
-    ("EDGES", "Selected Edges", "Rows run along the selected edges, as far as they can"),
+    ("UPRIGHT", "Upright", "The texture stands upright: its rows run level as far as possible"),
+    ("NONE", "Any", "The most even direction"),
+    *((axis, axis, f"Rows run along the object's {axis} axis as far as possible") for axis in "XYZ"),
+    ("EDGES", "Selected Edges", "Rows run along the selected edges as far as possible"),
 )
 BOUNDARIES = items(
-    automatic="Borders of holes lie along rows of the texture, but where that would leave faces without texture",
+    automatic="Borders of holes lie along rows of the texture, except where that would leave faces without texture",
     straight="Borders of holes lie along rows of the texture",
     free="Borders of holes cut through the texture: more even",
 )
 ABOUT = {
-    "tiles": "Tiles of the texture over all objects, about: more are smaller, and less is distorted. 0 chooses a "
+    "tiles": "Approximate number of tiles over all objects: more tiles are smaller and less distorted. 0 chooses a "
     "number that suits the largest part",
-    "poles": "Vertices around which the texture closes up: the more of them, the less squares differ in size between "
-    "the body and ears or limbs",
+    "poles": "Vertices around which the texture closes up: the more there are, the less squares differ in size "
+    "between the body and ears or limbs",
     "pole_group": "A vertex group: poles are placed only where its weight is above 0.5; empty for anywhere",
-    "equal": "Several objects get the same texels per metre: Tiles is for all of them together. Off: for each",
+    "equal": "Give several objects the same texels per metre: Tiles counts for all of them together. Off: for each",
     "lattice": "How the texture repeats",
     "direction": "Where the rows of the texture run",
-    "turn": "Rotates the texture on the surface, beside the direction, to about this angle: where it closes up",
-    "quarters": "Turns the texture by 90 degrees each",
-    "boundary": "What becomes of holes",
+    "turn": "Rotate the texture from its direction by about this angle: to the nearest at which it closes up",
+    "quarters": "Turn the texture by this many steps of 90 degrees",
+    "boundary": "Treatment of holes",
     "repeats": "Images of the texture side by side in one tile",
     "empties": "Put an empty at each pole and at each branch point",
 }
@@ -98,7 +98,7 @@ class TileProperties(SharedProperties):
     def draw_options(self, layout, obj):
         draw_tiling(layout, obj)
         if self.tiles == 0 and self.tile_count:
-            layout.label(text=f"Tiles: {self.tile_count:,} were chosen")
+            layout.label(text=f"Tiles: {self.tile_count:,} chosen automatically")
         super().draw_options(layout, obj)
 
 

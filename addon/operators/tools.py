@@ -10,25 +10,25 @@ KINDS = (
     (
         "CUT",
         "Cut",
-        "Edges with more than two faces, or of one-sided parts; faces that stand twice, have two sides or meet a "
+        "Edges with more than two faces or on one-sided parts; faces that occur twice, have two sides or meet a "
         "vertex twice: maps are cut there",
     ),
     (
         "LEFT_OUT",
         "Left Out",
-        "Coordinates that are not finite, faces of fewer than three vertices, parts without area: no map has them",
+        "Coordinates that are not finite, faces of fewer than three vertices, parts without area: maps leave them out",
     ),
     ("NO_AREA", "No Area", "Faces with a triangle without area"),
-    ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; maps are cut there, too"),
-    ("LOOSE", "Loose", "Vertices of no face; they do not matter"),
-    ("FLIPPED", "Flipped UVs", "Faces that the active UV map turns over, or leaves without area"),
+    ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; maps are cut there too"),
+    ("LOOSE", "Loose", "Vertices without a face; they are harmless"),
+    ("FLIPPED", "Flipped UVs", "Faces that the active UV map flips or collapses"),
 )
 
 REPAIRS = (
-    ("WELD", "Weld", "Vertices that are nearer to each other than the distance"),
-    ("DOUBLES", "Doubles", "Faces with the vertices of another one"),
+    ("WELD", "Weld", "Vertices closer together than the distance"),
+    ("DOUBLES", "Doubles", "Faces with the same vertices as another face"),
     ("INSIDE", "Inside Faces", "Faces all of whose edges have more than two faces"),
-    ("LOOSE", "Loose", "Vertices and edges of no face"),
+    ("LOOSE", "Loose", "Vertices and edges without a face"),
 )
 
 
@@ -104,7 +104,8 @@ class HOLOMORPH_OT_remove_maps(AtOnce, bpy.types.Operator):
 
 
 class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
-    """Go to edit mode and select where maps of the selected meshes are cut, what they leave out, or what spoils them"""
+    """Go to edit mode and select elements of the selected meshes at which maps are cut, which maps leave out, or
+    which spoil maps"""
 
     bl_idname = "mesh.holomorphic_select_bad"
     bl_label = "Select Bad Elements"
@@ -112,7 +113,7 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
 
     kinds: EnumProperty(
         name="Elements",
-        description="What is selected",
+        description="Kind of elements to select",
         items=KINDS,
         options={"ENUM_FLAG"},
         default={"CUT", "LEFT_OUT", "NO_AREA"},
@@ -166,8 +167,8 @@ def edit(context, objects):
 
 
 class HOLOMORPH_OT_repair(AtOnce, bpy.types.Operator):
-    """Weld vertices of the selected meshes and remove faces that stand twice or inside, and what is loose, so that
-    maps need no cuts there. What stays keeps its UV maps, attributes, shape keys and materials"""
+    """Weld vertices of the selected meshes and remove duplicate faces, inside faces and loose elements, so that maps
+    need no cuts there. What remains keeps its UV maps, attributes, shape keys and materials"""
 
     bl_idname = "mesh.holomorphic_repair"
     bl_label = "Repair Mesh for Maps"
@@ -175,14 +176,14 @@ class HOLOMORPH_OT_repair(AtOnce, bpy.types.Operator):
 
     kinds: EnumProperty(
         name="Repairs",
-        description="What is done",
+        description="Repairs to make",
         items=REPAIRS,
         options={"ENUM_FLAG"},
         default={"WELD", "DOUBLES", "INSIDE", "LOOSE"},
     )
     distance: FloatProperty(
         name="Distance",
-        description="Vertices that are nearer to each other are welded",
+        description="Weld vertices that are closer together than this",
         default=1e-4,
         min=0,
         soft_max=0.1,

@@ -14,7 +14,7 @@ from .. import native
 HEAT, MARKS = "holomorphic_heat", "holomorphic_marks"  # properties of the window manager
 QUANTITIES = (
     ("NONE", "Off", "Show no heat map"),
-    ("DENSITY", "Density", "Show where the texture is denser or coarser than at the median, by UV area"),
+    ("DENSITY", "Density", "Show where the texture is denser or coarser than the median, by UV area"),
     ("ANGLE", "Angle", "Show where squares are sheared or stretched: s1 / s2, 1 where they stay squares"),
 )
 
@@ -96,7 +96,7 @@ HANDLERS = (
 
 def _register_switches():
     manager = bpy.types.WindowManager
-    text = "What is shown of the active UV maps of the selected meshes"
+    text = "Heat map of the active UV maps of the selected meshes"
     setattr(manager, HEAT, EnumProperty(name="Heat Map", description=text, items=QUANTITIES, update=_redraw))
     text = "Show the poles and branch points of seamless tilings on the selected meshes"
     setattr(manager, MARKS, BoolProperty(name="Show Poles", description=text, default=True, update=_redraw))

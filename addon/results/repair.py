@@ -29,7 +29,7 @@ class Repaired:
     def __str__(self):
         done = (
             ("welded", self.welded, "vertex", "vertices"),
-            ("removed", self.doubles, "face that stood twice", "faces that stood twice"),
+            ("removed", self.doubles, "duplicate face", "duplicate faces"),
             ("removed", self.inside, "inside face", "inside faces"),
             ("removed", self.loose_vertices, "loose vertex", "loose vertices"),
             ("removed", self.loose_edges, "loose edge", "loose edges"),

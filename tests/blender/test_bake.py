@@ -345,10 +345,10 @@ REFUSALS = [
     (no_material, {}, "Torus: it has no material"),
     (no_colour, {}, "Torus: its material 'Holomorphic Bricks .tiling.' ends in Add Shader"),
     (no_surface, {}, "Torus: its material 'Own' has no surface"),
-    (no_slot, {}, "Torus: it has no UV map slot free"),
+    (no_slot, {}, "Torus: no UV map slot is free"),
     (good, {"texels": 0.01}, "Torus: 0.01 texels per metre make an image of 1 texel: at least 16 are possible"),
     (good, {"texels": 1e6}, "Torus: 1e.06 texels per metre make an image of .* at most 16,384 are possible"),
-    (good, {"margin": 10_000}, "Torus: margins of 10000 texels leave islands no room"),
+    (good, {"margin": 10_000}, "Torus: margins of 10000 texels leave no room for islands"),
     (good, {"channels": set()}, "choose a channel"),
     (good, {"folder": "/no/such/folder"}, "the folder /no/such/folder does not exist"),
 ]
@@ -398,7 +398,7 @@ def test_a_bake_that_is_cancelled_leaves_everything_as_it_is(passes):
 def test_only_in_object_mode():
     tiled(torus(), texture="BRICKS")
     bpy.ops.object.mode_set(mode="EDIT")
-    with pytest.raises(RuntimeError, match="Go to Object Mode"):
+    with pytest.raises(RuntimeError, match="Switch to Object Mode"):
         run()
 
 
@@ -429,7 +429,7 @@ def test_the_command_refuses_in_one_sentence(tmp_path):
     taken = tmp_path / "taken"
     taken.write_text("")
     for options, sentence in (
-        (("--bake", taken), "is no folder"),
+        (("--bake", taken), "is not a folder"),
         (("--bake", tmp_path / "images", "--texels", "-1"), "cannot be negative"),
         (("--bake", tmp_path / "images", "--texels", "0.01"), "an image of 1 texel"),
     ):

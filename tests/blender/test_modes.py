@@ -114,7 +114,7 @@ def test_modes_of_other_things_are_told_where_to_go():
     bpy.context.scene.collection.objects.link(armature)
     select(armature, obj)
     bpy.ops.object.mode_set(mode="POSE")
-    with pytest.raises(RuntimeError, match="Go to Object Mode or Edit Mode"):
+    with pytest.raises(RuntimeError, match="Switch to Object Mode or Edit Mode"):
         bpy.ops.uv.holomorphic_maps()
 
 

@@ -58,7 +58,7 @@ def test_several_objects_become_what_they_were_made_of(mode):
 def test_counts_are_those_of_what_is_gone():
     done = repair.repair(spoiled().data, {"DOUBLES", "LOOSE"}, 0)
     assert done == repair.Repaired(doubles=2, loose_vertices=3)
-    assert str(done) == "removed 2 faces that stood twice, removed 3 loose vertices"
+    assert str(done) == "removed 2 duplicate faces, removed 3 loose vertices"
 
 
 def test_an_inside_face_is_removed_and_no_other():
