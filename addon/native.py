@@ -43,7 +43,7 @@ def right_zip(blender, system, machine, tag):
     """What to install in that version of Blender: the end of a sentence."""
     platform_name = PLATFORMS.get((system, machine))
     if platform_name is None or tag not in TAGS:
-        return "there is no zip for this computer, but scripts/build compiles it where it is used"
+        return "no zip exists for this computer: compile the add-on on it with scripts/build"
     if blender >= FIRST_WITH_EXTENSIONS:
         return f"the zip to install in this Blender is the one whose name ends in {platform_name}.zip"
     if (platform_name, tag) == ("linux_x64", "cp311"):

@@ -134,7 +134,7 @@ def _draw_modifiers(layout, context, obj):
 
     if targets.first_modifier(obj):
         if not len(obj.data.polygons):
-            lines.draw(layout, context, "Only its modifiers make faces", "INFO")
+            lines.draw(layout, context, "Its faces come only from modifiers", "INFO")
         layout.operator(HOLOMORPH_OT_maps.bl_idname, text="Map with Modifiers", icon="MODIFIER").modifiers = True
 
 

@@ -39,11 +39,11 @@ class Source:
         if work.error is not None:
             return native.sentence(work.error)
         if self.target.has_changed(time_has_passed):
-            return "it was changed while its levels were made; please run it again"
+            return "it changed while its levels were made; please run it again"
         if not work.names:
             reasons = {part.skipped for part in work.mapped.parts}
             return f"there is no UV map, and none could be made: {'; '.join(sorted(reasons))}"
-        return "" if work.levels else "it has no coarser level"
+        return "" if work.levels else "it cannot be made coarser"
 
 
 def make(context, obj, options, presentation):

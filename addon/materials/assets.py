@@ -24,7 +24,7 @@ def _made(texture):
     nodes.build_texture(made, texture, MAIN_MAP, is_attribute=False)
     nodes.adjust_texture(made, texture, 1, UNIT)
     made.asset_mark()
-    made.asset_data.description = f"{textures.label(texture)} by the map {MAIN_MAP}, which Seamless Tiling makes"
+    made.asset_data.description = f"{textures.label(texture)} on the UV map {MAIN_MAP}, made by Seamless Tiling"
     made.asset_data.tags.new(TAG)
     if not bpy.app.background:  # a preview is a render
         made.asset_generate_preview()

@@ -78,7 +78,7 @@ def _of_material(own, material, lattice):
     """A material repeats with its images, as high as these are; by a finer lattice where it is that of all of them, and
     nothing else reads UVs."""
     if OURS in material:
-        raise ValueError(f"{own.name} shows a texture of this menu: choose that")
+        raise ValueError(f"{own.name} shows a texture from this menu: choose that one")
     if not compatibility.has_nodes(material):
         raise ValueError(f"{own.name} has no nodes")
     images = images_of(material.node_tree)
@@ -97,7 +97,7 @@ def _of_material(own, material, lattice):
 def _text(found):
     """The sentence on the images of a material: the first that does not tile, or the first."""
     if not found:
-        return "It has no images: it is taken to repeat in each UV unit"
+        return "It has no images, so it is assumed to repeat in each UV unit"
     return next((one.text for one in found if not one.tiles), found[0].text)
 
 
@@ -126,8 +126,8 @@ def periodicity(image):
 
 def _why_not(image):
     if image.source not in STILL:
-        return "is more than one picture"
-    return "" if min(image.size) > 0 and len(image.pixels) else "has no pixels: is its file there?"
+        return "is more than a single picture"
+    return "" if min(image.size) > 0 and len(image.pixels) else "has no pixels: check that its file exists"
 
 
 class _Pixels:

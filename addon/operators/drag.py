@@ -16,7 +16,7 @@ NAVIGATION = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "T
 NAVIGATION |= {f"NUMPAD_{key}" for key in (*range(10), "PERIOD", "PLUS", "MINUS")}
 KEEP = {"RET", "NUMPAD_ENTER", "SPACE"}
 GIVE_UP = {"ESC", "RIGHTMOUSE"}
-HELP = "Drag the poles, the orange dots   (Enter keeps, ESC takes everything back)"
+HELP = "Drag the poles, the orange dots   (Enter: keep, ESC: undo all)"
 
 
 class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
@@ -28,7 +28,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
     left_modes = frozenset()  # the poles are shown in object mode alone
     moves: StringProperty(
         name="Moves",
-        description='The poles that are moved, by their places in the report, and vertices: "0:512 3:77"',
+        description='Poles to move, as pairs of a number in the report and a vertex: "0:512 3:77"',
         default="",
         options={"SKIP_SAVE"},
     )
@@ -150,7 +150,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         try:
             self._session.show(self._session.taken(job))
         except ValueError as error:
-            context.workspace.status_text_set(f"{error}   (Enter keeps, ESC takes everything back)")
+            context.workspace.status_text_set(f"{error}   (Enter: keep, ESC: undo all)")
             return
         context.workspace.status_text_set(f"{self._said()}   |   {HELP}")
         self._show_marks(context)
@@ -159,7 +159,7 @@ class HOLOMORPH_OT_drag_poles(Explained, bpy.types.Operator):
         done = [part.tiling for part in self._session.mapped.tiled]
         added = max(made.added_distortion for made in done)
         ratio = max(made.density_ratio for made in done)
-        return f"stretch that whole tiles add: {added:.4f}, density 95 : 5 % = {ratio:.3g}"
+        return f"stretch added by whole tiles: {added:.4f}, density 95 : 5 % = {ratio:.3g}"
 
     def _keep(self, context):
         """Waits for the moves that were asked for last, and keeps them."""

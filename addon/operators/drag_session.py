@@ -25,14 +25,16 @@ class Session:
         """Takes up the tiling that the report tells of. @throws ValueError where there is none, or no longer"""
         text = obj.get(report.PROPERTY)
         if stored.parsed(text).get("is_selection"):
-            raise ValueError(f"{obj.name}: poles are dragged where a whole mesh was tiled, not selected faces")
+            raise ValueError(
+                f"{obj.name}: poles can be dragged only where the whole mesh was tiled, not selected faces"
+            )
         other = stored.parsed(text).get("scale_of")
         if other:
-            raise ValueError(f"{obj.name}: drag the poles on {other}, in whose scale its mesh was tiled")
+            raise ValueError(f"{obj.name}: drag the poles on {other}: its mesh was tiled in the scale of that object")
         self.target, asked = targets.collect([obj])[0], stored.asked(text)
         self._map = uv_maps.main_map(obj.data)
         if asked is None or self.target.refused or self._map not in obj.data.uv_layers:
-            raise ValueError(f"{obj.name}: there is no tiling whose poles could be dragged; {AGAIN}")
+            raise ValueError(f"{obj.name}: it has no tiling with poles to drag; {AGAIN}")
         self._asked = replace(asked, allowed=tile_choices.allowed(asked.pole_group, obj))
         self._write_options = write.options_of(stored.parsed(text)["dials"])
         self._task = targets.tasks([self.target])[0]
@@ -40,7 +42,7 @@ class Session:
         self.mapped = self.made({})
         vertices, is_pole = stored.marks(text)
         if not np.array_equal(self.poles, vertices[is_pole]):
-            raise ValueError(f"{obj.name}: its mesh is not the one that was tiled; {AGAIN}")
+            raise ValueError(f"{obj.name}: its mesh has changed since it was tiled; {AGAIN}")
         self._uv, self._is_shown = uv_maps.read_map(obj.data, self._map), False
         self._parts = [part.component.surface.vertex_index for part in self.mapped.tiled]
         self.allowed = None if self._asked.allowed is None else np.frombuffer(self._asked.allowed, bool)
@@ -61,7 +63,7 @@ class Session:
             if pole < len(part.tiling.poles):
                 return number, pole
             pole -= len(part.tiling.poles)
-        raise ValueError(f"there are {len(self.poles)} poles")
+        raise ValueError(f"pole {pole} does not exist: there are {len(self.poles)}")
 
     def may_go_to(self, pole, vertex):
         """Whether the vertex is on the pole's part, and where poles are allowed."""
@@ -87,7 +89,7 @@ class Session:
         """Makes the tiling of these moves at once. @throws ValueError for a vertex where the pole cannot go"""
         for pole, vertex in moves.items():
             if not self.may_go_to(pole, vertex):
-                raise ValueError(f"pole {pole} cannot go to vertex {vertex}: it is of another part, or not allowed")
+                raise ValueError(f"pole {pole} cannot move to vertex {vertex}, which is on another part or not allowed")
         job = self.job(moves)
         job.run()
         return self.taken(job)

@@ -69,13 +69,13 @@ def _ask(manager):
 def _answer(url, content=None):
     """The answer of the manager, parsed. @throws Unreachable"""
     if not url.startswith(("http://", "https://")):
-        raise Unreachable(f"{url} is no address of a Flamenco Manager")
+        raise Unreachable(f"{url} is not the address of a Flamenco Manager")
     request = urllib.request.Request(url, content, {"Content-Type": "application/json"})
     try:
         with urllib.request.urlopen(request, timeout=ANSWER_SECONDS) as response:
             return json.load(response)
     except urllib.error.HTTPError as error:
         said = error.read().decode(errors="replace").strip()
-        raise Unreachable(f"the Flamenco Manager does not take the job: {said or error.reason}") from error
+        raise Unreachable(f"the Flamenco Manager refused the job: {said or error.reason}") from error
     except (OSError, ValueError) as error:
         raise Unreachable(f"the Flamenco Manager at {url} does not answer: {error}") from error

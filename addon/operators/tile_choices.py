@@ -36,7 +36,7 @@ def options(properties, target, own=None):
     @throws ValueError there is nothing of what is asked for on one of them"""
     obj = target.find()
     if target.makes_object and _are_on_the_mesh(properties):
-        raise ValueError(f"{obj.name}: poles and edges are chosen on the mesh itself, not on what its modifiers make")
+        raise ValueError(f"{obj.name}: select poles and edges on the mesh itself, not on the result of its modifiers")
     lattice = _lattice(properties, own)
     quarters = properties.quarters if lattice in QUARTERED else 0
     tiling = TileOptions(
@@ -83,7 +83,7 @@ def _poles(properties, obj):
         return _poles_where_coarse(obj)
     selected = tuple(sorted(mesh_io.selected_vertices(obj.data).tolist()))
     if not selected:
-        raise ValueError(f"{obj.name}: select the vertices that are to be poles")
+        raise ValueError(f"{obj.name}: select the vertices to use as poles")
     return selected
 
 
@@ -91,7 +91,7 @@ def _kept_poles(obj):
     vertices, is_pole = stored.marks(obj.get(report.PROPERTY))
     kept = vertices[is_pole & (vertices < len(obj.data.vertices))]
     if not len(kept):
-        raise ValueError(f"{obj.name}: there are no poles of an earlier tiling")
+        raise ValueError(f"{obj.name}: it has no poles from an earlier tiling")
     return tuple(sorted(kept.tolist()))
 
 
@@ -128,11 +128,11 @@ def _direction(properties, obj):
     if properties.direction in AXES:
         axis = linear[:, AXES.index(properties.direction)]
         if not _has_length(axis):
-            raise ValueError(f"{obj.name}: its scale leaves nothing of its {properties.direction} axis")
+            raise ValueError(f"{obj.name}: its {properties.direction} axis is scaled to 0: choose another direction")
         return tuple(axis.tolist())
     edges = mesh_io.edge_vectors(obj.data, mesh_io.marked_edges(obj.data, "select")) @ linear.T
     if not _has_length(edges):
-        raise ValueError(f"{obj.name}: select edges along which the rows are to run")
+        raise ValueError(f"{obj.name}: select the edges for the rows to follow")
     return mean_direction(edges)
 
 

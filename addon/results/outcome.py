@@ -13,6 +13,7 @@ from . import report, stored
 
 NAMED = 4  # parts that a message numbers
 MERGE = "Mesh > Merge > By Distance"
+UNUSED = "your choice was not used"
 OVERLAP = "UV > Select Overlap shows where"
 CLOSING_MODIFIERS = {"MIRROR", "SOLIDIFY", "SCREW", "ARRAY", "BOOLEAN", "REMESH", "WELD", "NODES", "SKIN"}
 
@@ -58,15 +59,15 @@ class Outcome:
         self.judge(obj, entry)
         self.problems += _problems(obj, made)
         if len(made.solved.surface.repairs.joined_vertices):
-            self.notes.append(f"{obj.name}: most faces are apart, and were joined for the maps; {MERGE} joins them")
+            self.notes.append(f"{obj.name}: most faces were separate, and were joined for the maps; {MERGE} joins them")
         if target.polygons.faces is None:
             self.notes += _modifier_notes(obj, made.solved)
         extra = sum(w.kind == "attribute" for w in written)
         if extra:
             maps_are = "1 map is a corner attribute" if extra == 1 else f"{extra} maps are corner attributes"
-            self.notes.append(f"{obj.name}: {maps_are}, for want of UV map slots")
+            self.notes.append(f"{obj.name}: {maps_are}, because no UV map slots are free")
         if obj.override_library is not None:
-            self.notes.append(f"{obj.name} is a library override: its report is gone when the file is opened again")
+            self.notes.append(f"{obj.name} is a library override: its report is lost when the file is reopened")
         self.notes += [target.note] if target.note else []
 
     def judge(self, obj, entry):
@@ -93,14 +94,15 @@ def _problems(obj, made):
     """What was not done, or not as it was chosen; the parts that are no surface. One sentence for each reason."""
     told = {}
     for index, part in enumerate(made.parts, 1):
-        reasons = {"skipped": part.skipped, "made without your choice": part.component.note}
+        reasons = {"skipped": part.skipped, UNUSED: part.component.note}
         reasons["not seamless"] = part.not_seamless
         for what, why in reasons.items():
             if why:
                 told.setdefault((what, why), []).append(str(index))
     for (what, why), indices in told.items():
-        which = "" if len(made.parts) == 1 else f"{_numbered('part', indices)} of {len(made.parts)} "
-        yield f"{obj.name}: {which}{what}: {why}"
+        which = "" if len(made.parts) == 1 else f"{_numbered('part', indices)} of {len(made.parts)}"
+        words = (what, "on" if which else "", which) if what == UNUSED else (which, what)
+        yield f"{obj.name}: {' '.join(filter(None, words))}: {why}"
     left = {}
     for refused in made.solved.surface.refused:
         left.setdefault(native.sentence(refused.reason), []).append(len(refused.faces))
@@ -121,7 +123,7 @@ def _faces(count):
 def _modifier_notes(obj, solved):
     closing = [m.name for m in obj.modifiers if m.type in CLOSING_MODIFIERS and not compatibility.is_auto_smooth(m)]
     if closing and any(c.surface.boundary_count for c in solved.components):
-        yield f"{obj.name}: modifiers are ignored: take Map with Modifiers if {closing[0]!r} closes the surface"
+        yield f"{obj.name}: modifiers are ignored: use Map with Modifiers if {closing[0]!r} closes the surface"
 
 
 def with_coarse_places(obj, polygons, entry):

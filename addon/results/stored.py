@@ -109,7 +109,7 @@ def cut_lines(entry):
     yield from (cut["text"][0].upper() + cut["text"][1:] for cut in repairs["cuts"])
     joined = repairs["joined_vertices"]["count"]
     if joined:
-        yield f"Most faces are apart: {joined:,} vertices were joined"
+        yield f"Most faces were separate: {joined:,} vertices were joined"
 
 
 def _topology(part):
@@ -140,7 +140,7 @@ def _sentence(part):
 
 
 def _tiling_lines(tiling):
-    yield f"stretch that whole tiles add: {tiling['added_distortion']:.4f}"
+    yield f"stretch added by whole tiles: {tiling['added_distortion']:.4f}"
     yield f"density, 95 : 5 % = {tiling['density_ratio']:.3g}"
     yield f"poles: {len(tiling['poles'])}, branch points: {len(tiling['zeros'])}"
     if tiling["periods"]:

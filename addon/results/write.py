@@ -71,7 +71,7 @@ def _why_not(target, result, time_has_passed):
     if isinstance(result, native.refusals()):
         return native.sentence(result)
     has_changed = target.has_changed(time_has_passed)
-    return "it was changed while it was solved; please run it again" if has_changed else ""
+    return "it changed during the solve; please run it again" if has_changed else ""
 
 
 def _write_object(step, outcome, target, made, options):

@@ -45,7 +45,7 @@ def why_fixed(obj):
     if mesh.library is not None:
         return "its mesh is linked from another file; make it local first"
     if mesh.override_library is not None:
-        return "its mesh is a library override, in which no UV map lasts; make it local first"
+        return "its mesh is a library override, which cannot keep UV maps; make it local first"
     shown = bpy.context.view_layer.objects
     if mesh.is_editmode and not any(other.mode == "EDIT" and other.data == mesh for other in shown):
         return "its mesh is edited in another scene or view layer; leave edit mode there first"

@@ -78,7 +78,7 @@ def _scale_note(obj):
     if not names:
         return ""
     which = f"{names[0]} has" if len(names) == 1 else f"{names[0]} and {len(names) - 1} more have"
-    return f"{which} the same mesh in another scale; the scale of {obj.name} counts"
+    return f"{which} the same mesh in another scale; the scale of {obj.name} is used"
 
 
 def _masks(objects, wanted):
@@ -89,7 +89,7 @@ def _masks(objects, wanted):
     if selected:
         return {mesh: _or_all(flags) for mesh, flags in selected.items()}
     if wanted == choices.ASKED:
-        raise ValueError("select the faces that are to be mapped")
+        raise ValueError("select the faces to map")
     return {mesh: _or_all(~_flags(mesh, "hide")) if mesh.is_editmode else None for mesh in meshes}
 
 
@@ -129,7 +129,7 @@ def _why_refused(obj, mask, asked):
     if mask is not None and not mask.any():
         return gathering.why_fixed(obj) or "all its faces are hidden"
     if asked.are_islands and asked.is_explicit:
-        return gathering.why_fixed(obj) or "islands have no poles or corners: choose those or another main map"
+        return gathering.why_fixed(obj) or "islands have neither poles nor corners: choose another main map"
     return gathering.why_fixed(obj)
 
 
@@ -146,9 +146,9 @@ def _of_modifiers(target, asked, shown, seams, modifier):
     if not shown.face_count:
         return replace(target, refused=f"its modifiers leave no faces; the first is {modifier}")
     if target.mask is not None or asked.is_explicit:
-        return replace(target, refused="the selection is one of the mesh itself, not of what its modifiers make")
+        return replace(target, refused="the selection is on the mesh itself, not on the result of its modifiers")
     chosen = replace(asked, use=choices.NONE, seams=seams if asked.cut_at_seams else choices.NO_EDGES)
-    note = f"{target.name}: what its modifiers make is an object now; the object itself is hidden"
+    note = f"{target.name}: the result of its modifiers is a new object; the original is hidden"
     return replace(target, polygons=shown, chosen=chosen, makes_object=True, note=note)
 
 

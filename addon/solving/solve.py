@@ -14,7 +14,7 @@ DOUBLES_OF_TILER = 40  # for each edge: half-edges, weights, the multigrid hiera
 DOUBLES_OF_MAP = 6  # for each corner: UVs and quality
 KEPT_MAPS = 4  # maps kept for each object: the redo panel goes back and forth between a few
 NO_ISLANDS = "no seams cut it open: mark some in edit mode (Edge > Mark Seam), or take another main map"
-NO_HARD_EDGES = "no edge is that hard: choose a smaller angle, mark seams in edit mode, or take another main map"
+NO_HARD_EDGES = "no edge is that sharp: choose a smaller angle, mark seams in edit mode, or take another main map"
 UV_START = 0.6  # fraction of the work after which the potentials of the maps are solved for
 
 

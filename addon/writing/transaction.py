@@ -17,7 +17,7 @@ MADE = (
     "node_groups",
 )  # kinds of data-blocks that are made here
 REMOVED = "Holomorph Removed"  # name of what is about to be removed
-PUT_BACK = "Nothing is changed: what had been written was put back"
+PUT_BACK = "Nothing was changed: all writes were undone"
 
 
 @contextmanager

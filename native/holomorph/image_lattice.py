@@ -94,7 +94,7 @@ def _checked(pixels):
         raise ValueError(f"pixels have the shape {np.shape(pixels)}; numbers (h, w) or (h, w, 1 to 4) are needed")
     values = values.astype(np.float64)
     if not np.isfinite(values).all():
-        raise ValueError("pixels have numbers that are not finite")
+        raise ValueError("pixels must be finite numbers")
     values /= np.abs(values).max(axis=(0, 1)).clip(np.finfo(float).tiny)
     if values.shape[2] == 4:
         values[..., :3] *= values[..., 3:]
@@ -209,7 +209,7 @@ def _cells_text(basis, aspect):
     if count == 1:
         return ""
     if not shift:
-        return f"; it repeats {1 / width} by {1 / height} times in itself"
+        return f"; it repeats {1 / width} by {1 / height} times within itself"
     part = abs(shift / width)
     if part != Fraction(1, 2):
         return f"; rows shifted by {part}, {count} cells in the image"

@@ -127,7 +127,7 @@ def test_the_angle_decides():
 def test_a_smooth_closed_mesh_says_what_to_do():
     obj = primitive(bpy.ops.mesh.primitive_ico_sphere_add, subdivisions=4)
     before = everything(obj)
-    with pytest.raises(RuntimeError, match="no edge is that hard: choose a smaller angle"):
+    with pytest.raises(RuntimeError, match="no edge is that sharp: choose a smaller angle"):
         bpy.ops.uv.holomorphic_islands()
     assert everything(obj) == before
 

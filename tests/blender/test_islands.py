@@ -142,7 +142,7 @@ def test_an_island_with_several_loops_or_handles_is_cut_open(genus):
 def test_poles_and_islands_exclude_each_other():
     obj = capped_cylinder()
     obj.data.vertices[0].select = True
-    with pytest.raises(RuntimeError, match="choose those or another main map"):
+    with pytest.raises(RuntimeError, match="neither poles nor corners: choose another main map"):
         islands(obj, use_selection="POLES")
 
 

@@ -325,7 +325,7 @@ def test_an_irreducible_mesh_has_no_levels():
     i = np.arange(7)
     triples = np.concatenate([np.stack([i, i + 1, i + 3], axis=1), np.stack([i, i + 3, i + 2], axis=1)]) % 7
     mesh_object("Csaszar", points, triples)
-    refused("Csaszar: it has no coarser level")
+    refused("Csaszar: it cannot be made coarser")
 
 
 def test_only_in_object_mode_with_an_active_mesh():
@@ -353,7 +353,7 @@ def test_cancelling_ends_the_work_with_nothing_made():
     assert len(work.levels) == 4 and seen == sorted(seen)
     assert source.problem(work, time_has_passed=True) == ""
     obj.data.vertices[0].co.x += 1
-    assert "it was changed" in source.problem(work, time_has_passed=True)
+    assert "it changed" in source.problem(work, time_has_passed=True)
 
 
 def test_levels_come_hidden_and_beside_with_the_names_that_engines_know():

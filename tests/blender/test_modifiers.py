@@ -162,9 +162,9 @@ def test_modifiers_that_are_off_do_not_count():
 
 def test_choices_on_the_mesh_are_refused_where_the_mesh_is_another_one():
     half_grid()
-    with pytest.raises(RuntimeError, match="the selection is one of the mesh itself"):
+    with pytest.raises(RuntimeError, match="the selection is on the mesh itself"):
         with_modifiers(use_selection="POLES")
-    with pytest.raises(RuntimeError, match="chosen on the mesh itself"):
+    with pytest.raises(RuntimeError, match="select poles and edges on the mesh itself"):
         bpy.ops.uv.holomorphic_tile(modifiers=True, direction="EDGES")
 
 

@@ -242,7 +242,7 @@ def test_another_scale_of_a_shared_mesh_is_told(scale, told):
     bpy.context.scene.collection.objects.link(second)
     bpy.context.view_layer.update()
     (target,) = module("scene.targets").collect([first, second])
-    assert ("the scale of First counts" in target.note) == told
+    assert ("the scale of First is used" in target.note) == told
 
 
 def test_parts_of_one_mesh_of_different_kinds():

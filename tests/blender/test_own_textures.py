@@ -249,7 +249,7 @@ def refusals():
         ("IMAGE", "", "Choose an image"),
         ("MATERIAL", "", "Choose a material"),
         ("IMAGE", "None", "no image 'None'"),
-        ("IMAGE", tiled.name, "more than one picture"),
+        ("IMAGE", tiled.name, "more than a single picture"),
         ("IMAGE", lost.name, "no pixels"),
         ("MATERIAL", ours.name, "choose that"),
     ]
@@ -270,7 +270,7 @@ def test_numbers_that_are_not_finite():
     values = bricks()
     values[3, 4] = math.nan
     image(values, float_buffer=True)
-    with pytest.raises(ValueError, match="not finite"):
+    with pytest.raises(ValueError, match="must be finite"):
         own.chosen(type("", (), {"texture": "IMAGE", "source": "Wall"}))
 
 

@@ -141,7 +141,7 @@ def test_a_forest_of_duplicates_has_one_sentence_and_a_bounded_file():
     trees = [duplicate(second) for _ in range(120)]
     trees[-1]["holomorph_report"] = "of an earlier map"
     (target,) = module("scene.targets").collect([first])
-    assert target.note == "Second and 120 more have the same mesh in another scale; the scale of First counts"
+    assert target.note == "Second and 120 more have the same mesh in another scale; the scale of First is used"
     bpy.ops.uv.holomorphic_maps()
     assert sum("holomorph_report" in tree for tree in trees) == 99 and "holomorph_report" not in trees[-1]
 

@@ -77,7 +77,7 @@ def test_a_job_is_submitted(manager, tmp_path):
 def test_what_the_manager_refuses_is_said(manager, tmp_path):
     wait_for_answer()
     manager.has_type = False
-    with pytest.raises(RuntimeError, match="does not take the job.*job type unknown"):
+    with pytest.raises(RuntimeError, match="refused the job.*job type unknown"):
         bpy.ops.wm.holomorphic_submit(sources=str(tmp_path), output=str(tmp_path / "maps"))
     with pytest.raises(RuntimeError, match="Save the file first"):
         bpy.ops.wm.holomorphic_submit(output=str(tmp_path / "maps"))

@@ -157,7 +157,7 @@ def test_the_direction_is_the_objects_axis(calls):
 def test_the_direction_of_selected_edges(calls):
     obj = torus()
     pick(obj, [])
-    with pytest.raises(RuntimeError, match="select edges"):
+    with pytest.raises(RuntimeError, match="select the edges"):
         tile(direction="EDGES")
     pick(obj, [0, 12])
     tile(direction="EDGES")
@@ -172,7 +172,7 @@ def test_a_direction_without_length_is_refused():
     obj = torus()
     obj.scale = (1, 1, 0)
     bpy.context.view_layer.update()
-    with pytest.raises(RuntimeError, match="Torus: its scale leaves nothing of its Z axis"):
+    with pytest.raises(RuntimeError, match="Torus: its Z axis is scaled to 0"):
         tile(direction="Z")
 
 

@@ -19,7 +19,7 @@ ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)
 STEP = "one_step"  # the function in which everything is written
 INJECTED = "injected by the test"
 SAMPLE = 25  # one in so many of the lines that earlier checks have had
-PUT_BACK = "Nothing is changed"
+PUT_BACK = "Nothing was changed"
 _had = set()
 
 

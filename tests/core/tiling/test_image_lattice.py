@@ -76,7 +76,7 @@ def test_a_checker(squares):
         (6, 4, 1 / 3, "Tiles; rows shifted by 1/3, 24 cells in the image"),
         (8, 3, 1 / 4, "Tiles; rows shifted by 1/4, 24 cells in the image"),
         (10, 4, 3 / 10, "Tiles; rows shifted by 3/10, 40 cells in the image"),
-        (6, 4, 0, "Tiles; it repeats 4 by 6 times in itself"),
+        (6, 4, 0, "Tiles; it repeats 4 by 6 times within itself"),
         (1, 1, 0, "Tiles"),
     ],
 )
@@ -215,7 +215,7 @@ def test_other_shapes_are_refused(pixels):
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_numbers_that_are_not_finite_are_refused(value):
-    with pytest.raises(ValueError, match="not finite"):
+    with pytest.raises(ValueError, match="must be finite"):
         found([[0.0, value]])
 
 
