@@ -12,14 +12,15 @@ from collections import defaultdict
 import bpy
 import pytest
 from file_state import differences, file_state
+from loaded_addon import module
 from repository import ROOT
 
+PUT_BACK = module("writing.transaction").PUT_BACK
 ADDON = str(ROOT / "addon")
 ERRORS = (RuntimeError, MemoryError, KeyboardInterrupt)
 STEP = "one_step"  # the function in which everything is written
 INJECTED = "injected by the test"
 SAMPLE = 25  # one in so many of the lines that earlier checks have had
-PUT_BACK = "Nothing was changed"
 _had = set()
 
 

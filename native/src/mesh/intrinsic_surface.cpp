@@ -28,8 +28,8 @@ void check_face(std::size_t f, int vertex_count, const std::array<std::int64_t, 
     const std::int64_t v = vertices[i];
     if (v < 0) throw InvalidMesh(face + " has the negative vertex index " + to_string(v));
     if (v >= vertex_count) {
-      throw InvalidMesh(face + " names vertex " + to_string(v) + ", but there are only " + to_string(vertex_count) +
-                        " vertices");
+      throw InvalidMesh(face + " names vertex " + to_string(v) + "; numbers from 0 to below " +
+                        to_string(vertex_count) + " are needed");
     }
     if (!std::isfinite(lengths[i]) || lengths[i] < 0)
       throw InvalidMesh(face + " has an edge length that is negative or not finite");

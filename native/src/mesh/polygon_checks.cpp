@@ -108,8 +108,10 @@ std::string fault_of(const BasicPolygons<Index>& mesh, int face) {
   if (corners.size() < 3) return name + " has " + to_string(corners.size()) + " corners; it needs at least 3";
   for (const Index v : corners) {
     if (v < 0) return name + " has the negative vertex index " + to_string(v);
-    if (v >= vertex_count)
-      return name + " names vertex " + to_string(v) + ", but there are only " + to_string(vertex_count) + " vertices";
+    if (v >= vertex_count) {
+      return name + " names vertex " + to_string(v) + "; numbers from 0 to below " + to_string(vertex_count) +
+             " are needed";
+    }
   }
   for (const Index v : corners) {
     if (!is_usable(mesh.vertices[v])) return fault_of_vertex(mesh.vertices[v], v);
