@@ -67,7 +67,7 @@ class Case:
         self.surface = holomorph.Surface(given.vertices, native.corner_vertices[self.corners])
         self.cut = cut_open(self.surface, self._is_seam(self.conformal.seams))
         if (self.cut.euler_characteristic, self.cut.boundary_count) != (1, 1):
-            raise holomorph.TopologyError("the cut surface is no disk")
+            raise holomorph.TopologyError("the cut surface is not a disk")
         self.scale = self.conformal.quality.median_density**-0.5  # so that the median density is 1
 
     def _is_seam(self, pairs):

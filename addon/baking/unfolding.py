@@ -15,7 +15,7 @@ from ..scene import mesh_io, uv_maps
 
 MOST_COST = 0.8  # of our islands, see the package's `appearance`: with more, a projection has fewer seams
 ANGLE = math.radians(66)  # between faces and the direction that they are projected along, Blender's own
-FLAT, REST = 0, 1  # pieces: parts that unfold, and what is no part
+FLAT, REST = 0, 1  # pieces: parts that unfold, and the rest
 
 
 def islands(context, joined, meshes):
@@ -42,7 +42,7 @@ def islands(context, joined, meshes):
 
 
 def _parts(polygons):
-    """Connected parts; none of what is no surface."""
+    """Connected parts; none of what is not a surface."""
     try:
         return polygons.surface(strict=False).components
     except native.refusals():

@@ -104,7 +104,7 @@ def _parsed(kind, about):
             raise argparse.ArgumentTypeError(f"{text} is not from {least / unit:g} to {most / unit:g}")
         return value
 
-    parsed.__name__ = kind.__name__  # in the sentence about what is no number
+    parsed.__name__ = kind.__name__  # in the sentence about what is not a number
     return parsed
 
 

@@ -13,7 +13,7 @@ FACES = {"AUTOMATIC": choices.SELECTED, "FACES": choices.ASKED}  # by the use of
 
 
 def request(properties):
-    """The `choices.Choices`. @throws ValueError residues that are no numbers"""
+    """The `choices.Choices`. @throws ValueError residues that are not numbers"""
     are_islands, use = properties.main == "ISLANDS", properties.use_selection
     return choices.Choices(
         use=choices.NONE if use == choices.FACES else use,

@@ -91,7 +91,7 @@ class Outcome:
 
 
 def _problems(obj, made):
-    """What was not done, or not as it was chosen; the parts that are no surface. One sentence for each reason."""
+    """What was not done, or not as it was chosen; the parts that are not surfaces. One sentence for each reason."""
     told = {}
     for index, part in enumerate(made.parts, 1):
         reasons = {"skipped": part.skipped, UNUSED: part.component.note}

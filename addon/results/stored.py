@@ -20,7 +20,7 @@ COLLAPSED = 1e3  # a mean distortion that only a triangle without area gives
 
 @functools.lru_cache(maxsize=16)
 def parsed(stored):
-    """Parses a stored report; an empty one if there is none, or if the text is no report."""
+    """Parses a stored report; an empty one if there is none, or if the text is not a report."""
     try:
         entry = json.loads(stored)
     except (ValueError, TypeError):

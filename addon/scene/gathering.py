@@ -35,7 +35,7 @@ def selected_meshes(context):
 
 
 def is_helper(obj):
-    """Whether Blender's importer made it for its own use, such as the shapes of bones: it is no part of the scene."""
+    """Whether Blender's importer made it for its own use, such as the shapes of bones. It is not part of the scene."""
     return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 

@@ -12,7 +12,7 @@ from ..solving.choices import Choices
 from . import faces, gathering, mesh_io
 
 EVERYTHING = Choices()
-MOST_PICKED = 64  # vertices; a larger selection is no choice of single vertices
+MOST_PICKED = 64  # vertices; a larger selection is not a choice of single vertices
 
 
 @dataclass(frozen=True)

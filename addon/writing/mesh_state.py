@@ -14,7 +14,7 @@ from ..compatibility import Values
 from ..scene import attributes, mesh_io
 from . import states
 
-UV_MAP = "UV_MAP"  # kind of the layers that are no attributes: UV maps before Blender 3.5
+UV_MAP = "UV_MAP"  # kind of the layers that are not attributes: UV maps before Blender 3.5
 UV_VALUES = ("uv", np.float32, 2), ("pin_uv", bool), ("select", bool), ("select_edge", bool)
 FIXED = {"position", ".edge_verts", ".corner_vert", ".corner_edge"}  # Blender removes none of these
 KINDS = attributes.VALUES | {

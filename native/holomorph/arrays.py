@@ -20,7 +20,7 @@ def real(array, columns, name):
 
 
 def numbers(array, name):
-    """`array` as C-contiguous float64. @throws ValueError for what is no array of real numbers, or has masked ones"""
+    """`array` as C-contiguous float64. @throws ValueError if it is not an array of real numbers, or has masked ones"""
     if np.ma.is_masked(array):
         raise ValueError(f"{name} has masked entries")
     if np.iscomplexobj(array):

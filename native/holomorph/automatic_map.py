@@ -50,7 +50,7 @@ def automatic_map(
         map of forms, as when something about the structure was chosen
     tiles, poles, lattice, boundary, turn, max_turn, max_added : of tilings, as in `Structure.tile`
     density, density_tolerance : tiles per unit of area, and the relative amount by which whole tiles may miss it; where
-        they miss it by more, the map is no tiling
+        they miss it by more, the map is not a tiling
     direction : "upright" for rows that run level, ignored on intrinsic surfaces; a vector along which u runs; or None
     evenness : from 0 for a conformal map to 1 for squares of nearly one size; see `Structure.tile`
     threads : as in `conformal_structure`

@@ -116,8 +116,8 @@ def _density(parts, tiles):
 
 
 def _alike(parts, mains, choices):
-    """The `Copy` that each part is. Parts of which something else is asked are no copies, nor are those that are turned
-    about the vertical if u is to run along a vector."""
+    """The `Copy` that each part is. Parts of which something else is asked are not copies. Nor are those
+    that are turned about the vertical if u is to run along a vector."""
     if any(not isinstance(options["direction"], (str, type(None))) for _, options in choices):
         return [Copy(k) for k in range(len(parts))]
     asked = [(main, repr(choice)) for main, choice in zip(mains, choices)]

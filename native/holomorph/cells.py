@@ -26,7 +26,7 @@ class Cells(SurfacePoints):
     The polygons follow the lines between tiles over the surface, with a vertex on each edge that these cross. Four of a
     polygon's vertices are corners of the tile wherever there is no pole, branch or boundary; `simplified` leaves others
     out, but a brick keeps the corners of those above and below it. The star of a pole, its triangles, is one polygon. A
-    tile that is no disk with a simple outline, as one with a hole or one that meets itself around a limb, is a few.
+    tile that is not a disk with a simple outline is cut into a few: it may have a hole, or meet itself around a limb.
 
     corner_vertices, face_offsets : (#C,) and (#F + 1,) the polygons, as in `Surface`, oriented as its triangles
     uv : (#C, 2) of each corner, continued across seams in a polygon

@@ -25,7 +25,7 @@ def cut_to_cones(disk: Surface, most_stretch: float = 3.0, *, progress: Progress
     most_stretch : above 1; a vertex whose scale factor is beyond it, or below its inverse, gets a cut, the worst first,
         up to 32 of them. Where the mesh is coarse some may stay beyond
 
-    Raises TopologyError for a surface that is no disk, ValueError for a factor that is not above 1; SolverError;
+    Raises TopologyError for a surface that is not a disk, ValueError for a factor that is not above 1; SolverError;
     Cancelled.
 
     Cost: one map with a free boundary for each cut, and one more.

@@ -54,7 +54,7 @@ class _Shape:
         return cls(lengths, lengths.mean(), heights, size, SINGLE * np.abs(part.vertices).max())
 
     def scale_of(self, other):
-        """Lengths over those of the other, 0 where it is no copy. @pre the same triangles"""
+        """Lengths over those of the other, 0 where it is not a copy. @pre the same triangles"""
         if not (self.size > 0 and other.size > 0) or len(self.heights) != len(other.heights):
             return 0.0
         scale = self.size / other.size

@@ -79,7 +79,7 @@ def symmetrised(double: Surface, forms: ArrayLike) -> Reals:
     Raises
     ------
     TopologyError
-        if `double` is no double cover.
+        if `double` is not a double cover.
     ValueError
         if `forms` has another number of values.
     """

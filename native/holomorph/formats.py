@@ -33,7 +33,7 @@ def content(name, surface, uv=None, image=None):
 
 
 def check_texture(name, texture):
-    """@throws ValueError, OSError where files of a format cannot have a texture, or it is no image"""
+    """@throws ValueError, OSError where files of a format cannot have a texture, or it is not an image"""
     if name not in TEXTURED:
         raise ValueError(f"a texture goes into .{' and .'.join(TEXTURED)} files alone, not into .{name}")
     textures.check(texture)

@@ -16,7 +16,7 @@ def height_image(path: FilePath) -> Reals:
     """(rows, columns) heights of a picture file, from 0 for black to 1 for white, the top row first: PNG with 8 or 16
     bits, and whatever else Pillow reads. Of colours it is the brightness; transparency is not looked at.
 
-    Raises ValueError where it is no picture, or Pillow is not installed; OSError.
+    Raises ValueError where it is not a picture, or Pillow is not installed; OSError.
     """
     try:
         from PIL import Image, UnidentifiedImageError

@@ -30,8 +30,8 @@ def punch_holes(surface: Surface, vertices: ArrayLike) -> Surface:
     Raises
     ------
     TopologyError
-        for what is no list of different inner vertices, for holes that would meet each other or the boundary, and where
-        the polygons of a vertex are no disk, because they meet elsewhere, too.
+        if it is not a list of different inner vertices, if holes would meet each other or the boundary, and if the
+        polygons of a vertex do not form a disk, because they also meet elsewhere.
     InvalidMesh
         if the surface is intrinsic.
 

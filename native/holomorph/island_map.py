@@ -111,7 +111,7 @@ def island_map(
 
 
 def one_island(surface, tiling):
-    """The `Islands` of a map whose jumps are no whole tiles any more, since a UV unit is to be one of length."""
+    """The `Islands` of a map whose jumps are not whole tiles any more, since a UV unit is to be one of length."""
     size = math.sqrt(tiling.quality.median_density)
     ends = surface.vertices[tiling.seams]
     soft = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum() / math.sqrt(surface.area)

@@ -147,8 +147,8 @@ class Undecided:
         return form_map(self.surface, self.structure, why=reasons[0], evenness=self.evenness)
 
     def untiled(self, why, tiling=None):
-        """The best `Map` that is no tiling; one of the size that is wanted may be made of a tiling of another size, as
-        one island with the seams of that."""
+        """The best `Map` that is not a tiling. A tiling of another size may be scaled to the wanted one, as one island
+        with the seams of that tiling."""
         flat = self.flat or _flat_islands(self.surface, self.evenness, None, None)
         found = _least_minded(flat, form_map(self.surface, self.structure, why=why, evenness=self.evenness))
         if tiling is None or self.surface.vertices is None:

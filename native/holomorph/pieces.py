@@ -19,7 +19,7 @@ from .surface import Surface
 
 REST = -1  # name of polygons that are looked at with others
 WORTH = 0.03  # part of the area, from which on a piece is looked at by itself
-SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is no tube is more than sheets and cones
+SMOOTH = 1.0  # radians of curvature without tips, from which on a piece that is not a tube is more than sheets, cones
 TUBES = 0.5  # part of the area of a part without islands, from which on its tubes are looked at
 
 

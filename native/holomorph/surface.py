@@ -26,11 +26,12 @@ class Surface(Value):
     ----------
     vertices : (#V, 3) reals
     faces : (#F, 3) or (#F, 4) integers, or a list of lists of any sizes
-    strict : refuse the whole mesh for any bad element. Else a mesh that is no surface is cut until it is one, by giving
-        a vertex to each fan of faces, and `repairs.cuts` says where and why. Polygons and corners stay what they are.
-        Left out, and listed in `refused`, are faces of less than three vertices or with coordinates that are not
-        finite, and parts without area. Where most faces are apart, those whose sides run between the same places, in
-        single precision, are joined, see `repairs.joined_vertices`. Elements are then numbered anew, see `vertex_index`
+    strict : refuse the whole mesh for any bad element. Else a mesh that is not a surface is cut until it is one: each
+        fan of faces gets a vertex of its own, and `repairs.cuts` says where and why. Polygons and corners stay what
+        they are. `refused` lists faces that are left out: those of fewer than three vertices, with coordinates that
+        are not finite, or of parts without area. Where most faces are separate, those whose sides run between the
+        same places, in single precision, are joined, see `repairs.joined_vertices`. Elements are then renumbered, see
+        `vertex_index`
 
     Raises
     ------

@@ -39,8 +39,9 @@ class TiledSurface(Value):
         the unit square
     threads : number of threads; None for all processors. No result depends on it
 
-    Raises TopologyError for a surface without positions, and for UVs that are no tiling's: where they jump by parts of
-    a tile, not alike at both ends of an edge, or two poles are neighbours or one lies on the boundary; ValueError.
+    Raises TopologyError for a surface without positions, and for UVs that are not a tiling: where they jump by parts of
+    a tile, or differently at the two ends of an edge, or two poles are neighbours or one lies on the boundary;
+    ValueError.
     """
 
     def __init__(
@@ -173,7 +174,7 @@ class TiledSurface(Value):
         `Relief`. As tiles are whole, it closes up everywhere.
 
         heights : (rows, columns) from 0 to 1, the top row first, bilinear between the middles of pixels: over a tile,
-            which is a parallelogram where the lattice is no square one
+            which is a parallelogram where the lattice is not square
         repeats : how often the picture lies in a tile, along each of its sides
         depth : by which a height of 1 is raised, in the unit of the positions, on the side from which triangles are
             counter-clockwise

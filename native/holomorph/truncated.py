@@ -12,7 +12,7 @@ from .results import result
 from .surface import Surface
 
 CUT = 1 / 3  # part of each edge at a pole that is cut off: less than half, as both its ends may be poles
-SAME_UV = 1e-9  # relative to the UV size: across an edge that is no seam the UVs differ by rounding
+SAME_UV = 1e-9  # relative to the UV size: across an edge that is not a seam the UVs differ by rounding
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ def closed(surface: Surface) -> Surface:
     """The surface with one more polygon, at the end, in each boundary loop but the `ENDS` longest; itself where there
     are no more. Vertices, polygons and corners keep their numbers.
 
-    Raises InvalidMesh where a window is no polygon.
+    Raises InvalidMesh where a window is not a polygon.
     """
     start, end = boundary_edges(surface).T
     names = _loops(start, end, len(surface.vertices))

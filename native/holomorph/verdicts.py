@@ -125,7 +125,7 @@ def _on_parts(chosen, ranks, rank):
 
 
 def _rank(value, limits):
-    """The first level whose limit is not exceeded; the last one for what is no number."""
+    """The first level whose limit is not exceeded; the last one for what is not a number."""
     return next((rank for rank, limit in enumerate(limits) if value <= limit), len(limits))
 
 

@@ -13,8 +13,8 @@ ROOM = 2**17  # bytes: as large as what disks give at a time
 
 def write(path, *contents):
     """Writes bytes, one after the other, beside the path and moves them there in one step: what is there stays as it
-    was where the disk is full or the process ends. Links are followed; into what is no file, such as a pipe, they are
-    written at once.
+    was where the disk is full or the process ends. Links are followed. A pipe, or what else is not a file, is written
+    into directly.
 
     Raises OSError that names the path."""
     with _naming(path):

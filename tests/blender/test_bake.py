@@ -115,7 +115,7 @@ def test_the_atlas_shows_what_the_tiling_shows(images):
         assert (error <= 2 * reach * stretch.max() + 2 * STEP).all() and np.median(error) < 4 * STEP
         assert points.in_middles(baked.size[0]) > 1000
         error = np.abs(sampled(atlas, points.bake, False) - sampled(picture_pixels, points.tiling))
-        assert error.max() < 2 * STEP  # there the bake is no filter
+        assert error.max() < 2 * STEP  # there the bake is not a filter
 
 
 def test_the_textures_are_baked_exactly():

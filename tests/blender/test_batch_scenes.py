@@ -56,7 +56,7 @@ def ring_with_seams():
 
 @pytest.mark.parametrize("suffix", SCENES)
 def test_a_file_of_another_program_is_read_and_its_map_is_written(suffix, program, tmp_path):
-    """The seams of a map are no boundaries. The .blend file is the scene that the file holds."""
+    """The seams of a map are not boundaries. The .blend file is the scene that the file holds."""
     library = native.load()
     blend, recipe, task = (
         importlib.import_module(f"{library.__name__}.batch.{n}") for n in ("blend", "recipe", "task")

@@ -63,7 +63,7 @@ def test_default_scene():
 
 
 def test_in_edit_mode_with_everything_selected():
-    """As a new mesh is: all of it is selected, which is no choice of vertices."""
+    """As a new mesh is: all of it is selected, which is not a choice of vertices."""
     bpy.ops.mesh.primitive_uv_sphere_add()
     obj = bpy.context.object
     run()

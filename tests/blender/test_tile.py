@@ -66,7 +66,7 @@ def marks(obj):
 
 
 def whole_jumps(obj):
-    """Those of the UVs across each edge, at the ends that are no pole."""
+    """Those of the UVs across each edge, at the ends that are not poles."""
     vertices, jumps = edge_jumps(obj)
     found, is_pole = stored_text.marks(obj["holomorph_report"])
     return jumps[~np.isin(vertices, found[is_pole])]

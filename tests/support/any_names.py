@@ -71,7 +71,7 @@ def any_names(folder):
 
 
 def any_entries(folder):
-    """({name: status} of what is no file of a mesh, and of links)"""
+    """({name: status} of what is not a file of a mesh, and of links)"""
     (folder / "entries").mkdir()
     made = {}
 

@@ -12,7 +12,7 @@ from repository import ROOT
 
 FAULTS = ROOT / "tests" / "batch" / "faults"
 BALANCED = "[maps]\nmain = 'balanced'\n[output]\nformats = ['npz', 'obj']\n"
-DIFFERING = ("seconds", "processor_seconds", "timings")  # entries of a record that are no results
+DIFFERING = ("seconds", "processor_seconds", "timings")  # entries of a record that are not results
 SECONDS = 120  # for a run of the command on a busy machine
 
 

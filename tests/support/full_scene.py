@@ -86,7 +86,7 @@ def face():
 
 
 def instances():
-    """A collection that is no part of the scene but in two instances."""
+    """A collection that is not part of the scene but in two instances."""
     props = bpy.data.collections.new("Props")
     prop = mesh_object("Prop", *torus_arrays(8, 6))
     bpy.context.scene.collection.objects.unlink(prop)

@@ -42,7 +42,7 @@ def importer(kind):
 
 
 def is_helper(obj):
-    """Whether the importer made the object for its own use, so that it is no part of the scene."""
+    """Whether the importer made the object for its own use, so that it is not part of the scene."""
     return any(collection.name.startswith(IMPORTER_HELPERS) for collection in obj.users_collection)
 
 

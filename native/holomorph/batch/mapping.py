@@ -70,7 +70,7 @@ def _arrangement(maps):
 
 
 def refused_reports(surface):
-    """The reports of the parts of the file that are no surface."""
+    """The reports of the parts of the file that are not surfaces."""
     return [refused_report(refused) for refused in surface.refused]
 
 
@@ -115,7 +115,7 @@ def _map(parts, recipe):
 
 
 def _main(part, maps):
-    """A map that was chosen, turned or scaled is no tiling unless one is asked for."""
+    """A map that was chosen, turned or scaled is not a tiling unless one is asked for."""
     is_plain = maps.density == 1 and maps.rotation == 0
     return maps.main if is_plain and not part.is_chosen or maps.main != "automatic" else "balanced"
 

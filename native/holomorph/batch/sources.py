@@ -144,7 +144,7 @@ def is_scene(path):
 
 
 def _named(path):
-    """@throws UsageError for what is no mesh by its name, no file, or not readable"""
+    """@throws UsageError for what is not a mesh by its name, not a file, or not readable"""
     source = _file(path, path.name)
     if not _is_wanted(path):
         raise UsageError(f"{path}: {KINDS} is needed")

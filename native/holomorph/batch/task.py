@@ -66,7 +66,7 @@ def key(digest, name, recipe):
 
 
 def _mapped(task):
-    """The report, the files, and the timings of each part, which are no result: they differ from run to run."""
+    """The report, the files, and the timings of each part, which are not results: they differ from run to run."""
     if task.problem:
         raise InvalidMesh(task.problem)
     surface, seams = _read(task.path)

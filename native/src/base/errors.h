@@ -10,7 +10,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The input is no valid polygon mesh, or a file is malformed.
+/// The input is not a valid polygon mesh, or a file is malformed.
 class InvalidMesh : public Error {
   using Error::Error;
 };

@@ -45,7 +45,7 @@ PYBIND11_MODULE(_native, m) {
   m.attr("__version__") = HOLOMORPH_VERSION;
   m.attr("direct_solver") = solver::SparseCholesky::name();
   auto& base = declare<Error>(m, "Error", PyExc_RuntimeError, "Base of all errors of this library.");
-  declare<InvalidMesh>(m, "InvalidMesh", base, "The input is no valid polygon mesh, or a file is malformed.");
+  declare<InvalidMesh>(m, "InvalidMesh", base, "The input is not a valid polygon mesh, or a file is malformed.");
   declare<TopologyError>(m, "TopologyError", base, "The topology of the mesh does not fit what was asked for.");
   declare<SolverError>(m, "SolverError", base,
                        "A linear system was not solved to the accuracy asked for, or does not fit into memory.");

@@ -71,7 +71,7 @@ FluxTerms pole_terms(const HalfEdges& half_edges, const PoleForms& poles, const 
   return terms;
 }
 
-// Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at fixed vertices are no equations.
+// Largest |B - L X| at a vertex over the largest sum of the terms; the rows of v at fixed vertices are not equations.
 double relative_residual(const HalfEdges& half_edges, std::span<const double> weights, const Eigen::MatrixXd& B,
                          const RowMajorMatrix& X, const std::vector<int>& fixed) {
   RowMajorMatrix rest = B, size = B.cwiseAbs();

@@ -15,8 +15,8 @@ struct Flattening {
   std::vector<char> is_flat;          ///< #components, whether each was mapped
 };
 
-/// Maps each component that is a disk by plane::free_boundary_map. A component that is no disk, or for which a solver
-/// fails, is not flat.
+/// Maps each component that is a disk by plane::free_boundary_map. A component that is not a disk, or
+/// for which a solver fails, is not flat.
 /// @param surface cut open along its seams: its islands are its components
 /// @throws Cancelled
 /// Cost: one factorisation for each island.

@@ -47,7 +47,7 @@ double mean_square(const Surface& surface, const TriangleTree& tree, const Mirro
   const auto step = static_cast<double>(vertices.size()) / static_cast<double>(count);
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    // Spread by the golden ratio, so that a surface that is no image of its own is known after a few.
+    // Spread by the golden ratio, so that a surface that is not an image of its own is known after a few.
     const double part = std::fmod(static_cast<double>(i) * std::numbers::phi, 1.0);
     const auto v = std::min(vertices.size() - 1, static_cast<std::size_t>(part * step * static_cast<double>(count)));
     const double distance = tree.nearest(plane.image(Vector3d(vertices[v].data()))).second;

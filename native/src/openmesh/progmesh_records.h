@@ -36,8 +36,8 @@ progressive::ProgressiveMesh from_records(const std::vector<mesh::Triple>& base,
 /// say which triangles were which. So these are numbered in the order of the splits. v_s comes first in the new left
 /// triangle, v_t in the right one.
 /// @param records a range of ModProgMeshT::Info or ProgMeshRecord, as infolist() has them
-/// @throws InvalidMesh for faces that are no triangles, vertices that are isolated or deleted by no record, and records
-/// that do not fit
+/// @throws InvalidMesh for faces that are not triangles, vertices that are isolated or that no record deletes, and
+/// records that do not fit
 template <class Mesh, class Records>
 progressive::ProgressiveMesh from_progmesh_records(const Mesh& mesh, const Records& records) {
   SurfaceOfMesh part;

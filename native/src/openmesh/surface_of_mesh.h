@@ -22,7 +22,7 @@ struct SurfaceOfMesh {
   std::vector<OpenMesh::HalfedgeHandle> corners;  ///< #C inside the corner's face, ends at the corner: where OpenMesh
                                                   ///< keeps the texture coordinate of a corner
   std::vector<OpenMesh::HalfedgeHandle> edges;  ///< #polygon edges, from the lower to the higher vertex; the diagonals
-                                                ///< of polygons, which come after, are no edges of the mesh
+                                                ///< of polygons, which come after, are not edges of the mesh
 };
 
 /// @param mesh any TriMesh_ArrayKernelT or PolyMesh_ArrayKernelT, points of three floats or doubles. Faces stay

@@ -102,7 +102,7 @@ Turns mean_turns(const std::vector<double>& lengths, const Turns& turns, double 
 std::vector<int> four_corners(const Turns& means, const Turns& own) {
   const int n = static_cast<int>(means.size());
   const auto is_corner = [&](int i) { return means[i % n] > kCorner; };
-  // A turn back: the border is no rectangle.
+  // A turn back: the border is not a rectangle.
   if (*std::min_element(means.begin(), means.end()) < -kCorner) return {};
   int start = 0;
   // Begins between corners, so that no stretch is cut in two.

@@ -17,7 +17,7 @@ namespace holomorph::plane {
 /// itself.
 ///
 /// The lowest boundary vertex lies at 0, and the edge that leaves it, the surface on its left, along the real axis.
-/// @throws TopologyError for a surface that is no disk; SolverError; Cancelled
+/// @throws TopologyError for a surface that is not a disk; SolverError; Cancelled
 /// Cost: one factorisation, three right-hand sides.
 /// Source: Sawhney & Crane 2017, section 4, doi:10.1145/3132705.
 PlaneMap free_boundary_map(const mesh::Surface& surface, const Options& options, Execution& execution);

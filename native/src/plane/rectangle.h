@@ -20,7 +20,7 @@ namespace holomorph::plane {
 /// The rectangle has the width 1 and the height `modulus`, corner 0 at the origin, corner 1 at 1.
 /// @param corners four vertices
 /// @param labels #V number of each vertex in messages; empty: its index
-/// @throws TopologyError for a surface that is no disk, and for corners that are repeated, out of range, not on the
+/// @throws TopologyError for a surface that is not a disk, and for corners that are repeated, out of range, not on the
 /// boundary or not in its order. SolverError; Cancelled
 /// Cost: four solves, of four matrices; two where no edge is flipped.
 PlaneMap rectangle_map(const mesh::Surface& surface, const std::vector<int>& corners, const std::vector<int>& labels,

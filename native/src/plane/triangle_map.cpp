@@ -29,7 +29,7 @@ PlaneMap triangle_map(const mesh::Surface& surface, const Options& options, Exec
   Eigen::MatrixXd z = Eigen::MatrixXd::Zero(surface.vertex_count, 2);
   z(vertex(2), 0) = a * scale;
   z(vertex(1), 0) = ((c - b) * (c + b) + a * a) / (2 * a) * scale;
-  // a boundary that is no triangle, which a curved disk may have, is made an isosceles one
+  // a boundary that is not a triangle, which a curved disk may have, is made an isosceles one
   const double area = mesh::triangle_area(a, b, c);
   z(vertex(1), 1) = mesh::is_degenerate(a, b, c) ? a * scale / 2 : 2 * area / a * scale;
 

@@ -5,8 +5,8 @@
 
 namespace holomorph::progressive {
 
-/// Makes the base from its triangles and the first positions. @throws InvalidMesh if it is no valid mesh, has isolated
-/// vertices, or is not oriented consistently
+/// Makes the base from its triangles and the first positions. @throws InvalidMesh if it is not a valid mesh, has
+/// isolated vertices, or is not oriented consistently
 void set_base(ProgressiveMesh& mesh, const std::vector<Triple>& triangles, std::size_t vertex_count);
 
 /// Checks counts, permutations, corners and every split. If it returns, the levels and the original are valid meshes.

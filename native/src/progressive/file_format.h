@@ -2,7 +2,7 @@
 //
 //   8 bytes   "HoloPM\r\n"
 //   u32       version, 1
-//   u32       1: triangles name their polygon corners, 2: polygons that are no triangles; or both
+//   u32       1: triangles name their polygon corners, 2: polygons that are not triangles; or both
 //   u64 x 8   base triangles, base vertices, splits, vertices, triangles, polygons, bytes of the corner type, bytes of
 //             corner data
 //   i32       base triangles (3 each); splits: all v_s, all v_l, all v_r

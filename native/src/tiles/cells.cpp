@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kNone = -1;
 
-// Joins the pieces of each tile across sides that are no walls, and reads off the outlines.
+// Joins the pieces of each tile across sides that are not walls, and reads off the outlines.
 class Joining {
  public:
   explicit Joining(const Pieces& pieces) : p_(pieces), is_wall_(pieces.is_wall) {
@@ -231,7 +231,7 @@ class Joining {
   std::vector<char> is_wall_;
   std::vector<int> piece_, twin_;  // #S; the side of the other piece on the same segment
   std::vector<int> cell_;          // #P
-  std::vector<char> is_broken_;    // #P: of cells that are no disk with a simple outline
+  std::vector<char> is_broken_;    // #P: cells that are not disks with a simple outline
 };
 
 }  // namespace

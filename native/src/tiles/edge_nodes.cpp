@@ -17,7 +17,7 @@ class Crossings {
   Crossings(double from, double to, double unit) : from_(from), length_(std::abs(to - from)), unit_(unit) {
     step_ = to > from ? 1 : -1;
     const double first = from / unit, last = to / unit;
-    // Lines strictly between the ends: one through an end is no crossing.
+    // Lines strictly between the ends: one through an end is not a crossing.
     next_ = step_ > 0 ? std::floor(first) + 1 : std::ceil(first) - 1;
     left_ = step_ > 0 ? std::ceil(last) - next_ : next_ - std::floor(last);
     const auto whole = static_cast<std::int64_t>(std::floor(first));

@@ -77,7 +77,7 @@ class Making {
     return {std::round(x[0]), std::round(x[1])};
   }
 
-  // Finds the first corner at each vertex, and the vertices around which jumps are no whole tiles: the poles.
+  // Finds the first corner at each vertex, and the vertices around which jumps are not whole tiles: the poles.
   void find_bases() {
     base_.assign(surface_.vertex_count, kNone);
     result_.is_pole.assign(surface_.vertex_count, 0);

@@ -20,7 +20,7 @@ void add_crossing(HalfedgeHandle leaving, int form, int direction, IntegerForms&
 // Adds the dual path inside D from one face to another: up to the common ancestor, then down.
 void add_dual_path(const HalfEdges& half_edges, const FundamentalDomain& domain, int here, int there, int form,
                    IntegerForms& forms) {
-  // Parents have lower ranks. So the face of higher rank is no ancestor of the other one, and goes up.
+  // Parents have lower ranks. So the face of higher rank is not an ancestor of the other one, and goes up.
   while (here != there) {
     if (domain.face_rank[here] > domain.face_rank[there]) {
       add_crossing(domain.to_parent_face[here], form, 1, forms);

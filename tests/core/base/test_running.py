@@ -347,7 +347,7 @@ def test_command_cannot_write_its_report(tmp_path):
     assert len(result.stderr.splitlines()) == 1
 
 
-# ---- Ctrl-C, and what is no mesh ----------------------------------------------------------------------------------
+# ---- Ctrl-C, and what is not a mesh ----------------------------------------------------------------------------------
 
 INTERRUPTED = """
 import json, signal, sys

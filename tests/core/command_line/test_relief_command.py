@@ -123,7 +123,7 @@ def test_parts_without_a_tiling_stay_plain(folder, capsys, monkeypatch):
 BAD = {
     "no depth": (dict(depth="0mm"), 2, "must be positive"),
     "negative depth": (dict(depth="-1mm"), 2, "must be positive"),
-    "depth that is no number": (dict(depth="nan"), 2, "must be positive"),
+    "depth that is not a number": (dict(depth="nan"), 2, "must be positive"),
     "endless depth": (dict(depth="inf"), 2, "must be positive"),
     "depth of two points": (dict(depth="1.2.3mm"), 2, "is not a number"),
     "no length": (dict(depth="deep"), 2, "a length such as 1.2mm"),

@@ -79,7 +79,7 @@ def test_no_more_area_is_flipped(name):
     + [(3, 0.2, 1, 1), (4, 0.2, 0, 0.5), (4, 0.4, 18, 1)],  # and these that size counts less
 )
 def test_no_more_area_is_flipped_where_a_map_branches(power, jitter, seed, evenness):
-    """Powers of z from a point that is no vertex: where it is 0, they flip triangles."""
+    """Powers of z from a point that is not a vertex: where it is 0, they flip triangles."""
     points, faces = families.hexagonal_disk(30, jitter=jitter, seed=seed)
     native = Surface(np.pad(points, ((0, 0), (0, 1))), faces)._native
     middle = np.random.default_rng(seed).normal(size=2) * 0.2

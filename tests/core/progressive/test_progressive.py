@@ -102,7 +102,7 @@ def test_restores_the_original_bit_for_bit(name, order):
 @everything
 @in_both_orders
 def test_levels_are_manifolds_of_the_same_topology(name, order):
-    """Surface refuses what is no manifold; genus and boundaries are counted again, independently."""
+    """Surface refuses what is not a manifold; genus and boundaries are counted again, independently."""
     mesh = progressive(available(name), order)
     expected = sorted(counting.topology(as_mesh(surface(name))))
     for n_faces in levels(mesh):

@@ -51,7 +51,7 @@ def tiled():
 
 
 def two_parts():
-    """Isolated vertices, faces in reverse, a vertex where fans touch, a part that is no surface."""
+    """Isolated vertices, faces in reverse, a vertex where fans touch, a part that is not a surface."""
     mesh = families.united(families.partly_reversed(families.block_with_holes(1, refine=2)), families.torus(9, 6))
     points = np.concatenate([[[9.0, 9, 9]], mesh.vertices, np.eye(3), -np.eye(3)])
     faces = [(polygon + 1).tolist() for polygon in np.split(mesh.corners, mesh.offsets[1:-1])]

@@ -67,7 +67,7 @@ WORDS = {
     r"parametri[sz]ation": "map",
     r"\bgiven ?mesh\b": "input",
 }
-BARE_OF = re.compile(r'^\s*(?://[/!]?|#|""")<?\s*Of\b', re.MULTILINE)  # a comment that begins so is no sentence
+BARE_OF = re.compile(r'^\s*(?://[/!]?|#|""")<?\s*Of\b', re.MULTILINE)  # a comment that begins so is not a sentence
 BESIDE_ROOMS = {"automatic_map", "command_line", "files", "python", "repository"}  # in tests/core
 COMMENTED = ("native/holomorph", "addon", "tests", "benchmarks", "blend_examples", "docs")
 HEADER_LINES = 110

@@ -21,7 +21,7 @@ PAGES = sorted(
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 INLINE = re.compile(r"`([^`\n]+)`")
 # What stands in a block: "python" is run by test_documentation, and an unnamed block after it is what it prints. Other
-# unnamed blocks are commands. "py" needs meshes that are not ours; "text" is no code; the others have their own tests.
+# unnamed blocks are commands. "py" needs meshes that are not ours; "text" is not code; the others have their own tests.
 KINDS = {"", "python", "py", "text", "toml", "yaml", "cmake", "cpp", "math"}
 # Commands of other programs, and the tests that run them; or "" where that takes a cluster.
 ELSEWHERE = {

@@ -273,7 +273,7 @@ REFUSED = {
     "zero": (SPHERE, {"poles": [5, 300, 200], "residues": [1, 0, -1]}, "residue 1 is 0"),
     "infinite": (SPHERE, {"poles": [5, 300], "residues": [np.inf, -np.inf]}, "residue 0 is inf"),
     "too few": (SPHERE, {"poles": [5, 300], "residues": [1]}, "1 residues for 2 poles"),
-    "residues are no numbers": (SPHERE, {"poles": [5, 300], "residues": [None, 1]}, "list of numbers"),
+    "residues are not numbers": (SPHERE, {"poles": [5, 300], "residues": [None, 1]}, "list of numbers"),
     "residues alone": (QUADS, {"residues": [1, -1]}, "2 residues for 0 poles"),
     "neighbours": (SPHERE, {"poles": adjacent(SPHERE)}, "corners of one face"),
     "one quad": (QUADS, {"poles": [int(QUADS.corners[0]), int(QUADS.corners[2])]}, "corners of one face"),

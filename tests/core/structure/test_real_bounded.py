@@ -1,4 +1,4 @@
-"""Every real mesh with a boundary that is no disk: certificates, exact integers, straight boundaries, UV area 1."""
+"""Every real mesh with a boundary that is not a disk: certificates, exact integers, straight boundaries, UV area 1."""
 
 import numpy as np
 import pytest

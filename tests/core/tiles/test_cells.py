@@ -13,7 +13,7 @@ everywhere = pytest.mark.parametrize("name", CASES | MORE)
 
 
 def as_surface(cells):
-    """A surface of the polygons, checked: no vertex twice in a polygon, no edge or vertex that is no manifold's."""
+    """A surface of the polygons, checked: no vertex twice in a polygon, no edge or vertex that is not manifold."""
     return Surface.from_polygons(cells.vertices, cells.corner_vertices, cells.face_offsets)
 
 

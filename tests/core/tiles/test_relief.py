@@ -281,7 +281,7 @@ def test_a_map_that_is_no_tiling_is_refused():
 BAD = {
     "no depth": ({"depth": 0.0}, "depth is 0.0; a positive"),
     "negative depth": ({"depth": -1}, "depth is -1; a positive"),
-    "depth that is no number": ({"depth": float("nan")}, "depth is nan"),
+    "depth that is not a number": ({"depth": float("nan")}, "depth is nan"),
     "endless depth": ({"depth": float("inf")}, "depth is inf"),
     "depth above the mesh": ({"depth": 1e3}, "more than the size of the whole mesh"),
     "no array": ({"heights": "hills"}, "heights is not an array"),
@@ -290,7 +290,7 @@ BAD = {
     "one pixel": ({"heights": np.ones((1, 1))}, "the height 1 everywhere"),
     "one height": ({"heights": np.full((9, 9), 0.3)}, "the height 0.3 everywhere"),
     "heights above 1": ({"heights": 2 * waves()}, "from 0 to 1"),
-    "a pixel that is no number": ({"heights": np.where(waves() > 0.9, np.nan, waves())}, "finite numbers"),
+    "a pixel that is not a number": ({"heights": np.where(waves() > 0.9, np.nan, waves())}, "finite numbers"),
     "no repeats": ({"repeats": 0}, "repeats has 0"),
     "level": ({"level": 1.5}, "level is 1.5"),
     "tolerance": ({"tolerance": -0.1}, "tolerance is -0.1"),

@@ -97,7 +97,7 @@ TYPED_TEST(OpenMeshAttributes, NothingIsWrittenToAMeshThatChanged) {
   EXPECT_FALSE(other.has_halfedge_texcoords2D());
 }
 
-// Where an edge is no seam, the texture coordinates of its ends agree on both sides; on both sides of a seam they
+// Where an edge is not a seam, the texture coordinates of its ends agree on both sides; on both sides of a seam they
 // differ by the same vector.
 template <class Mesh>
 void expect_seams_only(const Mesh& mesh, double tolerance) {

@@ -16,7 +16,7 @@ enum class Type { none, int8, uint8, int16, uint16, int32, uint32, int64, uint64
 struct Property {
   std::string name;
   Type type = Type::none;
-  Type count_type = Type::none;  ///< type of a list's length; none for a property that is no list
+  Type count_type = Type::none;  ///< type of a list's length; none for a property that is not a list
   bool is_list() const { return count_type != Type::none; }
 };
 
@@ -40,7 +40,7 @@ bool is_real(Type type);
 /// Bytes of a value in a binary file.
 std::size_t size_of(Type type);
 
-/// An index or a length that a file stores as a real. `values` reports the place of what is no integer.
+/// An index or a length that a file stores as a real. `values` reports the place of what is not an integer.
 template <class Values>
 std::int64_t whole_number(double value, const Values& values) {
   constexpr double largest = 9007199254740992.0;  // 2^53: beyond it, doubles skip integers
@@ -49,7 +49,7 @@ std::int64_t whole_number(double value, const Values& values) {
   return static_cast<std::int64_t>(value);
 }
 
-/// @throws InvalidMesh naming the line that is no declaration.
+/// @throws InvalidMesh naming the line that is not a declaration.
 Header read_header(const FileText& file);
 
 }  // namespace holomorph::mesh::ply

@@ -78,7 +78,7 @@ void read_vertices(Values& values, const Element& element, const FileText& file,
 }
 
 /// The triangles of a strip, every other one reversed; -1 starts a new strip. Triangles with a vertex twice only
-/// join parts of a strip, and are no faces.
+/// join parts of a strip, and are not faces.
 void append_strip(const std::vector<std::int64_t>& strip, GivenPolygons& mesh) {
   constexpr std::int64_t restart = -1;
   std::size_t first = 0;
