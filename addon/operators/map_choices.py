@@ -50,8 +50,8 @@ def write_options(properties, own=None):
 
 
 def density(size, repeats):
-    """UV units for an area with images of the texture so wide, of which so many are side by side in a unit; 0 where no
-    size is asked for."""
+    """The UV area over the area of the surface, for images of the texture of a width, of which `repeats` lie side by
+    side in a UV unit; 0 where no size is asked for."""
     return 1 / (size * repeats) ** 2 if size else 0.0
 
 

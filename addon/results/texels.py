@@ -43,7 +43,7 @@ def scale(target, factor):
 
 
 def is_met(wanted, factor, before):
-    """Whether a map with so many texels before has the wanted ones after a scaling."""
+    """Whether a map with this number of texels has the wanted number after scaling."""
     return math.isclose(before * factor, wanted, rel_tol=1e-3)
 
 

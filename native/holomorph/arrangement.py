@@ -109,7 +109,7 @@ def square(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> Squ
 
 
 def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arrangement()) -> Reals:
-    """(#C, 2) UVs of a mesh with so many polygon corners, of the maps of its parts; zeros at corners without a map.
+    """(#C, 2) UVs of a mesh from the maps of its parts; zeros at corners without a map.
 
     Beside a tiling all values are exact in single precision.
     """
@@ -128,8 +128,8 @@ def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arran
 def arranged_form(
     parts: Sequence[tuple[Surface, AnyStructure]], form: int, corners: int, arrangement: Arrangement = Arrangement()
 ) -> Reals:
-    """(#C, 2) UVs of a mesh with so many polygon corners: the maps of one form, counted from 0, of parts with their
-    structures; zeros at corners of parts that lack it."""
+    """(#C, 2) UVs of a mesh: the maps of one form, counted from 0, of parts with their structures; zeros at corners of
+    parts that lack it."""
     surfaces, uvs, densities = [], [], []
     for surface, structure in parts:
         if form < structure.form_count:  # their type of coefficients: a complex factor would bend straight boundaries

@@ -117,7 +117,7 @@ def _jump(values):
 
 
 def _reduced(values, count):
-    """Means of so many bands of lines, as equal as they can be."""
+    """Means of this number of bands of lines, as equal as they can be."""
     begins = np.arange(count) * len(values) // count
     sizes = np.diff(np.append(begins, len(values)))
     return np.add.reduceat(values, begins, axis=0) / sizes[:, None, None]

@@ -44,7 +44,7 @@ def _best_rows(sizes, gap):
 
 
 def fitting_margin(margin: float, count: int) -> float:
-    """The margin, or the largest one for which so many parts have room."""
+    """The margin, or the largest one for which this number of parts has room."""
     return min(margin, MOST_GAP / math.sqrt(count))
 
 

@@ -37,7 +37,7 @@ class Origin(NamedTuple):
         )
 
     def of_component(self, part, vertex_count):
-        """The `Origin` of a native part of the surface, in a mesh of so many vertices."""
+        """The `Origin` of a native part of the surface, in a mesh with this number of vertices."""
         indices = self.vertex_index, self.face_index, self.corner_index
         own = part.vertex_index, part.face_index, part.corner_index
         return Origin(*map(_in_mesh, indices, own), vertex_count)

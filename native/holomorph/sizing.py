@@ -40,7 +40,7 @@ class Sizing:
     options: Mapping[str, Any]
 
     def about(self, density: float, tries: int, progress: Progress | None) -> Map | Refusal:
-        """The map with the nearest density that so many numbers of tiles give, or how it is refused."""
+        """The map with the nearest density that this many numbers of tiles give, or how it is refused."""
         tilings, other = self.tried(density, tries, progress)
         return self._moved(nearest(tilings, density), tries, progress) if tilings else other
 
@@ -68,7 +68,7 @@ class Sizing:
 
     def settled(self, tried: Tried, density: float, window: Window, progress: Progress | None) -> Map | Refusal:
         """The tiling that was tried and is in the window, or stretched to the density, or turned until it is in the
-        window; else the best other map. What is asked for in so many words, such as poles that are chosen or moved, is
+        window; else the best other map. What is asked for explicitly, such as poles that are chosen or moved, is
         made with another density, or refused."""
         tilings, other = tried
         if not tilings:

@@ -16,7 +16,7 @@ ALONG = 1e-9  # sine of an angle that is rounding
 
 
 def stretched(tiling: Tiling, factor: float, lattice: str | ArrayLike) -> Tiling | None:
-    """The tiling with so many times its density, stretched across its jumps where these all run along one line, as
+    """The tiling with this multiple of its density, stretched across its jumps where these all run along one line, as
     around a limb with a pole at each end: no seam shows all the same. None where there are jumps both ways, or it would
     be stretched by more than `MOST_STRETCHED`.
 

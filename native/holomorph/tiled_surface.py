@@ -109,7 +109,7 @@ class TiledSurface(Value):
         """The lines between the tiles in one direction, as curves on the surface: see `Lines`.
 
         direction : "u" for lines along the first vector of the lattice, "v" along the second, or two whole numbers
-            without a common divisor: so many of each
+            without a common divisor: how many of each
         per_tile : as many lines for each tile, the first between tiles
 
         Raises ValueError for others; SolverError for too many points. Cost: linear in triangles and points.

@@ -15,7 +15,8 @@ class Rounding(Value):
     """How the whole numbers of a tiling were found.
 
     integers : how many there are, for periods and residues
-    blocks : 1 where their lattice was reduced as a whole; else so many parts of it, one by one: a whole took too long
+    blocks : 1 where their lattice was reduced as a whole; else the number of parts, reduced one by one, as a whole
+        took too long
     steps : of the reductions
     excess : how much further from the map without rounding one is than in a lattice of orthogonal vectors, which would
         be 1: root mean square over geometric mean of the reduced basis's orthogonal lengths

@@ -93,7 +93,7 @@ class StrainEnergy {
 
   StrainEnergy() = default;
   void find_stars(int vertex_count);
-  // #V: marks the corners of triangles that delta flips, and of so many rings around them.
+  // #V: marks the corners of triangles that delta flips, and of this number of rings around them.
   std::vector<char> near_flipped(const Function& delta, int rings) const;
   // Derivatives of the map with the function added.
   static Derivatives derivatives(const Triangle& triangle, const Function& function);

@@ -10,7 +10,7 @@
 namespace holomorph::islands {
 namespace {
 
-constexpr int kMostTriangles = 4096;  // a net has at most so many: all pairs of two nets are tested
+constexpr int kMostTriangles = 4096;  // the most in a net: all pairs of two nets are tested
 constexpr double kSameLength = 1e-3;  // difference over the longer side
 
 // z -> turn z + shift

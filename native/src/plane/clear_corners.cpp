@@ -165,7 +165,7 @@ std::vector<std::complex<double>> shadow(const mesh::Surface& surface, const Bor
   return edges;
 }
 
-// Corners of the shadow at which the surface itself turns, too.
+// Corners of the shadow at which the surface itself also turns.
 std::vector<int> shadow_corners(const mesh::Surface& surface, const Border& border, const Turns& own) {
   const auto edges = shadow(surface, border);
   std::vector<double> lengths;

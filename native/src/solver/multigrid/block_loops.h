@@ -30,7 +30,7 @@ inline Rows rows_of_chunk(int chunk, int rows, int each = kChunkRows) {
   return {std::min(chunk * each, rows), std::min((chunk + 1) * each, rows)};
 }
 
-/// Calls loop(chunk, rows) for all chunks of so many rows, in parallel. @pre loop does not throw
+/// Calls loop(chunk, rows) for all chunks with this number of rows, in parallel. @pre loop does not throw
 template <class Loop>
 void for_chunks(int rows, Workers& workers, const Loop& loop) {
   workers.run(row_chunks(rows), [&](int, int chunk) { loop(chunk, rows_of_chunk(chunk, rows)); });

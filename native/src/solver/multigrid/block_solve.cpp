@@ -13,9 +13,9 @@ constexpr double kInnerResidual = 1e-4;
 // The last of them goes a little below the goal, since the residual of the recurrence drifts from the true one.
 constexpr double kSafety = 0.99;
 constexpr int kMostInner = 100, kMostIterations = 300;
-// If the true residual is so many times that of the recurrence, the rounding of B - L X is reached.
+// If the true residual is this multiple of that of the recurrence, the rounding of B - L X is reached.
 constexpr double kMostDrift = 10;
-// The solve ends after so many corrections in a row that leave more than half of the residual.
+// The solve ends after this number of corrections in a row that leave more than half of the residual.
 constexpr int kMostStalls = 2;
 
 // The Jacobi step with which the cycle begins, for the scaled residual r.

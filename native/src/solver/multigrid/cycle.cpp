@@ -3,8 +3,8 @@
 namespace holomorph::solver {
 namespace {
 
-// The level that is corrected twice has at most one in so many of the finest level's rows. This costs a few percent
-// more work, in the cache, and saves one iteration of twenty, more where a mesh is stretched.
+// The finest level has at least this multiple of the rows of the level that is corrected twice. Correcting twice costs
+// a few percent more work, in the cache, and saves one iteration of twenty, more where a mesh is stretched.
 constexpr int kTwice = 40;
 
 }  // namespace

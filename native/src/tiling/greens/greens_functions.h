@@ -30,7 +30,7 @@ class GreensFunctions {
 
   /// Returns A, #samples x #vertices, of the differentials with the residue 1 at each vertex and v single-valued. With
   /// boundary, v = 0 there. Closed, the residue -1 is spread over the area, and cancels where residues sum to 0.
-  /// @param every stride: returns every so many-th sample. @pre `solve_at` was called for these vertices
+  /// @param every stride of the samples that are returned. @pre `solve_at` was called for these vertices
   MatrixXcd at(const std::vector<int>& vertices, int every = 1) const;
   /// Returns the same for the free residues, #samples x #free residues: on a closed surface each function minus that of
   /// the last vertex, whose residue is minus the sum of the others.

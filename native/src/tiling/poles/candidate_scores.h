@@ -15,7 +15,7 @@ namespace holomorph::tiling {
 /// time.
 class CandidateScores {
  public:
-  /// @param every stride: every so many-th sample is used. @param mirror null, or each pole comes with its image
+  /// @param every stride of the samples that are used. @param mirror null, or each pole comes with its image
   /// @pre these outlive this
   CandidateScores(const GreensFunctions& greens, int every, const Mirror* mirror = nullptr)
       : greens_(greens), every_(every), mirror_(mirror) {}

@@ -16,7 +16,7 @@ constexpr double kEnough = 0.4;   // singular value at which the term is small
 // Least square of a singular value, relative to that: the term stays finite where no pole moves some part of t.
 constexpr double kLeastSquare = 6.25e-9;
 constexpr int kSteps = 25;      // at most, for the minimiser
-constexpr int kManyForms = 20;  // from so many on
+constexpr int kManyForms = 20;  // from this number on
 // With many forms, all coefficients are fitted seldom: these are steps times forms, as the cost of one grows with them.
 constexpr int kStepsTimesForms = 6400, kMostSteps = 100;
 

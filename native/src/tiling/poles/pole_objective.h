@@ -17,7 +17,7 @@ class PoleObjective {
  public:
   using Tick = std::function<void()>;
 
-  /// @pre the Green's functions and the mirror outlive this. @param every stride: every so many-th sample is used
+  /// @pre the Green's functions and the mirror outlive this. @param every stride of the samples that are used
   /// @param mirror null, or forms stay their own mirror image
   PoleObjective(GreensFunctions& greens, uv::Coefficients kind, int every = 1, const Mirror* mirror = nullptr);
 
@@ -25,7 +25,7 @@ class PoleObjective {
   /// @param poles number of poles of the forms to be judged. @throws SolverError, Cancelled
   void prepare(const std::vector<int>& vertices, Index poles, Execution& execution);
 
-  /// Whether there are so many holomorphic forms that `optimise` keeps the ratios of their coefficients, each of which
+  /// Whether there are many holomorphic forms, so that `optimise` keeps the ratios of their coefficients, each of which
   /// costs as much as a pole. `fit` changes them all.
   bool has_many_forms() const;
   /// Finds the best form with these poles, from the coefficients given, and its objective, to the accuracy of a search
@@ -38,8 +38,8 @@ class PoleObjective {
 
   /// Returns A on the samples used.
   VectorXcd samples_of(const MeromorphicForm& form) const;
-  /// Returns the metric in which the Jacobian of so many poles is measured, for a form of this density; empty where the
-  /// Jacobian does not count.
+  /// Returns the metric in which the Jacobian of this number of poles is measured, for a form of this density; empty
+  /// where the Jacobian does not count.
   MatrixXcd jacobian_metric(const ArrayXd& density, Index poles) const;
   /// Returns the term that the Jacobian adds to the variance of the density.
   double jacobian_term(const std::vector<int>& vertices, const VectorXcd& residues, const MatrixXcd& metric) const;

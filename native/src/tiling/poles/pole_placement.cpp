@@ -14,9 +14,9 @@ namespace holomorph::tiling {
 namespace {
 
 constexpr int kCounts[] = {2, 4, 8, 12, 16};       // numbers of poles that are tried
-constexpr int kFew = 4;                            // so many are placed by all samples,
+constexpr int kFew = 4;                            // up to this number, poles are placed by all samples,
 constexpr int kEvery = 3;                          // more of them by every third one,
-constexpr int kManyForms = 64;                     // and so all where there are so many forms
+constexpr int kManyForms = 64;                     // and all poles where there are as many forms as this
 constexpr double kEvenWithout = 3, kEvenWith = 5;  // spread of the density
 constexpr double kHopeful = 2 * kEvenWith;  // only with a lower one a count is worth a search for the best places
 constexpr int kCountsEvened[] = {2, 3, 4, 6, 8, 10, 12, 14, 16};
@@ -25,10 +25,10 @@ constexpr double kHopefulEvened = 1.2 * kEvened;
 constexpr double kAllowed = 3;                             // the same, where hiding and a mirror have cost some
 constexpr double kUsualValues = 30;                        // usual evaluations of the objective in the last descent
 constexpr double kMirrorCosts = 1.25, kMirrorPoles = 1.5;  // at most, of the (evened) ratio, and of poles
-constexpr int kFewMirrored = 8;  // up to so many mirrored poles that are enough need no comparison
+constexpr int kFewMirrored = 8;  // up to this number, mirrored poles that are enough need no comparison
 constexpr double kWorth = 0.9;   // more poles are taken where the spread falls to this part of itself
 
-// The stride of the samples in a search for so many poles.
+// The stride of the samples in a search for this number of poles.
 int thinning(const GreensFunctions& greens, int count) {
   return count <= kFew && greens.basis().form_count() < kManyForms ? 1 : kEvery;
 }
@@ -85,7 +85,7 @@ MeromorphicForm enough(GreensFunctions& greens, const PlaceOptions& options, Exe
   return optimised(greens, options.kind, options.mirror, std::move(best), execution);
 }
 
-// Places so many poles. With a mirror it returns none where there is no room for them in pairs.
+// Places this number of poles. With a mirror it returns none where there is no room for them in pairs.
 MeromorphicForm so_many(GreensFunctions& greens, const PlaceOptions& options, int count, Execution& execution) {
   PoleSearch search(greens, options, thinning(greens, count), execution);
   MeromorphicForm form = search.begin();

@@ -18,7 +18,7 @@ class PoleSearch : private SearchSteps {
 
   /// Returns the best form with the fixed poles or, without any, with as few poles as possible.
   MeromorphicForm begin();
-  /// Adds poles up to `count`, one by one where they help most. @return whether there was room for so many; with a
+  /// Adds poles up to `count`, one by one where they help most. @return whether there was room for all; with a
   /// mirror one may be missing
   bool add(MeromorphicForm& form, int count);
   /// Moves each pole in turn to where it does best beside the others. @return whether one moved

@@ -16,7 +16,7 @@ namespace holomorph::tiling {
 /// With a mirror every step concerns an orbit: a pole on the plane, or a pair of images.
 class SearchSteps {
  public:
-  /// @param every stride: every so many-th sample is used. @pre what is referred to outlives the steps
+  /// @param every stride of the samples that are used. @pre what is referred to outlives the steps
   SearchSteps(GreensFunctions& greens, const PlaceOptions& options, int every, Execution& execution);
 
  protected:
