@@ -25,9 +25,10 @@ class Values(NamedTuple):
 
 
 def uv_values(layer):
-    """A UV layer's vectors (the fast collection is new in 3.5)."""
-    if hasattr(layer, "uv"):
-        return Values(layer.uv, "vector", np.float32, 2)
+    """A UV layer's vectors, from 3.5 on those of its attribute. `layer.uv` of 4.0 to 5.0 writes into the copies of the
+    mesh, too."""
+    if bpy.app.version >= (3, 5, 0):
+        return Values(layer.id_data.attributes[layer.name].data, "vector", np.float32, 2)
     return Values(layer.data, "uv", np.float32, 2)
 
 

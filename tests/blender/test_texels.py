@@ -193,6 +193,15 @@ def test_set_makes_several_objects_equal_and_leaves_those_without_a_map():
     assert bpy.ops.uv.holomorphic_texels_set() == {"CANCELLED"}
 
 
+def test_a_duplicate_keeps_its_map():
+    """Meshes share arrays with their copies from Blender 4.0 on: whoever writes one in place changes both."""
+    obj = flat("Square", size=2, uv_size=0.5)
+    other = bpy.data.objects.new("Duplicate", obj.data.copy())
+    before = uv(other, "Own")
+    assert bpy.ops.uv.holomorphic_texels_set(texels=7.0) == {"FINISHED"}
+    assert np.array_equal(uv(other, "Own"), before) and not np.allclose(uv(obj, "Own"), before)
+
+
 def test_in_edit_mode_selected_faces_are_scaled():
     obj = torus()
     own = add_own_map(obj)
