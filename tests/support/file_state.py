@@ -71,6 +71,8 @@ def _properties(kind):
         own = [p for p in own if p.identifier not in ELEMENTS]
     if kind is bpy.types.ParticleEdit:  # notes the object at any step of undo while it is sculpted
         own = [p for p in own if p.identifier != "object"]
+    if kind is getattr(bpy.types, "UvSculpt", None) and kind.bl_rna.base:  # it is no Paint, whatever Blender 4.2 says:
+        own = [p for p in own if p.identifier not in kind.bl_rna.base.properties]  # such values lie outside its memory
     return [(p.identifier, p.type, getattr(p, "is_array", False)) for p in own]
 
 
@@ -150,7 +152,7 @@ def _add_mesh(state, mesh, path):
         for name in names:
             state[f"{path}.{collection}.{name}"] = _digest(_array(getattr(mesh, collection), name))
     state[f"{path}.attributes"] = []
-    for attribute in mesh.attributes:
+    for attribute in sorted(mesh.attributes, key=lambda a: a.name != "position"):  # edit mode of 4.2 to 5.0 moves it
         if attribute.name.startswith("."):
             continue
         state[f"{path}.attributes"].append((attribute.name, attribute.domain, attribute.data_type))
