@@ -137,6 +137,12 @@ def test_pages_can_be_read_at_once():
     assert not {page: count for page, count in words.items() if count > MOST_WORDS}
 
 
+def test_the_reference_has_every_public_name():
+    """The site makes the page of docstrings from these directives."""
+    listed = re.findall(r"^\.\. auto\w+:: holomorph\.(\w+)", text_of("docs/site/reference.md"), re.MULTILINE)
+    assert set(holomorph.__all__) - {"__version__"} <= set(listed)
+
+
 def test_the_page_for_artists_needs_no_mathematics():
     text = text_of("docs/artists.md")
     assert text.split("\n\n")[1].startswith("![") and not re.search(r"\bforms?\b", text)
