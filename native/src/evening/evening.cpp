@@ -1,5 +1,6 @@
 #include "evening/evening.h"
 
+#include <algorithm>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -28,6 +29,13 @@ constexpr double kHelps = 0.9;
 constexpr double kFactors[] = {1, 0.93, 0.86, 0.75, 0.5, 0.25, 0.125, 0.0625};
 constexpr double kMuch = 1e-4;
 constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
+// Where this part of the area is flipped beyond what was, the map as a whole is wrong: half the weight is tried at
+// once.
+constexpr double kTooMuch = 0.05;
+// All surroundings together may take as much work as this number of steps on the whole surface. A small mesh counts as
+// one of kFewVertices: it costs little, and its surroundings soon are all of it.
+constexpr double kMostTurning = 100;
+constexpr int kFewVertices = 5000;
 
 // The weight of size in the energy. Where strain is small and size counts by its square, minimising takes the power
 // 1 - lambda of every density, and s1 / s2 grows by lambda times the logarithm of the density over its mean.
@@ -100,9 +108,11 @@ Precondition inverse(solver::SparseCholesky& factor, int free_count) {
 
 // Turns triangles back that delta flips, until no more area is flipped than `most_flipped`. Only their surroundings
 // move.
-// @param delta on the whole surface; changed where that flips less. @return the area that it then flips
+// @param delta on the whole surface; changed where that flips less
+// @param vertex_steps steps left, each times the vertices of its patch
+// @return the area that delta then flips
 double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, double most_flipped,
-                 StrainEnergy::Rings rings, Function& delta, Execution& execution) {
+                 StrainEnergy::Rings rings, Function& delta, double& vertex_steps, Execution& execution) {
   StrainEnergy::Patch patch = energy.around_flipped(delta, rings);
   std::vector<int> number(delta.size(), -1);
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) number[patch.vertices[i]] = static_cast<int>(i);
@@ -127,9 +137,10 @@ double turn_back(const StrainEnergy& energy, const Kept& kept, double lambda, do
   double least_flipped = descent.begin(best).flipped;
   // Descends. Where triangles are still flipped at the end, these count more, and the descent goes on from there. The
   // best function on the way is kept, since a descent of the energy may flip more in between.
-  for (int urge = 0; urge < kUrges && descent.value().flipped > most_flipped; ++urge) {
-    for (int step = 0; step < kPatchSteps && descent.step(); ++step) {
+  for (int urge = 0; urge < kUrges && descent.value().flipped > most_flipped && vertex_steps > 0; ++urge) {
+    for (int step = 0; step < kPatchSteps && vertex_steps > 0 && descent.step(); ++step) {
       execution.report(0);
+      vertex_steps -= static_cast<double>(patch.vertices.size());
       if (descent.value().flipped >= least_flipped) continue;
       least_flipped = descent.value().flipped;
       best = descent.delta();
@@ -147,7 +158,7 @@ struct Found {
 };
 
 Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept& kept, double lambda,
-            const std::string& solver_name, Execution& execution) {
+            const std::string& solver_name, double& vertex_steps, Execution& execution) {
   const mesh::HalfEdges half_edges = mesh::half_edges(surface, execution);
   const auto method = solver::choose_method(solver_name, surface.vertex_count, 2).method;
   Solvers solvers(half_edges, method, kept);
@@ -168,9 +179,9 @@ Found least(const mesh::Surface& surface, const StrainEnergy& energy, const Kept
   double flipped = descent.value().flipped;
   // Ever larger surroundings, each from what the last one has reached.
   for (const StrainEnergy::Rings rings : kRings) {
-    if (flipped <= most_flipped) break;
+    if (flipped <= most_flipped || flipped > most_flipped + kTooMuch || !(vertex_steps > 0)) break;
     const double before = flipped;
-    flipped = turn_back(energy, kept, lambda, most_flipped, rings, delta, execution);
+    flipped = turn_back(energy, kept, lambda, most_flipped, rings, delta, vertex_steps, execution);
     if (flipped > kHelps * before) break;
   }
   return {std::move(delta), flipped - most_flipped};
@@ -184,10 +195,10 @@ uv::UvArray evened(const mesh::Surface& surface, const uv::UvArray& uv, const Ke
   if (evenness == 0) return result;
   const StrainEnergy energy(surface, uv, kept.poles, execution.workers());
   // The first weight of size with which no more area is flipped than before. If there is none, the map stays as it is.
-  double most = 1;
+  double most = 1, vertex_steps = kMostTurning * std::max(surface.vertex_count, kFewVertices);
   for (const double factor : kFactors) {
     if (factor > most) continue;
-    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), solver, execution);
+    const Found found = least(surface, energy, kept, factor * lambda_of(evenness), solver, vertex_steps, execution);
     if (found.flipped_more > kMuch) most = factor / 2;
     if (found.flipped_more > 0) continue;
     for_rows(execution.workers(), surface.vertex_count,
