@@ -14,7 +14,7 @@ constexpr int kFar = 256;
 // An order is scattered where more than this part of the entries is far. A random order has nearly all, an order along
 // a curve or by slices a tenth at most.
 constexpr double kMostFar = 0.5;
-// Of this number of chunks of rows one is looked at, as all say the same.
+// One chunk of rows in this number is looked at, as all say the same.
 constexpr int kSampled = 8;
 
 // Entries of row i further than kFar from every entry of row i-1.
