@@ -310,6 +310,13 @@ def test_nothing_makes_the_scene_the_owner_of_the_context():
     assert not [identify(path) for path in files if noting.search(path.read_text("utf-8"))]
 
 
+def test_nothing_writes_into_copies_of_a_mesh():
+    """In Blender 4.0 to 5.0 `foreach_set` on `layer.uv` changes the UV map of the copies of the mesh, too."""
+    writing = re.compile(r"layers?(\[[^]]*\])?(\.active)?\.uv[,.)]")
+    files = [path for name in ("addon", "tests", "blend_examples", "docs") for path in python_files(ROOT / name)]
+    assert not [identify(path) for path in files if writing.search(path.read_text("utf-8"))]
+
+
 def test_tests_lie_in_the_room_of_what_they_test():
     for suite, ending, others in (("core", "py", BESIDE_ROOMS), ("native", "cpp", {"native"})):
         files = (ROOT / "tests" / suite).rglob(f"test_*.{ending}")
