@@ -71,7 +71,7 @@ def _properties(kind):
         own = [p for p in own if p.identifier not in ELEMENTS]
     if kind is bpy.types.ParticleEdit:  # notes the object at any step of undo while it is sculpted
         own = [p for p in own if p.identifier != "object"]
-    if kind is getattr(bpy.types, "UvSculpt", None) and kind.bl_rna.base:  # it is no Paint, whatever Blender 4.2 says:
+    if kind is getattr(bpy.types, "UvSculpt", None) and kind.bl_rna.base:  # 4.2 says that it is a Paint, wrongly:
         own = [p for p in own if p.identifier not in kind.bl_rna.base.properties]  # such values lie outside its memory
     return [(p.identifier, p.type, getattr(p, "is_array", False)) for p in own]
 

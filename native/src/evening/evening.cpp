@@ -29,8 +29,7 @@ constexpr double kHelps = 0.9;
 constexpr double kFactors[] = {1, 0.93, 0.86, 0.75, 0.5, 0.25, 0.125, 0.0625};
 constexpr double kMuch = 1e-4;
 constexpr int kPatchSteps = 60, kUrges = 6;  // at most: steps before they count more, and how often these do
-// Where this part of the area is flipped beyond what was, the map as a whole is wrong: half the weight is tried at
-// once.
+// Where this part of the area is flipped beyond what was, the whole map is wrong, and half the weight is tried.
 constexpr double kTooMuch = 0.05;
 // All surroundings together may take as much work as this number of steps on the whole surface. A small mesh counts as
 // one of kFewVertices: it costs little, and its surroundings soon are all of it.

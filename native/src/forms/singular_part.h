@@ -15,8 +15,8 @@ namespace holomorph::forms {
 ///
 /// b_u, b_v are the fluxes of u_s, v_s out of the star through its link, tested with the hat functions. They contain a
 /// second term, which makes the result second order: the difference between u_s, v_s and their linear interpolants on
-/// the straight link edges, tested with the normal derivatives of the hat functions. Each column of b_u sums to 0 and
-/// of b_v to 1; both test linear functions exactly.
+/// the straight link edges, tested with the normal derivatives of the hat functions. Each column of b_u sums to 0,
+/// each of b_v to 1; both test linear functions exactly.
 struct StarPart {
   std::vector<double> u, v;      ///< at the end of each link edge; u jumps by 1 at link[0]
   std::vector<double> b_u, b_v;  ///< the same

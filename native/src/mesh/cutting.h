@@ -22,8 +22,8 @@ struct CutSurface {
   std::vector<RefusedFaces> refused;  ///< faces that are left out, by reasons
 };
 
-/// Makes a surface as `make_surface` does, but cuts a mesh that `make_surface` refuses: each fan of faces gets a vertex
-/// of its own. Leaves out faces with fewer than three vertices or with coordinates that are not finite, and parts
+/// Makes a surface as `make_surface` does, but cuts a mesh that `make_surface` refuses: each fan of faces gets its
+/// own vertex. Leaves out faces with fewer than three vertices or with coordinates that are not finite, and parts
 /// without area.
 ///
 /// Where most sides of faces have no neighbour, sides that run between the same places in opposite directions are

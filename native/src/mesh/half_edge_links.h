@@ -18,9 +18,9 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-/// Half-edge 2e runs along edge e from its lower to its higher vertex, 2e+1 back. After a flip 2e remains the direction
-/// of values on e. Triangle t's first half-edge is its side 0. One without a face runs along the boundary, and a
-/// boundary vertex keeps the one that leaves it.
+/// Half-edge 2e runs along edge e from its lower to its higher vertex, 2e+1 back. After a flip 2e remains the
+/// direction of values on e. Triangle t's first half-edge is its side 0. One without a face runs along the boundary,
+/// and a boundary vertex keeps the one that leaves it.
 class HalfEdges {
  public:
   HalfEdges() = default;

@@ -34,8 +34,8 @@ struct Metric {
   std::span<const FaceError> errors;
 };
 
-/// Bounds the errors that the rounding of a surface's lengths causes: the given ones (Surface::metric_errors), or those
-/// of lengths from positions.
+/// Bounds the errors that the rounding of a surface's lengths causes: the given ones (Surface::metric_errors), or
+/// those of lengths from positions.
 Array<FaceError> metric_errors(const Metric& metric, const Surface& surface, Workers& workers);
 
 /// Returns the relative amount by which energies of forms on a triangle with these sides may grow; 1 if rounding leaves

@@ -9,7 +9,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-constexpr int kBits = 21;  // of each coordinate
+constexpr int kBits = 21;  // for each coordinate
 constexpr int kDigit = 16, kDigits = 4;
 
 // The bits of a coordinate, two zeros after each.
