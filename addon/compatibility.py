@@ -101,11 +101,28 @@ def keep_sharp_edges(mesh, angle):
         mesh.set_sharp_from_angle(angle=angle)
 
 
+def objects_in(layer):
+    """The objects of a view layer, as a list.
+
+    From 3.4 on Blender brings a view layer up to date late: where it is asked for the active object, but not where it
+    is asked for its objects. Until then they are those of before, with ones that are gone, at which a loop ends
+    Blender as soon as something in it brings the layer up to date.
+    """
+    _ = layer.objects.active
+    return list(layer.objects)
+
+
+def selected_in(layer):
+    """Those that are selected, as a list."""
+    _ = layer.objects.active
+    return list(layer.objects.selected)
+
+
 def objects_being_edited(context):
     """The mesh objects in edit mode; those that share a mesh count once."""
     objects = getattr(context, "objects_in_mode_unique_data", None)
     if objects is None:  # there is no screen in background mode
-        objects = {o.data: o for o in context.view_layer.objects if o.mode == "EDIT"}.values()
+        objects = {o.data: o for o in objects_in(context.view_layer) if o.mode == "EDIT"}.values()
     return [o for o in objects if o.type == "MESH"]
 
 

@@ -10,8 +10,8 @@ RESULTS = BUILD / "test"
 BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
 # The longest ones first, so that two at a time end together.
 DEFAULT = ["lint", "native", "blender-3.4", "core", "package", "bpy-5.2", "window", "batch"]
-ALL = ["lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz", "tsan"]
-ALL += ["bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
+ALL = ["injection", "lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz"]
+ALL += ["tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
 # The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
 # once, on small meshes; tilings and what is made of them, islands, evening; malformed files; cancelling in the middle;
 # several Python threads at once.
@@ -54,6 +54,7 @@ class Suite(NamedTuple):
     preset: str = "release"  # what scripts/build compiles for it, if anything
     blender: str = ""  # "wanted", or "needed": it is skipped without the program
     python: str = ""  # the version without which it is skipped
+    times: int = 1  # the minutes of a suite that it may take
 
 
 def run_in_environment(command, *arguments):
@@ -144,6 +145,14 @@ SUITES = {
     "bpy-5.0": bpy("5.0", "3.11"),
     "bpy-4.5": bpy("4.5", "3.11"),
     "bpy-4.2": bpy("4.2", "3.11"),
+    "injection": Suite(
+        "tests/injection: an error at every line that an operator runs, in each mode, in Blender 3.4 and 5.2.",
+        [pytest("injection", "tests/injection", timeout=3600, library="")],
+        environment="make_test_venv; make_blender_folder pytest pytest-timeout; make_bpy_venv bpy-5.2",
+        blender="needed",
+        python="3.13",
+        times=8,
+    ),
     "package": Suite(
         "tests/package: the zips and wheels, installed in Blender 3.4, 4.2 and 5.2.",
         [pytest("package", "tests/package")],
@@ -180,5 +189,6 @@ SUITES = {
         [pytest("platforms", "-rA", "tests/platforms", timeout=7200, library="")],
         environment="make_test_venv; make_bpy_venv bpy-4.2",
         preset="",
+        times=4,
     ),
 }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The work of a bake: an atlas, then one pass for each object and channel. Nothing of the file is changed by it."""
 
+from contextlib import closing
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 
@@ -83,8 +84,9 @@ class BakeWork(Work):
         return self._goes_on()
 
     def run(self):
-        while self._goes_on():
-            pass
+        with closing(self._passes):
+            while self._goes_on():
+                pass
 
     def cancel(self):
         super().cancel()
@@ -96,6 +98,7 @@ class BakeWork(Work):
         except StopIteration:
             return False
         except (ValueError, RuntimeError, MemoryError) as error:
+            self._passes.close()
             self.error = error
             return False
         return True
@@ -138,10 +141,10 @@ def _unfolded(context, group, options):
 def _copy(made, name, polygons, uv):
     """(copy of an object in the room, name of its map for the bake)."""
     obj = bpy.data.objects[name]
-    mesh = obj.data.copy()
-    map_name = uv_maps.write_bake_map(mesh, polygons, np.asarray(uv, np.float32))
-    mesh.uv_layers.active = mesh.uv_layers[map_name]  # whose tangents normals are told in
     try:
-        return made.add(obj, mesh), map_name
+        copy = made.add(obj)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from error
+    map_name = uv_maps.write_bake_map(copy.data, polygons, np.asarray(uv, np.float32))
+    copy.data.uv_layers.active = copy.data.uv_layers[map_name]  # whose tangents normals are told in
+    return copy, map_name

@@ -9,15 +9,13 @@ RELIEFS = {"BUMP", "DISPLACEMENT"}  # types of the nodes that have a height
 
 
 class ChannelCopy:
-    """A copy of a material, whose surface shows one channel after the other. @throws ValueError it has no colour
+    """A copy of a material, whose surface shows one channel after the other. @pre `check` has passed
 
-    material : one with nodes
+    block : the copy
     """
 
-    def __init__(self, material):
-        _check(material)
-        self.block = material.copy()
-        self._tree = self.block.node_tree
+    def __init__(self, block):
+        self.block, self._tree = block, block.node_tree
         output, shader = _ends(self._tree)
         self._surface, self._shader = output.inputs["Surface"], shader
         self._sources = {channel: _named(shader.node, names) for channel, names in SOCKETS.items()}
@@ -43,7 +41,8 @@ class ChannelCopy:
         self._tree.links.new(self._light.outputs[0], self._surface)
 
 
-def _check(material):
+def check(material):
+    """@throws ValueError a material with nodes has no colour"""
     _, shader = _ends(material.node_tree)
     if shader is None or _named(shader.node, SOCKETS[COLOUR]) is None:
         what = f"ends in {shader.node.bl_label}" if shader else "has no surface"

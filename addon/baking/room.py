@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A scene of its own in which copies of objects are baked, so that the file stays as it is; it is gone in the end."""
 
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 
 import bpy
 
@@ -9,7 +9,7 @@ from .. import compatibility
 from ..materials import material as shown
 from ..writing import transaction
 from . import images
-from .channels import ChannelCopy
+from .channels import ChannelCopy, check
 from .options import HEIGHT, NORMAL
 
 FLAT = (0.5, 0.5, 1.0, 1.0)  # a normal that stands upright
@@ -19,30 +19,32 @@ BLACK = (0.0, 0.0, 0.0, 1.0)
 @contextmanager
 def room():
     """Gives the `Room`."""
-    made = Room()
-    try:
-        yield made
-    finally:
-        made.clear()
+    made = []
+    with ExitStack() as in_the_end:
+        in_the_end.callback(clear, made)
+        yield Room(made)
+
+
+def clear(made):
+    transaction.remove(made)
 
 
 class Room:
-    def __init__(self):
-        self._scene = bpy.data.scenes.new("Holomorph Bake")
-        self._made, self._materials = [self._scene], {}
+    """made : the list to which data-blocks are added in the line that makes them"""
+
+    def __init__(self, made):
+        made.append(bpy.data.scenes.new("Holomorph Bake"))
+        (self._scene,), self._made, self._materials = made, made, {}
         self._scene.render.engine = "CYCLES"
         settings = self._scene.cycles
         settings.device, settings.samples = "CPU", 1  # the first sample is in the middle of a texel
         settings.use_denoising = settings.use_adaptive_sampling = False
 
-    def clear(self):
-        transaction.remove(self._made)
-
-    def add(self, obj, mesh):
+    def add(self, obj):
         """A copy of an object with a copy of its mesh, whose materials give off channels. @throws ValueError"""
-        self._made.append(mesh)
-        copy = obj.copy()
-        self._made.append(copy)
+        self._made.append(obj.data.copy())
+        self._made.append(obj.copy())
+        mesh, copy = self._made[-2:]
         copy.data = mesh
         for slot, own in zip(copy.material_slots, shown.before_bake(obj)):
             slot.link = "OBJECT"
@@ -56,15 +58,17 @@ class Room:
         if material not in self._materials:
             source = material
             if material is None or material.node_tree is None:
-                source = _plain(material)
-                self._made.append(source)
-            self._materials[material] = ChannelCopy(source)
-            self._made.append(self._materials[material].block)
+                self._made.append(bpy.data.materials.new("Holomorph Bake"))
+                source = _made_plain(self._made[-1], material)
+            check(source)
+            self._made.append(source.copy())
+            self._materials[material] = ChannelCopy(self._made[-1])
         return self._materials[material]
 
     def new_image(self, channel, side):
-        image = bpy.data.images.new("Holomorph Bake", side, side, alpha=False, float_buffer=channel == HEIGHT)
-        self._made.append(image)
+        has_floats = channel == HEIGHT
+        self._made.append(bpy.data.images.new("Holomorph Bake", side, side, alpha=False, float_buffer=has_floats))
+        image = self._made[-1]
         image.colorspace_settings.name = images.colour_space(channel)
         image.generated_color = FLAT if channel == NORMAL else BLACK
         return image
@@ -75,7 +79,7 @@ class Room:
             material.show(channel, image)
         layer = self._scene.view_layers[0]
         layer.update()
-        for obj in layer.objects:
+        for obj in compatibility.objects_in(layer):
             obj.select_set(obj == copy, view_layer=layer)
         layer.objects.active = copy
         objects = {"active_object": copy, "object": copy, "selected_objects": [copy]}
@@ -90,9 +94,8 @@ class Room:
             )
 
 
-def _plain(material):
-    """A material with nodes for one without, or for none."""
-    made = bpy.data.materials.new("Holomorph Bake")
+def _made_plain(made, material):
+    """Gives a new material nodes, for one without, or for none, and returns it."""
     tree = compatibility.enable_nodes(made)
     shader = next(node for node in tree.nodes if node.type == "BSDF_PRINCIPLED")
     if material is not None:

@@ -67,13 +67,13 @@ def read(path, up):
     _import(path, up)
     layer = bpy.context.view_layer
     layer.update()
-    made = [obj for obj in layer.objects if obj.type == "MESH" and obj not in before]
+    made = [obj for obj in compatibility.objects_in(layer) if obj.type == "MESH" and obj not in before]
     meshes = sorted((obj for obj in made if not gathering.is_helper(obj)), key=lambda obj: obj.name)
     if not meshes:
         raise ExchangeError(f"{path}: it contains no mesh")
     for mesh in {obj.data for obj in meshes} if path.suffix.lower() in GLTF else ():
         joining.join(mesh)
-    for obj in layer.objects:
+    for obj in compatibility.objects_in(layer):
         obj.select_set(obj in meshes)
     layer.objects.active = meshes[0]
     return meshes

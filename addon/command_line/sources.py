@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import bpy
 
-from .. import native
+from .. import compatibility, native
 from ..scene import gathering, mesh_io, targets
 from ..solving import choices
 from . import exchange
@@ -76,7 +76,8 @@ def _mesh_objects(options):
         return exchange.read(options.mesh, options.up or "Y")
     if not bpy.data.filepath:
         raise UsageError("name a mesh file after --, or a .blend file before --python")
-    return [o for o in bpy.context.view_layer.objects if o.type == "MESH" and not gathering.is_helper(o)]
+    objects = compatibility.objects_in(bpy.context.view_layer)
+    return [o for o in objects if o.type == "MESH" and not gathering.is_helper(o)]
 
 
 def _named(options, meshes):

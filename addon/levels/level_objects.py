@@ -50,9 +50,10 @@ def write(step, obj, data, work, presentation=Presentation()):
 
 
 def _put_away(context, made, hidden):
+    shown = compatibility.objects_in(context.view_layer)
     for level_object in made:
         level_object.hide_render = hidden
-        if level_object.name in context.view_layer.objects:
+        if level_object in shown:
             level_object.select_set(False)  # the next operator is meant for the object alone
             level_object.hide_set(hidden)
 

@@ -2,13 +2,13 @@
 """Islands in the UV square without overlap, by Blender's own packer, turned as it likes."""
 
 import math
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 
 import bpy
 import numpy as np
 
-from .. import native
+from .. import compatibility, native
 from ..scene import mesh_io, uv_maps
 
 MIDDLE = 0.5  # the middle of the UV square
@@ -51,23 +51,21 @@ def _length(parts, uv):
 @contextmanager
 def mesh_of(context, polygons):
     """A mesh of these polygons, as the only object that is selected, and the active one; it is gone in the end."""
-    layer = context.view_layer
-    before, active = list(layer.objects.selected), layer.objects.active
-    mesh = mesh_io.new_mesh("Holomorphic Islands", polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
-    obj = bpy.data.objects.new(mesh.name, mesh)
-    context.scene.collection.objects.link(obj)
-    for other in before:
-        other.select_set(False)
-    layer.objects.active = obj
-    obj.select_set(True)
-    try:
-        yield mesh
-    finally:
-        bpy.data.objects.remove(obj)
-        bpy.data.meshes.remove(mesh)
-        for other in before:
-            other.select_set(True)
-        layer.objects.active = active
+    layer, made = context.view_layer, []
+    with ExitStack() as last_first:
+        last_first.callback(setattr, layer.objects, "active", layer.objects.active)
+        for other in compatibility.selected_in(layer):
+            last_first.callback(other.select_set, True)
+        last_first.callback(bpy.data.batch_remove, made)
+        for other in compatibility.selected_in(layer):
+            other.select_set(False)
+        made.append(bpy.data.meshes.new("Holomorphic Islands"))
+        made.append(bpy.data.objects.new(made[0].name, made[0]))
+        mesh_io.fill(made[0], polygons.vertices, polygons.corner_vertices, polygons.face_offsets)
+        context.scene.collection.objects.link(made[1])
+        layer.objects.active = made[1]
+        made[1].select_set(True)
+        yield made[0]
 
 
 def joined(parts):
@@ -91,12 +89,10 @@ def pack(context, margin):
 def editing_all(context):
     """Edit mode for the active object, with everything selected."""
     settings = context.scene.tool_settings
-    was_synced = settings.use_uv_select_sync
-    try:
+    with ExitStack() as last_first:
+        last_first.callback(setattr, settings, "use_uv_select_sync", settings.use_uv_select_sync)
         settings.use_uv_select_sync = True  # what is selected is packed
+        last_first.callback(bpy.ops.object.mode_set, mode="OBJECT")
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="SELECT")
         yield
-    finally:
-        bpy.ops.object.mode_set(mode="OBJECT")
-        settings.use_uv_select_sync = was_synced

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The 3D views of a window are switched so that a texture is seen, and back."""
 
+from .. import compatibility
 from . import material
 
 WITHOUT_TEXTURE = {"SOLID", "WIREFRAME"}  # kinds of shading
@@ -38,7 +39,7 @@ def restore(window):
 
 def restore_without_textures(context):
     """Restores the window's views once no mesh shows a texture of ours."""
-    meshes = [obj for obj in context.view_layer.objects if obj.type == "MESH"]
+    meshes = [obj for obj in compatibility.objects_in(context.view_layer) if obj.type == "MESH"]
     if context.window is not None and not any(material.is_covered(obj) for obj in meshes):
         restore(context.window)
 

@@ -67,11 +67,12 @@ class OnMeshes(Explained):
 
     @classmethod
     def why_not(cls, context):
+        from .. import compatibility
         from ..scene import gathering
 
         if any(True for _ in gathering.candidates(context)):
             return ""
-        selected = context.view_layer.objects.selected
+        selected = compatibility.selected_in(context.view_layer)
         if any(o.instance_type == "COLLECTION" for o in selected):
             return INSTANCES
         return CONVERT if any(o.type in CONVERTIBLE for o in selected) else "Select a mesh"

@@ -53,6 +53,13 @@ class WorkOperator(Explained):
 
     def modal(self, context, event):
         """Consumes every event but ESC until the worker is done, so the meshes stay as they were read."""
+        try:
+            return self._after(context, event)
+        except BaseException:
+            self.cancel(context)
+            raise
+
+    def _after(self, context, event):
         if event.type == "ESC":
             self.cancel(context)
             self.report({"INFO"}, "Cancelled: nothing was changed")

@@ -159,7 +159,9 @@ class HOLOMORPH_OT_select_bad(AtOnce, bpy.types.Operator):
 
 def edit(context, objects):
     """Edit mode for these objects alone, the active one among them."""
-    for obj in list(context.view_layer.objects.selected):
+    from .. import compatibility
+
+    for obj in compatibility.selected_in(context.view_layer):
         obj.select_set(obj in objects)
     if context.view_layer.objects.active not in objects:
         context.view_layer.objects.active = objects[0]

@@ -35,12 +35,15 @@ dragged = {}  # `Dragged` by the object's name, while it lasts
 
 def _objects(context):
     """The selected meshes that this view shows with overlays, in object mode; the active one first."""
+    from .. import compatibility
+
     space = context.space_data
     if native.problem() or context.mode != "OBJECT" or not space.overlay.show_overlays:
         return []
     active = context.view_layer.objects.active
-    selected = [o for o in context.view_layer.objects.selected if o.type == "MESH" and o.visible_get(viewport=space)]
-    return sorted(selected, key=lambda o: o != active)
+    selected = compatibility.selected_in(context.view_layer)
+    shown = [o for o in selected if o.type == "MESH" and o.visible_get(viewport=space)]
+    return sorted(shown, key=lambda o: o != active)
 
 
 def _draw_in_space():

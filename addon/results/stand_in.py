@@ -4,6 +4,7 @@ object is hidden, so that nothing is lost."""
 
 import bpy
 
+from .. import compatibility
 from . import report, tags
 
 OF = "holomorph_mapped_of"  # custom property of such an object: name of the one whose modifiers made it
@@ -31,7 +32,7 @@ def make(step, obj):
 
 
 def _show_instead(context, made, obj):
-    if made.name in context.view_layer.objects:
+    if made in compatibility.objects_in(context.view_layer):
         made.select_set(True)
         context.view_layer.objects.active = made
     obj.select_set(False)

@@ -30,7 +30,7 @@ def candidates(context):
 
 def selected_meshes(context):
     """Yields the selected mesh objects that are visible, in a 3D view those of its local view."""
-    selected = context.view_layer.objects.selected
+    selected = compatibility.selected_in(context.view_layer)
     return (o for o in selected if o.type == "MESH" and o.visible_get() and not is_helper(o))
 
 
@@ -46,7 +46,7 @@ def why_fixed(obj):
         return "its mesh is linked from another file; make it local first"
     if mesh.override_library is not None:
         return "its mesh is a library override, which cannot keep UV maps; make it local first"
-    shown = bpy.context.view_layer.objects
+    shown = compatibility.objects_in(bpy.context.view_layer)
     if mesh.is_editmode and not any(other.mode == "EDIT" and other.data == mesh for other in shown):
         return "its mesh is edited in another scene or view layer; leave edit mode there first"
     return ""

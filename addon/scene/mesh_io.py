@@ -210,6 +210,12 @@ def corner_normals(mesh):
 def new_mesh(name, vertices, corner_vertices, face_offsets, edges=()):
     """A Blender mesh of these polygons, vertices and corners in their order; `edges` are (n, 2) further ones."""
     mesh = bpy.data.meshes.new(name)
+    fill(mesh, vertices, corner_vertices, face_offsets, edges)
+    return mesh
+
+
+def fill(mesh, vertices, corner_vertices, face_offsets, edges=()):
+    """Gives a new mesh these elements, as `new_mesh`."""
     mesh.vertices.add(len(vertices))
     write_values(compatibility.position_values(mesh), vertices)
     if len(edges):
@@ -221,7 +227,6 @@ def new_mesh(name, vertices, corner_vertices, face_offsets, edges=()):
     write_values(Values(mesh.polygons, "loop_start", np.uint32), face_offsets[:-1])
     write_values(Values(mesh.polygons, "loop_total", np.uint32), np.diff(face_offsets))  # needed before 4.1
     mesh.update(calc_edges=True)
-    return mesh
 
 
 def shade_smooth(mesh, sharp_angle):

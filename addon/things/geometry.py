@@ -125,7 +125,7 @@ def _object(step, obj, name, mesh):
 def _put_away(context, made):
     """Hides the original of a piece: what is seen are its instances."""
     context.view_layer.update()
-    if made.name in context.view_layer.objects:
+    if made in compatibility.objects_in(context.view_layer):
         made.hide_set(True)
     made.hide_render = True
 

@@ -3,13 +3,15 @@
 
 import bpy
 
+from .. import compatibility
+
 
 class Modes:
     """The modes of the mesh objects of a view layer, whichever of them is the active one."""
 
     def __init__(self, context):
         layer = context.view_layer
-        self._layer, self._selected = layer, set(layer.objects.selected)
+        self._layer, self._selected = layer, set(compatibility.selected_in(layer))
         self._before = {}  # mode: its objects
         for obj in _elsewhere(layer):
             self._before.setdefault(obj.mode, []).append(obj)
@@ -52,4 +54,4 @@ class Modes:
 
 def _elsewhere(layer):
     """The mesh objects that are not in object mode."""
-    return [obj for obj in layer.objects if obj.type == "MESH" and obj.mode != "OBJECT"]
+    return [obj for obj in compatibility.objects_in(layer) if obj.type == "MESH" and obj.mode != "OBJECT"]

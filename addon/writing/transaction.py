@@ -5,6 +5,7 @@ from contextlib import ExitStack, contextmanager
 
 import bpy
 
+from .. import compatibility
 from . import mesh_state, modes, states
 
 MADE = (
@@ -99,8 +100,8 @@ class _Before:
     def __init__(self, context):
         layer = context.view_layer
         self._context = context
-        self._active, self._selected = layer.objects.active, set(layer.objects.selected)
-        self._hidden = {obj for obj in layer.objects if obj.hide_get()}
+        self._active, self._selected = layer.objects.active, set(compatibility.selected_in(layer))
+        self._hidden = {obj for obj in compatibility.objects_in(layer) if obj.hide_get()}
         self.modes = modes.Modes(context)
         self._blocks = {block.as_pointer() for block in _blocks()}
         self._kept = [states.Attributes(context.scene.tool_settings, "mesh_select_mode", "use_uv_select_sync")]
@@ -129,7 +130,7 @@ class _Before:
 
     def _restore_view(self):
         layer = self._context.view_layer
-        for obj in layer.objects:
+        for obj in compatibility.objects_in(layer):
             obj.hide_set(obj in self._hidden)
             obj.select_set(obj in self._selected)
         layer.objects.active = self._active

@@ -36,9 +36,9 @@ def file_state():
     for name in _collections():
         for block in getattr(bpy.data, name):
             _add(state, block, f"{name}[{block.name_full}]", set())
-    view = bpy.context.view_layer
-    state["selected"] = sorted(o.name_full for o in view.objects.selected)
-    state["hidden"] = sorted(o.name_full for o in view.objects if o.hide_get())
+    for scene in bpy.data.scenes:
+        for layer in scene.view_layers:
+            _add_view(state, layer, f"scenes[{scene.name}].view_layers[{layer.name}]")
     state["mode"] = bpy.context.mode
     for screen in bpy.data.screens:
         state[f"screens[{screen.name}]"] = {key: _custom(screen[key]) for key in list(screen.keys())}
@@ -69,6 +69,8 @@ def _properties(kind):
     own = [p for p in kind.bl_rna.properties if p.identifier not in COMPUTED]
     if kind is bpy.types.Mesh:
         own = [p for p in own if p.identifier not in ELEMENTS]
+    if kind is bpy.types.Image and bpy.app.version < (3, 5, 0):  # which counts those of a copied material twice
+        own = [p for p in own if p.identifier != "users"]
     if kind is bpy.types.ParticleEdit:  # notes the object at any step of undo while it is sculpted
         own = [p for p in own if p.identifier != "object"]
     if kind is getattr(bpy.types, "UvSculpt", None) and kind.bl_rna.base:  # 4.2 says that it is a Paint, wrongly:
@@ -109,6 +111,14 @@ def _add_value(state, value, path, seen):
         _add(state, value, path, seen)
     else:
         state[path] = value
+
+
+def _add_view(state, layer, path):
+    """What is active, selected and hidden in a view layer, which asking for the active object brings up to date."""
+    active = layer.objects.active, layer.active_layer_collection
+    state[f"{path}.active"] = [getattr(each, "name", "") for each in active]
+    state[f"{path}.selected"] = sorted(o.name_full for o in layer.objects if o.select_get(view_layer=layer))
+    state[f"{path}.hidden"] = sorted(o.name_full for o in layer.objects if o.hide_get(view_layer=layer))
 
 
 def _plain(value):

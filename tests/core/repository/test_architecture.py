@@ -310,6 +310,12 @@ def test_nothing_makes_the_scene_the_owner_of_the_context():
     assert not [identify(path) for path in files if noting.search(path.read_text("utf-8"))]
 
 
+def test_no_loop_is_over_objects_of_a_view_layer_that_is_not_up_to_date():
+    """Where objects were removed Blender ends: `compatibility.objects_in` brings it up to date."""
+    bare = re.compile(r'\blayer\.objects\b(?!\.active|, "active")')
+    assert [identify(p) for p in python_files(ADDON) if bare.search(p.read_text())] == ["addon/compatibility.py"]
+
+
 def test_nothing_writes_into_copies_of_a_mesh():
     """In Blender 4.0 to 5.0 `foreach_set` on `layer.uv` changes the UV map of the copies of the mesh, too."""
     writing = re.compile(r"layers?(\[[^]]*\])?(\.active)?\.uv[,.)]")

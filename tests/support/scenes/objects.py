@@ -75,7 +75,8 @@ def torus(name="Torus", **sizes):
 
 
 def two_objects():
-    """A torus and a ball with what an artist has on them: maps, slots of each kind, seams, attributes, properties."""
+    """A torus and a ball with what an artist has on them: maps, slots of each kind, seams, attributes, properties; each
+    in a collection of its own."""
     for name, arrays in (("Torus", torus_arrays(around=8, across=5)), ("Ball", sphere_arrays(1))):
         mesh = mesh_object(name, *arrays).data
         for layer in ("First", "Second"):
@@ -92,6 +93,12 @@ def two_objects():
     torus.data.polygons[5].material_index = 1
     copy = torus.copy()  # shares the mesh
     bpy.context.scene.collection.objects.link(copy)
+    for name, objects in (("First", [torus]), ("Second", [ball, copy])):  # what is made for the torus is not the last
+        collection = bpy.data.collections.new(name)
+        bpy.context.scene.collection.children.link(collection)
+        for obj in objects:
+            collection.objects.link(obj)
+            bpy.context.scene.collection.objects.unlink(obj)
     select(torus, ball)
     return torus, ball
 
