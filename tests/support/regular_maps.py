@@ -75,3 +75,72 @@ def klein_quartic():
 def bring_curve():
     """{4, 5}: 30 squares, five around each of the 24 vertices; the symmetric group of five letters."""
     return regular_map((0, 1, 2, 4, 3), (1, 2, 3, 0, 4))
+
+
+def fermat_quartic():
+    """{3, 8}: 32 triangles, eight around each of the 12 vertices; the group of order 96 of the matrices that permute
+    the coordinates of x^4 + y^4 + z^4 = 0 and multiply them by powers of i. It acts on the 12 points with a coordinate
+    0; the others have an odd power of exp(pi i / 4) as their quotient."""
+    points = [(j, k) for j in range(3) for k in (1, 3, 5, 7)]
+
+    def matrix(order, powers):
+        def image(j, k):
+            zero = order.index(j)
+            p, q = (zero + 2) % 3, (zero + 1) % 3
+            return zero, (2 * (powers[p] - powers[q]) + (k if order[p] == (j + 2) % 3 else -k)) % 8
+
+        return tuple(points.index(image(*point)) for point in points)
+
+    edge = matrix((1, 0, 2), (0, 0, 1))
+    face = matrix((1, 2, 0), (0, 0, 0))
+    return regular_map(*_of_orders(generated_elements(edge, face), 3, 8, 96))
+
+
+def macbeath_curve():
+    """{3, 7}: 168 triangles, genus 7; the group of order 504 on the projective line over eight elements."""
+
+    def times(a, b):
+        product = 0
+        for i in range(3):
+            product ^= (a << i) * (b >> i & 1)
+        for i in (4, 3):
+            product ^= (0b1011 << i - 3) * (product >> i & 1)  # modulo x^3 + x + 1
+        return product
+
+    inverse = {a: next(b for b in range(1, 8) if times(a, b) == 1) for a in range(1, 8)}
+    shift = (*(z ^ 1 for z in range(8)), 8)
+    scale = (*(times(2, z) for z in range(8)), 8)
+    flip = (8, *(inverse[z] for z in range(1, 8)), 0)
+    return regular_map(*_of_orders(generated_elements(shift, scale, flip), 3, 7, 504))
+
+
+def generated_elements(*generators):
+    """All elements of a group of permutations, as tuples."""
+    elements = [tuple(range(len(generators[0])))]
+    known = set(elements)
+    for element in elements:
+        for generator in generators:
+            product = tuple(element[i] for i in generator)
+            if product not in known:
+                known.add(product)
+                elements.append(product)
+    return elements
+
+
+def _of_orders(elements, face_order, vertex_order, count):
+    """The first pair of generators (edge, face) of these orders, 2 for the edge; the order of their product is that of
+    the turn around a vertex."""
+
+    def order(element):
+        power, n = element, 1
+        while power != elements[0]:
+            power, n = tuple(power[i] for i in element), n + 1
+        return n
+
+    edges = [e for e in elements if order(e) == 2]
+    faces = [f for f in elements if order(f) == face_order]
+    for e in edges:
+        for f in faces:
+            if order(tuple(e[i] for i in f)) == vertex_order and len(generated_elements(e, f)) == count:
+                return e, f
+    raise ValueError("the group has no such generators")

@@ -20,6 +20,10 @@ using lattice::IntegerVector;
 constexpr double kRounding = 1e-9;
 // What a reduction costs, in nodes of a search for near points, times the square of the rank.
 constexpr std::int64_t kReduction = 10;
+// Part of the steps that may be spent on a list of all vectors that are short enough for any row.
+constexpr std::int64_t kListPart = 50;
+// Vectors of such a list: all are looked through for each row.
+constexpr std::size_t kMostListed = 20'000;
 
 class Search {
  public:
@@ -33,6 +37,7 @@ class Search {
     root_ = lower_.llt().matrixU();
     spread_ = std::expm1(log_ratios(upper_, lower_).greatest) / 2;
     rows_.resize(size(), size());
+    list_short_vectors();
   }
 
   Isometries run() {
@@ -43,14 +48,56 @@ class Search {
  private:
   Index size() const { return middle_.rows(); }
 
+  // Symmetric surfaces have few short vectors and many isometries: then rows are looked up. Where classes differ in
+  // length by factors of thousands the list would not end, and each row has a search of its own.
+  void list_short_vectors() {
+    const double longest = b_.lattice.upper.diagonal().maxCoeff() * (1 + kRounding);
+    const auto found =
+        lattice::near_points(lattice::reduce(root_), VectorXd::Zero(size()), longest, options_.steps / kListPart);
+    steps_left_ -= found.steps;
+    if (!found.is_complete || found.integers.size() > kMostListed) return;
+    short_.resize(static_cast<Index>(found.integers.size()), size());
+    for (Index i = 0; i < short_.rows(); ++i) short_.row(i) = found.integers[i].cast<double>().transpose();
+    short_lengths_ = (short_ * middle_).cwiseProduct(short_).rowwise().sum();
+    energy_products_.resize(short_.rows(), size());
+    wedge_products_.resize(short_.rows(), size());
+  }
+
   void extend(Index k) {
     if (k == size()) return take();
-    for (const IntegerVector& candidate : candidates(k)) {
+    for (const IntegerVector& candidate : short_.rows() > 0 ? listed(k) : candidates(k)) {
       rows_.row(k) = candidate.transpose();
+      if (short_.rows() > 0) {
+        energy_products_.col(k) = short_ * (middle_ * candidate.cast<double>());
+        wedge_products_.col(k) = -(short_ * (a_.lattice.pairing * candidate).cast<double>());
+      }
       if (has_pairing(k) && is_possible(k + 1)) extend(k + 1);
       // Out of steps: what is found so far may be not all.
       if (!result_.is_complete) return;
     }
+  }
+
+  // The short vectors with the products that row k needs.
+  std::vector<IntegerVector> listed(Index k) {
+    execution_.report(1 - static_cast<double>(steps_left_) / static_cast<double>(options_.steps));
+    std::vector<IntegerVector> result;
+    const auto goal = [&](Index j) { return (b_.lattice.upper(j, k) + b_.lattice.lower(j, k)) / 2; };
+    std::vector<double> tolerances;
+    for (Index j = 0; j <= k; ++j) tolerances.push_back(tolerance(j, k));
+    const auto fits = [&](Index i) {
+      if (std::abs(short_lengths_[i] - goal(k)) > tolerances[k]) return false;
+      for (Index j = 0; j < k; ++j) {
+        const auto wedge = static_cast<double>(options_.sign * b_.lattice.pairing(j, k));
+        if (wedge_products_(i, j) != wedge || std::abs(energy_products_(i, j) - goal(j)) > tolerances[j]) return false;
+      }
+      return true;
+    };
+    for (Index i = 0; i < short_.rows(); ++i) {
+      if (fits(i)) result.push_back(short_.row(i).cast<std::int64_t>().transpose());
+    }
+    steps_left_ -= short_.rows();
+    result_.is_complete &= steps_left_ > 0;
+    return result;
   }
 
   // Each condition on row k is a number of absolute value at most 1, or 0 for a wedge product, so that the sum of their
@@ -118,6 +165,9 @@ class Search {
   MatrixXd upper_, lower_, middle_, root_;  // matrices of a, with the slack
   double spread_ = 0;                       // half-width of the bounds of a, relative to the lower one
   IntegerMatrix rows_;
+  MatrixXd short_;  // rows: all vectors as short as the longest row may be; none where the list did not end
+  VectorXd short_lengths_;
+  MatrixXd energy_products_, wedge_products_;  // of the short vectors with each row, row j on the left of the wedge
   Isometries result_;
 };
 
