@@ -54,6 +54,7 @@ from .progressive import ProgressiveMesh
 from .quality import Quality
 from .relief import Relief
 from .repairs import Cut, Refused, Repairs
+from .period_matrix import PeriodMatrix
 from .siegel import SiegelReduction, siegel_reduction
 from .solver_report import MemoryPlan, Residuals, SolverReport
 from .structure import conformal_structure
@@ -95,6 +96,7 @@ __all__ = [
     "Mixed",
     "OutOfMemory",
     "ProgressiveMesh",
+    "PeriodMatrix",
     "PlacedPoles",
     "Places",
     "PoleStructure",

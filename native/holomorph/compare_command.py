@@ -7,7 +7,7 @@ from .console import Parser, failed, tell
 from .equivalence import VERDICTS, conformally_equivalent
 from .plain_data import plain
 
-EXIT_CODES = dict(zip(VERDICTS, (0, 3, 4, 5), strict=True))
+EXIT_CODES = dict(zip(VERDICTS, (0, 6, 3, 4, 5), strict=True))
 """The exit code of each verdict. 1: not compared, one sentence says why; 2: the command was misspelled."""
 
 

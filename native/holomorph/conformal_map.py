@@ -15,7 +15,7 @@ from ._native import SolverError, TopologyError
 from .array_types import Integers, Progress, Reals
 from .bounded import BoundedStructure
 from .closed import ConformalStructure
-from .equivalence import Equivalence, conformally_equivalent
+from .equivalence import AGREEING, Equivalence, conformally_equivalent
 from .map_sides import sides
 from .progress import scaled
 from .refined_triangles import areas
@@ -84,13 +84,13 @@ class ConformalMap(Value):
 
 def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Progress | None = None) -> ConformalMap:
     """The `ConformalMap` from structure `a` to structure `b`, closed of genus >= 1 or with boundary, which are
-    equivalent or mirror images: then it reverses the orientation. `tolerance` as in `conformally_equivalent`.
+    not told apart, or mirror images: then it reverses the orientation. `tolerance` as in `conformally_equivalent`.
 
     The integrals of forms that correspond by `Equivalence.matrix` are the same at corresponding points. The map begins
     at a point where the values of all forms agree best, on the boundary if there is one, and goes on along the edges of
     `a`.
 
-    Raises TypeError for other structures; TopologyError where the surfaces are not known to be equivalent;
+    Raises TypeError for other structures; TopologyError where the surfaces differ, or may differ;
     SolverError where no start leads to a map; Cancelled.
 
     Cost: linear in both surfaces, beside that of `conformally_equivalent`.
@@ -99,7 +99,7 @@ def conformal_map(a: Mapped, b: Mapped, *, tolerance: float = 0.0, progress: Pro
         if not isinstance(structure, Mapped):
             raise TypeError(f"a map needs structures with forms and without poles, not a {type(structure).__name__}")
     found = conformally_equivalent(a, b, tolerance=tolerance, progress=scaled(progress, 0.0, 0.2))
-    if found.verdict not in ("equivalent", "mirror_image"):
+    if found.verdict not in AGREEING or found.matrix is None:
         raise TopologyError(f"no map can be made; {found.sentence}")
     matching = _Matching(sides(a, b, found), found.verdict == "mirror_image", progress)
     return _result(a, b, matching, found, scaled(progress, FOUND, 1.0))

@@ -8,20 +8,25 @@ from . import _native, arrays
 from .array_types import Complexes
 from .bounded import BoundedStructure
 from .checks import only_component
+from .period_matrix import checked_period_matrix, distance_within
 from .results import Structure
-from .siegel import checked_period_matrix
 from .surface import Surface
 
 
 class KnownPeriods:
-    """The closed surfaces with a period matrix, which is taken for exact."""
+    """The closed surfaces with a period matrix. It is as exact as its `error` says, at most to rounding; one without is
+    as symmetric as it is exact."""
 
     boundary_count = 0
 
     def __init__(self, period_matrix):
-        self.period_matrix: Complexes = arrays.frozen(checked_period_matrix(period_matrix))
-        self.genus = len(self.period_matrix)
-        self.period_bounds = self.period_matrix.imag, self.period_matrix.imag
+        omega = checked_period_matrix(period_matrix)
+        change = np.abs(np.asarray(period_matrix) - omega) + len(omega) * np.finfo(float).eps * np.abs(omega)
+        self.period_matrix: Complexes = arrays.frozen(omega)
+        self.error = getattr(period_matrix, "error", 0.0) + distance_within(omega, change)
+        self.genus = len(omega)
+        widths = np.exp([-self.error, self.error])
+        self.period_bounds = widths[0] * omega.imag, widths[1] * omega.imag
         self._topology = _native.TopologicalType(self.genus, 0)
 
     def lattice(self):
@@ -30,7 +35,8 @@ class KnownPeriods:
         inverse = np.linalg.inv(imaginary)
         gram = np.block([[imaginary + real @ inverse @ real, -real @ inverse], [-inverse @ real, inverse]])
         one, none = np.eye(self.genus, dtype=np.int64), np.zeros((self.genus, self.genus), np.int64)
-        return _native.PeriodLattice.closed((gram + gram.T) / 2, np.block([[none, one], [-one, none]]))
+        upper = np.exp(self.error) * (gram + gram.T) / 2
+        return _native.PeriodLattice.closed(upper, np.block([[none, one], [-one, none]]))
 
 
 def period_lattice(structure):

@@ -13,7 +13,7 @@ ALIKE = 1e-2  # both do where neither misses by more
 
 
 def planar_verdict(a, b, matrix):
-    """ "equivalent", "mirror_image" or "undecided", of structures whose Dirichlet forms correspond by `matrix`.
+    """ "indistinguishable", "mirror_image" or "undecided", of structures whose Dirichlet forms correspond by `matrix`.
 
     At corresponding points the holomorphic forms have proportional values, at those of a mirror image conjugate ones
     (the canonical map): measured, not bounded."""
@@ -22,7 +22,7 @@ def planar_verdict(a, b, matrix):
     first = first[np.linspace(0, len(first) - 1, SAMPLES).astype(int)]
     same, mirrored = (_miss(values, second) for values in (first, first.conj()))
     if max(same, mirrored) < ALIKE or CLEARLY * same < mirrored:
-        return "equivalent"
+        return "indistinguishable"
     return "mirror_image" if CLEARLY * mirrored < same else "undecided"
 
 

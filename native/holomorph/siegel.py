@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native, arrays
-from .array_types import Complexes, Integers
+from .array_types import Integers
+from .period_matrix import PeriodMatrix, checked_period_matrix
 from .value import Value
 
 CONVENTION = (
@@ -21,10 +22,10 @@ MOST_STEPS = 1000
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SiegelReduction(Value):
-    """period_matrix : (g, g) complex (A Omega + B)(C Omega + D)^-1; matrix : (2g, 2g) integers [[A, B], [C, D]],
-    symplectic; convention : the conditions that it fulfils, in words."""
+    """period_matrix : (g, g) `PeriodMatrix` (A Omega + B)(C Omega + D)^-1, as exact as the one given; matrix : (2g, 2g)
+    integers [[A, B], [C, D]], symplectic; convention : the conditions that it fulfils, in words."""
 
-    period_matrix: Complexes
+    period_matrix: PeriodMatrix
     matrix: Integers
     convention: str = CONVENTION
 
@@ -37,7 +38,7 @@ def siegel_reduction(period_matrix: ArrayLike) -> SiegelReduction:
 
     Source: Deconinck, Heil, Bobenko, van Hoeij & Schmies (2004), doi:10.1090/S0025-5718-03-01609-0.
     """
-    omega = checked_period_matrix(period_matrix)
+    omega, error = checked_period_matrix(period_matrix), getattr(period_matrix, "error", 0.0)
     g = len(omega)
     matrix, one, none = np.eye(2 * g, dtype=np.int64), np.eye(g, dtype=np.int64), np.zeros((g, g), np.int64)
     for _ in range(MOST_STEPS):
@@ -49,21 +50,10 @@ def siegel_reduction(period_matrix: ArrayLike) -> SiegelReduction:
         matrix = np.block([[one, -shift], [none, one]]) @ np.block([[rows, none], [none, inverse.T]]) @ matrix
         if abs(omega[0, 0]) >= 1 - ROUNDING:
             omega, matrix = _on_the_edge(omega, matrix)
-            return SiegelReduction(arrays.frozen(omega), arrays.frozen(matrix))
+            return SiegelReduction(PeriodMatrix.of(omega, error), arrays.frozen(matrix))
         inversion = _inversion(g)
         omega, matrix = moved(omega, inversion), inversion @ matrix
     raise ValueError("the period matrix is too badly conditioned to be reduced")
-
-
-def checked_period_matrix(given):
-    """(g, g) complex; ValueError for what cannot be one."""
-    omega = np.array(given, dtype=np.complex128)
-    g = omega.shape[0] if omega.ndim == 2 else 0
-    if omega.shape != (g, g) or not g or not np.isfinite(omega).all() or np.abs(omega - omega.T).max() > ROUNDING * g:
-        raise ValueError("a period matrix is square, symmetric and finite, such as [[0.3 + 1j]]")
-    if not (np.linalg.eigvalsh(omega.imag) > 0).all():
-        raise ValueError("the imaginary part of a period matrix is positive definite")
-    return omega
 
 
 def moved(omega, matrix):

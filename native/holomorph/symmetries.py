@@ -11,11 +11,10 @@ from ._native import Error
 from .array_types import Integers, Progress
 from .checks import real_number
 from .closed import ConformalStructure
-from .equivalence import ROUNDING, STEPS
+from .equivalence import AGREEMENT, ROUNDING, STEPS
 from .known_periods import period_lattice
 from .value import Value, counted
 
-AGREEMENT = 0.25  # as native/src/moduli/equivalence.h
 GAP = 1e-6  # part of what is allowed: residuals that differ by less belong to the same symmetry of the mesh
 
 
@@ -64,41 +63,39 @@ def automorphisms(
         raise Error(f"the search among integer matrices reached its limit of {STEPS} steps")
     found = sorted(search.found, key=lambda isometry: isometry.residual)
     matrices, residuals = np.array([each.matrix for each in found]), np.array([each.residual for each in found])
-    count = _largest_group(matrices, residuals, allowed)
-    group = matrices[:count]
+    count, generators = _largest_group(matrices, residuals, allowed)
     others = _native.isometries(lattice, lattice, sign=1, slack=0.0, progress=progress)
     at_most = len(others.found) if others.is_complete else None
-    return Automorphisms(count, tuple(group[_generators(_table(group))]), float(residuals[count - 1]), at_most)
+    return Automorphisms(count, tuple(matrices[generators]), float(residuals[count - 1]), at_most)
 
 
 def _largest_group(matrices, residuals, allowed):
-    """The number of matrices, nearest first, in the largest group; residuals that are almost the same belong to the
-    same symmetries."""
+    """(count, generators): of the matrices, nearest first, the number in the largest group, and the places of some that
+    generate it. Residuals that are almost the same belong to the same symmetries."""
     ends = np.flatnonzero(np.diff(residuals, append=np.inf) > GAP * allowed) + 1
     for count in ends[::-1]:
-        if _table(matrices[:count]) is not None:
-            return int(count)
+        generators = _generators(matrices[:count])
+        if generators is not None:
+            return int(count), generators
     raise Error("the symmetries of the periods do not form a group")
 
 
-def _table(matrices):
-    """(k, k) index of the product of each two matrices; None where one is none of them."""
-    count, n, _ = matrices.shape
-    keys = {matrix.tobytes(): i for i, matrix in enumerate(matrices)}
-    products = np.einsum("aij,bjk->abik", matrices, matrices).reshape(-1, n, n)
-    table = np.fromiter((keys.get(product.tobytes(), -1) for product in products), int, len(products))
-    return None if (table < 0).any() else table.reshape(count, count)
-
-
-def _generators(table):
-    """Few elements that generate the group with this table."""
-    identity = int(np.flatnonzero((table == np.arange(len(table))).all(axis=1))[0])
-    reached, chosen = np.array([identity]), []
-    while len(reached) < len(table):
-        chosen.append(int(np.setdiff1d(np.arange(len(table)), reached)[0]))
-        size = 0
-        reached = np.union1d(reached, chosen)
-        while len(reached) > size:
-            size = len(reached)
-            reached = np.unique(np.concatenate([reached, table[np.ix_(reached, chosen)].ravel()]))
+def _generators(matrices):
+    """Places of few matrices that generate all; None where these are no group. A finite set is one if it is closed
+    under products with matrices whose products reach all of it."""
+    places = {matrix.tobytes(): i for i, matrix in enumerate(matrices)}
+    reached = np.zeros(len(matrices), bool)
+    reached[places[np.eye(matrices.shape[1], dtype=matrices.dtype).tobytes()]] = True
+    chosen, moves = [], []
+    while not reached.all():
+        chosen.append(int(np.argmin(reached)))
+        products = np.ascontiguousarray(matrices @ matrices[chosen[-1]])
+        moves.append(np.array([places.get(product.tobytes(), -1) for product in products]))
+        if (moves[-1] < 0).any():
+            return None
+        before = 0
+        while reached.sum() > before:
+            before = reached.sum()
+            for move in moves:
+                reached[move[reached]] = True
     return chosen

@@ -5,12 +5,15 @@ from itertools import product
 
 import numpy as np
 
+from . import _native
 from ._native import TopologyError
 from .closed import ConformalStructure
 from .known_periods import period_lattice
 from .siegel import siegel_reduction
 
 SMALLEST_TERM = 40.0  # terms below exp(-this) are left out of a theta series
+VANISHING = 1e-6  # a theta constant that is certainly below it vanishes, if all others are certainly above `OTHERS`:
+OTHERS = 1e-2  # where handles are far from each other, several are small, and the surface may be any
 ROUNDING = 1e-12  # relative: more than that of a term, its exponent below SMALLEST_TERM, and of a reduced period matrix
 
 
@@ -29,24 +32,31 @@ class Hyperelliptic:
 
 def hyperelliptic(structure: ConformalStructure) -> Hyperelliptic:
     """A `Hyperelliptic` of a closed structure of genus 1 to 3: "no" where the bounds exclude that an even theta
-    constant vanishes, "yes" where one is below half of the bound of its error.
+    constant vanishes. "yes" where the triangles have a half turn whose quotient is a sphere, or the bounds show that
+    one theta constant is below 1e-6, and all others are not small. So narrower bounds make no "yes" a "no".
 
     Raises TopologyError for other surfaces.
     """
-    genus = structure._component.genus
-    if not isinstance(structure, ConformalStructure) or genus > 3:
-        raise TopologyError(
-            f"theta constants recognise hyperelliptic surfaces only up to genus 3; the surface has genus {genus}"
-        )
-    if genus < 3:
+    if not isinstance(structure, ConformalStructure) or structure._component.genus > 3:
+        raise TopologyError("theta constants recognise hyperelliptic surfaces only if they are closed, of genus 1 to 3")
+    component = structure._component
+    if component.genus < 3:
         return Hyperelliptic("yes")
     omega = siegel_reduction(structure.period_matrix).period_matrix
-    values, errors = zip(*even_theta_constants(omega, np.expm1(period_lattice(structure).radius())))
-    sizes, errors = np.abs(values), np.array(errors)
-    i = int(np.argmin(sizes))
-    if (sizes > errors).all():
-        return Hyperelliptic("no", float(sizes[i]), float(errors[i]))
-    return Hyperelliptic("yes" if sizes[i] <= errors[i] / 2 else "undecided", float(sizes[i]), float(errors[i]))
+    values, errors = map(np.array, zip(*even_theta_constants(omega, np.expm1(period_lattice(structure).radius()))))
+    order = np.argsort(np.abs(values), kind="stable")
+    sizes, errors = np.abs(values)[order], errors[order]
+    is_bounded = structure.period_bounds is not None
+    verdict = "undecided"
+    if _native.has_hyperelliptic_turn(component._native, 3, None) or (is_bounded and _vanishes(sizes, errors)):
+        verdict = "yes"
+    elif is_bounded and (sizes > errors + VANISHING).all():
+        verdict = "no"
+    return Hyperelliptic(verdict, float(sizes[0]), float(errors[0]))
+
+
+def _vanishes(sizes, errors):
+    return sizes[0] + errors[0] <= VANISHING and (sizes[1:] >= errors[1:] + OTHERS).all()
 
 
 def even_theta_constants(omega, change=0.0):

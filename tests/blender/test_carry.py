@@ -62,7 +62,7 @@ def test_to_the_image_of_a_conformal_map(capfd, source, is_mirrored):
     target.scale = (-1 if is_mirrored else 1, 1, 1)
     result, said = carry(capfd, source, target)
     assert result == {"FINISHED"}
-    verdict = "Mirror images" if is_mirrored else "Equivalent"
+    verdict = "Mirror images within" if is_mirrored else "Indistinguishable within"
     assert f'Source to Target, UV map "Holomorphic": {verdict}' in said
     expected = sides_of(source, faces)
     difference = np.linalg.norm(sides_of(target, faces) - expected, axis=2)

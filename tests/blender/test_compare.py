@@ -22,7 +22,7 @@ def test_an_object_and_its_image(capfd):
     second.matrix_world = np.diag([2.0, 2.0, 2.0, 1.0])
     result, said = compare(capfd, first, second)
     assert result == {"FINISHED"}
-    assert "First, Second: Equivalent: their periods agree to rounding" in said
+    assert "First, Second: Equivalent: their triangles are similar, to rounding." in said
 
 
 def test_a_negative_scale_is_a_mirror_image(capfd):
@@ -37,7 +37,7 @@ def test_a_negative_scale_is_a_mirror_image(capfd):
     second.scale = (-1, 1, 1)
     result, said = compare(capfd, first, second)
     assert result == {"FINISHED"}
-    assert "First, Second: Mirror images of each other: their periods agree" in said
+    assert "First, Second: Mirror images of each other: their triangles are similar" in said
     third = mesh_object("Third", vertices * (-1, 1, 1), faces[:, ::-1])
     assert "First, Third: Mirror images of each other" in compare(capfd, first, third)[1]
 

@@ -175,7 +175,7 @@ def random_pair(number):
     mesh = without_symmetry(RANDOM[name](number), random)
     image, order = random_image(mesh, random)
     is_mirrored = number % 4 == 3
-    expected = ("mirror_image" if is_mirrored else "equivalent") if name in RIGID else ""
+    expected = ("mirror_image" if is_mirrored else "indistinguishable") if name in RIGID else ""
     if is_mirrored:
         return Pair(f"{name}, mirrored image", mesh, families.mirrored(image), order, expected)
     return Pair(f"{name}, image", mesh, image, order, expected)

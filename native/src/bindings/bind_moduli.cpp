@@ -8,6 +8,7 @@
 #include "moduli/continuation.h"
 #include "moduli/equivalence.h"
 #include "moduli/map_derivatives.h"
+#include "moduli/similarities.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -15,10 +16,11 @@ namespace {
 using moduli::PeriodLattice;
 using SurfacePointer = std::shared_ptr<mesh::Surface>;
 
-moduli::Comparison compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, const py::object& progress) {
+moduli::Comparison compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, double needed,
+                           const py::object& progress) {
   Execution execution(1, callback(progress));
   const py::gil_scoped_release unlocked;
-  return moduli::compare(a, b, allowed, moduli::kMostSteps, execution);
+  return moduli::compare(a, b, allowed, needed, moduli::kMostSteps, execution);
 }
 
 moduli::Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, int sign, double slack,
@@ -26,6 +28,20 @@ moduli::Isometries isometries(const PeriodLattice& a, const PeriodLattice& b, in
   Execution execution(1, callback(progress));
   const py::gil_scoped_release unlocked;
   return moduli::isometries(a, b, {sign, slack}, execution);
+}
+
+// The dilatation of a similarity of two connected surfaces; None where none was found.
+std::optional<double> similarity(const mesh::Surface& a, const mesh::Surface& b, int sign, const py::object& progress) {
+  Execution execution(1, callback(progress));
+  const py::gil_scoped_release unlocked;
+  const auto found = moduli::similarities(a, b, {.sign = sign}, execution);
+  return found.empty() ? std::nullopt : std::optional(found.front().dilatation);
+}
+
+bool has_hyperelliptic_turn(const mesh::Surface& surface, int genus, const py::object& progress) {
+  Execution execution(1, callback(progress));
+  const py::gil_scoped_release unlocked;
+  return moduli::has_hyperelliptic_turn(surface, genus, execution);
 }
 
 // The slopes of n forms on the edges in the triangles, #T x n x 2.
@@ -126,7 +142,7 @@ void bind_moduli(py::module_& m) {
   using moduli::Isometries;
   using moduli::Isometry;
   py::enum_<moduli::Verdict>(m, "Verdict")
-      .value("equivalent", moduli::Verdict::equivalent)
+      .value("indistinguishable", moduli::Verdict::indistinguishable)
       .value("mirror_image", moduli::Verdict::mirror_image)
       .value("not_equivalent", moduli::Verdict::not_equivalent)
       .value("undecided", moduli::Verdict::undecided);
@@ -167,7 +183,11 @@ void bind_moduli(py::module_& m) {
   m.def("form_slopes", &form_slopes);
   m.attr("isometry_steps") = moduli::kMostSteps;
   m.def("short_basis", [](const Eigen::MatrixXd& form) { return copy(moduli::short_basis(form)); });
-  m.def("compare", &compare, py::arg("first"), py::arg("second"), py::arg("allowed"), py::arg("progress"));
+  m.def("similarity", &similarity, py::arg("first"), py::arg("second"), py::arg("sign"), py::arg("progress"));
+  m.def("has_hyperelliptic_turn", &has_hyperelliptic_turn, py::arg("surface"), py::arg("genus"), py::arg("progress"));
+  m.def("symplectic_basis", [](const topology::IntegerMatrix& W) { return copy(topology::symplectic_basis(W)); });
+  m.def("compare", &compare, py::arg("first"), py::arg("second"), py::arg("allowed"), py::arg("needed"),
+        py::arg("progress"));
   m.def("isometries", &isometries, py::arg("first"), py::arg("second"), py::arg("sign"), py::arg("slack"),
         py::arg("progress"));
 }

@@ -25,21 +25,16 @@ const Isometry* nearest(const Isometries& isometries) {
   return found == isometries.found.end() ? nullptr : &*found;
 }
 
-// For both surfaces the geometric mean, so that a coarse mesh is not taken for all that it may be; the other's where
-// one is exact.
-double common_bars(double of_a, double of_b) {
-  return std::min(of_a, of_b) > kRounding ? std::sqrt(of_a * of_b) : std::max(of_a, of_b);
-}
-
 class Judge {
  public:
-  Judge(const PeriodLattice& a, const PeriodLattice& b, double allowed, std::int64_t steps, Execution& execution)
-      : a_(a), b_(b), allowed_(allowed), steps_(steps), execution_(execution) {}
+  Judge(const PeriodLattice& a, const PeriodLattice& b, double allowed, double needed, std::int64_t steps,
+        Execution& execution)
+      : a_(a), b_(b), allowed_(allowed), needed_(needed), steps_(steps), execution_(execution) {}
 
   Comparison run() {
     const double of_a = radius(a_), of_b = radius(b_);
     execution_.stage("integer matrices", 0, 0.3);
-    const bool agree = look_near(std::max({kRounding, allowed_, kAgreement * common_bars(of_a, of_b)}));
+    const bool agree = look_near(std::max({kRounding, allowed_, needed_}));
     execution_.stage("integer matrices", 0.3, 0.6);
     if (!agree) take_nearest(a_, b_, allowed_, result_.is_complete);
     const double found = result_.isometry ? result_.isometry->residual : std::numeric_limits<double>::infinity();
@@ -57,7 +52,7 @@ class Judge {
     bool is_complete = true;
     for (double part = kFirstPart; is_complete && part <= 1; part *= kGrowth) {
       if (!take_nearest(a, b, std::max(kRounding, part * needed), is_complete)) continue;
-      result_.verdict = result_.sign > 0 ? Verdict::equivalent : Verdict::mirror_image;
+      result_.verdict = result_.sign > 0 ? Verdict::indistinguishable : Verdict::mirror_image;
       result_.margin = needed - result_.isometry->residual;
       return true;
     }
@@ -94,7 +89,7 @@ class Judge {
   }
 
   const PeriodLattice &a_, &b_;
-  double allowed_;
+  double allowed_, needed_;
   std::int64_t steps_;
   Execution& execution_;
   Comparison result_;
@@ -102,9 +97,9 @@ class Judge {
 
 }  // namespace
 
-Comparison compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, std::int64_t steps,
+Comparison compare(const PeriodLattice& a, const PeriodLattice& b, double allowed, double needed, std::int64_t steps,
                    Execution& execution) {
-  return Judge(a, b, allowed, steps, execution).run();
+  return Judge(a, b, allowed, needed, steps, execution).run();
 }
 
 }  // namespace holomorph::moduli

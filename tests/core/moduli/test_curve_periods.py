@@ -1,10 +1,13 @@
 """Period matrices of curves against lattices, theta constants and symmetric curves that are known."""
 
+import pickle
+
+import curves
 import numpy as np
 import pytest
 import sextics
 from equivalence import distance
-from holomorph import curve_period_matrix
+from holomorph import SolverError, conformally_equivalent, curve_period_matrix
 from holomorph.igusa import invariants
 from holomorph.siegel import siegel_reduction
 from known_matrices import BOLZA, LAWSON
@@ -54,6 +57,109 @@ def test_igusa_s_invariants_are_those_of_the_coefficients(seed):
         assert abs(ball.value - float(exact)) <= ball.error + 1e-8 * max(abs(float(exact)), 1)
 
 
+# ---- curves that leave no natural order of their branch points -------------------------------------------------
+
+
+def points_of(kind, seed):
+    random = np.random.default_rng(seed)
+    return curves.random_points(kind, int(random.integers(5, 9)), random)
+
+
+def assert_thomae(omega, points):
+    """To the error that is claimed, and to that of theta series."""
+    expected, found = curves.thomae_sizes(points), curves.theta_sizes(omega)
+    # The derivative of log theta by the distance of period matrices is some 10 on reduced ones.
+    assert np.abs(found - expected).max() <= 1e-11 + 10 * expected.max() * omega.error
+    assert omega.error < 0.1
+
+
+@pytest.mark.parametrize("name", curves.NATURAL)
+def test_natural_curves_have_the_theta_constants_of_their_branch_points(name):
+    points = curves.NATURAL[name]
+    assert_thomae(curve_period_matrix(np.poly(points)), points)
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("kind", curves.KINDS)
+def test_random_curves_have_the_theta_constants_of_their_branch_points(kind, seed):
+    points = points_of(kind, seed)
+    assert_thomae(curve_period_matrix(np.poly(points)), points)
+
+
+def assert_equivalent(first, second):
+    found = conformally_equivalent(first, second)
+    assert found.verdict in ("equivalent", "indistinguishable", "mirror_image"), found.sentence
+    assert found.residual <= found.tolerance / 2 and (found.tolerance <= 1e-8) == found.is_proven
+
+
+@pytest.mark.parametrize("name", curves.NATURAL)
+def test_natural_curves_are_their_moebius_images(name):
+    random = np.random.default_rng(1)
+    first = curve_period_matrix(np.poly(curves.NATURAL[name]))
+    assert_equivalent(first, curve_period_matrix(np.poly(1j * curves.NATURAL[name])))
+    assert_equivalent(first, curve_period_matrix(np.poly(curves.moebius_image(curves.NATURAL[name], random))))
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("kind", curves.KINDS)
+def test_random_curves_are_their_moebius_images(kind, seed):
+    points = points_of(kind, seed)
+    images = curves.moebius_image(points, np.random.default_rng(seed))
+    assert_equivalent(*(curve_period_matrix(np.poly(each)) for each in (points, images)))
+
+
+def test_curves_that_differ_by_little_are_told_apart():
+    """y^2 = x (x - 1) (x - 2) (x - 3) (x - 5), with its last branch point moved; and what bounds do not tell."""
+    first = curve_period_matrix(np.poly([0, 1, 2, 3, 5]))
+    verdicts = {1e-2: "not_equivalent", 1e-7: "not_equivalent", 1e-9: "indistinguishable", 1e-14: "equivalent"}
+    for step, verdict in verdicts.items():
+        found = conformally_equivalent(first, curve_period_matrix(np.poly([0, 1, 2, 3, 5 + step])))
+        assert found.verdict == verdict and found.margin < max(step, 1e-9)
+
+
+@pytest.mark.parametrize("kind", curves.KINDS)
+def test_errors_of_coefficients_are_within_the_error(kind):
+    """Each moved by its last bit, they belong to curves that are not told apart."""
+    c = np.poly(points_of(kind, 3))
+    moved = c * (1 + np.finfo(float).eps * np.random.default_rng(2).choice([-1, 1], len(c)))
+    first, second = curve_period_matrix(c), curve_period_matrix(moved)
+    assert conformally_equivalent(first, second).residual <= first.error + second.error
+
+
+def test_the_error_stays_with_the_matrix():
+    omega = curve_period_matrix(np.poly(points_of("clusters", 0)))
+    assert omega.error > 0 and not omega.flags.writeable
+    reduced, copied = siegel_reduction(omega).period_matrix, pickle.loads(pickle.dumps(omega))
+    for same in (reduced, copied, -omega.conj(), omega[::-1, ::-1]):
+        assert same.error == omega.error
+
+
+def test_a_matrix_is_as_exact_as_it_is_symmetric():
+    exact = curve_period_matrix([1, 0, 0, 0, -1, 0])
+    skew = np.array(exact)
+    skew[0, 1] += 1e-9
+    assert 1e-10 < conformally_equivalent(exact, skew).tolerance < 1e-8
+
+
+def test_integer_coefficients_are_exact():
+    """Far from 0 the coefficients have 12 digits, of which rounding would leave none to the periods."""
+    points = np.array([100, 101, 102, 103, 104, 106])
+    far, near = (curve_period_matrix(np.poly(points - shift)) for shift in (0, 103))
+    assert far.error < 1e-11 and conformally_equivalent(far, near).verdict == "equivalent"
+    assert curve_period_matrix(np.poly(points) * 1.1).error > 1e-6
+
+
+@pytest.mark.parametrize("apart", [1e-5, 1e-7])
+def test_near_branch_points_have_more_nodes(apart):
+    points = np.array([0, apart, 1, 2j, 3])
+    assert_thomae(curve_period_matrix([complex(c) for c in np.poly(points)]), points)
+
+
+def test_branch_points_may_be_too_near():
+    with pytest.raises(SolverError, match="two branch points are too close together"):
+        curve_period_matrix([2.0**80, -(2.0**80), -1, 1])  # 1 and +- 2^-40
+
+
 def test_scale_and_place_of_the_roots_do_not_matter():
     roots = np.roots(random_coefficients(5, 3))
     exact = siegel_reduction(curve_period_matrix(np.poly(roots))).period_matrix
@@ -70,6 +176,9 @@ def test_scale_and_place_of_the_roots_do_not_matter():
         ([1, 0, 0, np.inf], "finite numbers"),
         ([[1, 0, 0, 1]], "finite numbers"),
         (np.poly([0, 0, 1, 2, 3]), "multiple root"),
+        (np.poly([1, 1, 2, 3, 5]), "multiple root"),
+        (np.poly([0.1, 0.1 + 1e-9, 1, 2, 3]), "multiple root"),
+        ([1e-320, 1, 0, 0, 1], "first coefficient is too small"),
     ],
 )
 def test_what_is_no_curve(coefficients, reason):

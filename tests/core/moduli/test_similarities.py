@@ -1,0 +1,70 @@
+"""Similar triangulations: found however they are numbered, and only where all angles are the same."""
+
+import families
+import flat_cones
+import numpy as np
+import pytest
+import regular_maps
+from holomorph import _native
+from moebius_images import moebius_image
+from solved import surface_of
+
+MESHES = {
+    "torus": families.triangles_of(families.torus(12, 8, jitter=0.2)),
+    "regular torus": families.triangles_of(families.torus(12, 8)),
+    "handles": families.triangles_of(families.block_with_holes(2, refine=2, jitter=0.2)),
+    "holes": families.punched(families.triangles_of(families.block_with_holes(1, refine=4, jitter=0.1)), 3, seed=1),
+    "cylinder": families.triangles_of(families.cylinder(8, 4)),
+}
+
+
+def similarity(a, b, sign=1):
+    return _native.similarity(surface_of(a)._native, surface_of(b)._native, sign, None)
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_moved_and_renumbered_meshes_are_similar(name):
+    mesh = MESHES[name]
+    moved = families.moved(mesh, scale=1e3)
+    assert similarity(mesh, mesh) <= 1e-12
+    assert similarity(mesh, families.relabelled(moved)[0]) < 1e-9
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_mirrored_meshes_are_similar_with_the_other_orientation(name):
+    mesh = MESHES[name]
+    mirrored = families.mirrored(mesh)
+    assert similarity(mesh, mirrored, -1) < 1e-9
+    if name in ("torus", "handles", "holes"):
+        assert similarity(mesh, mirrored) is None
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_one_moved_vertex_is_seen(name):
+    """By a millionth, wherever it is: the walk looks at all triangles."""
+    mesh = MESHES[name]
+    for v in np.linspace(0, len(mesh.vertices) - 1, 7).astype(int):
+        vertices = mesh.vertices.copy()
+        vertices[v] *= 1 + 1e-6
+        assert similarity(mesh, families.replace(mesh, vertices=vertices)) is None
+
+
+def test_other_surfaces_are_not_similar():
+    torus = MESHES["torus"]
+    assert similarity(torus, moebius_image(torus)) is None
+    assert similarity(torus, families.triangles_of(families.torus(8, 12, jitter=0.2))) is None
+    assert similarity(torus, families.subdivided(torus)) is None
+
+
+@pytest.mark.parametrize("sides", [8, 10, 12, 14, 16])
+def test_the_half_turn_of_a_regular_polygon(sides):
+    """Around its middle: a hyperelliptic curve, with 2g + 2 fixed points; a third of a turn is no half."""
+    flat = flat_cones.regular_polygon(sides)
+    surface = surface_of(flat)._native
+    assert _native.has_hyperelliptic_turn(surface, flat.genus, None)
+    assert not _native.has_hyperelliptic_turn(surface, flat.genus + 1, None)
+
+
+@pytest.mark.parametrize("mesh", [regular_maps.klein_quartic(), regular_maps.fermat_quartic()], ids=["Klein", "Fermat"])
+def test_half_turns_of_other_curves_have_fewer_fixed_points(mesh):
+    assert not _native.has_hyperelliptic_turn(surface_of(mesh)._native, 3, None)
