@@ -16,6 +16,7 @@ TRUNCATION = 1e-20  # of an integral, relative to the bound of its integrand
 ELLIPSE = 0.9  # part of the way to the nearest singularity on which the integrand is bounded
 MOST_NODES = 1 << 18  # of a quadrature: enough beside branch points that are 1e-8 of the edge apart
 STEPS = 4  # of Weierstrass's iteration, which squares the errors of roots that are near already
+MOST_ERROR = 0.7  # of a matrix: its entries may be twice as large
 APART = 0.1  # of the distance of two branch points: each is known to less than this
 
 
@@ -35,7 +36,11 @@ def curve_period_matrix(coefficients: ArrayLike) -> PeriodMatrix:
     a tree. Theirs has the fastest integrals, ours the shortest edges, of which no two cross and no two meet at an angle
     below 60 degrees.
     """
-    roots, radii = _branch_points(coefficients)
+    with np.errstate(all="ignore"):  # what is not finite leaves no bound of the error
+        return _period_matrix(*_branch_points(coefficients))
+
+
+def _period_matrix(roots, radii):
     g = (len(roots) - 1) // 2
     edges = _tree(roots, 2 * g)
     used = roots[np.unique(edges)]
@@ -44,12 +49,25 @@ def curve_period_matrix(coefficients: ArrayLike) -> PeriodMatrix:
     loops = [_integrals(roots, edge, g) for edge in edges]
     values, errors = (np.array([loop[k] for loop in loops]).T for k in range(2))
     basis = _native.symplectic_basis(_intersections(edges, np.array([loop[2] for loop in loops])))
-    periods, errors = values @ basis.T, errors @ np.abs(basis).T
+    try:
+        omega, change = _solved(values @ basis.T, errors @ np.abs(basis).T, roots, radii)
+        error = distance_within(omega, change)
+    except np.linalg.LinAlgError:  # a singular matrix
+        error = np.inf
+    if not error < MOST_ERROR:
+        raise SolverError("the branch points are too close together: rounding leaves no digit of the period matrix")
+    return PeriodMatrix.of(omega, error)
+
+
+def _solved(periods, errors, roots, radii):
+    """(omega, change): a^-1 b of the periods (a, b), symmetric, and how much its entries may change."""
+    g = len(periods)
     a, b = periods[:, :g], periods[:, g:]
-    omega, inverse = np.linalg.solve(a, b), np.linalg.inv(a)
+    inverse = np.linalg.inv(a)
+    omega = np.linalg.solve(a, b)
     error = np.abs(inverse) @ (errors[:, g:] + errors[:, :g] @ np.abs(omega))
     error += _rounding(a, inverse, omega) + _from_roots(roots, radii, inverse) + np.abs(omega - omega.T) / 2
-    return PeriodMatrix.of((omega + omega.T) / 2, distance_within(omega, error))
+    return (omega + omega.T) / 2, error
 
 
 def _branch_points(coefficients):
@@ -59,8 +77,7 @@ def _branch_points(coefficients):
     if given.ndim != 1 or not np.isfinite(given).all():
         raise ValueError("coefficients must be a row of finite numbers, the highest power first")
     c = np.trim_zeros(given, "f")
-    with np.errstate(over="ignore", invalid="ignore"):
-        monic = c / c[0] if len(c) else c
+    monic = c / c[0] if len(c) else c
     if not np.isfinite(monic).all():
         raise ValueError("the first coefficient is too small beside the others")
     roots = np.roots(monic)
@@ -90,6 +107,8 @@ def _corrections(c, size, roots):
     """f(u) / (c_0 prod (u - u_j)) over the other roots u_j (Weierstrass); 0 where two are the same number.
 
     f is evaluated in fractions: roots near each other leave it few digits."""
+    if not np.isfinite(roots).all():
+        return np.full_like(roots, np.inf)
     _, exponent = np.frexp(np.abs(c[0]))
     unit = Fraction(2) ** -int(exponent)
     units = [unit / Fraction(size) ** k for k in range(len(c))]
@@ -103,7 +122,10 @@ def _value(exact, x, y):
     real = imaginary = Fraction(0)
     for a, b in exact:
         real, imaginary = real * x - imaginary * y + a, real * y + imaginary * x + b
-    return complex(real, imaginary)
+    try:
+        return complex(real, imaginary)
+    except OverflowError:
+        return complex(np.inf)
 
 
 def _tree(roots, count):

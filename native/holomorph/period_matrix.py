@@ -34,6 +34,8 @@ class PeriodMatrix(np.ndarray):
 def distance_within(omega, change):
     """A bound of the distance to all matrices whose entries differ by `change` at most; infinite where one of them may
     be no period matrix."""
+    if not (np.isfinite(change).all() and np.linalg.eigvalsh(omega.imag)[0] > 0):
+        return np.inf
     inverse = np.abs(np.linalg.inv(np.linalg.cholesky(omega.imag)))
     # With Im Omega = L L^T, L^-1 E L^-T is the difference seen from i I: the distance is at most -log(1 - its norm).
     norm = np.linalg.norm(inverse @ change @ inverse.T)

@@ -1,6 +1,7 @@
 """Period matrices of curves against lattices, theta constants and symmetric curves that are known."""
 
 import pickle
+import re
 
 import curves
 import numpy as np
@@ -158,6 +159,18 @@ def test_near_branch_points_have_more_nodes(apart):
 def test_branch_points_may_be_too_near():
     with pytest.raises(SolverError, match="two branch points are too close together"):
         curve_period_matrix([2.0**80, -(2.0**80), -1, 1])  # 1 and +- 2^-40
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_coefficients_of_any_size_have_periods_or_are_refused(seed):
+    random = np.random.default_rng(seed)
+    c = random.normal(size=6) * 10.0 ** random.uniform(-40, 40, 6)
+    try:
+        omega = curve_period_matrix(c)
+    except (ValueError, SolverError) as error:
+        assert re.search("too close together|closer together than|too small beside", str(error))
+    else:
+        assert conformally_equivalent(omega, omega).verdict in ("equivalent", "indistinguishable")
 
 
 def test_scale_and_place_of_the_roots_do_not_matter():
