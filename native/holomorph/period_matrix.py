@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import arrays
 
@@ -19,7 +20,8 @@ class PeriodMatrix(np.ndarray):
     error: float = 0.0
 
     @classmethod
-    def of(cls, array, error):
+    def of(cls, array: ArrayLike, error: float) -> PeriodMatrix:
+        """The array, copied, with this error."""
         result = np.array(array, dtype=np.complex128).view(cls)
         result.error = float(error)
         return arrays.frozen(result)
