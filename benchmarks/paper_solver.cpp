@@ -84,7 +84,8 @@ void print_paper(const System& system, const multiresolution::PaperLevels& level
   options.scaling = scaling;
   Execution silent;
   double seconds = 0;
-  const auto start = timed(seconds, [&] { return multiresolution::paper_estimation(levels, options, silent); });
+  const auto start = timed(
+      seconds, [&] { return multiresolution::paper_estimation(levels, thresholds(levels, options), options, silent); });
   std::cout << "{\"levels_seconds\": " << seconds << ", \"levels\": [";
   const char* separator = "";
   for (const auto& level : start.levels) {

@@ -24,9 +24,25 @@ def square_with(point):
     return surface, rectangle_map(surface, [0, 20, 24, 4])
 
 
-def needles(width):
+def refined_at(mesh, vertex, times, part):
+    """A mesh of triangles, those at a vertex cut into three again and again: each ring of vertices around it is nearer
+    than the last by the factor `part`, so that triangles between them are as thin as 1 - part."""
+    points, faces = mesh.vertices, mesh.corners.reshape(-1, 3)
+    for _ in range(times):
+        is_here = (faces == vertex).any(axis=1)
+        here = faces[is_here]
+        _, a, b = np.take_along_axis(here, (np.argmax(here == vertex, axis=1)[:, None] + np.arange(3)) % 3, axis=1).T
+        ring = np.unique(a)
+        p, q = len(points) + np.searchsorted(ring, a), len(points) + np.searchsorted(ring, b)
+        points = np.vstack([points, points[vertex] + part * (points[ring] - points[vertex])])
+        cut = [np.full_like(p, vertex), p, q], [p, a, b], [p, b, q]
+        faces = np.vstack([faces[~is_here], *(np.column_stack(corners) for corners in cut)])
+    return families.uniform(points, faces, mesh.topology)
+
+
+def needles(width, n=60, m=40):
     """A torus in which vertices nearly meet: triangles so thin that weights reach 1 / width."""
-    mesh = families.torus(60, 40, shape="triangles")
+    mesh = families.torus(n, m, shape="triangles")
     points = mesh.vertices.copy()
     for triangle in mesh.corners.reshape(-1, 3)[::7]:
         points[triangle[0]] = (1 - width) * points[triangle[1]] + width * points[triangle[0]]

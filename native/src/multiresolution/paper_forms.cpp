@@ -1,11 +1,12 @@
 #include "multiresolution/paper_forms.h"
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 #include <set>
-#include <sstream>
+#include <utility>
 
-#include "base/errors.h"
+#include "solver/solver_choice.h"
 
 namespace holomorph::multiresolution {
 namespace {
@@ -19,9 +20,9 @@ double faces(const PaperLevels& levels, int splits) {
 }
 
 // Estimates the part of the work that conjugate gradients on M take, by its part of the faces of all levels.
-double last_part(const PaperLevels& levels, const PaperOptions& options) {
+double last_part(const PaperLevels& levels, const std::vector<int>& coarse) {
   double work = faces(levels, levels.splits);
-  for (const int k : thresholds(levels, options)) work += faces(levels, k);
+  for (const int k : coarse) work += faces(levels, k);
   return faces(levels, levels.splits) / work;
 }
 
@@ -29,6 +30,9 @@ structure::LevelReport level_report(const PaperLevels& levels, int splits, const
                                     Clock::time_point start) {
   return {static_cast<std::int64_t>(faces(levels, splits)), report.iterations, seconds_since(start)};
 }
+
+// Without rounding, as many iterations as unknowns are enough.
+int most_iterations(const solver::Laplacian& L) { return std::min(100'000, 10 * L.size()); }
 
 // Step 5(b) for all splits between two levels; on M0 nothing is known yet.
 Eigen::MatrixXd prolonged(const Eigen::MatrixXd& X, const std::vector<int>& from, const std::vector<int>& to,
@@ -80,8 +84,8 @@ std::vector<int> thresholds(const PaperLevels& levels, const PaperOptions& optio
   return {splits.rbegin(), splits.rend()};
 }
 
-PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution) {
-  const std::vector<int> coarse = thresholds(levels, options);
+PaperEstimation paper_estimation(const PaperLevels& levels, const std::vector<int>& coarse, const PaperOptions& options,
+                                 Execution& execution) {
   double work = 0, done = 0;
   for (const int k : coarse) work += faces(levels, k);
   PaperEstimation result;
@@ -112,46 +116,73 @@ PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& 
 PaperSolver::PaperSolver(const PaperLevels& levels, solver::Laplacian&& L, const PaperOptions& options)
     : levels_(levels), L_(std::move(L)), options_(options) {}
 
-solver::Solution PaperSolver::solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>&,
+solver::Solution PaperSolver::solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
                                     Execution& execution) {
   // The first call is for the forms themselves, all later ones for corrections.
-  return reports_.empty() ? improved(B, execution) : correction(B, execution);
+  return std::exchange(is_begun_, true) ? correction(B, conditions, execution) : improved(B, conditions, execution);
 }
 
 std::string PaperSolver::name() const {
+  if (is_begun_ && reports_.empty()) return direct_->name();
   const std::string name = options_.scaling == solver::Scaling::none ? "plain" : "scaled";
   return "paper: " + name + " conjugate gradients, " + std::to_string(reports_.size()) + " levels";
 }
 
-solver::Solution PaperSolver::improved(const Eigen::MatrixXd& B, Execution& execution) {
-  const double before = 1 - last_part(levels_, options_);
+// Whether conjugate gradients from these levels reach the goal, or what rounding allows.
+bool PaperSolver::improve(const std::vector<int>& coarse, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
+                          Execution& execution) {
+  const double before = 1 - last_part(levels_, coarse);
   execution.part(0, before);
   auto estimation = [&] {
     const Execution::Within within(execution);
-    return paper_estimation(levels_, options_, execution);
+    return paper_estimation(levels_, coarse, options_, execution);
   }();
   execution.part(before, 1);
   const auto start = Clock::now();
-  const solver::GradientOptions gradients{options_.scaling, options_.residual};
-  const auto last = solver::conjugate_gradients(L_, B, estimation.functions, gradients, execution);
+  X = std::move(estimation.functions);
+  const auto last =
+      solver::conjugate_gradients(L_, B, X, {options_.scaling, options_.residual, most_iterations(L_)}, execution);
+  if (!last.converged && !last.is_rounding) {
+    remark_ += remark_.empty() ? "conjugate gradients did not converge from " : ", nor from ";
+    remark_ += std::to_string(coarse.size()) + " coarse levels";
+    return false;
+  }
   reports_ = std::move(estimation.levels);
   reports_.push_back(level_report(levels_, levels_.splits, last, start));
   iterations_ = last.iterations;
   residual_ = last.residual;
-  if (last.converged) return std::move(estimation.functions);
-  std::ostringstream message;
-  message << "the paper's solver reached a relative residual of " << last.residual << " instead of "
-          << options_.residual << " after " << last.iterations << " iterations, on a system of " << B.rows()
-          << " unknowns; take one of auto, direct, multigrid";
-  throw SolverError(message.str());
+  return true;
 }
 
-solver::Solution PaperSolver::correction(const Eigen::MatrixXd& B, Execution& execution) const {
+solver::Solution PaperSolver::improved(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
+                                       Execution& execution) {
+  Eigen::MatrixXd X;
+  for (auto coarse = thresholds(levels_, options_); !improve(coarse, B, X, execution); coarse.pop_back()) {
+    if (coarse.empty()) return solved_directly(B, conditions, execution);
+  }
+  return X;
+}
+
+solver::Solution PaperSolver::correction(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
+                                         Execution& execution) {
+  if (direct_) return solved_directly(B, conditions, execution);
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(B.rows(), B.cols());
-  const auto report = solver::conjugate_gradients(L_, B, X, {}, execution);
-  if (report.converged) return X;
-  throw SolverError("conjugate gradients failed to refine the harmonic forms on a system of " +
-                    std::to_string(B.rows()) + " unknowns; take one of auto, direct, multigrid");
+  const auto report = solver::conjugate_gradients(L_, B, X, {.most_iterations = most_iterations(L_)}, execution);
+  if (report.converged || report.is_rounding) return X;
+  remark_ += (remark_.empty() ? "" : "; ") + std::string("conjugate gradients did not converge to a correction");
+  return solved_directly(B, conditions, execution);
+}
+
+solver::Solution PaperSolver::solved_directly(const Eigen::MatrixXd& B,
+                                              const std::vector<solver::Condition>& conditions, Execution& execution) {
+  if (!direct_) {
+    remark_ += "; the direct solver took over";
+    direct_ = solver::make_solver(solver::Method::direct, std::move(L_), {}, execution);
+  }
+  solver::Solution X = direct_->solve(B, conditions, execution);
+  residual_ = std::max(residual_, direct_->residual());
+  iterations_ = std::max(iterations_, direct_->iterations());
+  return X;
 }
 
 }  // namespace holomorph::multiresolution

@@ -44,29 +44,43 @@ struct PaperEstimation {
 
 /// Does steps 4 and 5: returns the initial guess on M, and a report of all levels but M. A threshold's residual need
 /// not be small: simplification changes the solution by some thousandths from one level to the next.
-PaperEstimation paper_estimation(const PaperLevels& levels, const PaperOptions& options, Execution& execution);
+/// @param coarse the levels, numbers of splits as from `thresholds`
+PaperEstimation paper_estimation(const PaperLevels& levels, const std::vector<int>& coarse, const PaperOptions& options,
+                                 Execution& execution);
 
 /// Steps 4 to 6 as a solver: the first right-hand sides are those of all harmonic forms, in the order of
-/// `PaperLevels::base_classes`, and begin with the estimation. Those of corrections begin at zero.
+/// `PaperLevels::base_classes`, and begin with the estimation. Where conjugate gradients do not converge from it, as
+/// among very thin triangles, they begin from one level less, and so on; where not even from zero, the direct solver
+/// takes over. The remark says so. Right-hand sides of corrections begin at zero.
 /// @pre `levels` outlives this
 class PaperSolver final : public solver::LaplaceSolver {
  public:
   /// @param L of the surface, or of its double, in its own numbering
   PaperSolver(const PaperLevels& levels, solver::Laplacian&& L, const PaperOptions& options);
 
-  solver::Solution solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>&,
+  solver::Solution solve(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
                          Execution& execution) override;
   std::string name() const override;
+  std::string remark() const override { return remark_; }
+  /// Those from which the forms were solved for, and the surface; none where the direct solver took over.
   const std::vector<structure::LevelReport>& levels() const { return reports_; }
 
  private:
-  solver::Solution improved(const Eigen::MatrixXd& B, Execution& execution);
-  solver::Solution correction(const Eigen::MatrixXd& B, Execution& execution) const;
+  bool improve(const std::vector<int>& coarse, const Eigen::MatrixXd& B, Eigen::MatrixXd& X, Execution& execution);
+  solver::Solution improved(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
+                            Execution& execution);
+  solver::Solution correction(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
+                              Execution& execution);
+  solver::Solution solved_directly(const Eigen::MatrixXd& B, const std::vector<solver::Condition>& conditions,
+                                   Execution& execution);
 
   const PaperLevels& levels_;
   solver::Laplacian L_;
   PaperOptions options_;
   std::vector<structure::LevelReport> reports_;
+  bool is_begun_ = false;
+  std::unique_ptr<solver::LaplaceSolver> direct_;
+  std::string remark_;
 };
 
 }  // namespace holomorph::multiresolution

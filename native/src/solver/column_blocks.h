@@ -8,6 +8,9 @@
 
 namespace holomorph::solver {
 
+/// The part of the terms of B - L X, |L| |X| + |B|, up to which a residual is rounding: a few dozen rounding errors.
+inline constexpr double kRoundingOfTerms = 1e-14;
+
 /// Calls solve(K, begin, end) with a constant K for the columns begin .. end-1: blocks of 8, and at the end one of 4 or
 /// 2 where that is enough.
 template <class Solve>

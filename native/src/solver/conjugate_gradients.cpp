@@ -65,6 +65,7 @@ class Gradients {
     } while (!(norm <= goal).all() && ((norm <= goal) || (norm < kLeastGain * before)).all());
     result.residual = largest_relative(norm, norm_b);
     result.converged = (norm <= goal).all();
+    result.is_rounding = (norm <= kRoundingOfTerms * terms(b)).all();
     for (int i = 0; i < n_; ++i) {
       for (int d = 0; d < width; ++d) X(i, first + d) = x_[i][d];
     }
@@ -96,6 +97,18 @@ class Gradients {
                          [&](int i, Values<K>& sum) {
                            r_[i] -= mean;
                            sum += r_[i].square();
+                         })
+        .sqrt();
+  }
+
+  // The norms of the terms that the residual is the difference of.
+  Values<K> terms(const Array<Values<K>>& b) const {
+    return sum_over_rows(workers_, n_, zero(),
+                         [&](int i, Values<K>& sum) {
+                           Values<K> size = b[i].abs();
+                           for (int e = L_.starts[i]; e < L_.starts[i + 1]; ++e)
+                             size += std::abs(L_.weights[e]) * x_[L_.columns[e]].abs();
+                           sum += size.square();
                          })
         .sqrt();
   }
@@ -142,7 +155,7 @@ class Gradients {
 
 GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B, Eigen::MatrixXd& X,
                                    const GradientOptions& options, Execution& execution) {
-  GradientReport total{0, 0, true};
+  GradientReport total{0, 0, true, true};
   for_column_blocks(B.cols(), [&](auto width_of_block, Eigen::Index begin, Eigen::Index end) {
     constexpr int K = width_of_block;
     Gradients<K> gradients(L, options, execution);
@@ -152,6 +165,7 @@ GradientReport conjugate_gradients(const Laplacian& L, const Eigen::MatrixXd& B,
       total.iterations = std::max(total.iterations, block.iterations);
       total.residual = std::max(total.residual, block.residual);
       total.converged = total.converged && block.converged;
+      total.is_rounding = total.is_rounding && block.is_rounding;
     }
   });
   return total;

@@ -20,6 +20,7 @@ struct GradientReport {
   int iterations = 0;
   double residual = 0;  ///< largest |B - L X| / |B| reached, computed anew at the end
   bool converged = false;
+  bool is_rounding = false;  ///< for every right-hand side, no more is left than rounding of |L| |X| + |B|
 };
 
 /// Improves X until the residual is reached, beginning with the values that it has. The constants, the kernel of L, are

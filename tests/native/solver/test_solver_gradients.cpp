@@ -40,6 +40,7 @@ TEST_P(Gradients, NeverPassMostIterations) {
     const GradientReport report = conjugate_gradients(L, B, X, few, execution);
     EXPECT_EQ(report.iterations, most);
     EXPECT_FALSE(report.converged);
+    EXPECT_FALSE(report.is_rounding);
     EXPECT_NEAR(report.residual, relative_residual(L, X, B), 1e-12);
   }
 }
@@ -54,6 +55,11 @@ TEST_P(Gradients, AGoalOutOfReachEnds) {
   Execution execution(1);
   const GradientReport report = conjugate_gradients(L, B, X, unreachable, execution);
   EXPECT_FALSE(report.converged);
+  // A fifth of the limit, or five times as much: the residual is rounded itself.
+  const Eigen::MatrixXd terms = L.matrix().cwiseAbs() * X.cwiseAbs() + B.cwiseAbs();
+  const double left = ((B - L.matrix() * X).colwise().norm().array() / terms.colwise().norm().array()).maxCoeff();
+  EXPECT_LE(left < 0.2e-14, report.is_rounding);
+  EXPECT_LE(report.is_rounding, left < 5e-14);
   EXPECT_LE(report.iterations, unreachable.most_iterations);
   EXPECT_TRUE(X.allFinite());
 }

@@ -17,9 +17,6 @@ constexpr Eigen::Index kLeastBlock = 4;
 // Refinement goes on to this residual while it helps; the promise is kResidual.
 constexpr double kGoal = 1e-13;
 constexpr int kMostRefinements = 4;
-// Among slivers, weights are so large that b - L x cannot be computed to kResidual |b|: a solution is also taken where
-// the residual is no more than this part of the terms that it is the difference of, a few dozen rounding errors.
-constexpr double kRounding = 1e-14;
 
 // L without the row and column of one vertex, lower triangle: positive definite for a connected surface.
 Laplacian::Matrix pinned(const Eigen::Map<const Laplacian::Matrix>& L, Eigen::Index vertex, Execution& execution) {
@@ -137,9 +134,10 @@ class DirectSolver final : public LaplaceSolver {
     return R;
   }
 
+  // Among slivers, weights are so large that b - L x cannot be computed to kResidual |b|.
   bool is_rounding(const Eigen::MatrixXd& R, const Eigen::MatrixXd& X, const Eigen::MatrixXd& B) const {
     const Eigen::MatrixXd terms = L_.matrix().cwiseAbs() * X.cwiseAbs() + B.cwiseAbs();
-    return (R.colwise().norm().array() <= kRounding * terms.colwise().norm().array()).all();
+    return (R.colwise().norm().array() <= kRoundingOfTerms * terms.colwise().norm().array()).all();
   }
 
   static double relative(const Eigen::MatrixXd& R, const Eigen::MatrixXd& B) {
