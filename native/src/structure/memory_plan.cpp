@@ -12,17 +12,16 @@ namespace {
 // Bytes, as measured and rounded up: tests/core/structure/test_memory_limit.py holds the sum against the peak.
 // Half-edges twice, lengths, weights, integer classes twice, fundamental domain, Laplacian, not all of them at the same
 // time: per edge.
-constexpr double kPerEdge = 200;
+constexpr double kPerEdge = 150;
 // The hierarchy of multigrid, and its vectors for 8 right-hand sides at once: per vertex.
-constexpr double kMultigrid = 400;
+constexpr double kMultigrid = 350;
 // One right-hand side, its solution, and the solution as a row-major function: per vertex.
 constexpr double kPerColumn = 24;
 // The direct solver's own copies of a block of right-hand sides: six of at least 4 vectors or half a million numbers.
 constexpr double kDirectCopies = 6 * 8, kDirectVectors = 4, kDirectEntries = 500'000;
-// Dense matrices of #forms x #forms that are there at once: of integers, the Gram matrix, its projection.
-constexpr double kDenseMatrices = 14;
-// Values on two sides of each of 3000 triangles, and both parts of the forms there for the balance.
-constexpr double kPerSample = 3000 * 8 * 6;
+// Dense matrices of #forms x #forms that are there at once: of integers, the Gram matrix and its bounds, its
+// projection.
+constexpr double kDenseMatrices = 40;
 // Blocks of the whole set of forms take this much where nothing is asked for.
 constexpr double kDefaultBlock = 2.5e8;
 // Multigrid runs on 8 right-hand sides at a time, on 4 or 2 where there are no more.
@@ -39,7 +38,7 @@ double solver_bytes(solver::Method method, const Extent& extent) {
 double fixed_bytes(solver::Method method, const Extent& extent) {
   const auto forms = static_cast<double>(extent.forms);
   return kPerEdge * static_cast<double>(extent.edges) + solver_bytes(method, extent) +
-         kDenseMatrices * 8 * forms * forms + kPerSample * forms;
+         kDenseMatrices * 8 * forms * forms;
 }
 
 // The solver asked for, or the one that "auto" chooses: multigrid if the factor and `forms` bytes more do not fit.

@@ -201,7 +201,14 @@ print(status("VmHWM") - before, plan.bytes)
 @pytest.mark.skipif(not Path("/proc/self/clear_refs").exists(), reason="the peak is Linux's to tell")
 @pytest.mark.parametrize("solver", ["direct", "multigrid"])
 @pytest.mark.parametrize(
-    "mesh", ["families.torus(200, 150)", "families.block_with_holes(8, refine=8)", "families.scaffold(3)"]
+    "mesh",
+    [
+        "families.torus(300, 250)",
+        "families.block_with_holes(8, refine=8)",
+        "families.block_with_holes(60, refine=3)",
+        "families.scaffold(3)",
+        "families.scaffold(5)",
+    ],
 )
 def test_the_estimate_and_the_peak(mesh, solver):
     """2 MB are what the allocators keep."""
