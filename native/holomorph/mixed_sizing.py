@@ -18,11 +18,12 @@ from .map_choice import FLAT, GOOD, MOST_SOFT, REFUSALS, Refusal, Undecided, fir
 from .mixed_map import mixed_map
 from .pieces import REST, Piece, cut_apart, names_of_pieces, smooth_pieces
 from .progress import scaled
-from .sizing import SAME_SIZE, Sizing, Tried, Window, is_in, nearest, relative_size
+from .sizing import Sizing, Tried, Window, is_in, nearest, relative_size, window_around
 from .tiling import Poles
 from .tubes import closed, is_tube, opened
 
 MIXING = 0.5  # part of the work, for the pieces
+EXACT = (1.0, 1.0)  # the window of the wanted density alone
 
 
 @dataclass(frozen=True)
@@ -130,7 +131,7 @@ class MixedSizing:
         """The map in pieces if that costs less, or else the other one. The density of the largest piece is the one near
         `density` that whole tiles allow.
         """
-        found = self._in_pieces(density, tries, SAME_SIZE, scaled(progress, 0.0, MIXING))
+        found = self._in_pieces(density, tries, window_around(), scaled(progress, 0.0, MIXING))
         other = self.part.other
         if isinstance(other, Map) or found.is_good:
             return found.or_else(other)
@@ -138,7 +139,7 @@ class MixedSizing:
 
     def tried(self, density: float, tries: int, progress: Progress | None) -> Tried:
         """Tries the map in pieces, as a tiling, if that costs less, or else whole tilings."""
-        found = self._in_pieces(density, 0, SAME_SIZE, scaled(progress, 0.0, MIXING))
+        found = self._in_pieces(density, 0, window_around(), scaled(progress, 0.0, MIXING))
         other, is_map = self.part.other, isinstance(self.part.other, Map)
         if found.is_good and not is_map:
             return Tried([found.map], None)
@@ -153,25 +154,25 @@ class MixedSizing:
         if tried.tilings and tried.tilings[0].mixed:
             (made,) = tried.tilings
             is_inside = is_in(window, relative_size(made, density))
-            return made if is_inside else self._in_pieces(density, 0, 0.0, progress).map or made
+            return made if is_inside else self._in_pieces(density, 0, EXACT, progress).map or made
         other = self.part.other
         return other if isinstance(other, Map) else self._sizing(other).settled(tried, density, window, progress)
 
-    def _in_pieces(self, density, tries, near, progress):
+    def _in_pieces(self, density, tries, window, progress):
         """The `_Found` of least cost among the divisions.
 
-        near : relative difference of pieces' densities from the one that is wanted
+        window : of pieces' densities over the one that is wanted
         """
         best, count = _Found(), len(self.part.divisions)
         for n, division in enumerate(self.part.divisions):
-            tiled = self._tiled(division, density, tries, near, scaled(progress, n / count, (n + 1) / count))
+            tiled = self._tiled(division, density, tries, window, scaled(progress, n / count, (n + 1) / count))
             mixed, minded = self._least_minded(division, tiled, scaled(progress, (n + 1) / count, (n + 1) / count))
             best = min(best, _Found(mixed, minded, self._turns(tiled)), key=lambda found: found.minded)
             if mixed and _without_hard_edges(mixed.mixed) <= FLAT:
                 break
         return best
 
-    def _tiled(self, division, density, tries, near, progress):
+    def _tiled(self, division, density, tries, window, progress):
         """The `_Tiled` pieces that may be better than islands. tries : numbers of tiles for the first one, the largest,
         whose density is then that of the others; 0 where the density is given"""
         made, count = [], len(division.pieces)
@@ -180,7 +181,7 @@ class MixedSizing:
             if sizing.is_strict:
                 return []
             is_first = tries > 0 and not made
-            tiling = sizing.about(density, tries, step) if is_first else sizing.of_piece(density, near, step)
+            tiling = sizing.about(density, tries, step) if is_first else sizing.of_piece(density, window, step)
             if not isinstance(tiling, Map) or not tiling.tiling:
                 continue
             one = _Tiled(piece, opened(tiling, piece.surface), is_tube(undecided.surface))

@@ -15,7 +15,6 @@ from .tiling import Poles
 from .tubes import is_tube
 
 LEAST_TILES, TILES_PER_HANDLE = 100, 64  # over the largest part, by default
-SAME_SIZE = 0.045  # relative difference of a median density from the wanted one, until which other numbers are tried
 LIKE_SIZE = 1.095  # largest over smallest median density of tilings, for parts whose squares have one size
 TRIES = 4  # numbers of tiles, until the median density is the wanted one
 MOST_TURNED = 0.5  # radians from the direction that is asked for, where no whole tiles of one size are nearer to it
@@ -58,7 +57,7 @@ class Sizing:
                 return Tried(tilings, made)
             tilings.append(made)
             size = relative_size(made, density)
-            if abs(size - 1) <= SAME_SIZE:
+            if is_in(window_around(), size):
                 break
             below, above = (max(below, tiles), above) if size < 1 else (below, min(above, tiles))
             tiles /= size
@@ -88,13 +87,13 @@ class Sizing:
             return turned
         return self.undecided.untiled(TOO_FEW, made.tiling)
 
-    def of_piece(self, density: float, near: float, progress: Progress | None) -> Map | None:
-        """The tiling of a piece of a part whose density is this one, relatively as near, or for which it is stretched;
+    def of_piece(self, density: float, window: Window, progress: Progress | None) -> Map | None:
+        """The tiling of a piece of a part whose density over this one is in the window, or for which it is stretched;
         None where there is none."""
         surface = self.undecided.surface
         tilings, _ = self.tried(density, 1 if is_tube(surface) else TRIES, progress)
         made = nearest(tilings, density) if tilings else None
-        if made is None or abs(relative_size(made, density) - 1) <= near:
+        if made is None or is_in(window, relative_size(made, density)):
             return made
         stretched = self.undecided.stretched(made, density, self.options.get("lattice", "square"))
         return stretched or (made if is_in(window_around(), relative_size(made, density)) else None)
