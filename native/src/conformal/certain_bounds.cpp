@@ -26,7 +26,7 @@ VectorXd diagonal_above(const MatrixXd& errors, const MatrixXd& P) {
 
 MatrixXd above_congruent(const MatrixXd& T, const MatrixXd& G) {
   MatrixXd P = symmetric(T * G * T.transpose());
-  const double factor = kUnit * static_cast<double>(2 * G.rows() + 6);  // both products, the mean, the last sum
+  const double factor = kUnit * static_cast<double>(2 * G.rows() + 2);  // both products, the mean, the last sum
   const MatrixXd errors = kSlack * factor * (T.cwiseAbs() * G.cwiseAbs() * T.cwiseAbs().transpose());
   P.diagonal() += diagonal_above(symmetric(errors), P);
   return P;
@@ -36,7 +36,7 @@ MatrixXd below_inverse(const MatrixXd& A) {
   const MatrixXd X = symmetric(inverse(A));
   // 2 X - X A X <= A^-1 (certain_bounds.h). X A X is rounded upwards, so the difference is rounded downwards.
   MatrixXd lower = 2 * X - above_congruent(X, A);
-  lower.diagonal() -= diagonal_above(3 * kUnit * lower.cwiseAbs(), X);
+  lower.diagonal() -= diagonal_above(2 * kUnit * lower.cwiseAbs(), X);
   return lower;
 }
 
@@ -59,10 +59,10 @@ void set_real_bounds(const MatrixXd& G, const MatrixXd& Z, PeriodBounds& bounds)
   const VectorXd across = above_congruent(T, R).diagonal().cwiseMax(0);
   const MatrixXd products = bounds.upper.cwiseAbs() * R.bottomRightCorner(g, g).cwiseAbs();
   const double trace = std::max(0.0, (bounds.upper * R.bottomRightCorner(g, g)).trace()) +
-                       kUnit * static_cast<double>(2 * g + 4) * products.trace();
+                       kUnit * static_cast<double>(2 * g + 1) * products.trace();
   // The part of the midpoint M: |rest Y|_ij <= sum_k |rest_ik| sqrt(Y_kk Y_jj), since Y is positive definite.
   const MatrixXd rest = T * M.rightCols(g);
-  const double factor = kUnit * static_cast<double>(2 * g + 8);
+  const double factor = kUnit * static_cast<double>(2 * g + 2);
   const MatrixXd missed = rest.cwiseAbs() + kSlack * factor * (T.cwiseAbs() * M.rightCols(g).cwiseAbs());
   const VectorXd root = bounds.upper.diagonal().cwiseSqrt();
   bounds.real_lower.resize(g, g);

@@ -64,7 +64,7 @@ void add_two(const WeightedForms& w, int begin, int end, Sums& sums) {
   Eigen::Vector2d size = Eigen::Vector2d::Zero();
   for (int e = begin; e < end; ++e) {
     const double k = w.weights[e];
-    if (k == 0) continue;
+    if (k == 0 && (w.errors.empty() || w.errors[e] == 0)) continue;
     const int head = mesh::to_vertex(w.half_edges, HalfedgeHandle(2 * e)),
               tail = mesh::from_vertex(w.half_edges, HalfedgeHandle(2 * e));
     Eigen::Vector2d h(f[2 * head] - f[2 * tail], f[2 * head + 1] - f[2 * tail + 1]);
@@ -74,7 +74,7 @@ void add_two(const WeightedForms& w, int begin, int end, Sums& sums) {
     value += k * product;
     if (w.errors.empty()) continue;
     uncertain += w.errors[e] * product;
-    size += std::abs(k) * h.cwiseAbs2();
+    size += (std::abs(k) + std::abs(w.errors[e])) * h.cwiseAbs2();
   }
   sums.value[0] += value;
   sums.uncertain[0] += uncertain;
@@ -83,16 +83,17 @@ void add_two(const WeightedForms& w, int begin, int end, Sums& sums) {
 
 void add_all(const WeightedForms& w, const std::vector<int>& families, int begin, int end, Sums& sums) {
   const auto k = Eigen::Map<const VectorXd>(w.weights.data() + begin, end - begin);
-  if ((k.array() == 0).all()) return;
+  const auto errors = w.errors.empty() ? w.errors : w.errors.subspan(begin, end - begin);
+  const auto u = Eigen::Map<const VectorXd>(errors.data(), static_cast<Index>(errors.size()));
+  if ((k.array() == 0).all() && (u.array() == 0).all()) return;
   const RowMajorMatrix values = edge_values(w.half_edges, w.forms, begin, end);
   int first = 0;
   for (std::size_t i = 0; i < families.size(); first += families[i++]) {
     const auto h = values.middleCols(first, families[i]);
     sums.value[i] += h.transpose() * (k.asDiagonal() * h);
     if (w.errors.empty()) continue;
-    const auto u = Eigen::Map<const VectorXd>(w.errors.data() + begin, end - begin);
     sums.uncertain[i] += h.transpose() * (u.asDiagonal() * h);
-    sums.size[i] += h.cwiseAbs2().transpose() * k.cwiseAbs();
+    sums.size[i] += h.cwiseAbs2().transpose() * (k.cwiseAbs() + u.cwiseAbs());
   }
 }
 
@@ -101,7 +102,7 @@ VectorXd cut_sizes(const WeightedForms& w) {
   const int first = w.forms.first, last = first + static_cast<int>(result.size());
   for (const int e : w.forms.classes.rows.edges()) {
     for (const auto& [i, value] : topology::forms_between(w.forms.classes.rows[e], first, last))
-      result[i - first] += std::abs(w.weights[e]) * value * value;
+      result[i - first] += (std::abs(w.weights[e]) + std::abs(w.errors[e])) * value * value;
   }
   return result;
 }

@@ -15,8 +15,8 @@ namespace holomorph::forms {
 struct GramMatrix {
   Eigen::MatrixXd value;
   Eigen::MatrixXd uncertain;  ///< the same sums with the errors of the weights in place of the weights
-  Eigen::VectorXd size;       ///< sum_e |k_e| h_i(e)^2
-  Eigen::VectorXd cut_size;   ///< sum_e |k_e| eta_i(e)^2, eta_i the integer class
+  Eigen::VectorXd size;       ///< sum_e (|k_e| + |u_e|) h_i(e)^2, u the errors of the weights
+  Eigen::VectorXd cut_size;   ///< sum_e (|k_e| + |u_e|) eta_i(e)^2, eta_i the integer class
   int summands = 0;           ///< additions that one product goes through, at most
 };
 

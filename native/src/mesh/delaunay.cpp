@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "base/chunks.h"
 #include "mesh/triangle_geometry.h"
@@ -18,10 +19,13 @@ namespace {
 constexpr double kDelaunayTolerance = 1e-9;
 // ... and never more often than this, so that rounding among slivers cannot flip it back and forth for ever.
 constexpr unsigned kMostFlipsOfAnEdge = 60;
-// Rounding of the apices of a quadrilateral that is laid out. (b^2 + (s - e) (s + e)) / 2 b: 6 units of each of the two
-// terms, of which the second one is |2 x - b| b; differences between abscissae, 2; a height, 6.5 of an area and 1; the
-// new length itself, 1.
-constexpr double kOfAbscissa = 10 * 1.2e-16, kOfHeight = 10 * 1.2e-16;
+// Rounding of the length between the apices of a quadrilateral that is laid out, in units of rounding. An abscissa x is
+// (b^2 + (s - e)(s + e)) / 2 b: 1 of b^2 and 3 of the product, over 2 b; 1 of their sum and 1 of the quotient. A
+// height: 5.5 of the area (Kahan's order) and 1 of the quotient. Sums and differences: 1; std::hypot: 2.
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kOfBase = 0.5 * kUnit, kOfSides = 1.5 * kUnit, kOfAbscissa = 2 * kUnit, kOfHeight = 6.5 * kUnit;
+constexpr double kOfSum = kUnit, kOfLength = 2 * kUnit;
+constexpr double kSlack = 1.01;  // covers the rounding of the bounds of rounding themselves
 // Many regions share out the work, large ones (in edges, a power of 2) leave little between them.
 constexpr unsigned kRegions = 16, kLeastRegion = 8192;
 // Prefetch distance, in queue entries.
@@ -108,11 +112,16 @@ class Flipper {
       const double x = (base * base + (from_start - from_end) * (from_start + from_end)) / (2 * base);
       const bool flat = from_start + from_end - base < kFlatMargin * base;
       return Apex{x, flat ? 0.0 : 2 * triangle_area(base, from_end, from_start) / base,
-                  kOfAbscissa * (base + std::abs(x))};
+                  kOfBase * base + kOfSides * std::abs(2 * x - base) + kOfAbscissa * std::abs(x)};
     };
     const Apex p = apex(a), q = apex(b);
-    const double across = p.x - (base - q.x), up = p.height + q.height;
-    return {std::hypot(across, up), p.rounding + q.rounding + kOfHeight * up};
+    const double from_p = base - q.x, across = p.x - from_p, up = p.height + q.height, length = std::hypot(across, up);
+    const double of_across = p.rounding + q.rounding + kOfSum * (std::abs(from_p) + std::abs(across)),
+                 of_up = (kOfHeight + kOfSum) * up;
+    // A length is a convex function of the legs, and its square one of degree 2.
+    const double first = std::abs(across) * of_across + up * of_up, second = of_across * of_across + of_up * of_up;
+    const double rounding = length > 0 ? (first + second / 2) / length + kOfLength * length : of_across + of_up;
+    return {length, kSlack * rounding};
   }
 
   void flip(int e) {

@@ -15,15 +15,17 @@ constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;  // the uni
 // Error of a length from positions: 1 of each difference, 3 of its square, 5 of their sum, half that and 1 of the root;
 // error of a given length: the caller's.
 constexpr double kOfDistance = 3.5 * kUnit, kOfGivenLength = 2.5 * kUnit;
-// Error of a weight cot / 2, in parts of the largest cotangent of the triangle, which is that of |b^2 - a^2| + c^2 over
-// 4 A: 4 of the numerator, 5.5 of the area (Kahan's order), 1 of the quotient; half that, and half of one of the sum.
-constexpr double kOfWeight = 6 * kUnit;
-// Error of the weight of a thin triangle, which is rounded once with its errors below; what twice the precision leaves.
-constexpr double kOfSharpWeight = 4 * kUnit, kOfCotangent = 1e-28;
-// Error of the sum of the errors themselves, which may cancel opposite obtuse angles.
-constexpr double kOfErrors = 1e-12;
-// Areas of flipped faces, from rounded lengths.
-constexpr double kOfArea = 1e-2;
+// Error of a cotangent, b^2 - a^2 + c^2 over 4 A, in parts of the largest one of its triangle and of itself: 3 of b^2 -
+// a^2, 1 of c^2, whose sizes add up to the numerator of a or of b; 1 of the sum, 5.5 of the area (Kahan's order), 1 of
+// the quotient.
+constexpr double kOfLargest = 3 * kUnit, kOfCotangent = 7.5 * kUnit;
+// The same in twice the precision (Joldes et al. 2017, doi:10.1145/3121432), in parts of |b^2 - a^2| / 4 A, 7 of the
+// product, and of the cotangent: 3 of the sum, 21 of the area, 15 of the quotient.
+constexpr double kOfSharpSquares = 7 * kUnit * kUnit, kOfSharpCotangent = 39 * kUnit * kUnit;
+// Error of the errors of cotangents themselves: 1 of a product, 5 of the sum with the others of an edge, half of each.
+constexpr double kOfErrors = 3 * kUnit;
+// Covers the rounding of the bounds of rounding themselves, whose terms are all positive.
+constexpr double kSlack = 1.01;
 
 std::array<HalfedgeHandle, 3> around(const Metric& t, HalfedgeHandle h) {
   const HalfedgeHandle h1 = next(t.half_edges, h);
@@ -47,15 +49,24 @@ bool is_thin_at(const Metric& t, HalfedgeHandle h) {
   return !t.half_edges.is_boundary(h) && !(largest_cotangent(t, h) <= kThin);
 }
 
+struct Cotangent {
+  DoubleDouble value;
+  double error;
+};
+
 // The cotangent opposite h; in a thin triangle to all digits, of the lengths as they are.
-DoubleDouble sharp_cotangent(const Metric& t, HalfedgeHandle h) {
-  if (!is_thin_at(t, h)) return {t.cotangents[h.idx()]};
+Cotangent cotangent_at(const Metric& t, HalfedgeHandle h) {
+  const double given = t.cotangents[h.idx()];
+  const Cotangent rounded{{given}, kSlack * (kOfLargest * largest_cotangent(t, h) + kOfCotangent * std::abs(given))};
+  if (!is_thin_at(t, h)) return rounded;
   const auto [a, b, c] = sides_at(t, h);
   const DoubleDouble others = exact_sum(b, c), apart = exact_sum(b, -c), whole{a};
   const DoubleDouble area = (whole + others) * (others - whole) * (whole - apart) * (whole + apart);  // 16 A^2
-  if (!(area.high > 0)) return {t.cotangents[h.idx()]};
-  const DoubleDouble above = exact_sum(b, -a) * exact_sum(b, a) + exact_product(c, c);
-  return above / sqrt(area);
+  if (!(area.high > 0)) return rounded;
+  const DoubleDouble squares = exact_sum(b, -a) * exact_sum(b, a), root = sqrt(area);
+  const DoubleDouble sharp = (squares + exact_product(c, c)) / root;
+  return {sharp,
+          kSlack * (kOfSharpSquares * std::abs(squares.high) / root.high + kOfSharpCotangent * std::abs(sharp.high))};
 }
 
 // Relative error of a map with the error x, followed by one with y.
@@ -64,11 +75,10 @@ double both(double x, double y) { return std::min(1.0, x + y + x * y); }
 // What a side of an edge adds to its error.
 double error_of_side(const Metric& t, HalfedgeHandle h) {
   if (t.half_edges.is_boundary(h)) return 0;
-  const double error = error_at(t, h).mean, largest = largest_cotangent(t, h);
-  const bool thin = !(largest <= kThin);
-  const double cotangent = thin ? sharp_cotangent(t, h).value() : t.cotangents[h.idx()];
-  const double rounding = thin ? kOfSharpWeight * std::abs(cotangent) + kOfCotangent * largest : kOfWeight * largest;
-  return 0.5 * error * cotangent + rounding + kOfErrors * error * std::abs(cotangent);
+  const double error = error_at(t, h).mean;
+  const auto [sharp, rounding] = cotangent_at(t, h);
+  const double cotangent = sharp.value();
+  return 0.5 * error * cotangent + 0.5 * (1 + error) * rounding + kSlack * kOfErrors * error * std::abs(cotangent);
 }
 
 }  // namespace
@@ -85,7 +95,7 @@ double energy_growth(const std::array<RoundedLength, 3>& sides, double* open) {
   const double area = triangle_area(a.length, b.length, c.length), eta = bound / (area * area);
   const bool is_open = !(eta < 0.5);
   if (open) *open = is_open ? std::sqrt(std::max(bound, area * area)) : area;
-  return is_open ? 1 : eta * (1 + eta) * (1 + kOfArea);
+  return is_open ? 1 : kSlack * eta * (1 + eta);
 }
 
 Array<FaceError> metric_errors(const Metric& t, const Surface& surface, Workers& workers) {
@@ -118,7 +128,7 @@ FacesBeside faces_beside(const Metric& t, HalfedgeHandle h) {
 }
 
 // Each new face has the same part of both old ones, so of their errors as much as that part may hold; gradients are
-// constant on it, and its energy is spread by area.
+// constant on it, and its energy is spread by area. The new length changes that area, too, by no more than energies.
 std::array<FaceError, 2> errors_after_flip(const Metric& t, HalfedgeHandle h, const FacesBeside& before, double error) {
   const auto& [errors, areas] = before;
   const double whole = areas[0] + areas[1], largest = std::max(errors[0].largest, errors[1].largest);
@@ -128,7 +138,7 @@ std::array<FaceError, 2> errors_after_flip(const Metric& t, HalfedgeHandle h, co
     const double part = std::min(1.0, triangle_area(a, b, c) / whole);
     double mean = 0;
     for (const int i : {0, 1}) mean += std::min(errors[i].mean / part, errors[i].largest) * areas[i] / whole;
-    mean = std::min(largest, mean * (1 + kOfArea));
+    mean = std::min(largest, kSlack * mean * (1 + growth));
     return FaceError{both(mean, growth), both(largest, growth)};
   };
   return {after(h), after(opposite(h))};
@@ -138,7 +148,7 @@ void sharpen_weights(const Metric& t, Array<double>& weights, Workers& workers) 
   for_rows(workers, static_cast<int>(weights.size()), [&](int e) {
     const HalfedgeHandle h(2 * e);
     if (is_thin_at(t, h) || is_thin_at(t, opposite(h)))
-      weights[e] = 0.5 * (sharp_cotangent(t, h) + sharp_cotangent(t, opposite(h))).value();
+      weights[e] = 0.5 * (cotangent_at(t, h).value + cotangent_at(t, opposite(h)).value).value();
   });
 }
 
@@ -147,7 +157,7 @@ Array<double> energy_errors(const Metric& t, const Array<double>& weights, Worke
   Array<double> errors(weights.size());
   for_rows(workers, static_cast<int>(errors.size()), [&](int e) {
     const HalfedgeHandle h(2 * e);
-    errors[e] = error_of_side(t, h) + error_of_side(t, opposite(h)) + kOfSharpWeight * std::abs(weights[e]);
+    errors[e] = error_of_side(t, h) + error_of_side(t, opposite(h)) + kSlack * kUnit * std::abs(weights[e]);
   });
   return errors;
 }

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import slow_path
 from holomorph import SolverError, Surface, _native, conformal_structure, report
-from holomorph.certificate import certain_text
+from holomorph.certificate import certain_text, entry_bounds
 from small_families import SMALL
 from solved import surface_of
 
@@ -175,6 +175,22 @@ def test_certificate_of_a_bounded_surface():
     low, high = (bound[0, 0] for bound in structure.capacity_bounds)
     assert low < 10.234092569368052 < high
     assert structure.modulus_bounds[0] < 1 / 10.234092569368052 < structure.modulus_bounds[1]
+
+
+def test_entries_between_two_quadratic_forms():
+    """In exact arithmetic: the middle, and as much to both sides as the root of the product of half widths. Those off
+    the diagonal are rounded most."""
+    random = np.random.default_rng(0)
+    for scale in 10.0 ** random.uniform(-17, 0, 4000):
+        middle, width = random.uniform(1, 2, (2, 2)) * [[0.01, 1], [1, 0.01]], np.diag(scale * random.uniform(0, 1, 2))
+        lower, upper = middle + middle.T - width, middle + middle.T + width
+        low, high = map(as_fractions, entry_bounds(lower, upper))
+        exact_lower, exact_upper = as_fractions(lower), as_fractions(upper)
+        half = np.diag(exact_upper - exact_lower) / 2
+        exact = (exact_lower + exact_upper) / 2
+        squares = np.outer(half, half)
+        for below in (exact - low, high - exact):
+            assert (below >= 0).all() and (below * below >= squares).all()
 
 
 # ---- texts --------------------------------------------------------------------------------------------------------

@@ -46,6 +46,20 @@ def test_certificates(name):
     assert 0 <= residuals.periods < SOLVER
 
 
+@pytest.mark.parametrize("name", ["even torus", "torus knot", "genus 8 block"])
+def test_harmonicity_is_what_multigrid_leaves(name):
+    """By its definition: the largest |d* h| at a vertex over the largest sum of |k h| at one, in the worst form."""
+    structure = conformal_structure(surface_of(CLOSED[name]), solver="multigrid")
+    assert structure.flip_count == 0
+    (start, end), count, found = structure.edges.T, len(structure.surface.vertices), []
+    for flux in structure.harmonic_forms * edge_weights(structure):
+        out = np.bincount(start, flux, count) - np.bincount(end, flux, count)
+        total = np.bincount(start, abs(flux), count) + np.bincount(end, abs(flux), count)
+        found.append(size(out) / size(total))
+    assert structure.residuals.harmonicity == pytest.approx(max(found), rel=1e-2)
+    assert max(found) > 100 * np.finfo(float).eps
+
+
 @embedded
 def test_forms_are_closed(name):
     structure = solved(name)

@@ -1,0 +1,28 @@
+"""Intrinsic Delaunay triangulations: which edges are flipped, and what of a flat triangle is kept."""
+
+import numpy as np
+import pytest
+from exact_metrics import torus_of_two
+from holomorph import _native
+from thin_meshes import square_with
+
+
+@pytest.mark.parametrize("angle", 10.0 ** -np.arange(1, 9), ids="{:.0e}".format)
+def test_of_both_diagonals_the_shorter_one_is_taken(angle):
+    """The parallelograms are nearly rectangles."""
+    a, b, cosine = 1.0, 0.8, np.sin(angle)
+    short, long = (np.sqrt(a * a + b * b - 2 * s * a * b * cosine) for s in (1, -1))
+    for given in (short, long):
+        level = _native.solve_level(*torus_of_two([a, b, given]), 2, "direct", 1, 0, None)
+        assert level.lengths[2] == pytest.approx(short, rel=1e-15)
+
+
+@pytest.mark.parametrize("height", np.geomspace(1e-8, 1e-7, 6), ids="{:.1e}".format)
+def test_heights_of_flat_triangles_are_kept(height):
+    """Their slack is 1e-15 to 1e-13 of a side, and their height 1e-8 to 1e-7 of it. In the middle of the side it would
+    not count: a square's modulus does not feel what happens along its diagonals."""
+    for moved in (height, -height):
+        _, found = square_with(
+            lambda a, b, moved=moved: 0.8 * a + 0.2 * b + moved * np.array([a[1] - b[1], b[0] - a[0], 0])
+        )
+        assert found.modulus == pytest.approx(1, abs=1e-12)
