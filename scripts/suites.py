@@ -12,6 +12,7 @@ BLENDER = os.environ.get("HOLOMORPH_BLENDER") or "blender"
 DEFAULT = ["lint", "native", "blender-3.4", "core", "package", "bpy-5.2", "window", "batch"]
 ALL = ["injection", "lint", "native", "blender-3.4", "core", "package", "batch", "asan", "site", "window", "fuzz"]
 ALL += ["tsan", "bpy-5.2", "bpy-5.0", "bpy-4.5", "bpy-4.2"]
+ON_DEMAND = ["mutate", "platforms"]  # they compile for an hour
 # The part of tests/core that runs under the sanitizers, several times slower: every kind of surface and every solver
 # once, on small meshes; tilings and what is made of them, islands, evening; malformed files; cancelling in the middle;
 # several Python threads at once.
@@ -183,6 +184,12 @@ SUITES = {
             ["scripts/fuzz", "--minutes", "3"],
         ],
         preset="asan",
+    ),
+    "mutate": Suite(
+        "scripts/mutate: planted faults, of which each must fail a test. Compiles for most of an hour.",
+        [["scripts/mutate"]],
+        preset="dev",
+        times=4,
     ),
     "platforms": Suite(
         "tests/platforms: the extensions of all platforms, under Wine and qemu. Compiles for an hour.",

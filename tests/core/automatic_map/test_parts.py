@@ -76,6 +76,22 @@ def test_copies_are_moved_turned_about_the_vertical_and_scaled():
     assert found[2].scale == pytest.approx(2.5, rel=1e-6)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_copies_far_away_are_those_that_single_precision_makes(seed):
+    """Each coordinate is rounded by half a unit in the last place of single precision, a length by that of three
+    differences. What is moved by four times as much is no copy."""
+    first = surface_of(families.torus(12, 8, shape="triangles"))
+    shift = np.random.default_rng(seed).uniform(900, 1000, 3)
+    far = moved(first, shift=shift)
+    vertices = np.array(far.vertices)
+    longest = 2 * 3**0.5 * np.spacing(np.float32(np.abs(vertices).max())) / 2
+    assert np.abs(far._native.edge_lengths - first._native.edge_lengths).max() > longest / 10
+    assert [copy.first for copy in copies([first, far])] == [0, 0]
+    vertices[40, 2] += 4 * longest
+    other = Surface.from_polygons(vertices, first.corner_vertices, first.face_offsets)
+    assert [copy.first for copy in copies([first, other])] == [0, 1]
+
+
 @pytest.mark.parametrize("scale", [1.0, 0.37])
 def test_polygons_with_corners_on_a_circle_are_cut_alike_in_all_copies(scale):
     """Both diagonals are as good, and rounding would choose another one in each copy."""

@@ -15,7 +15,7 @@ from holomorph import (
     rectangle_map,
     triangle_map,
 )
-from holomorph.verdicts import UNSEEN, verdict
+from holomorph.verdicts import SHEARED, UNSEEN, verdict
 from measured import Measured
 from solved import surface_of
 
@@ -156,6 +156,16 @@ def test_the_verdict_forgives_what_evening_added_alone(name):
     judged.lost_part, judged.overlapping_part, judged.long_part = after.lost_part, after.overlapping_part, 0.0
     judged.flipped, judged.collapsed = after.flipped, after.collapsed
     assert mapped(name, 0.5).verdict.level == verdict(judged).level
+
+
+def test_evening_is_forgiven_one_level_of_shear():
+    """What would be fair is good if evening alone has sheared it; what would be poor is not."""
+    own = structure("free")
+    before = own.quality(own.uv())
+    for factor, level in ((0.95 * SHEARED[1], "good"), (1.05 * SHEARED[1], "fair")):
+        after = own.quality(own.uv() * [factor, 1.0])
+        assert after.verdict.level == ("fair" if factor < SHEARED[1] else "poor")
+        assert after.evened_from(before, 1.0).verdict.level == level
 
 
 def test_shear_that_was_there_is_not_forgiven():

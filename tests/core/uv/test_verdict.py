@@ -185,6 +185,13 @@ def test_the_whole_counts(told, level):
     assert ("no map" in found.sentence) == ("unmapped" in told)
 
 
+def test_squares_that_differ_by_what_an_eye_sees_are_told():
+    """An eye tells lengths that differ by a twentieth (Weber's fraction); the sizes are those of areas."""
+    good = verdict(Measured())
+    assert overall([good, good], sizes=1.04**2) == good
+    assert "differ in size" in overall([good, good], sizes=1.06**2).sentence
+
+
 def two_sizes(scale):
     """Two tori of which one is `scale` times as large."""
     mesh = families.torus(24, 12)

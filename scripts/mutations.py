@@ -1,0 +1,167 @@
+"""The faults of scripts/mutate: each changes one text of one file, and the tests nearest to it must fail."""
+
+from typing import NamedTuple
+
+ROOM = "native/src/"
+PACKAGE = "native/holomorph/"
+CORE = "tests/core/"
+LENGTHS = CORE + "mesh/test_metric_errors.py"
+WEIGHTS = "native:MetricErrors*"
+DELAUNAY = CORE + "mesh/test_delaunay.py"
+SUMS = CORE + "conformal/test_gram_errors.py"
+BOUNDS = CORE + "conformal/test_certified_bounds.py"
+FORMS = CORE + "conformal/test_conformal.py"
+BALLS = CORE + "moduli/test_balls.py"
+LOOKS = CORE + "automatic_map/test_looks.py"
+PARTS = CORE + "automatic_map/test_parts.py"
+SIZING = CORE + "automatic_map/test_sizing.py"
+EVENED = CORE + "evening/test_evened_forms.py"
+VERDICT = CORE + "uv/test_verdict.py"
+PAPER = CORE + "multiresolution/test_paper_solver.py"
+MEMORY = CORE + "structure/test_memory_limit.py::test_the_estimate_and_the_peak"
+EQUIVALENCE = CORE + "moduli/test_equivalence_rounding.py"
+DENSE = "native:*CertainBounds*"
+DIGITS = "native:DoubleDouble*"
+
+
+class Mutation(NamedTuple):
+    file: str
+    old: str  # which the file has once
+    new: str
+    tests: tuple[str, ...]
+
+
+def of(file, *rows):
+    """Mutations of one file by their names: (name, old, new, tests ...)."""
+    return {name: Mutation(file, old, new, tuple(tests)) for name, old, new, *tests in rows}
+
+
+MUTATIONS = (
+    # What rounding makes of lengths, weights, sums and dense algebra: each bound, a tenth of it.
+    of(
+        ROOM + "mesh/metric_errors.cpp",
+        ("lengths-of-positions", "kOfDistance = 3.5 * kUnit", "kOfDistance = 0.35 * kUnit", LENGTHS),
+        ("lengths-given", "kOfGivenLength = 2.5 * kUnit", "kOfGivenLength = 0.25 * kUnit", LENGTHS),
+        ("weights", "kOfLargest = 3 * kUnit", "kOfLargest = 0.3 * kUnit", LENGTHS),
+        ("weights-unit", "epsilon() / 2;  // the unit", "epsilon() / 20;  // the unit", WEIGHTS),
+        ("weights-of-needles", "kOfSharpSquares = 7 *", "kOfSharpSquares = 0.7 *", WEIGHTS),
+        ("weights-left-blunt", "return {sharp,", "return {{given},", WEIGHTS),
+    )
+    | of(
+        ROOM + "mesh/delaunay.cpp",
+        ("flipped-unit", "kUnit = std::numeric_limits<double>::epsilon() / 2", "kUnit = 1.1e-17", LENGTHS),
+        ("delaunay-tolerance", "kDelaunayTolerance = 1e-9", "kDelaunayTolerance = 1e-3", DELAUNAY),
+    )
+    | of(ROOM + "mesh/triangle_geometry.h", ("flatness", "kFlatMargin = 1e-15", "kFlatMargin = 1e-13", DELAUNAY))
+    | of(
+        ROOM + "forms/gram_matrices.cpp",
+        ("gram-unit", "epsilon() / 2", "epsilon() / 20", SUMS),
+        ("gram-sums", "kUnit * (gram.summands + 6)", "kUnit * 0.1 * (gram.summands + 6)", SUMS),
+        ("gram-values", "3 * of_values", "0.3 * of_values", SUMS),
+        ("gram-zero-weights", "k == 0 && (w.errors.empty() || w.errors[e] == 0)", "k == 0", "native:*GramMatrices*"),
+        ("gram-errors-halved", "kSlack * gram.uncertain", "0.5 * gram.uncertain", SUMS),
+    )
+    | of(
+        ROOM + "forms/certificates.cpp",
+        ("harmonicity", "0.5, faces),\n          relative", "0.5, faces),\n          0.1 * relative", FORMS),
+    )
+    | of(
+        ROOM + "conformal/certain_bounds.cpp",
+        ("dense-unit", "epsilon() / 2", "epsilon() / 20", DENSE),
+        ("dense-products", "2 * G.rows() + 2", "0.2 * G.rows() + 0.2", DENSE),
+        ("dense-inverse", "lower.diagonal() -= diagonal_above(2", "lower.diagonal() += diagonal_above(2", DENSE),
+        ("dense-real-parts", "MatrixXd R = (G - below) / 2", "MatrixXd R = (G - below) / 20", DENSE),
+        (
+            "dense-upper",
+            "bounds.upper = above_congruent(T, G)",
+            "bounds.upper = T * G * T.transpose()",
+            DENSE,
+        ),
+    )
+    | of(
+        ROOM + "base/double_double.h",
+        ("products-cut", "p * v + q * u) + q * v", "p * v + q * u)", DIGITS),
+        ("sums-cut", "(a - (sum - taken)) + (b - taken)", "b - taken", DIGITS),
+    )
+    | of(
+        PACKAGE + "certificate.py",
+        ("slack-none", "SLACK = 2.0**-50", "SLACK = 0.0", BOUNDS),
+        ("slack-tenth", "SLACK = 2.0**-50", "SLACK = 0.1 * 2.0**-50", BOUNDS),
+    )
+    | of(
+        PACKAGE + "balls.py",
+        ("balls-rounding", "ROUNDING = 2.0**-50", "ROUNDING = 2.0**-60", BALLS),
+        ("balls-tenth", "ROUNDING = 2.0**-50", "ROUNDING = 0.1 * 2.0**-50", BALLS),
+        ("balls-quotient", "self.error + np.abs(quotient) * other.error", "self.error", BALLS),
+        ("balls-product", "(np.abs(other.value) + other.error)", "np.abs(other.value)", BALLS),
+    )
+    # Solvers, memory, invariants.
+    | of(
+        ROOM + "multiresolution/paper_forms.cpp",
+        ("paper-strict", "report.converged || report.is_rounding", "report.converged", PAPER),
+        ("paper-levels", "row = std::move(system.row);", "row = system.row; X.setZero();", PAPER),
+    )
+    | of(
+        ROOM + "solver/conjugate_gradients.cpp",
+        ("gradients-rounding", "norm <= kRoundingOfTerms * terms(b)", "norm <= 1e10 * terms(b)", "native:*Gradients*"),
+    )
+    | of(
+        ROOM + "structure/memory_plan.cpp",
+        ("memory-edges", "kPerEdge = 150", "kPerEdge = 37", MEMORY),
+        ("memory-multigrid", "kMultigrid = 350", "kMultigrid = 87", MEMORY),
+        ("memory-columns", "kPerColumn = 24", "kPerColumn = 6", MEMORY),
+        ("memory-dense", "kDenseMatrices = 40", "kDenseMatrices = 10", MEMORY),
+    )
+    | of(
+        ROOM + "moduli/equivalence.cpp",
+        ("equivalence-rounding", "kRounding = 1e-9", "kRounding = 1e-7", EQUIVALENCE),
+        (
+            "equivalence-margin",
+            "least = std::min(least, isometry.excess)",
+            "least = std::max(least, isometry.excess)",
+            EQUIVALENCE,
+        ),
+    )
+    # What maps look like.
+    | of(
+        ROOM + "tiling/rounding/rounding.cpp",
+        ("rounding-weights", "kConformal = 5, kEvenness = 0.15", "kConformal = 50, kEvenness = 1.5", LOOKS),
+        ("rounding-conformal", "kConformal = 5", "kConformal = 50", LOOKS),
+        ("rounding-evenness", "kEvenness = 0.15", "kEvenness = 1.5", LOOKS),
+    )
+    | of(
+        ROOM + "tiling/poles/pole_placement.cpp",
+        ("poles-without", "kEvenedWithout = 2.85", "kEvenedWithout = 5.7", LOOKS),
+        ("poles-enough", "kEvened = 2.75", "kEvened = 5.5", LOOKS),
+        ("poles-too-many", "kEvened = 2.75", "kEvened = 1.4", LOOKS),
+    )
+    | of(
+        ROOM + "evening/evening.h",
+        ("evening-power", "kUsualPower = 0.6", "kUsualPower = 0.9", LOOKS),
+    )
+    | of(
+        PACKAGE + "verdicts.py",
+        ("unseen", "UNSEEN = 0.3", "UNSEEN = 0.6", EVENED),
+        ("same-size", "SAME_SIZE = 1.1 ", "SAME_SIZE = 1.2 ", VERDICT),
+        ("worst-part", "ranks.max() > rank", "ranks.min() > rank", VERDICT),
+    )
+    | of(
+        PACKAGE + "sizing.py",
+        ("like-size", "LIKE_SIZE = 1.095", "LIKE_SIZE = 1.19", SIZING),
+    )
+    | of(
+        PACKAGE + "map_choice.py",
+        ("even", "EVEN = 2.0", "EVEN = 4.0", LOOKS),
+        ("good-islands", "GOOD, FLAT = 0.8, 0.3", "GOOD, FLAT = 8.0, 0.3", LOOKS),
+    )
+    | of(
+        PACKAGE + "appearance.py",
+        ("seams-free", "SEAM = 0.5 ", "SEAM = 0.05 ", LOOKS),
+        ("shear-free", "SHEAR = 2.0", "SHEAR = 0.2", LOOKS),
+    )
+    | of(
+        PACKAGE + "copies.py",
+        ("copies", "SINGLE = 2.0**-22", "SINGLE = 2.0**-18", PARTS),
+        ("copies-tenth", "SINGLE = 2.0**-22", "SINGLE = 0.1 * 2.0**-22", PARTS),
+    )
+)
