@@ -13,7 +13,7 @@ COMPUTED = {"rna_type", "original", "is_evaluated", "session_uid", "tag", "previ
 COMPUTED |= {"id_data", "is_updated", "is_updated_data", "depsgraph", "pixels", "is_dirty", "has_data", "bindcode"}
 COMPUTED |= {"rendered_preview", "render_slots", "keying_sets_all", "total_vert_sel", "total_edge_sel"}
 COMPUTED |= {"total_face_sel", "is_modified", "is_in_memory", "bound_box", "depth", "type_info", "packed_file"}
-COMPUTED |= {"loop_triangle_polygons", "cycles", "wireframe_color_type"}
+COMPUTED |= {"loop_triangle_polygons", "cycles", "wireframe_color_type", "dimensions"}
 LARGE = 1_000_000  # values of an image
 # Elements of meshes, which are read as arrays.
 ELEMENTS = {"vertices", "edges", "loops", "polygons", "loop_triangles", "vertex_normals", "polygon_normals"}
