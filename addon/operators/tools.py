@@ -16,7 +16,8 @@ KINDS = (
     (
         "LEFT_OUT",
         "Left Out",
-        "Coordinates that are not finite, faces of fewer than three vertices, parts without area: maps leave them out",
+        "Coordinates that are not finite or far away from all others, faces of fewer than three vertices, parts "
+        "without area: maps leave them out",
     ),
     ("NO_AREA", "No Area", "Faces with a triangle without area"),
     ("TOUCHING", "Touching", "Vertices where faces touch without a common edge; maps are cut there too"),
@@ -28,6 +29,7 @@ REPAIRS = (
     ("WELD", "Weld", "Vertices closer together than the distance"),
     ("DOUBLES", "Doubles", "Faces with the same vertices as another face"),
     ("INSIDE", "Inside Faces", "Faces all of whose edges have more than two faces"),
+    ("SLIVERS", "Slivers", "Faces without area, merged with the face at their longest side"),
     ("LOOSE", "Loose", "Vertices and edges without a face"),
 )
 
@@ -169,8 +171,9 @@ def edit(context, objects):
 
 
 class HOLOMORPH_OT_repair(AtOnce, bpy.types.Operator):
-    """Weld vertices of the selected meshes and remove duplicate faces, inside faces and loose elements, so that maps
-    need no cuts there. What remains keeps its UV maps, attributes, shape keys and materials"""
+    """Weld vertices of the selected meshes, remove duplicate faces, inside faces and loose elements, and merge faces
+    without area, so that maps need no cuts there. What remains keeps its UV maps, attributes, shape keys and
+    materials"""
 
     bl_idname = "mesh.holomorphic_repair"
     bl_label = "Repair Mesh for Maps"
@@ -181,7 +184,7 @@ class HOLOMORPH_OT_repair(AtOnce, bpy.types.Operator):
         description="Repairs to make",
         items=REPAIRS,
         options={"ENUM_FLAG"},
-        default={"WELD", "DOUBLES", "INSIDE", "LOOSE"},
+        default={"WELD", "DOUBLES", "INSIDE", "SLIVERS", "LOOSE"},
     )
     distance: FloatProperty(
         name="Distance",

@@ -10,7 +10,8 @@ import numpy as np
 from .. import compatibility
 from ..scene import mesh_io
 
-WELD, DOUBLES, INSIDE, LOOSE = "WELD", "DOUBLES", "INSIDE", "LOOSE"
+WELD, DOUBLES, INSIDE, SLIVERS, LOOSE = "WELD", "DOUBLES", "INSIDE", "SLIVERS", "LOOSE"
+LOW, ROUNDING = 1e-4, 2.0**-20  # most heights of slivers, over their longest sides and over their coordinates
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,7 @@ class Repaired:
     welded: int = 0
     doubles: int = 0
     inside: int = 0
+    slivers: int = 0
     loose_vertices: int = 0
     loose_edges: int = 0
 
@@ -31,6 +33,7 @@ class Repaired:
             ("welded", self.welded, "vertex", "vertices"),
             ("removed", self.doubles, "duplicate face", "duplicate faces"),
             ("removed", self.inside, "inside face", "inside faces"),
+            ("merged", self.slivers, "sliver", "slivers"),
             ("removed", self.loose_vertices, "loose vertex", "loose vertices"),
             ("removed", self.loose_edges, "loose edge", "loose edges"),
         )
@@ -41,13 +44,14 @@ def repair(mesh, kinds, distance):
     """Repairs a mesh with faces that is in no edit mode; returns the `Repaired`.
 
     What stays keeps its UV maps, attributes, shape keys and materials.
-    kinds : some of WELD, DOUBLES, INSIDE, LOOSE
+    kinds : some of WELD, DOUBLES, INSIDE, SLIVERS, LOOSE
     distance : below which vertices are welded, in the mesh's own units
     """
     return Repaired(
         welded=_weld(mesh, distance) if WELD in kinds else 0,
         doubles=_remove(mesh, "faces", _doubles(mesh)) if DOUBLES in kinds else 0,
         inside=_remove(mesh, "faces", _inside(mesh)) if INSIDE in kinds else 0,
+        slivers=_merge_slivers(mesh) if SLIVERS in kinds else 0,
         loose_vertices=_remove(mesh, "verts", _loose_vertices(mesh)) if LOOSE in kinds else 0,
         loose_edges=_remove(mesh, "edges", _loose_edges(mesh)) if LOOSE in kinds else 0,
     )
@@ -110,6 +114,57 @@ def _inside(mesh):
     edges = polygons.of_corners(_edges_of_loops(mesh))
     has_many = np.bincount(edges)[edges] > 2
     return np.flatnonzero(np.logical_and.reduceat(has_many, polygons.face_offsets[:-1]))
+
+
+def _slivers(mesh):
+    """Faces without area, up to the rounding of their coordinates."""
+    polygons = mesh_io.read_polygons(mesh, np.eye(3))
+    starts, ends = polygons.face_offsets[:-1], polygons.face_offsets[1:]
+    following = np.arange(1, len(polygons.corner_vertices) + 1)
+    following[ends - 1] = starts
+    points = polygons.vertices[polygons.corner_vertices]
+    sides = points[following] - points
+    fans = np.cross(points - np.repeat(points[starts], ends - starts, axis=0), sides)  # twice their areas
+    longest, area, size = (
+        np.maximum.reduceat(values, starts)
+        for values in (np.linalg.norm(sides, axis=1), np.linalg.norm(fans, axis=1), np.abs(points).max(axis=1))
+    )
+    return np.flatnonzero(area <= longest * np.minimum(LOW * longest, ROUNDING * size))
+
+
+def _merge_slivers(mesh):
+    """Joins each with the face at its longest side, which takes over its other corners; nothing moves."""
+    found, merged = _slivers(mesh), 0
+    with _edited(mesh) as edited:
+        edited.faces.ensure_lookup_table()
+        for face in edited.faces:
+            face.tag = False
+        open_slivers = [edited.faces[i] for i in found.tolist()]
+        for face in open_slivers:
+            face.tag = True
+        while open_slivers:
+            face = open_slivers.pop()
+            made = _joined(face) if face.is_valid else None
+            merged += made is not None
+            if made is not None and made.tag:
+                open_slivers.append(made)
+    return merged
+
+
+def _joined(sliver):
+    """The face that a sliver and another are joined to, a sliver where both were; None where that cannot be."""
+    inner = [edge for edge in sliver.edges if len(edge.link_faces) == 2 and edge.link_faces[0] != edge.link_faces[1]]
+    for edge in sorted(inner, key=lambda edge: -edge.calc_length()):
+        other = next(face for face in edge.link_faces if face != sliver)
+        starts = {loop.vert for loop in edge.link_loops}
+        if len(starts) == 1:  # they run against each other
+            sliver.normal_flip()
+        is_sliver = other.tag
+        made = bmesh.utils.face_join([other, sliver])  # with what belongs to the first
+        if made is not None:
+            made.tag = is_sliver
+            return made
+    return None
 
 
 def _loose_vertices(mesh):

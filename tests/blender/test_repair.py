@@ -77,6 +77,52 @@ def test_welding_takes_the_distance_and_leaves_what_is_farther():
     assert sizes(obj)[0] == len(vertices) and sizes(obj)[2] == len(faces)
 
 
+def with_slivers(count=3):
+    """A torus with slivers beside faces, each on an edge from one of its ends on; and one of these on another one."""
+    vertices, faces = torus_arrays()
+    points, faces = [*vertices], [tuple(map(int, face)) for face in faces]
+    for k in range(0, 20 * count, 20):
+        a, b, *rest = faces[k]
+        points += [0.5 * points[a] + 0.5 * points[b], 0.25 * points[a] + 0.75 * points[b]]
+        m, n = len(points) - 2, len(points) - 1
+        faces[k] = (a, m, n, b, *rest)
+        faces += [(a, b, m), (m, b, n)]
+    return mesh_object("Slivers", points, faces)
+
+
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
+def test_slivers_are_merged_with_the_faces_at_their_longest_sides(mode):
+    obj = with_slivers(count=3)
+    vertices, _, faces = sizes(obj)
+    obj.data.uv_layers.new(name="Own")
+    points = mesh_io.read_values(module("compatibility").position_values(obj.data))
+    bpy.ops.object.mode_set(mode=mode)
+    assert press() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert sizes(obj)[::2] == (vertices, faces - 6)
+    assert np.array_equal(mesh_io.read_values(module("compatibility").position_values(obj.data)), points)
+    surface = mesh_io.read_polygons(obj.data, np.eye(3)).surface()
+    assert (surface.genus, surface.boundary_count, len(surface.repairs.zero_area_faces)) == (1, 0, 0)
+    assert press() == {"CANCELLED"}
+
+
+def test_what_slivers_are_merged_with_keeps_its_data():
+    obj = with_slivers(count=1)
+    mesh = obj.data
+    for name in ("First", "Second"):
+        mesh.materials.append(bpy.data.materials.new(name))
+    for polygon in list(mesh.polygons)[-2:]:
+        polygon.material_index = 1
+    done = repair.repair(mesh, {"SLIVERS"}, 0)
+    assert done == repair.Repaired(slivers=2) and str(done) == "merged 2 slivers"
+    assert {polygon.material_index for polygon in mesh.polygons} == {0}
+
+
+def test_thin_faces_that_have_an_area_stay():
+    obj = mesh_object("Thin", [(0, 0, 0), (1, 0, 0), (1, 1e-3, 0), (0, 1e-3, 0)], [(0, 1, 2, 3)])
+    assert repair.repair(obj.data, {"SLIVERS"}, 0) == repair.Repaired()
+
+
 def test_what_stays_keeps_its_data():
     obj = spoiled()
     run()
