@@ -32,7 +32,9 @@ def of_file(path, strict, weld):
 
 def _of(vertices, corner_vertices, face_offsets, strict):
     if strict:
-        return _native.Surface.from_polygons(vertices, corner_vertices, face_offsets), AS_GIVEN
+        surface = _native.Surface.from_polygons(vertices, corner_vertices, face_offsets)
+        surface.refuse_wild_vertices()
+        return surface, AS_GIVEN
     part = _native.Surface.cut(vertices, corner_vertices, face_offsets)
     return part.surface, Origin.of_part(part)
 

@@ -6,9 +6,13 @@ from . import _native, arrays
 from .origin import Origin
 from .surface import Surface
 
+SHORTEST = 1e-12  # of the longest edge: no edge is shorter to a path, which goes on where two vertices are at one place
+
 
 def cut_open(surface, is_seam):
-    """Cuts the surface open along the edges of this mask, (#E,)."""
+    """Cuts the surface open along the edges of this mask, (#E,), but leaves no sliver without the neighbour at its
+    longest side: no part is without area."""
+    is_seam = surface._native.cut_without_sliver_parts(is_seam).astype(bool)
     vertices = surface.triangles.ravel().astype(np.int64)
     fans = _fans(surface._native.triangle_edges, is_seam, int(np.bincount(vertices).max()))
     _, first, new = np.unique(vertices * len(fans) + fans, return_index=True, return_inverse=True)
@@ -63,6 +67,7 @@ def paths_to_border(surface, is_on_border, starts):
     if not starts.any() or not is_on_border.any():
         return result
     lengths = np.array(native.edge_lengths)
+    lengths = np.maximum(lengths, SHORTEST * lengths.max())
     lengths[native.polygon_edge_count :] = np.inf
     distances = native.edge_distances(lengths, np.flatnonzero(is_on_border).tolist())
     nearer, edge_to_it = _steps(edges[: native.polygon_edge_count], lengths, distances)

@@ -50,18 +50,36 @@ def curvature(surface, most=np.inf):
 
 
 def _face_normals(surface):
-    """(#F, 3) unit vectors, by the mean of the triangles; zero for faces without area."""
+    """(#F, 3) unit vectors, by the mean of the triangles; slivers have that of the face to whose piece they belong."""
     a, b, c = np.moveaxis(surface.vertices[surface.triangles], 1, 0)
     cross = np.cross(b - a, c - a)
     count = len(surface.face_offsets) - 1
     sums = np.stack([np.bincount(surface.triangle_faces, column, count) for column in cross.T], axis=1)
     size = np.linalg.norm(sums, axis=1, keepdims=True)
-    return np.divide(sums, size, out=np.zeros_like(sums), where=size > 0)
+    normals = np.divide(sums, size, out=np.zeros_like(sums), where=size > 0)
+    return normals[surface._native.sliver_owners()]
 
 
 def _defects(surface):
-    """(#V,) 2 pi less the angles at each vertex."""
+    """(#V,) 2 pi less the angles at each vertex; of vertices at one place that edges join, the sum, at the lowest."""
     points = surface.vertices[surface.triangles]
     one, other = np.roll(points, -1, axis=1) - points, np.roll(points, 1, axis=1) - points
     angles = np.arctan2(np.linalg.norm(np.cross(one, other), axis=2), np.einsum("tij,tij->ti", one, other))
-    return 2 * np.pi - np.bincount(surface.triangles.ravel(), angles.ravel(), len(surface.vertices))
+    is_point = ~one.any(axis=2)  # a side without length, at whose ends the angles are a right one each in the limit
+    angles += np.pi / 2 * (is_point | np.roll(is_point, 1, axis=1))
+    defects = 2 * np.pi - np.bincount(surface.triangles.ravel(), angles.ravel(), len(surface.vertices))
+    if is_point.any():
+        place = _places(surface)
+        defects = np.where(place == np.arange(len(place)), np.bincount(place, defects, len(place)), 0.0)
+    return defects
+
+
+def _places(surface):
+    """(#V,) the lowest of the vertices that edges without length join to each."""
+    ends = np.asarray(surface._native.edges)[surface._native.edge_lengths == 0]
+    place, before = np.arange(len(surface.vertices)), None
+    while not np.array_equal(place, before):
+        before = place.copy()
+        np.minimum.at(place, ends, place[ends].min(axis=1)[:, None])
+        place = place[place]
+    return place

@@ -30,7 +30,7 @@ FLAT = 2 * math.pi  # radians of curvature, all of it counted positive, up to wh
 SHOWN = 0.2  # part of the area over which the axis is seen, from which on it counts
 TURNED = 1e-3  # 1 less the cosine of an angle that is a turn
 CONES, ROUNDS = 8, 4  # at most: cuts of each piece to cone points in a round, and rounds
-SAME = 1e-6  # UV distance over the size of the map, below which the two sides of an edge are at one place
+SAME = 1e-5  # UV distance over the size of the map, below which the two sides of an edge are at one place
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -19,7 +19,8 @@ def islands(
     """The parts into which the seams cut the surface, each a connected `Surface`, ordered by their first face.
 
     A vertex becomes one vertex for each fan of faces that the seams leave at it; a seam that ends inside a part cuts it
-    open, too. `vertex_index`, `face_index` and `corner_index` of the parts are those of the mesh as given.
+    open, too. A face without area is in the part at its longest side, whatever the seams. `vertex_index`, `face_index`
+    and `corner_index` of the parts are those of the mesh as given.
 
     Parameters
     ----------

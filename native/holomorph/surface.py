@@ -29,16 +29,17 @@ class Surface(Value):
     strict : refuse the whole mesh for any bad element. Else a mesh that is not a surface is cut until it is one: each
         fan of faces gets a vertex of its own, and `repairs.cuts` says where and why. Polygons and corners stay what
         they are. `refused` lists faces that are left out: those of fewer than three vertices, with coordinates that
-        are not finite, or of parts without area. Where most faces are separate, those whose sides run between the
+        are not finite, at a vertex that is more than 1e9 times as far away as the mesh is large, or of parts without
+        area. Where most faces are separate, those whose sides run between the
         same places, in single precision, are joined, see `repairs.joined_vertices`. Elements are then renumbered, see
         `vertex_index`
 
     Raises
     ------
     InvalidMesh
-        wrong shape, non-integer, out-of-range or negative index, NaN or infinity, no faces, fewer than 3 corners, a
-        vertex twice in a face, duplicate faces, non-manifold edge or vertex, all area zero; names the first bad
-        element.
+        wrong shape, non-integer, out-of-range or negative index, NaN or infinity, a vertex that is 1e9 times too far
+        away, no faces, fewer than 3 corners, a vertex twice in a face, duplicate faces, non-manifold edge or vertex,
+        all area zero; names the first bad element.
     TopologyError
         if the surface is non-orientable.
     """

@@ -172,3 +172,17 @@ def test_the_command_cuts_along_hard_edges(tmp_path):
 )
 def test_hard_edges_that_cannot_be_are_refused_by_the_command(tmp_path, options, word):
     assert word in refusal(can_file(tmp_path), *options)
+
+
+def test_a_face_without_area_is_in_the_island_at_its_longest_side():
+    """The cube's six islands are six squares still."""
+    obj = primitive(bpy.ops.mesh.primitive_cube_add)
+    vertices = [tuple(vertex.co) for vertex in obj.data.vertices]
+    faces = [tuple(polygon.vertices) for polygon in obj.data.polygons]
+    a, b, *rest = faces[2]
+    middle = tuple((np.array(vertices[a]) + vertices[b]) / 2)
+    faces[2] = (a, len(vertices), b, *rest)
+    bad = mesh_object("Sliver", [*vertices, middle], [*faces, (a, b, len(vertices))])
+    assert bpy.ops.uv.holomorphic_islands(hard_edges=math.radians(40)) == {"FINISHED"}
+    report = stored_report(bad)
+    assert report["faces"] == 7 and not report["whole"]["unmapped_faces"]

@@ -227,3 +227,15 @@ def test_helpers_of_the_importer_are_not_mapped():
     select(helper, good)
     assert run() == {"FINISHED"}
     assert not helper.data.uv_layers and good.data.uv_layers
+
+
+@pytest.mark.parametrize("far", [1e13, 4.9e26])
+def test_a_wild_vertex_is_named_and_the_rest_gets_its_map(far):
+    obj = with_vertex(7, far)
+    assert bpy.ops.uv.holomorphic_maps() == {"FINISHED"}
+    report = stored_report(obj)
+    (left_out,) = [part for part in report["components"] if not part["done"]]
+    assert left_out["reason"].startswith("vertex 7 is more than 1e9 times as far away") and left_out["faces"] == 4
+    kept = [k for k, polygon in enumerate(obj.data.polygons) if 7 not in polygon.vertices]
+    corners = np.concatenate([obj.data.polygons[k].loop_indices for k in kept])
+    assert np.ptp(uv(obj).reshape(-1, 2)[corners], axis=0).min() > 0.1

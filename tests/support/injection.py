@@ -50,7 +50,8 @@ class Lines:
             return None
         self._is_writing |= code.co_name == self._begin
         is_elsewhere = self._stop is not None and not code.co_filename.endswith(self._stop[0])
-        return None if is_elsewhere or code.co_name in self._guards else self._line
+        owner = frame.f_back.f_code if code.co_name.startswith("<") else code  # of a comprehension
+        return None if is_elsewhere or owner.co_name in self._guards else self._line
 
     def _line(self, frame, event, _argument):
         if event == "line" and self._is_writing and not self.is_raised:

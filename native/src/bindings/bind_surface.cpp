@@ -14,6 +14,7 @@
 #include "mesh/io/read.h"
 #include "mesh/io/weld.h"
 #include "mesh/make_surface.h"
+#include "mesh/slivers.h"
 
 namespace holomorph::bindings {
 namespace {
@@ -86,6 +87,7 @@ Part read(const std::filesystem::path& path, bool strict, bool weld) {
     if (weld) polygons = mesh::welded(polygons);
     if (!strict) return mesh::cut_surface(std::move(polygons), execution);
     mesh::Surface surface = mesh::make_surface(std::move(polygons), execution);
+    mesh::refuse_wild_vertices(surface.polygons);
     const int count = surface.vertex_count;
     return {std::move(surface), {}, {}, {}, count, {}, {}, {}};
   }));
@@ -112,6 +114,11 @@ py::array edge_distances(const Surface& surface, const Contiguous<double>& lengt
     Execution execution;
     return mesh::graph_distances(mesh::half_edges(surface, execution), l, sources);
   }));
+}
+
+py::array cut_without_sliver_parts(const Surface& surface, const Contiguous<bool>& is_cut) {
+  std::vector<char> cut(is_cut.data(), is_cut.data() + is_cut.size());
+  return copy(without_lock([&] { return mesh::cut_without_sliver_parts(surface, std::move(cut)); }));
 }
 
 // What reading and splitting give.
@@ -181,6 +188,13 @@ void bind_surface(py::module_& m) {
       .def("topology", &mesh::topological_type)
       .def("euler_characteristic", &mesh::euler_characteristic)
       .def("edge_distances", &edge_distances)
+      .def("refuse_wild_vertices",
+           [](const Surface& s) {
+             const py::gil_scoped_release unlocked;
+             mesh::refuse_wild_vertices(s.polygons);
+           })
+      .def("sliver_owners", [](const Surface& s) { return copy(without_lock([&] { return mesh::sliver_owners(s); })); })
+      .def("cut_without_sliver_parts", &cut_without_sliver_parts, py::arg("is_cut"))
       .def("area",
            [](const Surface& s) {
              Workers workers;

@@ -11,6 +11,9 @@
 namespace holomorph::islands {
 namespace {
 
+// Part of the longest edge: edges are no shorter, so that a path goes on where two vertices are at one place.
+constexpr double kShortest = 1e-12;
+
 // The paths to the boundary along the edges of polygons.
 struct Forest {
   std::vector<double> distances;    // #V; infinite where no path leads to a boundary
@@ -20,6 +23,8 @@ struct Forest {
 Forest paths_to_border(const mesh::Surface& surface, Execution& execution) {
   const auto half_edges = mesh::half_edges(surface, execution);
   std::vector<double> lengths(surface.edge_lengths.begin(), surface.edge_lengths.end());
+  const double shortest = kShortest * *std::max_element(lengths.begin(), lengths.end());
+  for (double& length : lengths) length = std::max(length, shortest);
   // Infinite lengths keep paths off the diagonals.
   std::fill(lengths.begin() + surface.polygon_edge_count, lengths.end(), std::numeric_limits<double>::infinity());
   std::vector<char> is_border(surface.vertex_count, 0);

@@ -25,8 +25,13 @@ class Cutter {
 
   Component cut(std::vector<int> faces, Execution& execution) {
     PolygonPart part = parts_.take(std::move(faces));
-    Surface surface =
-        parent_.intrinsic() ? intrinsic_part(part, execution) : make_surface(std::move(part.polygons), execution);
+    Surface surface;
+    if (parent_.intrinsic()) {
+      surface = intrinsic_part(part, execution);
+    } else {
+      surface.polygons = std::move(part.polygons);
+      complete(surface, {Labels(part.vertex_index), Labels(part.face_index), parent_.component_count > 1}, execution);
+    }
     return {std::move(surface), std::move(part.vertex_index), std::move(part.face_index), std::move(part.corner_index)};
   }
 

@@ -25,10 +25,14 @@ struct Pairing {
   bool operator<(const Pairing& b) const { return std::tie(score, side, other) < std::tie(b.score, b.side, b.other); }
 };
 
-// How a face lies at one of its sides, as it runs: unit vectors, zero where it has no area.
+// How a face lies at one of its sides, as it runs: unit vectors, which are rounding for a sliver.
 struct Lie {
   Vector3d normal, inward;
+  bool is_sliver;
 };
+
+// Area over the squared length of the side, up to which a face is a sliver.
+constexpr double kLeastShape = 1e-6;
 
 class Scores {
  public:
@@ -45,7 +49,8 @@ class Scores {
         const double bend = (1 + lies[i].inward.dot(lies[j].inward)) / 2;  // 0 where they are flat, 1 folded
         const bool is_concave = lies[j].inward.dot(lies[i].normal) * (one ? -1 : 1) > kConcave;
         // A pair that contradicts the orientation costs as much as a fold.
-        const double score = (is_oriented ? 0 : 1) + bend + (is_concave ? kConcave : 0);
+        const double of_slivers = lies[i].is_sliver || lies[j].is_sliver ? 2 : 0;  // what is left to them
+        const double score = (is_oriented ? 0 : 1) + bend + (is_concave ? kConcave : 0) + of_slivers;
         pairings.push_back({std::lround(score / kSameScore), sides[i], sides[j]});
       }
     }
@@ -58,12 +63,12 @@ class Scores {
       const auto& p = mesh_.vertices[mesh_.corner_vertices[c]];
       return Vector3d(p[0], p[1], p[2]);
     };
-    const Vector3d origin = point(first), along = (point(next_[side]) - point(side)).stableNormalized();
+    const Vector3d origin = point(first), whole = point(next_[side]) - point(side), along = whole.stableNormalized();
     Vector3d area = Vector3d::Zero();
     for (int c = first; c < mesh_.face_offsets[face + 1]; ++c)
       area += (point(c) - origin).cross(point(next_[c]) - origin);
     const Vector3d normal = area.stableNormalized();
-    return {normal, normal.cross(along)};
+    return {normal, normal.cross(along), area.stableNorm() <= kLeastShape * whole.stableNorm() * whole.stableNorm()};
   }
 
   const Polygons& mesh_;

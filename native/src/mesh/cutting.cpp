@@ -164,6 +164,7 @@ CutSurface cut_surface_of(BasicPolygons<Index> given, Execution& execution) {
   UsableFaces usable;
   try {
     check_polygons(given, execution.workers());
+    refuse_wild_vertices(given);
   } catch (const InvalidMesh&) {
     failure = std::current_exception();
     usable = usable_faces(std::move(given));

@@ -23,8 +23,8 @@ struct CutSurface {
 };
 
 /// Makes a surface as `make_surface` does, but cuts a mesh that `make_surface` refuses: each fan of faces gets its
-/// own vertex. Leaves out faces with fewer than three vertices or with coordinates that are not finite, and parts
-/// without area.
+/// own vertex. Leaves out faces with fewer than three vertices, with coordinates that are not finite or with wild
+/// vertices, and parts without area.
 ///
 /// Where most sides of faces have no neighbour, sides that run between the same places in opposite directions are
 /// joined first. This is done if it gives most of them a neighbour.

@@ -21,6 +21,7 @@ class Labels {
 struct MeshLabels {
   static inline const std::vector<int> kOwnIndices;
   Labels vertex{kOwnIndices}, face{kOwnIndices};
+  bool is_part = false;  ///< of a mesh, in whose numbers they are
 };
 
 }  // namespace holomorph::mesh

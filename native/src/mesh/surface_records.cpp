@@ -23,7 +23,10 @@ void record_zero_areas(Surface& surface, const MeshLabels& label, Workers& worke
   };
   const int triangles = static_cast<int>(surface.triangles.size());
   const int count = sum_over_rows(workers, triangles, 0, [&](int t, int& sum) { sum += is_zero(t); });
-  if (count == triangles) throw InvalidMesh("all faces have zero area (face " + label.face(0) + " is the first)");
+  if (count == triangles) {
+    const std::string which = label.is_part ? "all faces of a part have" : "all faces have";
+    throw InvalidMesh(which + " zero area (face " + label.face(0) + " is the first)");
+  }
   auto& zero = surface.repairs.zero_area_faces;
   for (int t = 0; count > 0 && t < triangles; ++t) {
     const int face = surface.triangle_faces[t];

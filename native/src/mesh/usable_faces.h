@@ -20,9 +20,14 @@ struct UsableFaces {
   std::vector<RefusedFaces> refused;  ///< the others, by reasons
 };
 
-/// Keeps the faces with at least three different vertices, all of which exist and have finite coordinates.
+/// Keeps the faces with at least three different vertices, all of which exist and have finite coordinates, none of them
+/// wild (wild_vertices).
 /// @pre check_layout has passed
 UsableFaces usable_faces(GivenPolygons polygons);
 UsableFaces usable_faces(Polygons polygons);
+
+/// Refuses a mesh with a wild vertex, naming the first. @throws InvalidMesh
+void refuse_wild_vertices(const Polygons& polygons);
+void refuse_wild_vertices(const GivenPolygons& polygons);
 
 }  // namespace holomorph::mesh

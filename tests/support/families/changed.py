@@ -87,3 +87,35 @@ def subdivided(mesh):
     cut = np.stack([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]])
     points = np.concatenate([mesh.vertices, (mesh.vertices[key // n] + mesh.vertices[key % n]) / 2])
     return uniform(points, cut.transpose(2, 0, 1).reshape(-1, 3), mesh.topology)
+
+
+def single(mesh):
+    """With coordinates of single precision."""
+    return replace(mesh, vertices=np.float32(mesh.vertices).astype(float))
+
+
+def with_slivers(mesh, count, kind="edge", seed=0):
+    """The mesh with triangles without area beside polygons, on edges between two.
+
+    kind : "edge", of two ends and a point between them; "end", where that point is one of the ends; "chain", three side
+        by side; "border", on edges of one polygon, or on any where there are no such edges
+    """
+    random = np.random.default_rng(seed)
+    points, faces = [*mesh.vertices], [f.tolist() for f in np.split(mesh.corners, mesh.offsets[1:-1])]
+    sides = [(f, a, b) for f, face in enumerate(faces) for a, b in zip(face, face[1:] + face[:1])]
+    known = {(a, b) for _, a, b in sides}
+    border = [side for side in sides if side[:0:-1] not in known] if kind == "border" else []
+    sides, is_filled = border or sides, set()
+    for f, a, b in (sides[k] for k in random.permutation(len(sides))):
+        if f in is_filled or len(is_filled) == count:
+            continue
+        is_filled.add(f)
+        for _ in range(3 if kind == "chain" else 1):
+            part, m = 0.0 if kind == "end" else random.uniform(0.3, 0.7), len(points)
+            points.append((1 - part) * points[a] + part * points[b])
+            faces.append([b, a, m] if border else [a, b, m])
+            if not border:
+                faces[f].insert(faces[f].index(a) + 1, m)
+            a = m
+    corners, offsets = np.concatenate(faces), np.cumsum([0, *map(len, faces)])
+    return replace(mesh, vertices=np.array(points), corners=corners, offsets=offsets)

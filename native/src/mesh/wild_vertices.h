@@ -1,0 +1,21 @@
+// Vertices that are so far out that the rest of the mesh is less than rounding beside them.
+#pragma once
+
+#include <vector>
+
+#include "mesh/polygons.h"
+
+namespace holomorph::mesh {
+
+/// Returns the wild vertices, ascending: those of faces that reach from the bulk of the mesh to beyond kWild times its
+/// size. The bulk are the corners about their median, half of them at least, up to the first gap by that factor. A part
+/// that lies there as a whole has none; nor has a mesh all of whose faces would have some.
+/// @pre check_layout has passed; vertices that do not exist or are beyond kLargest do not count
+/// Cost: O(#V) where all vertices lie near a sample of them, else O(#C log #C).
+std::vector<int> wild_vertices(const Polygons& polygons);
+std::vector<int> wild_vertices(const GivenPolygons& polygons);
+
+/// The factor by which a vertex is wild: the area of the rest is beyond the digits of that of its faces.
+inline constexpr double kWild = 1e9;
+
+}  // namespace holomorph::mesh
