@@ -17,7 +17,8 @@ from . import joining
 USD = (".usd", ".usda", ".usdc", ".usdz")
 GLTF = (".glb", ".gltf")
 SUFFIXES = (*GLTF, ".fbx", *USD, ".obj")
-KEPT_OF_OBJ = (b"vt ", b"usemtl ")  # lines of OBJ files for which Blender's importer is taken
+KEPT_OF_OBJ = (b"vt", b"usemtl")  # lines of OBJ files for which Blender's importer is taken
+WITH_COLOUR = 7  # words of a vertex's line in OBJ files
 KINDS = {".obj": "OBJ", ".fbx": "FBX", **dict.fromkeys(GLTF, "glTF"), **dict.fromkeys(USD, "USD")}
 
 # What exporters leave out, rename or add by default.
@@ -52,8 +53,9 @@ def is_read_here(path):
     objects = 0
     with open(path, "rb") as lines:
         for line in lines:
-            objects += line.startswith(b"o ")
-            if objects > 1 or line.startswith(KEPT_OF_OBJ):
+            word, *more = line.split(maxsplit=WITH_COLOUR)[:WITH_COLOUR] or [b""]
+            objects += word == b"o"
+            if objects > 1 or word in KEPT_OF_OBJ or (word == b"v" and len(more) + 1 >= WITH_COLOUR):
                 return True
     return False
 

@@ -11,18 +11,20 @@ from ..compatibility import Values
 from ..scene import mesh_io
 
 SAME_PLACE = 1e-6  # part of a mesh's largest extent: equal positions, for Blender joins nothing at a distance of 0
+ROUNDED = 4  # steps of single precision at the largest coordinate: far from the origin they are longer than that part
 
 
 def join(mesh):
     """Joins vertices that are in the very same place, and stay so in every shape key and pose: lips do not grow
-    together. Normals of corners stay."""
+    together. Faces that lie back to back stay two. Normals of corners stay."""
     if not len(mesh.vertices):
         return
     normals, places = mesh_io.corner_normals(mesh), mesh_io.read_values(compatibility.position_values(mesh))
-    distance, kinds = SAME_PLACE * np.ptp(places, axis=0).max(), _kinds(mesh, places)
+    distance, kinds = _distance(places), _kinds(mesh, places)
     edited = bmesh.new()
     edited.from_mesh(mesh)
-    for alike in [list(compress(edited.verts, (kinds == kind).tolist())) for kind in range(kinds.max() + 1)]:
+    sheets = _sheets(mesh, _joined(edited, kinds, distance))
+    for alike in _groups(edited, kinds + (kinds.max() + 1) * sheets):
         bmesh.ops.remove_doubles(edited, verts=alike, dist=distance)
     edited.to_mesh(mesh)
     edited.free()
@@ -31,15 +33,52 @@ def join(mesh):
     mesh.update()
 
 
+def _distance(places):
+    """Within which positions are equal."""
+    rounding = ROUNDED * float(np.spacing(np.abs(places).max()))
+    return max(SAME_PLACE * float(np.ptp(places, axis=0).max()), rounding)
+
+
+def _groups(edited, numbers):
+    """The vertices of each number, as lists."""
+    return [list(compress(edited.verts, (numbers == number).tolist())) for number in np.unique(numbers)]
+
+
+def _joined(edited, kinds, distance):
+    """(#V,) the vertex that each would be joined into."""
+    into = np.arange(len(kinds))
+    edited.verts.index_update()
+    for alike in _groups(edited, kinds):
+        found = bmesh.ops.find_doubles(edited, verts=alike, dist=distance)["targetmap"]
+        pairs = np.array([(one.index, other.index) for one, other in found.items()], int).reshape(-1, 2)
+        into[pairs[:, 0]] = pairs[:, 1]
+    return into
+
+
+def _sheets(mesh, into):
+    """(#V,) 0, or more on the faces that would get the same vertices as earlier ones, which Blender would delete."""
+    polygons = mesh_io.read_polygons(mesh, np.eye(3))
+    starts, sizes, sheets = polygons.face_offsets[:-1], np.diff(polygons.face_offsets), np.zeros(len(into), int)
+    for size in np.unique(sizes):
+        corners = polygons.corner_vertices[starts[sizes == size][:, None] + np.arange(size)]
+        _, places = np.unique(np.sort(into[corners], axis=1), axis=0, return_inverse=True)
+        np.maximum.at(sheets, corners, _ranks(places.ravel())[:, None])
+    return sheets
+
+
+def _ranks(numbers):
+    """(n,) how many equal ones come before each."""
+    order = np.argsort(numbers, kind="stable")
+    ranks = np.empty(len(numbers), int)
+    ranks[order] = np.arange(len(numbers)) - np.searchsorted(numbers[order], numbers[order])
+    return ranks
+
+
 def _kinds(mesh, places):
     """(#V,) a number for each way to move that vertices of one place have, from 0 on in each place."""
     place, _ = _numbered(places)
     kind, first = _numbered(np.column_stack([place, _key_positions(mesh), _weights(mesh)]))
-    order = np.argsort(place[first], kind="stable")  # the kinds of each place side by side
-    sides = place[first][order]
-    number = np.empty(len(first), int)
-    number[order] = np.arange(len(first)) - np.searchsorted(sides, sides)
-    return number[kind]
+    return _ranks(place[first])[kind]
 
 
 def _numbered(rows):

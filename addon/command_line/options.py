@@ -71,6 +71,7 @@ def parse(arguments):
     _add_tilings(parser)
     _add_bake(parser)
     options = parser.parse_args(arguments)
+    options.warnings = []  # sentences about what was read all the same
     _check_suffixes(options)
     _check_folders(options.output, options.render, options.report, options.bake)
     _check_values(options)

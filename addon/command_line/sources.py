@@ -51,6 +51,7 @@ def _request(options):
 def _import_mesh(options):
     """The mesh file as an object, in an otherwise empty scene unless a .blend was opened; and the file's positions."""
     surface = native.load().Surface.read(str(options.mesh))
+    options.warnings += [f"{options.mesh}: {note}" for note in surface.repairs.notes]
     _empty_scene()
     mesh = mesh_io.new_mesh(options.mesh.stem, surface.vertices, surface.corner_vertices, surface.face_offsets)
     mesh_io.shade_smooth(mesh, SHARP_ANGLE)

@@ -12,10 +12,11 @@ from .batch import mapping
 from .batch.recipe import Maps, Recipe
 from .checks import SOLVERS, check_options, check_thresholds
 from .compare_command import compare
-from .console import Parser, ended, failed, tell
+from .console import Parser, ended, failed, tell, warn
 from .map_choice import MAIN_MAPS
 from .relief_command import relief
 from .report import repairs_report, whole_report
+from .value import quoted
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 
@@ -39,13 +40,15 @@ def main(arguments=None):
         return relief(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
+        check_options(options.solver, options.threads)
+        check_thresholds(options.thresholds, options.solver)
         whole_file.check_places(options.mesh, options.output, [options.report], options.overwrite)
         _check_output(options.output, options.texture)
     except (ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
     try:
         report = mapped(options)
-    except (Error, OSError, ValueError) as error:
+    except (Error, OSError) as error:
         return failed(EXIT_REFUSED, error)
     return _status(report, options.strict)
 
@@ -79,7 +82,9 @@ def _thresholds(text):
     try:
         return [] if text == "none" else [int(number) for number in text.split(",")]
     except ValueError as error:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a list of numbers of faces such as 1000,5000") from error
+        raise argparse.ArgumentTypeError(
+            f"{quoted(text)} is not a list of numbers of faces such as 1000,5000"
+        ) from error
 
 
 def _check_output(path, texture):
@@ -98,9 +103,8 @@ def _check_output(path, texture):
 
 def mapped(options):
     """The report of all components of the mesh file, as plain data; it and the mesh are written as the options say."""
-    check_options(options.solver, options.threads)
-    check_thresholds(options.thresholds, options.solver)
     surface = Surface.read(options.mesh)
+    warn(options.mesh, surface.repairs.notes)
     main = options.main or ("automatic" if options.output else "balanced")
     recipe = Recipe(Maps(main=main, solver=options.solver, thresholds=options.thresholds))
     parts = mapping.map_parts(surface, recipe, threads=options.threads)

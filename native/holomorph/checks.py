@@ -1,5 +1,6 @@
 """Checks of what results are made from."""
 
+import cmath
 import math
 import numbers
 import os
@@ -8,18 +9,29 @@ import numpy as np
 
 from ._native import TopologyError
 from .surface import Surface
+from .value import quoted
 
 SOLVERS = ("auto", "direct", "multigrid", "paper")
 
 
 def check_options(solver, threads):
     """The number of threads to use. @throws ValueError"""
-    if solver not in SOLVERS:
-        raise ValueError(f"solver is {solver!r}; one of {', '.join(SOLVERS)} is needed")
+    check_name(solver, SOLVERS, "solver")
+    return check_threads(threads)
+
+
+def check_name(value, names, noun):
+    """@throws ValueError where `value` is none of these names"""
+    if not isinstance(value, str) or value not in names:
+        raise ValueError(f"{noun} is {quoted(value)}; one of {', '.join(names)} is needed")
+
+
+def check_threads(threads):
+    """The number of threads to use. @throws ValueError"""
     if threads is None:
         return os.cpu_count() or 1
     if not isinstance(threads, numbers.Real) or not 1 <= threads < 2**31 or threads != int(threads):
-        raise ValueError(f"threads is {threads!r}; a positive integer below 2**31, or None, is needed")
+        raise ValueError(f"threads is {quoted(threads)}; a positive integer below 2**31, or None, is needed")
     return int(threads)
 
 
@@ -29,7 +41,7 @@ def check_memory_limit(memory_limit):
         return 0
     is_number = isinstance(memory_limit, numbers.Real) and not isinstance(memory_limit, bool)
     if not is_number or not 1 <= memory_limit < 2**63:
-        raise ValueError(f"memory_limit is {memory_limit!r}; a positive number of bytes or None is needed")
+        raise ValueError(f"memory_limit is {quoted(memory_limit)}; a positive number of bytes or None is needed")
     return int(memory_limit)
 
 
@@ -38,7 +50,7 @@ def check_thresholds(thresholds, solver):
     if thresholds is None:
         return None
     if solver != "paper":
-        raise ValueError(f"thresholds need solver='paper', but solver is {solver!r}")
+        raise ValueError(f"thresholds need solver='paper', but solver is {quoted(solver)}")
     return [int(min(real_number(faces, "a threshold", positive=True), 2**62)) for faces in thresholds]
 
 
@@ -47,21 +59,63 @@ def check_bounds(width, most_faces):
     if width is None:
         return None
     if real_number(width, "bounds", positive=True) >= 1:
-        raise ValueError(f"bounds is {width!r}; a relative width below 1 is needed")
+        raise ValueError(f"bounds is {quoted(width)}; a relative width below 1 is needed")
     return float(width), int(real_number(most_faces, "most_faces", positive=True))
 
 
-def real_number(value, name, positive=False):
+def as_float(value):
+    """A real number, rounded; infinite where it is beyond all floats, NaN where it is none."""
+    try:
+        return float(value) if isinstance(value, numbers.Real) else math.nan
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
+def real_number(value: object, name: str, positive: bool = False) -> float:
     """`value` as a finite float. @throws ValueError"""
-    if not isinstance(value, numbers.Real) or not math.isfinite(value) or (positive and value <= 0):
-        raise ValueError(f"{name} is {value!r}; a {'positive' if positive else 'finite'} number is needed")
-    return float(value)
+    found = as_float(value)
+    if not math.isfinite(found) or (positive and found <= 0):
+        raise ValueError(f"{name} is {quoted(value)}; a {'positive' if positive else 'finite'} number is needed")
+    return found
+
+
+def ratio(value, name):
+    """`value` as a float, which may be infinite. @throws ValueError"""
+    found = as_float(value)
+    if math.isnan(found):
+        raise ValueError(f"{name} is {quoted(value)}; a number is needed")
+    return found
+
+
+def whole_number(value: object, name: str, least: int = 0) -> int:
+    """`value` as an integer that indices reach. @throws ValueError"""
+    found = as_float(value)
+    if not least <= found < 2**31 or found != int(found):
+        raise ValueError(f"{name} is {quoted(value)}; a whole number from {least} to below 2**31 is needed")
+    return int(found)
+
+
+def complex_number(value, name):
+    """`value` as a finite complex number. @throws ValueError"""
+    try:
+        found = complex(value) if isinstance(value, numbers.Complex) else complex(math.nan)
+    except OverflowError:
+        found = complex(math.inf)
+    if not cmath.isfinite(found):
+        raise ValueError(f"{name} is {quoted(value)}; a finite number is needed")
+    return found
+
+
+def check_list(value, name):
+    """@throws ValueError where `value` has no entries to go through"""
+    if isinstance(value, (str, bytes)) or not np.iterable(value):
+        raise ValueError(f"{name} is {quoted(value)}; a list is needed")
 
 
 def checked_evenness(value):
     """An evenness as a float. @throws ValueError"""
-    if not isinstance(value, numbers.Real) or not 0 <= value <= 1:
-        raise ValueError(f"evenness is {value!r}; a number from 0 (keeps angles) to 1 (equal sizes) is needed")
+    if not 0 <= as_float(value) <= 1:
+        raise ValueError(f"evenness is {quoted(value)}; a number from 0 (keeps angles) to 1 (equal sizes) is needed")
     return float(value)
 
 
@@ -103,7 +157,7 @@ def checked_coefficients(coefficients, count, kind):
     """`coefficients` as (count,) finite numbers of type `kind`. @throws ValueError"""
     c = np.asarray(coefficients)
     if np.ma.is_masked(coefficients) or c.dtype.kind not in "biufc":
-        raise ValueError(f"coefficients must be numbers, none of them masked, not {coefficients!r}")
+        raise ValueError(f"coefficients must be numbers, none of them masked, not {quoted(coefficients)}")
     if c.shape != (count,) or not np.isfinite(c).all() or (kind is not np.complex128 and np.iscomplexobj(c)):
         wanted = f"({count},) finite {'numbers are' if kind is np.complex128 else 'real numbers are'} needed"
         raise ValueError(f"coefficients has the shape {c.shape}; {wanted}")

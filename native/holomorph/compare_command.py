@@ -3,7 +3,7 @@
 import json
 
 from . import Error, Surface, whole_file
-from .console import Parser, failed, tell
+from .console import Parser, failed, tell, warn
 from .equivalence import VERDICTS, conformally_equivalent
 from .plain_data import plain
 
@@ -34,6 +34,7 @@ def compare(arguments):
 
 def _surface(path):
     surface = Surface.read(path, strict=True)
+    warn(path, surface.repairs.notes)
     try:
         surface.require_connected()
     except Error as error:

@@ -7,6 +7,8 @@ import os
 import signal
 import sys
 
+from . import unexpected
+
 INTERRUPTED = 130  # exit status after Ctrl-C, or SIGTERM, as shells have it
 JOINERS = "\u200c\u200d"  # which scripts and pictures need between letters
 
@@ -49,6 +51,12 @@ def say(sentence, end="\n"):
         _silence(2)
 
 
+def warn(path, sentences):
+    """Says on the error stream what is wrong with a file that was read all the same."""
+    for sentence in sentences:
+        say(f"holomorph: {shown(str(path))}: {sentence}")
+
+
 def failed(status, problem):
     """The exit status, after one sentence about an error, or a text, on the error stream."""
     if isinstance(problem, OSError) and problem.filename is not None:
@@ -86,6 +94,9 @@ def ended(run, refused=1):
     except (OSError, MemoryError, ImportError) as error:  # the last of a library that finds no memory
         _ignore_signals()
         return failed(refused, str(error) and error or "there is not enough memory")
+    except Exception as error:  # noqa: BLE001  the outer door: nobody is left to raise it to
+        _ignore_signals()
+        return failed(unexpected.STATUS, unexpected.told(error))
 
 
 def _finished(run):

@@ -22,6 +22,7 @@ class Origin(NamedTuple):
     cuts: tuple[Cut, ...] = ()
     joined_vertices: Integers = NO_VERTICES
     refused: tuple[Refused, ...] = ()
+    notes: tuple[str, ...] = ()  # about the file
 
     @classmethod
     def of_part(cls, part):
@@ -34,6 +35,7 @@ class Origin(NamedTuple):
             tuple(Cut(cut.reason.name, cut.vertices, cut.edges, cut.faces) for cut in part.cuts),
             arrays.frozen(np.array(part.joined_vertices, np.int32)),
             tuple(Refused(entry.faces, entry.reason) for entry in part.refused),
+            tuple(part.notes),
         )
 
     def of_component(self, part, vertex_count):
@@ -51,6 +53,7 @@ class Origin(NamedTuple):
             self.cuts,
             self.joined_vertices,
             native.mollification(),
+            self.notes,
         )
 
 

@@ -95,6 +95,7 @@ class Repairs(Value):
     mollification : added to the lengths of edges at degenerate triangles, in the unit of the positions; 0 if there are
         none (Sharp & Crane 2020, doi:10.1111/cgf.14069). The intrinsic Delaunay triangulation that invariants come from
         needs less, mostly none
+    notes : sentences about what is wrong with the file, although the rest of it was read
     """
 
     reversed_faces: Integers
@@ -103,11 +104,12 @@ class Repairs(Value):
     cuts: tuple[Cut, ...]
     joined_vertices: Integers
     mollification: float
+    notes: tuple[str, ...] = ()
 
     def _facts(self):
         counts = {name: len(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
         facts = [f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count]
-        facts += [cut.sentence for cut in self.cuts]
+        facts += [*(cut.sentence for cut in self.cuts), *self.notes]
         return facts + [f"mollification {self.mollification:.2g}"] * (self.mollification != 0) or ["none"]
 
     def __bool__(self) -> bool:

@@ -124,6 +124,7 @@ def repairs_report(repairs: Repairs) -> dict[str, Any]:
     return plain(
         {name: _listed(value) for name, value in arrays.items()}
         | {"cuts": [_cut_report(cut) for cut in repairs.cuts], "mollification": repairs.mollification}
+        | {"notes": repairs.notes}
     )
 
 

@@ -5,6 +5,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+LONGEST_QUOTATION = 60  # characters
+
 
 class Value(ABC):
     """Base of results, for people and for other processes. A repr is one short line without arrays. As nothing changes
@@ -37,6 +39,20 @@ class Value(ABC):
 def counted(count: int, noun: str) -> str:
     """A number with its noun, such as "1 pole" and "2 poles"."""
     return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def quoted(value: object) -> str:
+    """A wrong value as messages repeat it, on one line, in at most `LONGEST_QUOTATION` characters."""
+    try:
+        text = " ".join(repr(value).split())
+    except (ValueError, RecursionError):  # integers of thousands of digits, lists as deep
+        return f"of type {type(value).__name__} and beyond printing"
+    return shortened(text)
+
+
+def shortened(text: str) -> str:
+    """A text with at most `LONGEST_QUOTATION` characters."""
+    return text if len(text) <= LONGEST_QUOTATION else text[: LONGEST_QUOTATION - 3] + "..."
 
 
 def freeze(value: object) -> None:

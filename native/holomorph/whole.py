@@ -86,5 +86,6 @@ def _words(maps, unmapped, repairs):
     if unmapped:
         yield f"{unmapped:,} faces left out" if unmapped > 1 else "1 face left out"
     yield from (cut.sentence for cut in repairs.cuts)
+    yield from repairs.notes
     if len(repairs.joined_vertices):
         yield f"{len(repairs.joined_vertices):,} vertices joined"

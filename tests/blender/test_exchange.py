@@ -3,6 +3,7 @@
 import json
 
 import bpy
+import holomorph
 import numpy as np
 import pytest
 from exchange_formats import may_write_gltf, needs_usd
@@ -106,10 +107,56 @@ def test_a_bare_obj_is_read_with_double_precision_and_others_by_blender(tmp_path
     assert not exchange.is_read_here(path)
     path.write_text("o one\n" + path.read_text() + "o two\n")
     assert exchange.is_read_here(path)
-    for line in ("vt 0 0\n", "usemtl Red\n"):
+    for line in ("vt 0 0\n", "usemtl Red\n", "vt\t0 0\n", "  usemtl\tRed\n", "v 0 0 0 1 0 0\n"):
         path.write_text(line)
         assert exchange.is_read_here(path)
     assert not exchange.is_read_here(tmp_path / "ring.ply")
+
+
+def split(vertices, faces, sides=1, far=0.0):
+    """A mesh as glTF files have it: each corner a vertex of its own, which rounding may have moved; and the other side
+    of each face, where there are two."""
+    rows = np.concatenate([faces, *[faces[:, ::-1]] * (sides - 1)])
+    places = np.float32(vertices[rows].reshape(-1, 3) + far)
+    jitter = np.random.default_rng(0).integers(-1, 2, places.shape) if far else 0
+    places += np.spacing(np.abs(places)) * np.float32(jitter)
+    return mesh_io.new_mesh("Split", places, np.arange(len(places)), np.arange(0, len(places) + 1, 4))
+
+
+def sides_of(mesh):
+    """How many faces each edge has."""
+    each = mesh_io.read_polygons(mesh, np.eye(3)).corner_vertices.reshape(-1, 4)
+    sides = np.sort(np.stack([each, np.roll(each, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    return np.unique(sides, axis=0, return_counts=True)[1]
+
+
+@pytest.mark.parametrize("far", [0.0, 200.0, -7000.0])
+@pytest.mark.parametrize("sides", [1, 2, 3])
+def test_split_vertices_are_joined_and_no_face_is_lost(sides, far):
+    """Wherever they are, and though faces lie on each other: each sheet is closed."""
+    vertices, faces = torus_arrays()
+    faces = np.array(faces)
+    mesh = split(np.array(vertices), faces, sides, far)
+    module("command_line.joining").join(mesh)
+    assert len(mesh.polygons) == sides * len(faces)
+    assert len(mesh.vertices) == sides * len(vertices)
+    assert (sides_of(mesh) == 2).all()
+
+
+def test_what_a_reader_notes_is_told(tmp_path):
+    """A file without its last lines is mapped all the same."""
+    path = tmp_path / "ring.stl"
+    vertices, faces = torus_arrays()
+    holomorph.Surface(vertices, faces).write(tmp_path / "ring.ply")
+    text = "solid a\n"
+    for a, b, c in holomorph.Surface(vertices, faces).triangles.tolist():
+        text += "facet normal 0 0 1\nouter loop\n"
+        text += "".join("vertex {!r} {!r} {!r}\n".format(*map(float, vertices[v])) for v in (a, b, c))
+        text += "endloop\nendfacet\n"
+    path.write_text(text)
+    done = headless(path, "--output", tmp_path / "out.blend")
+    assert done.returncode == 0, done.stderr
+    assert any("the file ends before 'endsolid'" in line for line in our_lines(done))
 
 
 @may_write_gltf

@@ -3,20 +3,29 @@
 import difflib
 import json
 import math
-import numbers
+import os
+import re
 from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cached_property
+from itertools import accumulate
 from pathlib import Path
 
 import tomllib
 
-from .. import formats, textures, tiling_options
-from ..checks import SOLVERS
+from .. import formats, textures, tiling_options, whole_file
+from ..checks import SOLVERS, as_float
 from ..map_choice import EVENNESS, MAIN_MAPS
+from ..tiling_options import MOST_POLES
+from ..value import quoted, shortened
 from .errors import UsageError
 
 BOUNDARIES = ("natural", "double_cover", "free")
 FORMATS = ("npz", *formats.WRITERS, "blend")
+MOST_BYTES = 2**18  # of a recipe
+MOST_NESTED = 8  # lists and tables in each other, parts of a name
+MOST_LEVELS, MOST_ENTRIES = 64, 1000  # of a list
+IN_QUOTES = re.compile(r'"""(?:[^\\]|\\.)*?"""|"(?:[^"\\\n]|\\.)*"|' + r"'''.*?'''|'[^'\n]*'|#[^\n]*", re.DOTALL)
+LONG_NAME = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{MOST_NESTED}}}")  # in time linear in the text
 
 
 def _option(default, wanted, is_valid):
@@ -48,15 +57,15 @@ def _vertices(wanted, is_size=lambda size: True):
 
 
 def _is_number(value):
-    return isinstance(value, numbers.Real) and not isinstance(value, bool) and math.isfinite(value)
+    return not isinstance(value, bool) and math.isfinite(as_float(value))
 
 
 def _is_count(value):
-    return isinstance(value, int) and not isinstance(value, bool) and value >= 0
+    return isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**31
 
 
 def _is_list(value, is_entry):
-    return isinstance(value, list) and all(is_entry(entry) for entry in value)
+    return isinstance(value, list) and len(value) <= MOST_ENTRIES and all(is_entry(entry) for entry in value)
 
 
 def _is_complex(value):
@@ -82,7 +91,7 @@ class Maps:
     density: float = _number(1.0, "a positive number", lambda value: value > 0)
     margin: float = _number(0.02, "a number from 0 to 1", lambda value: 0 <= value < 1)
     rotation: float = _number(0.0, "an angle in degrees")
-    memory_limit: int | None = _option(None, "a positive number of bytes", lambda v: _is_count(v) and v > 0)
+    memory_limit: int | None = _optional_number("a positive number of bytes", lambda v: 1 <= v < 2**63 and v == int(v))
 
 
 @dataclass(frozen=True)
@@ -93,8 +102,8 @@ class Tiles:
     density: float | None = _optional_number("a positive number of tiles per unit of area", lambda value: value > 0)
     poles: object = _option(
         "auto",
-        '"auto", a number or a list of vertices',
-        lambda v: v == "auto" or _is_count(v) or _is_list(v, _is_count),
+        f'"auto", a number up to {MOST_POLES} or a list of vertices',
+        lambda v: v == "auto" or (_is_count(v) and v <= MOST_POLES) or _is_list(v, _is_count),
     )
     lattice: str = _one_of(tuple(tiling_options.LATTICES), "square")
     direction: str | tuple = _option(
@@ -113,7 +122,7 @@ class Tiles:
 class Levels:
     """Options of the operator *Levels of Detail*."""
 
-    levels: int = _count(0)
+    levels: int = _option(0, f"a whole number from 0 to {MOST_LEVELS}", lambda v: _is_count(v) and v <= MOST_LEVELS)
     ratio: float = _number(0.25, "a number between 0 and 1", lambda value: 0 < value < 1)
 
 
@@ -150,17 +159,27 @@ class Recipe:
 def read(path):
     """The `Recipe` of a TOML file; a texture's path starts at its folder. @throws UsageError"""
     try:
-        with open(path, "rb") as file:
-            content = tomllib.load(file)
+        text = whole_file.read(path, MOST_BYTES).decode()
+        if _is_deep(text):  # before it takes time and stack to find out
+            raise UsageError(f"{path}: lists, tables or names are nested more than {MOST_NESTED} deep")
+        content = tomllib.loads(text)
     except OSError as error:
         raise UsageError(f"{path}: the recipe cannot be read: {error.strerror}") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise UsageError(f"{path}: this is not TOML: {error}") from error
+    except (ValueError, RecursionError) as error:  # besides those of TOML, those of UTF-8 and of numbers
+        raise UsageError(f"{path}: this is not TOML: {shortened(str(error))}") from error
     try:
         recipe = of(content)
         return replace(recipe, output=_with_texture(recipe.output, Path(path).resolve().parent))
-    except (UsageError, ValueError, OSError) as error:
+    except OSError as error:
+        raise UsageError(f"{path}: {os.fsdecode(error.filename)}: {error.strerror}") from error
+    except (UsageError, ValueError) as error:
         raise UsageError(f"{path}: {error}") from error
+
+
+def _is_deep(text):
+    plain = IN_QUOTES.sub("x", text)
+    depths = accumulate(1 if character in "[{" else -1 for character in plain if character in "[]{}")
+    return max(depths, default=0) > MOST_NESTED or LONG_NAME.search(plain) is not None
 
 
 def _with_texture(output, folder):
@@ -183,21 +202,21 @@ def of(content):
 
 def _table(name, kind, values):
     if not isinstance(values, dict):
-        raise UsageError(f"{name} is {values!r}; a table [{name}] is needed")
+        raise UsageError(f"{name} is {quoted(values)}; a table [{name}] is needed")
     known = {entry.name: entry for entry in fields(kind)}
     _check_names(values, known, f"key of [{name}]")
     for key, value in values.items():
         if not known[key].metadata["is_valid"](value):
-            raise UsageError(f"{name}.{key} is {value!r}; {known[key].metadata['wanted']} is needed")
+            raise UsageError(f"{name}.{key} is {quoted(value)}; {known[key].metadata['wanted']} is needed")
     return kind(**{key: tuple(value) if isinstance(value, list) else value for key, value in values.items()})
 
 
 def _check_names(given, known, noun):
     for name in given:
         if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
+            near = difflib.get_close_matches(shortened(name), known, 1)
             hint = f"; did you mean {near[0]}?" if near else f"; use one of {', '.join(known)}"
-            raise UsageError(f"{name} is not a {noun}{hint}")
+            raise UsageError(f"{shortened(name)} is not a {noun}{hint}")
 
 
 def _check_together(recipe):

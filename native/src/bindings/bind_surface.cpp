@@ -54,15 +54,14 @@ struct Part {
   std::vector<mesh::Cut> cuts = {};
   std::vector<int> joined_vertices = {};
   std::vector<mesh::RefusedFaces> refused = {};
+  std::vector<std::string> notes = {};
 };
 
 Part as_part(mesh::CutSurface part) {
   Part result{std::make_shared<Surface>(std::move(part.surface))};
-  if (!part.face_index.empty()) {
-    result.vertex_index = copy(part.vertex_index);
-    result.face_index = copy(part.face_index);
-    result.corner_index = copy(part.corner_index);
-  }
+  if (!part.vertex_index.empty()) result.vertex_index = copy(part.vertex_index);
+  if (!part.face_index.empty()) result.face_index = copy(part.face_index);
+  if (!part.corner_index.empty()) result.corner_index = copy(part.corner_index);
   result.given_vertex_count = part.given_vertex_count;
   result.cuts = std::move(part.cuts);
   result.joined_vertices = std::move(part.joined_vertices);
@@ -80,17 +79,39 @@ Part cut(const Contiguous<double>& vertices, const Contiguous<Index>& corner_ver
   }));
 }
 
+// Indices into what was read become those of the file.
+void number_as_in_file(std::vector<int>& index, const std::vector<int>& in_file) {
+  if (index.empty()) {
+    index = in_file;
+  } else {
+    for (int& i : index) i = in_file[i];
+  }
+}
+
 Part read(const std::filesystem::path& path, bool strict, bool weld) {
-  return as_part(without_lock([&]() -> mesh::CutSurface {
+  mesh::FileRecord file;
+  mesh::CutSurface cut = without_lock([&]() -> mesh::CutSurface {
     Execution execution;
     mesh::GivenPolygons polygons = mesh::read(path);
     if (weld) polygons = mesh::welded(polygons);
+    file = polygons.file;
     if (!strict) return mesh::cut_surface(std::move(polygons), execution);
     mesh::Surface surface = mesh::make_surface(std::move(polygons), execution);
     mesh::refuse_wild_vertices(surface.polygons);
     const int count = surface.vertex_count;
     return {std::move(surface), {}, {}, {}, count, {}, {}, {}};
-  }));
+  });
+  if (!file.face_index.empty()) {
+    number_as_in_file(cut.face_index, file.face_index);
+    number_as_in_file(cut.corner_index, file.corner_index);
+    for (mesh::RefusedFaces& refused : cut.refused) number_as_in_file(refused.faces, file.face_index);
+    for (mesh::Cut& each : cut.cuts) {
+      if (!each.faces.empty()) number_as_in_file(each.faces, file.face_index);
+    }
+  }
+  Part part = as_part(std::move(cut));
+  part.notes = std::move(file.notes);
+  return part;
 }
 
 std::vector<Part> components(const Surface& surface) {
@@ -157,7 +178,8 @@ void bind_parts(py::module_& m) {
       .def_readonly("given_vertex_count", &Part::given_vertex_count)
       .def_readonly("cuts", &Part::cuts)
       .def_property_readonly("joined_vertices", [](const Part& part) { return copy(part.joined_vertices); })
-      .def_readonly("refused", &Part::refused);
+      .def_readonly("refused", &Part::refused)
+      .def_readonly("notes", &Part::notes);
 }
 
 }  // namespace

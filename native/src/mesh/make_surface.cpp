@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "base/chunks.h"
 #include "mesh/orientation.h"
@@ -114,7 +115,8 @@ std::vector<EdgeMeeting> meetings_of(const Polygons& mesh, const PolygonEdges& e
 Polygons narrowed(GivenPolygons given) {
   return {std::move(given.vertices),
           {given.corner_vertices.begin(), given.corner_vertices.end()},
-          {given.face_offsets.begin(), given.face_offsets.end()}};
+          {given.face_offsets.begin(), given.face_offsets.end()},
+          {}};
 }
 
 void complete(Surface& surface, const MeshLabels& label, Execution& execution) {
@@ -152,9 +154,21 @@ Surface make_surface(Polygons polygons, Execution& execution) {
 
 Surface make_surface(GivenPolygons polygons, Execution& execution) {
   check_polygons(polygons, execution.workers());
+  const FileRecord file = std::move(polygons.file);
+  const auto numbers = [&](std::vector<int> index, std::size_t count) {
+    if (file.first_number == 0 && index.empty()) return index;
+    if (index.empty()) {
+      index.resize(count);
+      std::iota(index.begin(), index.end(), 0);
+    }
+    for (int& i : index) i += file.first_number;
+    return index;
+  };
+  const std::vector<int> vertices = numbers({}, polygons.vertices.size());
+  const std::vector<int> faces = numbers(file.face_index, polygons.face_offsets.size() - 1);
   Surface surface;
   surface.polygons = narrowed(std::move(polygons));
-  complete(surface, {}, execution);
+  complete(surface, {Labels(vertices), Labels(faces)}, execution);
   return surface;
 }
 

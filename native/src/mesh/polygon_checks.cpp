@@ -44,14 +44,16 @@ bool is_usable(const std::array<double, 3>& point) {  // NaN: no comparison hold
   return std::abs(point[0]) <= kLargest && std::abs(point[1]) <= kLargest && std::abs(point[2]) <= kLargest;
 }
 
-std::string fault_of_vertex(const std::array<double, 3>& point, std::int64_t vertex) {
+template <class Index>
+std::string fault_of_vertex(const BasicPolygons<Index>& mesh, std::int64_t vertex) {
+  const std::array<double, 3>& point = mesh.vertices[static_cast<std::size_t>(vertex)];
+  const std::string name = "vertex " + mesh.file.vertex(vertex);
   for (const double x : point) {
     if (!std::isfinite(x)) {
-      return "vertex " + to_string(vertex) + " has a coordinate that is " +
-             (std::isnan(x) ? "not a number" : "infinite");
+      return name + " has a coordinate that is " + (std::isnan(x) ? "not a number" : "infinite");
     }
   }
-  return is_usable(point) ? "" : "vertex " + to_string(vertex) + " has a coordinate beyond 1e60: scale the mesh down";
+  return is_usable(point) ? "" : name + " has a coordinate beyond 1e60: scale the mesh down";
 }
 
 template <class Index>
@@ -104,20 +106,20 @@ template <class Index>
 std::string fault_of(const BasicPolygons<Index>& mesh, int face) {
   const auto vertex_count = static_cast<Index>(mesh.vertices.size());
   const auto corners = corners_of(mesh, face);
-  const std::string name = "face " + to_string(face);
+  const std::string name = "face " + mesh.file.face(face);
   if (corners.size() < 3) return name + " has " + to_string(corners.size()) + " corners; it needs at least 3";
   for (const Index v : corners) {
-    if (v < 0) return name + " has the negative vertex index " + to_string(v);
+    if (v < 0) return name + " has the negative vertex index " + mesh.file.vertex(v);
     if (v >= vertex_count) {
-      return name + " names vertex " + to_string(v) + "; numbers from 0 to below " + to_string(vertex_count) +
-             " are needed";
+      return name + " names vertex " + mesh.file.vertex(v) + "; numbers from " + mesh.file.vertex(0) + " to below " +
+             mesh.file.vertex(vertex_count) + " are needed";
     }
   }
   for (const Index v : corners) {
-    if (!is_usable(mesh.vertices[v])) return fault_of_vertex(mesh.vertices[v], v);
+    if (!is_usable(mesh.vertices[v])) return fault_of_vertex(mesh, v);
   }
   const Index v = vertex_met_twice(corners);
-  return v >= 0 ? name + " has vertex " + to_string(v) + " twice" : "";
+  return v >= 0 ? name + " has vertex " + mesh.file.vertex(v) + " twice" : "";
 }
 
 template <class Index>
@@ -125,7 +127,7 @@ void check(const BasicPolygons<Index>& mesh, Workers& workers) {
   check_arrays(mesh);
   const int vertices = static_cast<int>(mesh.vertices.size()), faces = static_cast<int>(mesh.face_offsets.size()) - 1;
   const int bad_vertex = first_row(workers, vertices, [&](int v) { return !is_usable(mesh.vertices[v]); });
-  if (bad_vertex < vertices) throw InvalidMesh(fault_of_vertex(mesh.vertices[bad_vertex], bad_vertex));
+  if (bad_vertex < vertices) throw InvalidMesh(fault_of_vertex(mesh, bad_vertex));
   const auto is_above = [&](double least) {
     return first_row(workers, vertices, [&](int v) { return largest_coordinate(mesh.vertices[v]) > least; }) < vertices;
   };

@@ -159,7 +159,7 @@ std::vector<Star> stars(const HalfEdges& half_edges, std::span<const double> len
 }
 
 std::vector<int> corners_around(const Surface& surface, const HalfEdges& half_edges, int vertex) {
-  const auto& [positions, corner_vertices, offsets] = surface.polygons;
+  const auto& [positions, corner_vertices, offsets, file] = surface.polygons;
   std::vector<int> vertices;
   const HalfedgeHandle start = half_edges.halfedge_handle(VertexHandle(vertex));
   HalfedgeHandle h = start;

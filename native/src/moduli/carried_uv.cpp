@@ -16,7 +16,7 @@ std::vector<Complex> carried_uv(const mesh::Surface& from, const VertexImages& i
     return ContinuedCharts::Corners{uv[corners[0]], uv[corners[1]], uv[corners[2]]};
   });
   ContinuedCharts continued(to, std::move(charts), execution);
-  const auto& [vertices, corner_vertices, face_offsets] = from.polygons;
+  const auto& [vertices, corner_vertices, face_offsets, file] = from.polygons;
   std::vector<Complex> carried(corner_vertices.size());
   for (std::size_t f = 0; f + 1 < face_offsets.size(); ++f) {
     execution.report(static_cast<double>(f) / static_cast<double>(face_offsets.size()));

@@ -29,7 +29,7 @@ HalfedgeHandle half_edge(const mesh::HalfEdges& half_edges, int a, int b) {
 
 // Vertices of a polygon from a to b, both included.
 std::vector<int> path_along(const Surface& surface, int face, int a, int b) {
-  const auto& [vertices, corners, offsets] = surface.polygons;
+  const auto& [vertices, corners, offsets, file] = surface.polygons;
   const auto begin = corners.begin() + offsets[face], end = corners.begin() + offsets[face + 1];
   std::vector<int> path;
   for (auto c = std::find(begin, end, a); path.empty() || path.back() != b; c = c + 1 == end ? begin : c + 1) {

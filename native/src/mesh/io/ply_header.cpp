@@ -48,10 +48,17 @@ constexpr TypeName type_names[] = {
     {"float32", Type::float32}, {"float64", Type::float64},
 };
 
-/// The header line by line. It ends with the first newline after `end_header`, whatever the next byte is.
+/// The header line by line. It ends with the newline after `end_header`, whatever the next byte is: lines end as the
+/// first one does, with LF, CR, CR LF or LF CR.
 class HeaderLines {
  public:
-  explicit HeaderLines(const FileText& file) : file_(file) {}
+  explicit HeaderLines(const FileText& file)
+      : file_(file), position_(static_cast<std::size_t>(file.text().data() - file.bytes.data())) {
+    const std::string_view text = file.text();
+    const auto first = std::min(text.find_first_of("\r\n"), text.size());
+    newline_ = text.substr(first, 2);
+    if (newline_ != "\r\n" && newline_ != "\n\r") newline_ = newline_.substr(0, 1);
+  }
 
   /// The words of the next line.
   std::vector<std::string_view> next() {
@@ -59,7 +66,9 @@ class HeaderLines {
     const auto end = rest.find_first_of("\r\n");
     ++line_;
     if (end == std::string_view::npos) fail("the file ends inside the PLY header");
-    position_ += end + (rest.substr(end).starts_with("\r\n") ? 2 : 1);
+    const std::string_view newline = rest.substr(end, 2);
+    const bool is_pair = newline == newline_ || (newline == "\r\n" && newline_ == "\n");
+    position_ += end + (is_pair ? newline.size() : 1);
     return words(rest.substr(0, end));
   }
 
@@ -84,7 +93,8 @@ class HeaderLines {
   }
 
   const FileText& file_;
-  std::size_t position_ = 0;
+  std::size_t position_;
+  std::string_view newline_;
   std::int64_t line_ = 0;
 };
 
@@ -136,8 +146,7 @@ void declare(const std::vector<std::string_view>& words, const FileText& file, c
 
 Header read_header(const FileText& file) {
   HeaderLines lines(file);
-  if (!std::string_view(file.bytes).starts_with("ply"))
-    file.fail("a PLY file starts with 'ply', but this one does not");
+  if (!file.text().starts_with("ply")) file.fail("a PLY file starts with 'ply', but this one does not");
   if (lines.next().size() != 1) lines.fail("a PLY file starts with a line 'ply'");
   Header header;
   std::optional<Encoding> encoding;

@@ -11,14 +11,22 @@ namespace holomorph::mesh {
 
 namespace {
 
-std::array<double, 3> position(Scanner& scan) {
+struct Position {
   std::array<double, 3> point{};
-  for (auto& x : point) {
+  bool is_coloured = false;
+};
+
+Position position(Scanner& scan) {
+  Position found;
+  for (auto& x : found.point) {
     const auto word = scan.word();
     if (word.empty()) scan.fail("a vertex needs three coordinates");
     x = scan.real(word, "a coordinate");
   }
-  return point;  // a weight or a colour may follow, and is not a position
+  int more = 0;  // a weight or a colour may follow, and is not a position
+  while (!scan.word().empty()) ++more;
+  found.is_coloured = more >= 3;
+  return found;
 }
 
 std::int64_t vertex_index(const Scanner& scan, std::string_view corner, std::int64_t vertices_so_far) {
@@ -34,13 +42,18 @@ std::int64_t vertex_index(const Scanner& scan, std::string_view corner, std::int
 }  // namespace
 
 GivenPolygons read_obj(const FileText& file) {
-  if (file.bytes.find('\0') != std::string::npos) file.fail("an OBJ file is text, but this one has zero bytes");
+  file.check_encoding();
+  if (file.text().find('\0') != std::string_view::npos) file.fail("an OBJ file is text, but this one has zero bytes");
   GivenPolygons mesh;
+  mesh.file.first_number = 1;
+  bool is_coloured = false;
   mesh.face_offsets.push_back(0);
   for (Scanner scan(file, Comments::after_hash); !scan.at_end(); scan.next_line()) {
     const auto keyword = scan.word();
     if (keyword == "v") {
-      mesh.vertices.push_back(position(scan));
+      const Position found = position(scan);
+      mesh.vertices.push_back(found.point);
+      is_coloured |= found.is_coloured;
     } else if (keyword == "f" || keyword == "fo") {  // `fo` is what early files called a face
       const auto vertices_so_far = static_cast<std::int64_t>(mesh.vertices.size());
       for (auto corner = scan.word(); !corner.empty(); corner = scan.word())
@@ -48,6 +61,7 @@ GivenPolygons read_obj(const FileText& file) {
       mesh.face_offsets.push_back(static_cast<std::int64_t>(mesh.corner_vertices.size()));
     }
   }
+  if (is_coloured) mesh.file.notes.emplace_back(kColours);
   return mesh;
 }
 

@@ -3,6 +3,7 @@
 // skipped.
 #include "mesh/io/read_ply.h"
 
+#include <algorithm>
 #include <bit>
 #include <string>
 
@@ -63,6 +64,8 @@ void read_vertices(Values& values, const Element& element, const FileText& file,
   axis[property_named(element, "x", file)] = 0;
   axis[property_named(element, "y", file)] = 1;
   axis[property_named(element, "z", file)] = 2;
+  const auto is_red = [](const Property& property) { return property.name == "red" || property.name == "r"; };
+  if (std::any_of(element.properties.begin(), element.properties.end(), is_red)) mesh.file.notes.emplace_back(kColours);
   mesh.vertices.resize(static_cast<std::size_t>(element.count));
   for (std::int64_t row = 0; row < element.count; ++row) {
     values.enter_row(row);
@@ -154,6 +157,7 @@ GivenPolygons read_body(const FileText& file, const Header& header) {
 }  // namespace ply
 
 GivenPolygons read_ply(const FileText& file) {
+  file.check_encoding();
   const auto header = ply::read_header(file);
   switch (header.encoding) {
     case ply::Encoding::text:

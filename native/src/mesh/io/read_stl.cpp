@@ -1,7 +1,8 @@
 // STL, text or binary: a list of triangles with coordinates. Corners with equal coordinates are welded to one vertex.
 #include "mesh/io/read_stl.h"
 
-#include <cstring>
+#include <algorithm>
+#include <cctype>
 #include <numeric>
 #include <string>
 
@@ -14,10 +15,11 @@ namespace holomorph::mesh {
 namespace {
 
 using Point = std::array<double, 3>;
+using std::to_string;
 
-constexpr std::size_t header_size = 80;    // bytes of comment before the count
+constexpr std::size_t header_size = 84;    // bytes: 80 of comment, and the count
 constexpr std::size_t triangle_size = 50;  // bytes: normal and three corners as float32, two bytes of attribute
-constexpr std::size_t normal_size = 12;
+constexpr std::size_t normal_size = 12, attribute_size = 2;
 
 // As a triangle of three vertices each, which welding then joins.
 GivenPolygons triangles(std::vector<Point> corners) {
@@ -29,87 +31,175 @@ GivenPolygons triangles(std::vector<Point> corners) {
   return welded(mesh);
 }
 
-std::vector<Point> binary_corners(const FileText& file) {
-  const auto& bytes = file.bytes;
-  const std::size_t triangles = load_as<std::uint32_t>(bytes.data() + header_size, std::endian::little);
-  const auto body = bytes.data() + header_size + 4;
-  const auto capacity = (bytes.size() - header_size - 4) / triangle_size;
-  if (triangles > capacity)
-    file.fail("the file announces " + std::to_string(triangles) + " triangles, but ends after " +
-              std::to_string(capacity));
-  std::vector<Point> corners(3 * triangles);
+bool is_printable(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n'; }
+
+std::size_t announced_triangles(const FileText& file) {
+  return load_as<std::uint32_t>(file.bytes.data() + header_size - 4, std::endian::little);
+}
+
+bool is_as_long_as_announced(const FileText& file) {
+  return file.bytes.size() >= header_size &&
+         file.bytes.size() == header_size + triangle_size * announced_triangles(file);
+}
+
+/// Whether some triangles are followed by as many bytes as their attributes count, and the file ends with the last.
+bool has_attributes(const FileText& file) {
+  if (is_as_long_as_announced(file)) return false;  // then the numbers are colours
+  std::size_t place = header_size;
+  for (std::size_t left = announced_triangles(file); left > 0; --left) {
+    if (place + triangle_size > file.bytes.size()) return false;
+    place += triangle_size;
+    place += load_as<std::uint16_t>(file.bytes.data() + place - attribute_size, std::endian::little);
+  }
+  return place == file.bytes.size();
+}
+
+/// The number of triangles: the announced one where the file ends with the last, or with blanks or text after it; else
+/// as many as the file has room for.
+std::size_t triangle_count(const FileText& file, std::vector<std::string>& notes) {
+  const std::size_t announced = announced_triangles(file);
+  const std::size_t body = file.bytes.size() - header_size, room = body / triangle_size;
+  if (announced > 0 && has_attributes(file))
+    file.fail("its triangles have attributes of " + to_string(body - triangle_size * announced) +
+              " bytes in all, which are not known: save it without them");
+  if (announced <= room) {
+    const auto rest = file.bytes.begin() + static_cast<std::ptrdiff_t>(header_size + triangle_size * announced);
+    const auto is_padding = [&](char c) { return c == *rest || c == '\0'; };
+    if (file.bytes.end() - rest < static_cast<std::ptrdiff_t>(triangle_size) ||
+        (announced > 0 &&
+         (std::all_of(rest, file.bytes.end(), is_printable) || std::all_of(rest, file.bytes.end(), is_padding))))
+      return announced;
+  }
+  const std::string told = "the file announces " + to_string(announced) + " triangles, but ";
+  if (body % triangle_size != 0)
+    file.fail(told + (announced > room ? "ends after " + to_string(room)
+                                       : "goes on after them with " + to_string(body - triangle_size * announced) +
+                                             " bytes that are no triangles"));
+  notes.push_back(told + "has " + to_string(room) + ", which were read");
+  return room;
+}
+
+GivenPolygons read_binary(const FileText& file) {
+  std::vector<std::string> notes;
+  std::vector<Point> corners(3 * triangle_count(file, notes));
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const char* p = body + triangle_size * (i / 3) + normal_size + 12 * (i % 3);
+    const char* p = file.bytes.data() + header_size + triangle_size * (i / 3) + normal_size + 12 * (i % 3);
     for (std::size_t k = 0; k < 3; ++k) corners[i][k] = load_as<float>(p + 4 * k, std::endian::little);
   }
-  return corners;
+  GivenPolygons mesh = triangles(std::move(corners));
+  mesh.file.notes = std::move(notes);
+  return mesh;
 }
 
-bool is_keyword(std::string_view word, std::string_view lower_case) {
-  if (word.size() != lower_case.size()) return false;
-  for (std::size_t i = 0; i < word.size(); ++i)
-    if ((word[i] | ' ') != lower_case[i]) return false;
-  return true;
-}
+/// A text STL keyword by keyword, in any case. `end` and `outer` may be words of their own: `end solid`, `endsolid`.
+class TextTriangles {
+ public:
+  explicit TextTriangles(const FileText& file) : scan_(file, Comments::none) {}
 
-void expect(Scanner& scan, std::string_view keyword) {
-  const auto word = scan.word_on_any_line(keyword);
-  if (!is_keyword(word, keyword)) scan.fail("'" + std::string(keyword) + "' is expected, but found " + quoted(word));
-}
+  static bool begins_line(std::string_view word) {
+    const std::string found = plain(word);
+    return found == "facet" || found == "endsolid" || found == "end" || found == "solid";
+  }
 
-Point expect_point(Scanner& scan) {
-  Point p{};
-  for (auto& x : p) x = scan.real(scan.word_on_any_line("a coordinate"), "a coordinate");
-  return p;
-}
-
-std::vector<Point> text_corners(const FileText& file) {
-  std::vector<Point> corners;
-  bool inside = false;  // between `solid` and `endsolid`; a file may have several solids
-  for (Scanner scan(file, Comments::none);;) {
-    if (scan.at_end()) {
-      if (inside) scan.fail("the file ends before 'endsolid'");
-      return corners;
-    }
-    const auto word = scan.word();
-    if (is_keyword(word, inside ? "endsolid" : "solid")) {
-      inside = !inside;
-      scan.next_line();  // the solid's name
-    } else if (inside && is_keyword(word, "facet")) {
-      scan.next_line();  // the normal, which the corners give as well
-      expect(scan, "outer");
-      expect(scan, "loop");
-      for (int corner = 0; corner < 3; ++corner) {
-        expect(scan, "vertex");
-        corners.push_back(expect_point(scan));
+  GivenPolygons read() {
+    bool inside = false;  // between `solid` and `endsolid`; a file may have several solids
+    while (!scan_.at_end()) {
+      const auto word = scan_.word();
+      const std::string found = keyword(word);
+      if (found == "solid") {
+        if (inside) note_once("a solid begins before the one before it has ended with 'endsolid'");
+        inside = true;
+        scan_.next_line();  // its name
+      } else if (inside && found == "endsolid") {
+        inside = false;
+        is_ended_ = true;
+        scan_.next_line();
+      } else if (inside && found == "facet") {
+        read_facet();
+      } else if (is_ended_ && !inside && found != "facet") {
+        note_once("the text after 'endsolid' was not read");
+        scan_.next_line();
+      } else {
+        fail_expecting(inside ? "'facet' or 'endsolid'" : "'solid'", word);
       }
-      expect(scan, "endloop");
-      expect(scan, "endfacet");
-    } else {
-      scan.fail(std::string(inside ? "'facet' or 'endsolid'" : "'solid'") + " is expected, but found " + quoted(word));
     }
+    if (inside) note_once("the file ends before 'endsolid': it may have been cut off");
+    GivenPolygons mesh = triangles(std::move(corners_));
+    mesh.file.notes = std::move(notes_);
+    return mesh;
   }
+
+ private:
+  // In lower case, without the hyphens and underscores between its parts, which may be words of their own.
+  std::string keyword(std::string_view word) {
+    std::string found = plain(word);
+    if (found != "end" && found != "outer") return found;
+    return found + plain(scan_.word());
+  }
+  static std::string plain(std::string_view word) {
+    std::string result;
+    for (const char c : word) {
+      if (c != '_' && c != '-') result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return result;
+  }
+
+  [[noreturn]] void fail_expecting(const std::string& what, std::string_view word) const {
+    scan_.fail(what + " is expected, but found " + quoted(word));
+  }
+  void expect(std::string_view wanted) {
+    const auto word = scan_.word_on_any_line(wanted);
+    if (keyword(word) != wanted) fail_expecting("'" + std::string(wanted) + "'", word);
+  }
+
+  void read_facet() {
+    scan_.next_line();  // the normal, which the corners give as well
+    expect("outerloop");
+    for (int corner = 0; corner < 3; ++corner) {
+      expect("vertex");
+      for (auto& x : corners_.emplace_back()) x = scan_.real(scan_.word_on_any_line("a coordinate"), "a coordinate");
+    }
+    expect("endloop");
+    expect("endfacet");
+  }
+
+  void note_once(const std::string& sentence) {
+    if (std::find(notes_.begin(), notes_.end(), sentence) == notes_.end()) notes_.push_back(sentence);
+  }
+
+  Scanner scan_;
+  std::vector<Point> corners_;
+  std::vector<std::string> notes_;
+  bool is_ended_ = false;
+};
+
+bool is_solid(std::string_view word) {
+  constexpr std::string_view solid = "solid";
+  return std::equal(word.begin(), word.end(), solid.begin(), solid.end(),
+                    [](unsigned char c, char wanted) { return std::tolower(c) == wanted; });
 }
 
-/// The word `solid` alone decides nothing, because binary files may start with it: text has no zero bytes.
-bool is_text(const FileText& file) {
-  const auto& bytes = file.bytes;
-  const auto first = bytes.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos || !is_keyword(std::string_view(bytes).substr(first, 5), "solid")) return false;
-  if (bytes.size() >= header_size + 4) {
-    const std::size_t triangles = load_as<std::uint32_t>(bytes.data() + header_size, std::endian::little);
-    if (bytes.size() == header_size + 4 + triangle_size * triangles) return false;
-  }
-  return bytes.find('\0') == std::string::npos;
+/// The word `solid` alone decides nothing, because binary files may start with it. Text has no zero bytes, but in the
+/// names of solids, on lines of their own.
+bool is_text_file(const FileText& file) {
+  if (is_as_long_as_announced(file)) return false;
+  file.check_encoding();
+  const std::string_view text = file.text();
+  if (file.bytes.size() >= header_size && std::all_of(text.begin(), text.end(), is_printable)) return !text.empty();
+  Scanner scan(file, Comments::none);
+  if (scan.at_end() || !is_solid(scan.word())) return false;
+  if (text.find('\0') == std::string_view::npos) return true;
+  scan.next_line();
+  return !scan.at_end() && TextTriangles::begins_line(scan.word());
 }
 
 }  // namespace
 
 GivenPolygons read_stl(const FileText& file) {
-  if (is_text(file)) return triangles(text_corners(file));
-  if (file.bytes.size() < header_size + 4)
+  if (is_text_file(file)) return TextTriangles(file).read();
+  if (file.bytes.size() < header_size)
     file.fail("the file is neither a text STL ('solid ...') nor as long as the header of a binary one");
-  return triangles(binary_corners(file));
+  return read_binary(file);
 }
 
 }  // namespace holomorph::mesh

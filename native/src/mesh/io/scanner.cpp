@@ -1,5 +1,6 @@
 #include "mesh/io/scanner.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <string>
@@ -12,18 +13,18 @@ namespace {
 
 constexpr std::size_t longest_quotation = 40;  // characters of a wrong word that a message repeats
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 /// CR LF counts once, by its LF.
 bool is_newline(const char* p, const char* end) { return *p == '\n' || (*p == '\r' && (end - p < 2 || p[1] != '\n')); }
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// Length of a continuation (backslash, newline) at `p`, 0 if there is none.
-std::size_t continuation(const char* p, const char* end) {
+/// Length of a continuation (backslash, blanks, newline or the text's end) at `p`, 0 if there is none.
+std::ptrdiff_t continuation(const char* p, const char* end) {
   if (*p != '\\') return 0;
-  if (end - p >= 2 && is_newline(p + 1, end)) return 2;
-  return end - p >= 3 && p[1] == '\r' ? 3 : 0;
+  const char* next = p + 1;
+  while (next != end && is_blank(*next) && !is_newline(next, end)) ++next;
+  if (next == end) return next - p;
+  return is_newline(next, end) ? next + 1 - p : 0;
 }
 
 std::string_view without_plus(std::string_view word) {
@@ -50,12 +51,10 @@ std::string quoted(std::string_view word) {
 }
 
 Scanner::Scanner(const FileText& file, Comments comments, std::size_t start, std::int64_t first_line)
-    : file_(&file),
-      next_(file.bytes.data() + start),
-      end_(file.bytes.data() + file.bytes.size()),
-      comments_(comments),
-      line_(first_line) {
-  if (start == 0 && file.bytes.starts_with(byte_order_mark)) next_ += byte_order_mark.size();
+    : file_(&file), comments_(comments), line_(first_line) {
+  const std::string_view text = file.text();
+  end_ = text.data() + text.size();
+  next_ = std::clamp(file.bytes.data() + start, text.data(), end_);
 }
 
 void Scanner::skip_blanks() {
@@ -96,7 +95,8 @@ void Scanner::next_line() {
 std::string_view Scanner::word() {
   if (at_line_end()) return {};
   const char* const first = next_;
-  while (next_ != end_ && !is_blank(*next_) && *next_ != '\n' && !continuation(next_, end_)) ++next_;
+  const auto is_comment = [&] { return comments_ == Comments::after_hash && *next_ == '#'; };
+  while (next_ != end_ && !is_blank(*next_) && *next_ != '\n' && !is_comment() && !continuation(next_, end_)) ++next_;
   return {first, static_cast<std::size_t>(next_ - first)};
 }
 

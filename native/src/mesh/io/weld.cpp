@@ -55,20 +55,28 @@ GivenPolygons welded(const GivenPolygons& given) {
   mesh.face_offsets.push_back(0);
   for (std::size_t f = 0; f + 1 < given.face_offsets.size(); ++f) {
     const auto first = mesh.corner_vertices.size();
+    std::vector<int>& corners = mesh.file.corner_index;
     for (auto c = given.face_offsets[f]; c < given.face_offsets[f + 1]; ++c) {
       const std::int64_t welded = weld(given.vertices[given.corner_vertices[c]]);
-      if (mesh.corner_vertices.size() == first || mesh.corner_vertices.back() != welded)
-        mesh.corner_vertices.push_back(welded);
+      if (mesh.corner_vertices.size() > first && mesh.corner_vertices.back() == welded) continue;
+      mesh.corner_vertices.push_back(welded);
+      corners.push_back(static_cast<int>(c));
     }
     while (mesh.corner_vertices.size() > first + 1 && mesh.corner_vertices.back() == mesh.corner_vertices[first])
       mesh.corner_vertices.pop_back();
     const bool collapsed = mesh.corner_vertices.size() - first < 3;
-    if (collapsed && given.face_offsets[f + 1] - given.face_offsets[f] >= 3)
+    if (collapsed && given.face_offsets[f + 1] - given.face_offsets[f] >= 3) {
       mesh.corner_vertices.resize(first);
-    else
+    } else {
       mesh.face_offsets.push_back(static_cast<std::int64_t>(mesh.corner_vertices.size()));
+      mesh.file.face_index.push_back(static_cast<int>(f));
+    }
+    corners.resize(mesh.corner_vertices.size());
   }
   mesh.vertices = std::move(weld.points);
+  mesh.file.first_number = given.file.first_number;
+  mesh.file.notes = given.file.notes;
+  if (mesh.corner_vertices.size() == given.corner_vertices.size()) mesh.file.face_index = mesh.file.corner_index = {};
   return mesh;
 }
 

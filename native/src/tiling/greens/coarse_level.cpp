@@ -60,7 +60,7 @@ std::vector<std::vector<int>> large_polygons(const mesh::Surface& surface, const
   std::vector<int> place(surface.vertex_count, -1);
   for (std::size_t v = 0; v < level_vertex.size(); ++v) place[level_vertex[v]] = static_cast<int>(v);
   std::vector<std::vector<int>> result;
-  const auto& [positions, corner_vertices, offsets] = surface.polygons;
+  const auto& [positions, corner_vertices, offsets, file] = surface.polygons;
   for (std::size_t f = 0; f + 1 < offsets.size(); ++f) {
     if (offsets[f + 1] - offsets[f] <= 4) continue;
     std::vector<int> corners;
