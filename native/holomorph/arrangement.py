@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -18,10 +19,12 @@ from numpy.typing import ArrayLike
 
 from .array_types import Reals
 from .automatic_structure import AnyStructure
+from .checks import real_number, whole_number
 from .layout import pack, rows
 from .map import Map
 from .placement import Frame, frame, place
 from .surface import Surface
+from .value import quoted
 
 CENTRE = 0.5 + 0.5j  # the middle of the UV square
 SINGLE_BITS = 24  # bits of the mantissa of single precision, which applications store
@@ -44,6 +47,12 @@ class Arrangement:
     margin: float = 0.02
     per_length: float = 0.0
     quarters: int = 0
+
+    def __post_init__(self) -> None:
+        for name in ("density", "rotation", "margin", "per_length"):
+            real_number(getattr(self, name), name)
+        if not isinstance(self.quarters, numbers.Integral):
+            raise ValueError(f"quarters is {quoted(self.quarters)}; a whole number is needed")
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +122,7 @@ def arranged(maps: Sequence[Map], corners: int, arrangement: Arrangement = Arran
 
     Beside a tiling all values are exact in single precision.
     """
-    uv = np.zeros((corners, 2))
+    uv = np.zeros((whole_number(corners, "corners", _corner_count(made.surface for made in maps)), 2))
     tiled, rest = [m for m in maps if m.is_tiled], [m for m in maps if not m.is_tiled]
     if not tiled:
         square(rest, arrangement).write(uv)
@@ -130,15 +139,20 @@ def arranged_form(
 ) -> Reals:
     """(#C, 2) UVs of a mesh: the maps of one form, counted from 0, of parts with their structures; zeros at corners of
     parts that lack it."""
-    surfaces, uvs, densities = [], [], []
+    form, surfaces, uvs, densities = whole_number(form, "form"), [], [], []
     for surface, structure in parts:
         if form < structure.form_count:  # their type of coefficients: a complex factor would bend straight boundaries
             surfaces.append(surface)
             uvs.append(structure.uv(np.eye(structure.form_count, dtype=structure.coefficient_type)[form]))
             densities.append(structure.quality(uvs[-1]).median_density)
-    uv = np.zeros((corners, 2))
+    uv = np.zeros((whole_number(corners, "corners", _corner_count(surface for surface, _ in parts)), 2))
     Square(surfaces, uvs, densities, arrangement).write(uv)
     return uv
+
+
+def _corner_count(surfaces):
+    """The corners up to the last one of any of the parts."""
+    return max((int(surface.corner_index.max()) + 1 for surface in surfaces), default=0)
 
 
 def unit_length(maps: Sequence[Map], arrangement: Arrangement = Arrangement()) -> float:

@@ -6,6 +6,7 @@ from itertools import chain
 import numpy as np
 
 from ._native import InvalidMesh
+from .value import quoted
 
 
 def real(array, columns, name):
@@ -27,8 +28,16 @@ def numbers(array, name):
         raise ValueError(f"{name} has complex entries; real numbers are needed")
     try:
         return np.ascontiguousarray(array, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{name} is not an array of numbers: {error}") from error
+    except (TypeError, ValueError, OverflowError) as error:  # the last for integers beyond all floats
+        raise ValueError(f"{name} is not an array of numbers: {quoted(array)}") from error
+
+
+def complex_numbers(array, name):
+    """A new array of complex numbers. @throws ValueError if it is none of numbers"""
+    try:
+        return np.array(array, dtype=np.complex128)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ValueError(f"{name} must be an array of numbers, not {quoted(array)}") from error
 
 
 def integer(array, name, dimensions=1, columns=None):
@@ -36,7 +45,7 @@ def integer(array, name, dimensions=1, columns=None):
     try:
         result = np.asarray(array)
     except ValueError as error:
-        raise InvalidMesh(f"{name} is not an array of integers: {error}") from error
+        raise InvalidMesh(f"{name} is not an array of integers: {quoted(array)}") from error
     if np.ma.is_masked(array):
         raise InvalidMesh(f"{name} has masked entries")
     _check_integers(result, name)

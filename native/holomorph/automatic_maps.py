@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from .array_types import Progress
 from .arrays import integer
 from .automatic_structure import AnyStructure
-from .checks import check_type, real_number
+from .checks import check_list, check_type, real_number
 from .copies import Copy, copies
 from .given_vertices import on_part
 from .map import Map
@@ -24,6 +24,7 @@ from .side_by_side import side_by_side
 from .sizing import TRIES, Sizing, best_window, relative_size, usual_density, window_around
 from .surface import Surface
 from .tiling import Poles
+from .value import quoted
 
 LEADING = 0.25  # part of the area of the largest part, from which on a part may say the density of all
 TRYING = 0.9  # part of the work on tilings, for numbers of tiles
@@ -70,6 +71,9 @@ def automatic_maps(
     parts = surfaces.components if isinstance(surfaces, Surface) else tuple(surfaces)
     for part in parts:
         check_type(part, Surface, "a part")
+    if not isinstance(main, str):
+        check_list(main, "main")
+    check_list(moves, "moves")
     mains = [main] * len(parts) if isinstance(main, str) else main
     common = {"direction": direction, "evenness": evenness} | options
     choices = [_own_choices(part, poles, allowed, moves) for part in parts]
@@ -94,7 +98,9 @@ def sized_maps(
     if tiles is not None and density is not None:
         raise ValueError("give tiles or a density, not both")
     if real_number(tolerance, "density_tolerance") < 0:
-        raise ValueError(f"density_tolerance is {tolerance!r}; it cannot be negative")
+        raise ValueError(f"density_tolerance is {quoted(tolerance)}; it cannot be negative")
+    tiles = tiles and real_number(tiles, "tiles", positive=True)
+    density = None if density is None else real_number(density, "density", positive=True)
     alike = _alike(parts, mains, choices)
     done = SOLVING if structures is None else 0.0
     made = _first_maps(parts, structures, mains, alike, choices, threads, scaled(progress, 0.0, done))
@@ -233,6 +239,6 @@ def _own_choices(part, poles, allowed, moves):
         allowed = allowed[part.vertex_index]
         if not allowed.any():
             allowed, poles = None, 0 if isinstance(poles, (str, numbers.Real)) else poles
-    places, is_there = on_part(part, [vertex for _, vertex in moves])
+    places, is_there = on_part(part, integer([vertex for _, vertex in moves], "moves"))
     own = {pole: int(place) for (pole, _), place, has in zip(moves, places, is_there) if has}
     return poles, {"allowed": allowed, "moves": own}

@@ -64,7 +64,7 @@ class ConformalStructure(CertifiedStructure):
     def uv_of(self, n: ArrayLike, m: ArrayLike) -> Reals:
         """(#C, 2) with u = sum_j n_j h_j and v = sum_j m_j h_j, n and m of length 2g: seams jump by integers
         where n and m are integers."""
-        n, m = np.asarray(n, dtype=np.float64), np.asarray(m, dtype=np.float64)
+        n, m = arrays.numbers(n, "n"), arrays.numbers(m, "m")
         count = self._differentials.shape[0]
         if n.shape != (count,) or m.shape != n.shape or not np.isfinite([n, m]).all():
             raise ValueError(f"n and m have the shapes {n.shape} and {m.shape}; ({count},) finite numbers are needed")

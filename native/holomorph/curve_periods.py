@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
+from . import _native, arrays
 from ._native import SolverError
 from .period_matrix import PeriodMatrix, distance_within
 
@@ -73,7 +73,7 @@ def _solved(periods, errors, roots, radii):
 def _branch_points(coefficients):
     """(roots, radii), over a power of 2: the exact roots are within these distances, one each. Integer coefficients are
     exact; others have errors as large as those of a product of factors in double precision."""
-    given = np.array(coefficients, dtype=np.complex128)
+    given = arrays.complex_numbers(coefficients, "coefficients")
     if given.ndim != 1 or not np.isfinite(given).all():
         raise ValueError("coefficients must be a row of finite numbers, the highest power first")
     c = np.trim_zeros(given, "f")

@@ -6,6 +6,7 @@ import numpy as np
 
 from . import arrays
 from ._native import InvalidMesh
+from .value import quoted
 
 UPRIGHT = "upright"
 UP = (0.0, 0.0, 1.0)
@@ -21,7 +22,7 @@ def along(direction, turn, surface):
     Raises ValueError for another direction; InvalidMesh for a vector on a surface without positions."""
     if isinstance(direction, str):
         if direction != UPRIGHT:
-            raise ValueError(f'direction is {direction!r}; "{UPRIGHT}", three numbers or None is needed')
+            raise ValueError(f'direction is {quoted(direction)}; "{UPRIGHT}", three numbers or None is needed')
         return (list(UP), math.pi / 2 + (turn or 0.0)) if surface.vertices is not None else (None, turn)
     return (None if direction is None else _vector(direction, surface)), turn
 
@@ -31,5 +32,5 @@ def _vector(direction, surface):
         raise InvalidMesh("an intrinsic surface, without positions, has no direction in space; use turn")
     vector = arrays.numbers(direction, "direction")
     if vector.shape != (3,) or not np.isfinite(vector).all() or not vector.any():
-        raise ValueError(f"direction is {direction!r}; three numbers, not all 0, are needed")
+        raise ValueError(f"direction is {quoted(direction)}; three numbers, not all 0, are needed")
     return vector.tolist()

@@ -8,6 +8,7 @@ from ._native import InvalidMesh
 from .array_types import Reals
 from .form_structure import FormStructure
 from .surface import Surface
+from .value import quoted
 
 SQUARES = ((0.96, 0.94, 0.91), (0.84, 0.43, 0.20))  # the two colours of a checker
 PLAIN = (0.75, 0.75, 0.78)
@@ -36,7 +37,7 @@ def require_positions(surface: Surface) -> None:
 def upright(points: Reals, up: str) -> Reals:
     """(..., 3) points with the axis `up`, "Y" or "Z", as third one."""
     if up not in ("Y", "Z"):
-        raise ValueError(f'up is {up!r}; "Y" or "Z" is needed')
+        raise ValueError(f'up is {quoted(up)}; "Y" or "Z" is needed')
     return points if up == "Z" else points[..., [0, 2, 1]] * np.array([1, -1, 1])
 
 

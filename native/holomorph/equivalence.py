@@ -18,7 +18,7 @@ from .progress import scaled
 from .results import Structure
 from .structure import conformal_structure
 from .surface import Surface
-from .value import Value
+from .value import Value, quoted
 
 ROUNDING = 1e-9  # relative error of residuals
 AGREEMENT = 0.25  # of the error bars: projected periods are more accurate, so meshes of one surface agree to less
@@ -92,7 +92,7 @@ def conformally_equivalent(
     Source: Plesken & Souvignier (1997), with lattice points near a point for its candidates.
     """
     if real_number(tolerance, "tolerance") < 0:
-        raise ValueError(f"tolerance is {tolerance!r}; it must not be negative")
+        raise ValueError(f"tolerance is {quoted(tolerance)}; it must not be negative")
     first, second = side_of(a), side_of(b)
     found = _by_topology(first, second)
     if found is not None:

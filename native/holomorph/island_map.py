@@ -10,7 +10,7 @@ import numpy as np
 from . import _native, arrays
 from .appearance import cost
 from .array_types import Integers, Progress, Reals
-from .checks import check_type
+from .checks import check_threads, check_type, checked_evenness, real_number
 from .hard_edges import bends, curvature, seen
 from .island_cuts import Cuts, corner_pieces, in_one_orientation
 from .layout import pack
@@ -89,6 +89,8 @@ def island_map(
 
     Raises Cancelled."""
     check_type(surface, Surface)
+    evenness, threads = checked_evenness(evenness), check_threads(threads or None)
+    hard_edges = None if hard_edges is None else real_number(hard_edges, "hard_edges", positive=True)
     progress = scaled(progress, 0.0, 0.0)  # whether to go on; how long it takes is not known
     given, (surface, order) = surface, in_one_orientation(surface)
     bent, found = bends(surface), None

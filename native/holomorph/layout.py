@@ -12,7 +12,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import arrays
 from .array_types import Reals
+from .checks import real_number
 
 WIDTHS = 24  # tried, from the square of the total area upwards
 WIDEST = 2.0  # the largest of these widths, in sides of that square
@@ -22,6 +24,7 @@ GAP_ROUNDS = 4  # the gap is a share of a side that depends on the gap; each rou
 
 def rows(sizes: Reals, width: float, gap: float) -> tuple[Reals, tuple[float, float]]:
     """((n, 2) lower left corners, (w, h) of the whole): the rectangles of (n, 2) `sizes` on shelves of `width`."""
+    width, gap = real_number(width, "width"), real_number(gap, "gap")
     order = np.argsort(-sizes[:, 1], kind="stable")
     corners = np.zeros_like(sizes)
     x = y = widest = height = 0.0
@@ -54,7 +57,11 @@ def pack(sizes: ArrayLike, margin: float) -> tuple[Reals, float]:
     sizes : (n, 2) widths and heights; margin : distance of neighbours, as a share of the side. The whole is centred in
     the square. O(n log n).
     """
-    sizes = np.asarray(sizes, np.float64).reshape(-1, 2)
+    sizes, margin = arrays.numbers(sizes, "sizes"), real_number(margin, "margin")
+    if not sizes.size:
+        return np.zeros((0, 2)), 0.0
+    if sizes.ndim != 2 or sizes.shape[1] != 2 or not np.isfinite(sizes).all():
+        raise ValueError(f"sizes has the shape {sizes.shape}; (n, 2) finite numbers are needed")
     if not sizes.any():  # all of them points
         return np.zeros_like(sizes), 0.0
     margin = fitting_margin(margin, len(sizes))

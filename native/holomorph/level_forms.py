@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import arrays
 from ._native import InvalidMesh
 from .array_types import Integers
+from .checks import check_list
 
 if TYPE_CHECKING:
     from .progressive import ProgressiveMesh
@@ -30,6 +31,7 @@ def lift_loops(mesh: ProgressiveMesh, loops: Sequence[Integers], n_faces: int | 
     """
     count = len(mesh._native.splits().v_s)
     splits = count if n_faces is None else mesh._split_count(n_faces)
+    check_list(loops, "loops")
     given = [arrays.integer(loop, "loop") for loop in loops]
     for loop in given:
         if len(loop) == 0 or loop.min() < 0 or loop.max() >= mesh._native.base_vertex_count:

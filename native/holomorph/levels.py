@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native, arrays
 from ._native import InvalidMesh
 from .array_types import Integers, Progress, Reals
-from .checks import check_options
+from .checks import check_list, check_options
 from .solver_report import SolverReport
 from .surface import Surface
 from .value import Value, counted
@@ -93,6 +93,7 @@ def levels_of_detail(
     """
     threads = check_options(solver, threads)
     uv, maps = _maps(uv, mesh._corner_count)
+    check_list(n_faces, "n_faces")
     splits = [mesh._split_count(n) for n in n_faces]
     collapsed = mesh._native.collapsed_corner_values(maps, splits)
     levels = []
@@ -129,7 +130,7 @@ def level_corner_data(mesh: ProgressiveMesh, n_faces: int) -> NDArray[Any] | Non
 
 def _maps(uv, corner_count):
     """The array as given, and as one row of 2m numbers for each corner."""
-    uv = np.asarray(uv, dtype=np.float64)
+    uv = arrays.numbers(uv, "uv")
     if uv.ndim not in (2, 3) or uv.shape[0] != corner_count or uv.shape[-1] != 2 or uv.size == 0:
         wanted = f"({corner_count}, 2) or ({corner_count}, maps, 2)"
         raise InvalidMesh(f"uv has the shape {uv.shape}; {wanted} is needed")

@@ -15,6 +15,7 @@ from .pole_structure import PoleStructure
 from .results import result
 from .surface import Surface
 from .truncated import coarse_log_map
+from .value import quoted
 
 
 def log_map(
@@ -65,5 +66,5 @@ def log_map(
 def _residues(residues):
     try:
         return [] if residues is None else [complex(r) for r in residues]
-    except (TypeError, ValueError) as error:
-        raise TopologyError(f"residues must be a list of numbers, not {residues!r}") from error
+    except (TypeError, ValueError, OverflowError) as error:
+        raise TopologyError(f"residues must be a list of numbers, not {quoted(residues)}") from error

@@ -13,7 +13,7 @@ from .map import Map, form_map
 from .progress import scaled
 from .stretched import stretched
 from .surface import Surface
-from .value import counted
+from .value import counted, quoted
 
 REFUSALS = InvalidMesh, TopologyError, SolverError  # what is said about one part, others go on
 Refusal = InvalidMesh | TopologyError | SolverError
@@ -48,7 +48,7 @@ SOLVING = 0.5  # part of the work, for the structure
 def first_map(surface, structure, main, evenness, threads, progress):
     """The `Map` of flat islands, or the balanced one, where it stays; `Undecided` where a tiling may take its place."""
     if main not in MAIN_MAPS:
-        raise ValueError(f"main is {main!r}; one of {', '.join(MAIN_MAPS)} is needed")
+        raise ValueError(f"main is {quoted(main)}; one of {', '.join(MAIN_MAPS)} is needed")
     if structure is None:
         structure = automatic_structure(surface, threads=threads, progress=progress)
     if main == "seamless":

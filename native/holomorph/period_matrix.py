@@ -46,7 +46,7 @@ def distance_within(omega, change):
 
 def checked_period_matrix(given):
     """(g, g) complex, symmetric; ValueError for what cannot be one."""
-    omega = np.array(given, dtype=np.complex128)
+    omega = arrays.complex_numbers(given, "the period matrix")
     g = omega.shape[0] if omega.ndim == 2 else 0
     if omega.shape != (g, g) or not g or not np.isfinite(omega).all() or np.abs(omega - omega.T).max() > ASYMMETRY * g:
         raise ValueError("a period matrix is square, symmetric and finite, such as [[0.3 + 1j]]")

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
+from . import _native, arrays
 from .array_types import Reals
-from .checks import real_number
+from .checks import complex_number, real_number
 from .surface import Surface
 
 
@@ -58,11 +58,12 @@ def place(
     if rows.size and (rows.min() < 0 or rows.max() >= len(placed)):
         raise ValueError(f"rows has an entry outside of 0 to {len(placed) - 1}")
     if len(uv):
-        _native.place(uv, complex(factor), complex(origin), complex(target), rows, placed, threads=0)
+        numbers = (complex_number(*given) for given in ((factor, "factor"), (origin, "origin"), (target, "target")))
+        _native.place(uv, *numbers, rows, placed, threads=0)
 
 
 def _corners(uv, count):
-    uv = np.ascontiguousarray(uv, dtype=np.float64)
+    uv = arrays.numbers(uv, "uv")
     if uv.shape != (count, 2):
         raise ValueError(f"uv has the shape {uv.shape}; ({count}, 2) is needed")
     return uv

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import numbers
 import os
 from collections.abc import Sequence
 from functools import cached_property, partial
@@ -16,13 +15,13 @@ from . import _native, arrays, checked_file, level_forms, levels
 from ._native import InvalidMesh
 from .array_types import FilePath, Integers, Progress
 from .bounded import BoundedStructure
-from .checks import check_memory_limit, check_options, check_thresholds, check_type
+from .checks import as_float, check_memory_limit, check_options, check_thresholds, check_type
 from .closed import ConformalStructure
 from .origin import Origin
 from .results import result
 from .splits import structured_splits
 from .surface import Surface
-from .value import Value
+from .value import Value, quoted
 
 ORDERS = ("quadric", "independent")
 
@@ -65,7 +64,7 @@ class ProgressiveMesh(Value):
     ) -> None:
         check_type(surface, Surface)
         if order not in ORDERS:
-            raise ValueError(f"order is {order!r}; one of {', '.join(map(repr, ORDERS))} is needed")
+            raise ValueError(f"order is {quoted(order)}; one of {', '.join(map(repr, ORDERS))} is needed")
         kind, data = "", b""
         if corner_data is not None:
             kind, data = arrays.packed(corner_data, len(surface.corner_vertices))
@@ -151,8 +150,8 @@ class ProgressiveMesh(Value):
         return int(offsets[-1]) if len(offsets) else self._corners.size
 
     def _split_count(self, n_faces):
-        if not isinstance(n_faces, numbers.Real) or math.isnan(n_faces):
-            raise ValueError(f"n_faces is {n_faces!r}; a number of triangles is needed")
+        if math.isnan(as_float(n_faces)):
+            raise ValueError(f"n_faces is {quoted(n_faces)}; a number of triangles is needed")
         return self._native.split_count(int(max(0, min(n_faces, 2**62))))
 
     def _level(self, splits):

@@ -14,6 +14,7 @@ from .closed import ConformalStructure
 from .narrow_bounds import narrow
 from .results import result
 from .surface import Surface
+from .value import quoted
 
 BOUNDARIES = ("natural", "double_cover")
 
@@ -67,7 +68,7 @@ def conformal_structure(
     """
     count, narrowing = check_options(solver, threads), check_bounds(bounds, most_faces)
     if boundary not in BOUNDARIES:
-        raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
+        raise ValueError(f"boundary is {quoted(boundary)}; one of {', '.join(BOUNDARIES)} is needed")
     limit, component = check_memory_limit(memory_limit), only_component(surface)
     _check_topology(component)
     options = solver, count, limit, progress

@@ -19,10 +19,8 @@ from .lines import Lines
 from .places import Places
 from .relief import Relief, raised
 from .surface import Surface
-from .tiling_options import generators
-from .value import Value, counted
-
-MOST_PER_TILE = 1000
+from .tiling_options import MOST_PER_TILE, generators
+from .value import Value, counted, quoted
 
 
 class TiledSurface(Value):
@@ -202,7 +200,7 @@ class TiledSurface(Value):
 
 def _pair(values, name):
     if np.shape(values) != (2,):
-        raise ValueError(f"{name} is {values!r}; two numbers are needed")
+        raise ValueError(f"{name} is {quoted(values)}; two numbers are needed")
     return values
 
 
@@ -221,7 +219,7 @@ def _direction(direction):
         if whole and math.gcd(a, b) == 1:
             return int(a), int(b)
     raise ValueError(
-        f'direction is {direction!r}; "u", "v", or two whole numbers without a common divisor, up to '
+        f'direction is {quoted(direction)}; "u", "v", or two whole numbers without a common divisor, up to '
         f"{MOST_PER_TILE}, are needed"
     )
 
@@ -232,5 +230,5 @@ def _count(value, name):
     except TypeError:
         count = 0
     if not 1 <= count <= MOST_PER_TILE:
-        raise ValueError(f"{name} has {value!r}; whole numbers from 1 to {MOST_PER_TILE} are needed")
+        raise ValueError(f"{name} has {quoted(value)}; whole numbers from 1 to {MOST_PER_TILE} are needed")
     return count

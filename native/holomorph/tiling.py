@@ -11,13 +11,13 @@ from numpy.typing import ArrayLike
 from . import _native, arrays
 from ._native import TopologyError
 from .array_types import Progress
-from .checks import checked_evenness, only_component, real_number
+from .checks import SOLVERS, check_name, check_threads, checked_evenness, only_component, real_number
 from .direction import along
 from .quality import Quality
 from .surface import Surface
 from .tiling_options import Poles, asked_poles, generators, is_straight, own_allowed, own_poles
 from .tilings import PlacedPoles, Rounding, Tiling
-from .value import counted
+from .value import counted, quoted
 
 
 class Tiler:
@@ -48,7 +48,8 @@ class Tiler:
         threads: int | None = 0,
         progress: Progress | None = None,
     ) -> None:
-        self._surface, self._component, self._threads = surface, only_component(surface), threads or 0
+        self._surface, self._component, self._threads = surface, only_component(surface), check_threads(threads or None)
+        check_name(solver, SOLVERS, "solver")
         count, chosen = asked_poles(poles)
         vertices, labels = own_poles(surface, self._component, chosen)
         self._placement = _native.place_poles(
@@ -92,7 +93,7 @@ class Tiler:
     ) -> Tiling:
         """A `Tiling`; see `Structure.tile`. turn : radians by which the texture is rotated, beside the direction."""
         if max_added is not None and real_number(max_added, "max_added") < 1:
-            raise ValueError(f"max_added is {max_added!r}; a mean s1 / s2 of at least 1 is needed")
+            raise ValueError(f"max_added is {quoted(max_added)}; a mean s1 / s2 of at least 1 is needed")
         tiles = 0.0 if tiles is None else real_number(tiles, "tiles", positive=True)
         turn = None if turn is None else real_number(turn, "turn")
         max_turn = real_number(max_turn, "max_turn")
@@ -144,6 +145,8 @@ class Tiler:
         """
         made = self._own(tiling)
         evenness = tiling.evenness if evenness is None else checked_evenness(evenness)
+        if not isinstance(moves, Mapping):
+            raise ValueError(f"moves is {quoted(moves)}; a dictionary from poles to vertices is needed")
         own, _ = own_poles(self._surface, self._component, list(moves.values()))
         moved = _native.move_poles(
             self._placement,

@@ -12,9 +12,11 @@ from ._native import TopologyError
 from .array_types import Integers
 from .checks import own_vertices
 from .edges import has_angle_on_one_boundary
+from .value import quoted
 
 LATTICES = {"square": (1, 1j), "brick": (1, 0.5 + 1j), "hex": (1, 0.5 + 0.5j * math.sqrt(3))}
 BOUNDARIES = ("automatic", "straight", "free")
+MOST_POLES, MOST_PER_TILE = 1000, 1000
 Poles: TypeAlias = str | int | Sequence[int] | Integers  # "auto", a number, or vertices
 
 
@@ -22,11 +24,11 @@ def asked_poles(poles):
     """(count or None, chosen vertices). @throws ValueError or InvalidMesh for anything else"""
     if isinstance(poles, str):
         if poles != "auto":
-            raise ValueError(f'poles is {poles!r}; "auto", a number or a list of vertices is needed')
+            raise ValueError(f'poles is {quoted(poles)}; "auto", a number or a list of vertices is needed')
         return None, []
     if isinstance(poles, numbers.Real):
-        if not 0 <= poles <= 1000 or poles != int(poles):
-            raise ValueError(f"poles is {poles!r}; a whole number from 0 to 1000 is needed")
+        if not 0 <= poles <= MOST_POLES or poles != int(poles):
+            raise ValueError(f"poles is {quoted(poles)}; a whole number from 0 to {MOST_POLES} is needed")
         return int(poles), []
     vertices = arrays.integer(poles, "poles")
     return len(vertices), vertices
@@ -58,7 +60,7 @@ def own_allowed(allowed, surface, component):
 def is_straight(boundary, component, evened):
     """Whether the boundary of a tiling is to be straight. @throws ValueError"""
     if boundary not in BOUNDARIES:
-        raise ValueError(f"boundary is {boundary!r}; one of {', '.join(BOUNDARIES)} is needed")
+        raise ValueError(f"boundary is {quoted(boundary)}; one of {', '.join(BOUNDARIES)} is needed")
     if boundary == "automatic":
         return not (evened and has_angle_on_one_boundary(component))
     return boundary == "straight"
@@ -68,7 +70,7 @@ def generators(lattice):
     """The two generators of a lattice as complex numbers. @throws ValueError"""
     if isinstance(lattice, str):
         if lattice not in LATTICES:
-            raise ValueError(f"lattice is {lattice!r}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
+            raise ValueError(f"lattice is {quoted(lattice)}; one of {', '.join(LATTICES)} or a 2 x 2 matrix is needed")
         return tuple(complex(z) for z in LATTICES[lattice])
     matrix = arrays.numbers(lattice, "lattice")
     if matrix.shape != (2, 2) or not np.isfinite(matrix).all():

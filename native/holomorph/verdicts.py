@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import arrays
+from .checks import ratio
+
 if TYPE_CHECKING:
     from .quality import Quality
 
@@ -80,7 +83,7 @@ def verdict(quality: Quality, poles: int | None = None, added_distortion: float 
         _rank(quality.overlapping_part or 0.0, OVERLAPPING),
     ]
     worst = max(ranks)
-    against_shear = _against_shear(quality, added_distortion, worst)
+    against_shear = _against_shear(quality, ratio(added_distortion, "added_distortion"), worst)
     is_island = quality.overlapping_part is not None
     advice = (_against_unevenness(poles, is_island), against_shear, _against_losses(quality), OVERLAP_ADVICE)
     wanted = [text for text, rank in zip(advice, ranks) if rank == worst > 0]
@@ -99,7 +102,10 @@ def overall(
     sizes : largest over smallest median density of the parts; from `SAME_SIZE` on no texture fits all parts
     unmapped : part of the faces that has no map, to which the limits `LOST` apply
     """
-    areas = np.ones(len(verdicts)) if areas is None else np.asarray(areas, float)
+    areas = np.ones(len(verdicts)) if areas is None else arrays.numbers(areas, "areas")
+    if areas.shape != (len(verdicts),) or not (areas >= 0).all():
+        raise ValueError(f"areas has the shape {areas.shape}; ({len(verdicts)},) numbers from 0 on are needed")
+    sizes, unmapped = ratio(sizes, "sizes"), ratio(unmapped, "unmapped")
     ranks = np.array([each.rank for each in verdicts])
     rank = next(r for r in np.unique(ranks)[::-1] if areas[ranks >= r].sum() >= SMALL_PART * areas.sum())
     first = verdicts[int(np.argmax(ranks == rank))]
