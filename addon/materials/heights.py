@@ -4,7 +4,6 @@
 from . import textures
 from .nodes import REPEATS_NODE
 
-BRIGHTNESS = (0.2126, 0.7152, 0.0722)  # of red, green and blue, as Rec. 709 has it
 TWO_CHANNELS = (1, 1 / textures.STEPS, 0)  # of `textures.relief_image`
 
 
@@ -21,8 +20,8 @@ def shown(material):
 
 
 def weights(image):
-    """What red, green and blue count in a height."""
-    return TWO_CHANNELS if image.get(textures.OURS, "").endswith(textures.RELIEF) else BRIGHTNESS
+    """What red, green and blue count in a height; None where it is the brightness."""
+    return TWO_CHANNELS if image.get(textures.OURS, "").endswith(textures.RELIEF) else None
 
 
 def _image_behind(socket):

@@ -59,7 +59,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
             raise ValueError("choose the image to raise")
         self._repeats = self.repeats or (repeats if image == shown else 1)
         try:
-            self._heights = relief.heights_of(image_io.read_pixels(image), heights.weights(image))
+            self._heights = relief.heights_of(image_io.read_file_values(image), heights.weights(image))
         except ValueError as error:
             raise ValueError(f"{image.name}: {error}") from error
         self._millimetres = _millimetres(context.scene.unit_settings)
@@ -91,7 +91,7 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
         from ..things import geometry, relief
 
         made = geometry.write_relief(step, obj, found[0])
-        return f"{made.name}: {relief.sentence(found[0], self._millimetres, self._skipped)}"
+        return f"{made.name}: {relief.sentence(found[0], self._millimetres, self._skipped, self._heights)}"
 
 
 def _millimetres(units):

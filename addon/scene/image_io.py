@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pixels of Blender's images."""
 
+import bpy
 import numpy as np
+
+from .. import native
+
+EXIF_BYTES = 2**18
 
 
 def read_pixels(image):
@@ -11,6 +16,35 @@ def read_pixels(image):
     values = np.empty(len(image.pixels), np.float32)
     image.pixels.foreach_get(values)
     return values.reshape(height, width, -1) if len(values) else np.empty((0, 0, 4), np.float32)
+
+
+def read_file_values(image):
+    """`read_pixels` of the values in the image's file, turned as its EXIF data say, not as they are converted for
+    rendering: 16 bits and reals in sRGB are, and colours are multiplied by alpha. What was painted or generated has no
+    file. @throws ValueError where it is too large"""
+    reader = native.load().picture_values
+    reader.check_size(image.name, *image.size)
+    if image.source != "FILE" or image.is_dirty:
+        return read_pixels(image)
+    copy = image.copy()
+    try:
+        copy.colorspace_settings.name = "Non-Color"
+        copy.alpha_mode = "CHANNEL_PACKED"
+        pixels = read_pixels(copy)
+    finally:
+        bpy.data.images.remove(copy)
+    return reader.upright(pixels[::-1], reader.orientation(_file_start(image)))[::-1]
+
+
+def _file_start(image):
+    """The first bytes of the file, in which EXIF data are."""
+    if image.packed_file is not None:
+        return image.packed_file.data[:EXIF_BYTES]
+    try:
+        with open(bpy.path.abspath(image.filepath, library=image.library), "rb") as file:
+            return file.read(EXIF_BYTES)
+    except OSError:
+        return b""
 
 
 def write_pixels(image, pixels):

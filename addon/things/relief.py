@@ -13,14 +13,16 @@ AUTOMATIC_DEPTH = 0.1  # in sides of a tile
 
 def heights_of(pixels, weights):
     """(h, w) heights, the top row first, of (h, w, channels) pixels, the lowest row first, and what red, green and blue
-    count. @throws ValueError"""
+    count; None for their brightness. @throws ValueError"""
     if not pixels.size:
         raise ValueError("it has no pixels: check that its file exists")
     colours = pixels[::-1, :, :3].astype(np.float64)
-    heights = colours @ weights if colours.shape[2] == 3 else colours[:, :, 0]
-    if not np.isfinite(heights).all():
-        raise ValueError("some of its pixels are not numbers")
-    return native.load().relief.checked_heights(np.clip(heights, 0, 1))
+    if weights is not None:
+        heights = np.clip(colours @ weights, 0, 1)
+    else:
+        channels = np.moveaxis(colours, 2, 0)
+        heights = native.load().picture_values.brightness(*channels) if len(channels) == 3 else channels[0]
+    return native.load().relief.checked_heights(heights)
 
 
 def turned_over(polygons, uv):
@@ -72,11 +74,14 @@ def _side(tiled):
     return float(np.sqrt(tiled.surface.area / area)) if area > 0 else 0.0
 
 
-def sentence(relief, millimetres, skipped):
-    """The sentence that tells of a relief. millimetres : in a unit of its positions"""
+def sentence(relief, millimetres, skipped, heights):
+    """The sentence that tells of a relief. millimetres : in a unit of its positions; heights : (h, w)"""
     told = [f"{len(relief.triangles):,} triangles, {relief.depth * millimetres:.3g} mm deep"]
     if skipped:
         told.append(f"{skipped} parts without a tiling stay flat")
+    rows, columns = heights.shape
+    if rows != columns:
+        told.append(native.load().relief.stretched_sentence(columns, rows))
     if relief.is_full:
         told.append(
             f"up to {relief.error * relief.depth * millimetres:.2g} mm off: allow more triangles to follow the picture"

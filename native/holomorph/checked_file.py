@@ -16,8 +16,7 @@ def read(path):
 
     Raises InvalidMesh if the checksum does not fit a content that begins as a progressive mesh: what else it may be is
     found when it is read. OSError"""
-    with open(path, "rb") as file:
-        whole = file.read()
+    whole = whole_file.read(path)
     content, checksum = whole[:-4], whole[-4:]
     if len(whole) >= 12 and zlib.crc32(content).to_bytes(4, "little") != checksum and content[:6] == b"HoloPM":
         raise InvalidMesh("the progressive mesh is damaged: its checksum does not match")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numbers
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,13 +13,14 @@ import numpy as np
 from . import _native, arrays
 from .array_types import Integers, Reals
 from .checks import check_options, real_number
+from .relief_normals import normals
 from .surface import Surface
-from .value import Value, counted
+from .tiling_options import MOST_PER_TILE
+from .value import Value, counted, quoted
 
 if TYPE_CHECKING:
     from .tiled_surface import TiledSurface
 
-LONGEST = 2.0  # of the vectors by which vertices are moved, for a height of 1: at sharper corners they are shorter
 PARTS = 64  # of the depth, among which a safe one is found
 LEAST_PART = 1 / PARTS
 MOST_TRIANGLES = 2**30
@@ -150,16 +152,17 @@ def raised(
     surface = tiled.surface
     pixels = checked_heights(heights)
     depth = checked_depth(depth, surface.vertices)
-    for value, name in ((level, "level"), (tolerance, "tolerance")):
-        if not 0 <= real_number(value, name) <= 1:
-            raise ValueError(f"{name} is {value!r}; a height from 0 to 1 is needed")
-    most = int(min(real_number(most_triangles, "most_triangles", positive=True), MOST_TRIANGLES))
+    most = check_choices(repeats, level, tolerance, most_triangles)
+    of_vertices, of_corners, are_reflex = normals(surface)
     found = _native.relief(
         surface._native,
         tiled._coordinates(((repeats, 0), (0, repeats))),
-        normals=vertex_normals(surface),
+        normals=of_vertices,
+        corner_normals=of_corners,
+        are_reflex=are_reflex,
         shares=_shares(tiled, real_number(pole_fade, "pole_fade", positive=True)),
-        pixels=np.ascontiguousarray(pixels[::-1]),
+        pixels=pixels,
+        depth=depth,
         level=float(level),
         tolerance=float(tolerance),
         most_triangles=most,
@@ -180,15 +183,35 @@ def raised(
     )
 
 
+def check_choices(repeats, level, tolerance, most_triangles):
+    """The limit on the triangles. @throws ValueError"""
+    if not isinstance(repeats, numbers.Integral) or not 1 <= repeats <= MOST_PER_TILE:
+        raise ValueError(f"repeats has {quoted(repeats)}; whole numbers from 1 to {MOST_PER_TILE} are needed")
+    for value, name in ((level, "level"), (tolerance, "tolerance")):
+        if not 0 <= real_number(value, name) <= 1:
+            raise ValueError(f"{name} is {quoted(value)}; a height from 0 to 1 is needed")
+    return int(min(real_number(most_triangles, "most_triangles", positive=True), MOST_TRIANGLES))
+
+
+def stretched_sentence(columns, rows):
+    """What is said of a picture that is not as high as it is wide, in pixels."""
+    return (
+        f"the picture has {columns} x {rows} pixels: each tile shows it stretched to a square, by {columns / rows:.3g}"
+    )
+
+
 def checked_heights(heights):
     """(h, w) float64, from 0 to 1 and not all alike. @throws ValueError"""
     pixels = arrays.numbers(heights, "heights")
     if pixels.ndim != 2 or not pixels.size:
         raise ValueError(f"heights has the shape {pixels.shape}; (rows, columns) are needed")
-    if not (np.isfinite(pixels).all() and pixels.min() >= 0 and pixels.max() <= 1):
+    low, high = pixels.min(), pixels.max()
+    if not np.isfinite([low, high]).all():
         raise ValueError("heights must be finite numbers from 0 to 1")
-    if pixels.min() == pixels.max():
-        raise ValueError(f"the picture has the height {pixels.min():.3g} everywhere: nothing can be raised")
+    if low < 0 or high > 1:
+        raise ValueError(f"heights must be from 0 to 1, not from {low:.3g} to {high:.3g}")
+    if low == high:
+        raise ValueError(f"the picture has the height {low:.3g} everywhere: nothing can be raised")
     return pixels
 
 
@@ -205,27 +228,6 @@ def volume(vertices, triangles):
     """The signed volume inside closed triangles."""
     a, b, c = np.moveaxis(vertices[triangles] - vertices.mean(axis=0), 1, 0)
     return float(np.einsum("ni,ni->", a, np.cross(b, c)) / 6)
-
-
-def vertex_normals(surface):
-    """(#V, 3) vectors m / m^2, m the mean of the normals around by angles: moved by these, faces stay parallel to
-    themselves where all are as steep against m, as on smooth surfaces and at the corners of boxes."""
-    corners = surface.vertices[surface.triangles]
-    after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    cross = np.cross(after, before)
-    angle = np.arctan2(np.linalg.norm(cross, axis=2), np.einsum("tik,tik->ti", after, before))
-    normal = cross[:, 0]
-    length = np.linalg.norm(normal, axis=1, keepdims=True)
-    normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
-    flat, count = surface.triangles.ravel(), len(surface.vertices)
-    angle = np.where(length > 0, angle, 0)
-    weighted = (angle[:, :, None] * normal[:, None]).reshape(-1, 3)
-    total = np.bincount(flat, angle.ravel(), count)[:, None]
-    sums = np.stack([np.bincount(flat, weighted[:, k], count) for k in range(3)], axis=1)
-    mean = np.divide(sums, total, out=np.zeros_like(sums), where=total > 0)
-    size = np.linalg.norm(mean, axis=1, keepdims=True)
-    unit = np.divide(mean, size, out=np.zeros_like(mean), where=size > 0)
-    return unit / np.maximum(size, 1 / LONGEST)
 
 
 def _shares(tiled, width):

@@ -4,11 +4,12 @@ import re
 
 import numpy as np
 
-from . import Error, Map, Surface, automatic_maps, printing, whole_file
-from .checks import check_options
-from .console import Parser, failed, tell
+from . import Error, InvalidMesh, Map, Surface, TopologyError, automatic_maps, printing, whole_file
+from .checks import check_options, real_number
+from .console import Parser, failed, tell, warn
 from .height_image import height_image
-from .relief import LEAST_PART, checked_depth, checked_heights, joined, plain, volume
+from .relief import LEAST_PART, check_choices, checked_depth, checked_heights, joined, plain, stretched_sentence
+from .shells import outward, turned_sentence
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_STRICT = 1, 2, 3
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "um": 0.001}  # millimetres
@@ -22,6 +23,9 @@ def relief(arguments):
     options = _parser().parse_args(arguments)
     try:
         depth = _millimetres(options.depth)
+        check_choices(options.repeats, options.level, options.tolerance, options.most_triangles)
+        if options.tiles is not None:
+            real_number(options.tiles, "tiles", positive=True)
         printing.of_path(options.output)
         whole_file.check_places(options.mesh, options.output, [], options.overwrite)
         check_options("auto", options.threads)
@@ -30,7 +34,7 @@ def relief(arguments):
     try:
         made, told, faults = _made(options, depth)
         whole_file.write(options.output, printing.content(options.output, made))
-    except (Error, OSError, ValueError) as error:
+    except (Error, OSError) as error:
         return failed(EXIT_REFUSED, error)
     tell("".join(f"{sentence}\n" for sentence in told + faults))
     return failed(EXIT_STRICT, faults[0]) if options.strict and faults else 0
@@ -86,39 +90,56 @@ def _millimetres(text):
 
 def _made(options, depth):
     """(the `Relief`, what is told of it, what is wrong with it)."""
-    heights = checked_heights(height_image(options.heights))
-    surface = _outward(_scaled(Surface.read(options.mesh), UNITS[options.unit]))
-    checked_depth(depth, surface.vertices)
+    heights = _heights(options.heights)
+    surface = Surface.read(options.mesh)
+    warn(options.mesh, surface.repairs.notes)
+    surface, turned = outward(_scaled(surface, UNITS[options.unit]))
+    depth = _of_mesh(checked_depth, depth, surface.vertices)
     parts = surface.components
     maps = automatic_maps(parts, main="seamless", tiles=options.tiles, threads=options.threads)
     reasons = [f"{found.why}" if isinstance(found, Map) else str(found) for found in maps]
     choices = {name: getattr(options, name) for name in ("repeats", "level", "tolerance", "most_triangles")}
     reliefs, refused = [], []
     for part, found, reason in zip(parts, maps, reasons):
-        if isinstance(found, Map) and found.tiling:
-            reliefs.append(found.tiled.relief(heights, depth, **choices))
-        else:
-            refused.append(reason)
-            reliefs.append(plain(part))
+        is_tiled = isinstance(found, Map) and found.tiling
+        reliefs.append(found.tiled.relief(heights, depth, **choices) if is_tiled else plain(part))
+        if not np.ptp(reliefs[-1].heights):
+            refused.append("the picture fades out at its poles" if is_tiled else reason)
     if len(refused) == len(parts):
-        raise ValueError(f"{options.mesh}: it has no seamless tiling: {refused[0]}")
+        raise TopologyError(f"{options.mesh}: it has no seamless tiling: {refused[0]}")
+    if refused and options.tiles is not None:
+        raise TopologyError(
+            f"{options.mesh}: {len(refused)} of {len(parts)} parts would stay flat with --tiles {options.tiles:g}: "
+            f"{refused[0]}; choose another number, or leave it out"
+        )
     made = joined(reliefs)
-    return made, _told(made, refused, parts, depth), _faults(made, parts, depth)
+    told = _told(made, refused, parts, depth) + [turned_sentence(turned)] * (turned > 0) + _aspect(heights)
+    return made, told, _faults(made, parts, depth)
+
+
+def _heights(path):
+    """@throws Error, OSError"""
+    return _of_mesh(checked_heights, _of_mesh(height_image, path))
+
+
+def _of_mesh(check, *given):
+    """What a function gives. @throws Error for what it says of data, as a ValueError"""
+    try:
+        return check(*given)
+    except ValueError as error:
+        raise InvalidMesh(str(error)) from error
+
+
+def _aspect(heights):
+    """What is to be said of a picture that a tile stretches."""
+    rows, columns = heights.shape
+    return [stretched_sentence(columns, rows)] * (rows != columns)
 
 
 def _scaled(surface, factor):
     if factor == 1 or surface.vertices is None:
         return surface
     return Surface.from_polygons(surface.vertices * factor, surface.corner_vertices, surface.face_offsets, strict=False)
-
-
-def _outward(surface):
-    """The surface, the other way round where it is closed and its volume negative."""
-    if any(part.boundary_count for part in surface.components) or volume(surface.vertices, surface.triangles) >= 0:
-        return surface
-    starts, ends = surface.face_offsets[:-1], surface.face_offsets[1:]
-    back = np.repeat(starts + ends - 1, ends - starts) - np.arange(len(surface.corner_vertices))
-    return Surface.from_polygons(surface.vertices, surface.corner_vertices[back], surface.face_offsets, strict=False)
 
 
 def _told(made, refused, parts, depth):

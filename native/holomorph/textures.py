@@ -1,10 +1,9 @@
 """Textures of meshes in files: a picture of the user's, byte by byte, or a checker that is drawn for the map."""
 
 import hashlib
-from pathlib import Path
 from typing import NamedTuple
 
-from . import checker
+from . import checker, whole_file
 
 CHECKER = "checker"
 PNG, JPEG = "image/png", "image/jpeg"
@@ -36,7 +35,7 @@ def digest(texture):
 
 def read(path):
     """The `Image` that a file holds. @throws ValueError for other files than PNG and JPEG, @throws OSError"""
-    content = Path(path).read_bytes()
+    content = whole_file.read(path)
     for signature, media_type in SIGNATURES.items():
         if content.startswith(signature):
             return Image(media_type, content)

@@ -1,9 +1,10 @@
-"""Files that are written whole or not at all."""
+"""Files that are read, and that are written whole or not at all."""
 
 import contextlib
 import errno
 import os
 import shutil
+import stat
 import uuid
 from pathlib import Path
 
@@ -32,6 +33,25 @@ def write(path, *contents):
             _move(new, place)
         finally:
             new.unlink(missing_ok=True)
+
+
+def read(path, most=None):
+    """The bytes of a file. A pipe, or what else is not a file, is not waited for.
+
+    most : a larger file is refused
+
+    Raises OSError that names the path."""
+    with _naming(path), open(os.fspath(path), "rb", opener=_without_waiting) as file:
+        state = os.fstat(file.fileno())
+        if not stat.S_ISREG(state.st_mode):
+            raise OSError(errno.EINVAL, "this is not a file but a folder, a pipe or a device")
+        if most is not None and state.st_size > most:
+            raise OSError(errno.EFBIG, f"it has {state.st_size:,} bytes; at most {most:,} are read")
+        return file.read()
+
+
+def _without_waiting(path, flags):
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
 
 
 def check_places(source, output, others, overwrite):

@@ -6,6 +6,7 @@
 #include "bindings/callback.h"
 #include "mesh/crossings.h"
 #include "tiles/cells.h"
+#include "tiles/corner_fans.h"
 #include "tiles/lines.h"
 #include "tiles/places.h"
 #include "tiles/relief.h"
@@ -52,22 +53,35 @@ Cells cells(const Surface& surface, const TileCoordinates& coordinates, bool bri
   return tiles::cells(tiles::pieces(surface, coordinates, nodes, pattern, execution));
 }
 
+std::vector<int> corner_fans(const Surface& surface, const Contiguous<bool>& is_sharp) {
+  return tiles::corner_fans(surface, {is_sharp.data(), is_sharp.data() + is_sharp.size()});
+}
+
+// The pixels have the top row first.
 Relief relief(const Surface& surface, const TileCoordinates& coordinates, const Contiguous<double>& normals,
-              const Contiguous<double>& shares, const Contiguous<double>& pixels, double level, double tolerance,
-              int most_triangles, const py::object& progress) {
+              const Contiguous<double>& corner_normals, const Contiguous<bool>& are_reflex,
+              const Contiguous<double>& shares, const Contiguous<double>& pixels, double depth, double level,
+              double tolerance, int most_triangles, const py::object& progress) {
   std::vector<tiles::ReliefSite> sites(surface.vertex_count);
   for (int v = 0; v < surface.vertex_count; ++v) {
     sites[v] = {Eigen::Vector3d(surface.polygons.vertices[v].data()), Eigen::Vector3d(normals.data(v, 0)),
                 shares.at(v)};
   }
+  std::vector<tiles::SmoothCorners> corners(surface.triangles.size());
+  for (std::size_t c = 0; c < 3 * corners.size(); ++c) {
+    const auto row = static_cast<py::ssize_t>(c);
+    corners[c / 3].normals[c % 3] = Eigen::Vector3d(corner_normals.data(row, 0));
+    corners[c / 3].are_reflex[c % 3] = are_reflex.at(row);
+  }
   using Pixels = tiles::HeightImage::Pixels;
-  Pixels copied = Eigen::Map<const Pixels>(pixels.data(), pixels.shape(0), pixels.shape(1));
+  Pixels copied = Eigen::Map<const Pixels>(pixels.data(), pixels.shape(0), pixels.shape(1)).colwise().reverse();
   Execution execution(1, callback(progress));
   const py::gil_scoped_release unlocked;
   execution.stage("refining", 0, 1);
   const tiles::HeightImage image(std::move(copied));
-  const tiles::ReliefOptions options{.level = level, .tolerance = tolerance, .most_triangles = most_triangles};
-  Relief made = tiles::relief(surface, coordinates, sites, image, options, execution);
+  const tiles::ReliefOptions options{
+      .level = level, .tolerance = tolerance, .most_triangles = most_triangles, .depth = depth};
+  Relief made = tiles::relief(surface, coordinates, sites, corners, image, options, execution);
   execution.finish();
   return made;
 }
@@ -141,8 +155,10 @@ void bind_tiles(py::module_& m) {
       .def_property_readonly("parents", member(&Relief::parents))
       .def_readonly("error", &Relief::error)
       .def_readonly("is_full", &Relief::is_full);
-  m.def("relief", &relief, "surface"_a, "coordinates"_a, py::kw_only(), "normals"_a, "shares"_a, "pixels"_a, "level"_a,
-        "tolerance"_a, "most_triangles"_a, "progress"_a);
+  m.def("relief", &relief, "surface"_a, "coordinates"_a, py::kw_only(), "normals"_a, "corner_normals"_a, "are_reflex"_a,
+        "shares"_a, "pixels"_a, "depth"_a, "level"_a, "tolerance"_a, "most_triangles"_a, "progress"_a);
+  m.def("corner_fans",
+        [](const Surface& surface, const Contiguous<bool>& is_sharp) { return copy(corner_fans(surface, is_sharp)); });
   m.def("crossings", &crossings, "vertices"_a, "triangles"_a, py::kw_only(), "threads"_a);
   m.def("lines", &lines, "surface"_a, "coordinates"_a, py::kw_only(), "threads"_a);
   m.def("cells", &cells, "surface"_a, "coordinates"_a, py::kw_only(), "bricks"_a, "threads"_a);

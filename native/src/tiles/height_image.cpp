@@ -46,10 +46,12 @@ double middle(Index i, Index count) { return (static_cast<double>(i) + 0.5) / st
 }  // namespace
 
 HeightImage::HeightImage(Pixels pixels) {
-  Level finest{std::move(pixels), {}, {}};
-  finest.rest = Pixels::Zero(finest.mean.rows(), finest.mean.cols());
-  levels_.push_back(std::move(finest));
-  while (levels_.back().mean.size() > 1) levels_.push_back(halved(levels_.back()));
+  levels_.push_back({std::move(pixels), {}, {}});
+  while (levels_.back().mean.size() > 1) {
+    Level coarse = halved(levels_.back());
+    levels_.back().rest = {};  // of which `around` is left
+    levels_.push_back(std::move(coarse));
+  }
 }
 
 double HeightImage::rest(const Point& tile, int level) const {
@@ -83,7 +85,8 @@ HeightImage::Level HeightImage::halved(const Level& fine) {
       // The error of the fine level, plus that of the coarse level against the fine one, at the middle of each fine
       // pixel.
       double& rest = coarse.rest(cell(v, rows), cell(u, columns));
-      rest = std::max(rest, fine.rest(i, j) + std::abs(fine.mean(i, j) - bilinear(coarse.mean, u, v)));
+      const double lost = fine.rest.size() == 0 ? 0 : fine.rest(i, j);
+      rest = std::max(rest, lost + std::abs(fine.mean(i, j) - bilinear(coarse.mean, u, v)));
     }
   }
   coarse.around = widened(coarse.rest);

@@ -28,7 +28,7 @@ class HeightImage {
  private:
   struct Level {
     Pixels mean;
-    Pixels rest;    // in each of its pixels
+    Pixels rest;    // in each of its pixels, until the next level is made; none of the finest, which loses nothing
     Pixels around;  // the most of it in a pixel and those around it
   };
 

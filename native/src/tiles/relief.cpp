@@ -5,17 +5,23 @@
 #include <queue>
 #include <tuple>
 
+#include "tiles/sharp_zone.h"
+
 namespace holomorph::tiles {
 namespace {
 
 constexpr int kNone = -1, kReported = 4096;
 constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side, between which heights are sampled
+constexpr double kLeastTolerance = 1e-4;
+constexpr double kSharp = 1e-9;  // difference of normals, which rounding does not make
 
 // Side i runs from corner i to corner i + 1.
 struct Triangle {
   std::array<int, 3> vertices;
   std::array<int, 3> across;  // the triangle at each side, or none
   std::array<Point, 3> tiles;
+  CornerNormals normals;
+  std::array<bool, 3> are_reflex;
   int parent;
   int version = 0;  // how often it was split
 };
@@ -31,21 +37,35 @@ struct Candidate {
 
 std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
+// The vector by which both faces of an edge stay parallel to themselves. The normals differ at a sharp edge alone.
+Eigen::Vector3d between_faces(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+  const Eigen::Vector3d mean = (one + other) / 2, unit = (one.normalized() + other.normalized()) / 2;
+  constexpr double least = 0.25;  // at sharper edges the vector is shorter
+  return one == other ? mean : Eigen::Vector3d(mean / std::max(unit.squaredNorm(), least));
+}
+
 class Refining {
  public:
   Refining(const mesh::Surface& surface, const TileCoordinates& coordinates, std::vector<ReliefSite> sites,
-           const HeightImage& image, const ReliefOptions& options)
-      : image_(image), options_(options), sites_(std::move(sites)), heights_(sites_.size(), 0.0) {
+           const std::vector<SmoothCorners>& corners, const HeightImage& image, const ReliefOptions& options)
+      : image_(image),
+        options_(options),
+        sites_(std::move(sites)),
+        heights_(sites_.size(), 0.0),
+        zones_(sites_.size()),
+        is_sharp_(sites_.size(), 0) {
     const int count = static_cast<int>(surface.triangles.size());
     triangles_.resize(count);
     std::vector<int> first(surface.edges.size(), kNone);  // 3 t + i of the first side at each edge
     for (int t = 0; t < count; ++t) {
       Triangle& own = triangles_[t];
-      own = {surface.triangles[t], {kNone, kNone, kNone}, {}, t};
+      own = {surface.triangles[t], {kNone, kNone, kNone}, {}, corners[t].normals, corners[t].are_reflex, t};
       for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 2; ++k) own.tiles[i][k] = coordinates.points[t][i][k] / coordinates.unit;
         // The same from every triangle at the vertex: tile coordinates differ by whole tiles, and the image has period
         // 1. Around poles, where they do not, the share is 0.
+        const Eigen::Vector3d& moved = sites_[own.vertices[i]].normal;
+        if ((moved - own.normals[i]).norm() > kSharp * moved.norm()) is_sharp_[own.vertices[i]] = 1;
         heights_[own.vertices[i]] = height(sites_[own.vertices[i]].share, own.tiles[i]);
         int& other = first[surface.triangle_edges[t][i]];
         if (other != kNone) {
@@ -76,7 +96,7 @@ class Refining {
   }
 
   void look_at(int t) {
-    const double error = error_of(triangles_[t]);
+    const double error = std::max(error_of(triangles_[t]), error_of_direction(triangles_[t]));
     if (error > options_.tolerance)
       candidates_.push({error, t, triangles_[t].version});
     else
@@ -112,6 +132,45 @@ class Refining {
     return error;
   }
 
+  // Just above the tolerance where a triangle is large for how near it is to a sharp edge, so that errors of heights
+  // come first; the more, the larger it is.
+  double error_of_direction(const Triangle& t) const {
+    double excess = 0;
+    for (int i = 0; i < 3; ++i) {
+      const int v = t.vertices[i];
+      if (sites_[v].share == 0) continue;
+      for (const int w : {t.vertices[(i + 1) % 3], t.vertices[(i + 2) % 3]}) {
+        const SharpZone zone = zone_of(v, t.normals[i], t.are_reflex[i]);
+        if (zone.is_empty()) continue;
+        const double across = std::abs(zone.distance(sites_[w].position) - zone.distance(sites_[v].position));
+        if (across > zone_width()) excess = std::max(excess, 1 - zone_width() / across);
+      }
+    }
+    return excess == 0 ? 0 : std::max(options_.tolerance, kLeastTolerance) * (1 + excess);
+  }
+
+  // With triangles as large as the zone, all that leans lies within a depth.
+  double zone_width() const { return options_.depth / 2; }
+
+  // The zone of a vertex on a smooth part of the surface with this normal there.
+  SharpZone zone_of(int v, const Eigen::Vector3d& normal, bool is_reflex) const {
+    if (!is_sharp_[v]) return zones_[v];
+    const Eigen::Vector3d aside = sites_[v].normal - normal;
+    return aside.norm() > kSharp * normal.norm()
+               ? SharpZone::at_edge(aside, sites_[v].position, zones_[v].out, is_reflex)
+               : SharpZone{};
+  }
+
+  // That of the middle of a side, to which the nearest edge counts. @param normals at both ends
+  SharpZone zone_between(const Triangle& t, int i, const CornerNormals& normals) const {
+    const int next = (i + 1) % 3, a = t.vertices[i], b = t.vertices[next];
+    const Eigen::Vector3d middle = (sites_[a].position + sites_[b].position) / 2;
+    const SharpZone one = zone_of(a, normals[0], t.are_reflex[i]), other = zone_of(b, normals[1], t.are_reflex[next]);
+    const auto away = [&](const SharpZone& zone) { return zone.is_empty() ? zone_width() : zone.distance(middle); };
+    if (std::min(away(one), away(other)) >= zone_width()) return {};
+    return away(one) <= away(other) ? one : other;
+  }
+
   double squared_length(int a, int b) const { return (sites_[a].position - sites_[b].position).squaredNorm(); }
 
   // An order of all sides, the same from both triangles.
@@ -129,7 +188,7 @@ class Refining {
   }
 
   // The side of a triangle from one vertex to another.
-  static int side(const Triangle& t, int from, int to) {
+  static int side_from(const Triangle& t, int from, int to) {
     int i = 0;
     while (t.vertices[i] != from || t.vertices[(i + 1) % 3] != to) ++i;
     return i;
@@ -154,18 +213,35 @@ class Refining {
     return true;
   }
 
+  // The normals of a side at its two ends and in its middle, on which both its triangles agree.
+  CornerNormals side_normals(const Triangle& t, int i) const {
+    const int next = (i + 1) % 3, other = t.across[i];
+    CornerNormals own{t.normals[i], t.normals[next], (t.normals[i] + t.normals[next]) / 2};
+    if (other == kNone) return own;
+    const Triangle& beyond = triangles_[other];
+    const int j = side_from(beyond, t.vertices[next], t.vertices[i]), k = (j + 1) % 3;
+    return {between_faces(own[0], beyond.normals[k]), between_faces(own[1], beyond.normals[j]),
+            between_faces(own[2], (beyond.normals[j] + beyond.normals[k]) / 2)};
+  }
+
   void halve_side(int t, int i) {
     const Triangle& own = triangles_[t];
     const int a = own.vertices[i], b = own.vertices[(i + 1) % 3], other = own.across[i];
     const int middle = static_cast<int>(sites_.size());
-    // Position, normal and share stay linear along the side. The height alone is sampled anew.
-    sites_.push_back({(sites_[a].position + sites_[b].position) / 2, (sites_[a].normal + sites_[b].normal) / 2,
-                      (sites_[a].share + sites_[b].share) / 2});
+    // Position and share stay linear along the side, and so do the normals of each triangle. The height is sampled
+    // anew.
+    const CornerNormals ends = side_normals(own, i);
+    const SharpZone zone = zone_between(own, i, ends);
+    const Eigen::Vector3d at = (sites_[a].position + sites_[b].position) / 2;
+    sites_.push_back({at, ends[2] + zone.rest(at, zone_width()), (sites_[a].share + sites_[b].share) / 2});
+    is_sharp_.push_back(ends[2] != (own.normals[i] + own.normals[(i + 1) % 3]) / 2);
+    zones_.push_back(zone);
+    if (is_sharp_.back()) zones_.back().out = (sites_[b].position - sites_[a].position).normalized();
     const Point &p = own.tiles[i], &q = own.tiles[(i + 1) % 3];
     heights_.push_back(height(sites_[middle].share, {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2}));
     const int second = halve(t, i, middle);
     if (other != kNone) {
-      const int fourth = halve(other, side(triangles_[other], b, a), middle);
+      const int fourth = halve(other, side_from(triangles_[other], b, a), middle);
       join(t, fourth);
       join(second, other);
       look_at(other);
@@ -185,12 +261,15 @@ class Refining {
     };
     const auto [a, b, c] = turned(first.vertices);
     const auto [p, q, r] = turned(first.tiles);
+    const auto [n, o, l] = turned(first.normals);
+    const Eigen::Vector3d between = (n + o) / 2;
+    const auto [e, f, g] = turned(first.are_reflex);
     const int right = turned(first.across)[1], left = turned(first.across)[2], version = first.version + 1;
     const Point m{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2};
     const int parent = first.parent;
-    first = {{a, middle, c}, {kNone, second, left}, {p, m, r}, parent, version};
-    triangles_.push_back({{middle, b, c}, {kNone, right, t}, {m, q, r}, parent});
-    if (right != kNone) triangles_[right].across[side(triangles_[right], c, b)] = second;
+    first = {{a, middle, c}, {kNone, second, left}, {p, m, r}, {n, between, l}, {e, false, g}, parent, version};
+    triangles_.push_back({{middle, b, c}, {kNone, right, t}, {m, q, r}, {between, o, l}, {false, f, g}, parent});
+    if (right != kNone) triangles_[right].across[side_from(triangles_[right], c, b)] = second;
     return second;
   }
 
@@ -221,6 +300,8 @@ class Refining {
   const ReliefOptions& options_;
   std::vector<ReliefSite> sites_;  // #V
   std::vector<double> heights_;    // #V
+  std::vector<SharpZone> zones_;   // #V; on a sharp edge `out` alone is used, for its direction
+  std::vector<char> is_sharp_;     // #V
   std::vector<Triangle> triangles_;
   std::priority_queue<Candidate> candidates_;  // those that are off by more than the tolerance, and earlier versions
   double error_ = 0;                           // of the others
@@ -229,8 +310,9 @@ class Refining {
 }  // namespace
 
 Relief relief(const mesh::Surface& surface, const TileCoordinates& coordinates, const std::vector<ReliefSite>& sites,
-              const HeightImage& image, const ReliefOptions& options, Execution& execution) {
-  return Refining(surface, coordinates, sites, image, options).run(execution);
+              const std::vector<SmoothCorners>& corners, const HeightImage& image, const ReliefOptions& options,
+              Execution& execution) {
+  return Refining(surface, coordinates, sites, corners, image, options).run(execution);
 }
 
 }  // namespace holomorph::tiles

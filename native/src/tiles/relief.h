@@ -11,7 +11,7 @@ namespace holomorph::tiles {
 /// The quantities at a vertex that are interpolated linearly on every triangle.
 struct ReliefSite {
   Eigen::Vector3d position;
-  Eigen::Vector3d normal;  ///< by which a height of 1 moves the surface
+  Eigen::Vector3d normal;  ///< by which a height of 1 moves the surface, over the depth
   double share = 1;  ///< factor of the height; 0 at all vertices of triangles at poles, where UVs do not fit together
 };
 
@@ -20,6 +20,17 @@ struct ReliefOptions {
   double tolerance = 0;      ///< of heights: triangles are split until no error is larger
   int most_triangles = 0;    ///< beyond this number none is split, whatever its error
   double finest_pixels = 1;  ///< triangles whose sides are shorter are not split
+  double depth = 0;          ///< by which a height of 1 moves the surface: so near sharp edges it may lean
+};
+
+/// The normals at the corners of a triangle, each of the smooth part of the surface around it: across a sharp edge they
+/// differ. Elsewhere they are those of the vertices.
+using CornerNormals = std::array<Eigen::Vector3d, 3>;
+
+/// What the corners of a triangle have of the smooth part around them.
+struct SmoothCorners {
+  CornerNormals normals;
+  std::array<bool, 3> are_reflex{};  ///< it takes more than half of the vertex's surroundings
 };
 
 struct Relief {
@@ -36,8 +47,12 @@ struct Relief {
 /// Halves longest sides, in both triangles at once, the triangle with the largest error first. The mesh stays
 /// conforming, and no angle gets below half the smallest (Rivara 1984, doi:10.1002/nme.1620200412). Heights are those
 /// of the tiles, so that seams of the map are edges as any others. The same at any number of threads: it uses one.
-/// @param sites #V. Cost: O(#T log #T) for the triangles that are made.
+///
+/// At a sharp edge, where the normals at corners differ, the surface is moved along both its sides, and farther than
+/// the depth from there straight up: triangles that reach from the one to the other are halved.
+/// @param sites #V; corners #T. Cost: O(#T log #T) for the triangles that are made.
 Relief relief(const mesh::Surface& surface, const TileCoordinates& coordinates, const std::vector<ReliefSite>& sites,
-              const HeightImage& image, const ReliefOptions& options, Execution& execution);
+              const std::vector<SmoothCorners>& corners, const HeightImage& image, const ReliefOptions& options,
+              Execution& execution);
 
 }  // namespace holomorph::tiles

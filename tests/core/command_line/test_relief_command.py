@@ -9,6 +9,7 @@ from heights import dots
 from holomorph import Surface, height_image
 from holomorph.__main__ import main
 from holomorph.relief import volume
+from holomorph.shells import outward
 from solved import surface_of
 
 PIL = pytest.importorskip("PIL.Image")
@@ -31,9 +32,9 @@ def folder(tmp_path, monkeypatch):
     return tmp_path
 
 
-def run(*arguments, mesh="torus.obj", image="dots.png", output="part.stl", depth="1mm"):
-    few = ("--most-triangles", "20000")
-    return main(["relief", mesh, image, "--output", output, f"--depth={depth}", "--tiles", "40", *few, *arguments])
+def run(*arguments, mesh="torus.obj", image="dots.png", output="part.stl", depth="1mm", tiles="40"):
+    more = ["--most-triangles", "20000"] + (["--tiles", tiles] if tiles else [])
+    return main(["relief", mesh, image, "--output", output, f"--depth={depth}", *more, *arguments])
 
 
 def written(name="part.stl"):
@@ -111,7 +112,10 @@ def test_parts_without_a_tiling_stay_plain(folder, capsys, monkeypatch):
     made = relief_command.automatic_maps
     refusal = relief_command.Error("too small")
     monkeypatch.setattr(relief_command, "automatic_maps", lambda *a, **k: [made(*a, **k)[0], refusal])
-    assert run(mesh="two.obj") == 0
+    assert run(mesh="two.obj", output="none.stl") == 1
+    assert "1 of 2 parts would stay flat with --tiles 40: too small" in capsys.readouterr().err
+    assert not (folder / "none.stl").exists()
+    assert run(mesh="two.obj", tiles=None) == 0
     assert "1 of 2 parts stay flat: too small" in capsys.readouterr().out
     assert sorted(len(part.triangles) for part in written().components)[0] == len(faces)
     monkeypatch.setattr(relief_command, "automatic_maps", lambda *a, **k: [refusal, refusal])
@@ -156,7 +160,7 @@ def test_bad_input_is_one_sentence_and_nothing_is_written(name, folder, capsys):
 
 @pytest.mark.parametrize(("option", "value"), [("--level", "2"), ("--tolerance", "nan"), ("--most-triangles", "-4")])
 def test_other_options_that_cannot_be(option, value, folder, capsys):
-    assert run(option, value) == 1
+    assert run(option, value) == 2
     assert f"{option[2:].replace('-', '_')} is {value}" in capsys.readouterr().err
     assert not (folder / "part.stl").exists()
 
@@ -175,3 +179,59 @@ def test_without_pillow_it_says_so(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "PIL", None)
     with pytest.raises(ValueError, match=r"pip install holomorph\[relief\]"):
         height_image(picture)
+
+
+def shells(*turned):
+    """Two tori side by side, and a small one in the wall of each, where it is a hollow; in turn, `turned` or right."""
+    torus = surface_of(families.torus(40, 24, shape="triangles"))
+    vertices, faces, triangles = [], [], torus.triangles
+    for k, is_turned in enumerate(turned):
+        scale = 10 if k % 2 == 0 else 1
+        right = triangles if k % 2 == 0 else triangles[:, ::-1]
+        place = np.array([60 * (k // 2) + (20 if k % 2 else 0), 0, 0])
+        faces.append((right[:, ::-1] if is_turned else right) + len(torus.vertices) * k)
+        vertices.append(scale * torus.vertices + place)
+    return Surface(np.concatenate(vertices), np.concatenate(faces))
+
+
+@pytest.mark.parametrize("turned", [(0, 0, 0, 0), (1, 0, 0, 0), (0, 1, 0, 0), (1, 1, 1, 1), (0, 0, 1, 1), (1, 0, 0, 1)])
+def test_each_shell_is_turned_by_its_own_nesting(turned):
+    made, count = outward(shells(*turned))
+    assert count == sum(turned)
+    volumes = [of(part) for part in made.components]
+    assert [volume > 0 for volume in volumes] == [True, False, True, False]
+    assert volumes == pytest.approx([of(part) for part in shells(0, 0, 0, 0).components])
+    again, none = outward(made)
+    assert again is made and none == 0
+
+
+def test_shells_in_shells_alternate():
+    """Five tori around one core line, each inside the one before."""
+    torus = surface_of(families.torus(24, 16, R=3.0, r=1.0, shape="triangles"))
+    middle = torus.vertices * [1, 1, 0]
+    middle *= 3 / np.linalg.norm(middle, axis=1, keepdims=True)
+    tubes = [middle + size * (torus.vertices - middle) for size in (0.2, 0.9, 0.6, 0.4, 0.8)]
+    faces = [torus.triangles + len(torus.vertices) * k for k in range(5)]
+    made, count = outward(Surface(np.concatenate(tubes), np.concatenate(faces)))
+    assert [of(part) > 0 for part in made.components] == [True, True, True, False, False]
+    assert count == 2
+
+
+def test_open_parts_stay_as_they_are(folder):
+    bowl = surface_of(families.hemisphere(12))
+    torus = Surface.read("inwards.obj")
+    both = Surface(
+        np.concatenate([torus.vertices, bowl.vertices + (90, 0, 0)]),
+        np.concatenate([torus.triangles, bowl.triangles + len(torus.vertices)]),
+    )
+    made, count = outward(both)
+    assert count == 1
+    assert np.array_equal(made.components[1].corner_vertices, both.components[1].corner_vertices)
+
+
+def test_it_tells_of_turned_shells_and_stretched_pictures(folder, capsys):
+    save("wide.png", (255 * np.tile(dots(32), (1, 2))).astype(np.uint8))
+    assert run(mesh="inwards.obj", image="wide.png") == 0
+    told = capsys.readouterr().out
+    assert "1 shell was inside out: it was turned" in told
+    assert "64 x 32 pixels: each tile shows it stretched to a square, by 2" in told
