@@ -2,6 +2,7 @@
 
 import importlib.machinery
 import importlib.util
+import re
 import shutil
 import subprocess
 
@@ -70,3 +71,14 @@ def test_what_is_not_ready_is_refused(release, copy):
     (copy / "CHANGELOG.md").write_text(CHANGELOG + "- More.\n", encoding="utf-8")
     with pytest.raises(SystemExit, match="not committed"):
         release.check("2.0.0")
+
+
+def test_what_releases_are_built_with_is_pinned_by_hashes():
+    """Everything that scripts/environment asks for to compile and pack, and what that needs."""
+    pinned = (ROOT / "scripts" / "release-requirements.txt").read_text(encoding="utf-8")
+    entries = [entry.replace("\\\n", "") for entry in re.split(r"\n(?=\w)", re.sub(r"(?m)^#.*\n", "", pinned).strip())]
+    assert all(re.match(r"[\w-]+==[\d.]+\s+--hash=sha256:[0-9a-f]{64}", entry) for entry in entries)
+    names = {entry.split("==")[0] for entry in entries}
+    asked = re.findall(r"make_tools_venv .*", (ROOT / "scripts" / "environment").read_text(encoding="utf-8"))
+    wanted = {name for line in asked for name in re.findall(r'"([\w-]+)[>=]=', line)}
+    assert {"pybind11", "ziglang", "auditwheel"} <= wanted <= names
