@@ -60,7 +60,10 @@ def _right_zip_here():
 def _folders():
     """Beside the add-on, in a checkout, and where something else of the name may come first on ``sys.path``."""
     here, built = Path(__file__).resolve().parent, Path("lib", python_tag(), NAME)
-    return [here / built, here.parent / "build" / built, *(Path(entry) / NAME for entry in sys.path)]
+    entries = [
+        Path(entry) for entry in sys.path if Path(entry).is_absolute()
+    ]  # not the current folder: assets lie there
+    return [here / built, here.parent / "build" / built, *(entry / NAME for entry in entries)]
 
 
 def _import_from(folder):
@@ -138,6 +141,11 @@ def forget():
 def refusals():
     """The exceptions with which a mesh is refused; their sentences are for the user."""
     return load().Error, MemoryError
+
+
+def fault(error):
+    """The sentence about an error that nothing foresaw, with a report to send."""
+    return importlib.import_module(f"{load().__name__}.unexpected").told(error)
 
 
 def sentence(error):

@@ -20,7 +20,7 @@ from ..writing import transaction
 from . import baked, exchange, sources, studio
 from .options import UsageError, parse
 
-EXIT_REFUSED, EXIT_STRICT, EXIT_INTERRUPTED = 1, 3, 130
+EXIT_REFUSED, EXIT_STRICT, EXIT_FAULT, EXIT_INTERRUPTED = 1, 3, 70, 130
 
 
 class NotFit(Exception):
@@ -40,6 +40,10 @@ def main(arguments):
         _fail(EXIT_STRICT, error)
     except KeyboardInterrupt:
         _fail(EXIT_INTERRUPTED, "interrupted; files already written are complete")
+    except MemoryError:
+        _fail(EXIT_REFUSED, "there is not enough memory")
+    except Exception as error:  # noqa: BLE001  the outer door: nobody is left to raise it to
+        _fail(EXIT_FAULT, native.fault(error))
 
 
 def _shown(sentence):
@@ -81,7 +85,7 @@ def process(options):
     print(f"Holomorph: {_shown(told)}", flush=True)
     if options.strict:
         _check_strictly(outcome.entries)
-    return outcome.problems + outcome.notes
+    return options.warnings + outcome.problems + outcome.notes
 
 
 def _check_places(options):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether an operator can run here, which Blender shows where its button is grey; and what it says in the end."""
 
+import functools
+
 import bpy
 
 from .. import native
@@ -39,6 +41,13 @@ class Explained:
             return DYNTOPO if context.object.use_dynamic_topology_sculpting else ""
         return f"Switch to {' or '.join(cls.modes.values())}"
 
+    def __init_subclass__(cls, **options):
+        """What Blender calls is the outer door: an error that nothing foresaw is told there."""
+        super().__init_subclass__(**options)
+        for name in ("execute", "invoke", "modal"):
+            if name in cls.__dict__:
+                setattr(cls, name, _guarded(cls.__dict__[name]))
+
     def refuse(self, sentence):
         """Says why nothing is done, and gives what the operator returns."""
         self.report({"ERROR"}, str(sentence))
@@ -58,6 +67,22 @@ class Explained:
         if not outcome.problems and not outcome.notes:
             self.report({"INFO"}, f"Holomorphic UV maps written: {', '.join(outcome.done)}")
         return {"FINISHED"}
+
+
+def _guarded(method):
+    """The method, with as many arguments, for Blender counts them; after an error it refuses in one sentence."""
+
+    def call(operator, *arguments):
+        try:
+            return method(operator, *arguments)
+        except MemoryError as error:
+            return operator.refuse(" ".join(["There is not enough memory.", *getattr(error, "__notes__", ())]))
+        except Exception as error:  # noqa: BLE001  nobody is left to raise it to
+            return operator.refuse(native.fault(error))
+
+    if method.__code__.co_argcount == 2:
+        return functools.wraps(method)(lambda self, context: call(self, context))
+    return functools.wraps(method)(lambda self, context, event: call(self, context, event))
 
 
 class OnMeshes(Explained):

@@ -103,12 +103,8 @@ class WorkOperator(Explained):
     def _finish(self, context, work, time_has_passed):
         from ..writing import transaction
 
-        try:
-            with transaction.one_step(context, self.written_objects()) as step:
-                return self.finish(step, work, time_has_passed)
-        except Exception as error:
-            self.report({"ERROR"}, " ".join([f"{type(error).__name__}: {error}.", *getattr(error, "__notes__", ())]))
-            raise
+        with transaction.one_step(context, self.written_objects()) as step:
+            return self.finish(step, work, time_has_passed)
 
     def _show_progress(self, context):
         percent = round(100 * self._work.fraction)

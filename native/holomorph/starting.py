@@ -20,7 +20,10 @@ def is_command():
 
 
 def prepare():
-    """Ends the process in one sentence where there is too little memory, and at Ctrl-C from here on."""
+    """Ends the process in one sentence where there is too little memory, and at Ctrl-C from here on. Nothing more is
+    imported from the current folder, where `python -m` looks first: assets lie there."""
+    if sys.argv[:1] == ["-m"] and not sys.flags.safe_path and sys.path[0] != _own_folder():
+        del sys.path[0]
     signal.signal(signal.SIGINT, lambda number, frame: _end(130, "interrupted before anything was done"))
     limit = _address_space()
     if limit < LEAST_MEMORY:
@@ -28,6 +31,11 @@ def prepare():
     if limit < ROOM:
         for name in ("OPENBLAS_NUM_THREADS", "OMP_THREAD_LIMIT"):
             os.environ.setdefault(name, "1")
+
+
+def _own_folder():
+    """The folder that the package is in."""
+    return os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def _address_space():

@@ -1,12 +1,15 @@
 """What a recipe asks for is what an asset gets, as the package itself makes it."""
 
 import json
+from dataclasses import fields
+from itertools import product
 
 import holomorph
 import numpy as np
 import pytest
 from batch_runs import run, torus_obj
 from holomorph.batch import mapping, recipe
+from holomorph.batch.errors import UsageError
 
 
 @pytest.fixture(scope="module")
@@ -179,3 +182,56 @@ def test_strict(torus, tmp_path):
     }
     assert levels["good.obj"] == "good" and levels["bad.obj"] in ("poor", "unusable")
     assert result.returncode == 3 and result.stderr.endswith("the first is bad.obj\n")
+
+
+BOMBS = {
+    "lists in lists": ("[maps]\nthresholds = " + "[" * 100_000, "nested more than 8 deep"),
+    "tables in tables": ("a = " + "{a=" * 5000, "nested more than 8 deep"),
+    "a long name": ("a" + ".a" * 100_000 + " = 1", "nested more than 8 deep"),
+    "a long header": ("[" + "a." * 100_000 + "a]", "nested more than 8 deep"),
+    "a long word": ("x" * 200_000 + " = 1", "is not a table"),
+    "quotes": ("'''a" * 50_000, "not TOML"),
+    "more quotes": ('x="""' * 20_000, "not TOML"),
+    "many tables": ("".join(f"[a.b{k}]\n" for k in range(20_000)), "is not a table"),
+    "400 digits": ("[maps]\nrotation = " + "9" * 400, "maps.rotation is 9999"),
+    "9000 digits": ("[maps]\nrotation = " + "9" * 9000, "not TOML"),
+    "hexadecimal digits": ("[maps]\nrotation = 0x" + "f" * 100_000, "beyond printing"),
+    "a huge exponent": ("[maps]\nrotation = 1e999", "maps.rotation is inf"),
+    "no number": ("[maps]\ndensity = nan", "maps.density is nan"),
+    "too many poles": ("[tiling]\npoles = 999999999999999999999999999999", "a number up to 1000"),
+    "many vertices": ("[maps]\npoles = [" + "1," * 50_000 + "]", "a list of vertices"),
+    "many levels": ("[levels]\nlevels = 1000000000", "from 0 to 64"),
+    "a long value": ("[maps]\nmain = '" + "x" * 100_000 + "'", "one of automatic"),
+    "a large file": ("# " + "x" * 300_000, "at most 262,144"),
+    "bytes": (b"\xff\xfe\0\0", "not TOML"),
+}
+
+
+@pytest.mark.parametrize("name", BOMBS)
+def test_what_takes_time_or_stack_is_refused_in_one_short_sentence(name, tmp_path):
+    content, message = BOMBS[name]
+    path = tmp_path / "r.toml"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(UsageError, match=message) as caught:
+        recipe.read(path)
+    assert "\n" not in str(caught.value) and len(str(caught.value)) < len(str(path)) + 250
+
+
+def test_names_in_quotes_and_comments_nest_nothing(tmp_path):
+    text = '# [[[[[[[[[[ a.b.c.d.e.f.g.h.i.j\n[output]\ntexture = "checker"  # {{{{{{{{{\nformats = ["glb"]\n'
+    (tmp_path / "r.toml").write_text(text)
+    assert recipe.read(tmp_path / "r.toml").output.formats == ("glb",)
+
+
+EXTREME = (0, 1, -1, 1e300, 1e-300, 2**31 - 1, 1000, True, "x", [0], [5, 5], [1, 2, 3])
+
+
+@pytest.mark.parametrize("table", ["maps", "tiling"])
+def test_any_value_is_refused_by_name_or_maps_or_leaves_parts_without_one(table, torus):
+    """Never another error than ours."""
+    kind = type(getattr(recipe.Recipe(), table))
+    for name, value in product((option.name for option in fields(kind)), EXTREME):
+        try:
+            mapped(torus, **{table: {name: value}})
+        except (UsageError, holomorph.Error) as error:
+            assert 0 < len(str(error)) < 300

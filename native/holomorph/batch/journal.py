@@ -13,9 +13,13 @@ import shutil
 import uuid
 from pathlib import Path
 
+from .. import whole_file
+from ..verdicts import LEVELS
 from .errors import StorageError, UsageError
+from .status import ALL
 
 RECORD = "record.json"
+MOST_BYTES = 2**24  # of a record
 HERE, EXCHANGE = -100, 2  # AT_FDCWD, RENAME_EXCHANGE of Linux
 
 
@@ -33,6 +37,7 @@ class Journal:
         with contextlib.ExitStack() as locks:
             with storing():
                 self.folder.mkdir(parents=True, exist_ok=True)
+                self._check_own()
                 names = [".lock", f".lock-{self._share}"] if self._share else [".lock"]
                 files = [locks.enter_context(open(self.folder / name, "a")) for name in names]
             try:
@@ -45,6 +50,15 @@ class Journal:
                 yield self
             finally:
                 self._empty_work()
+
+    def _check_own(self):
+        """What is emptied, and what is waited for, lies here and is of the kind that was made. @throws UsageError"""
+        for path in {self.work, self.work.parent}:
+            if path.is_symlink() or (path.exists() and not path.is_dir()):
+                raise UsageError(f"{path}: this is not a folder of a batch, which would be emptied: remove it")
+        for path in self.folder.glob(".lock*"):
+            if path.is_symlink() or not path.is_file():
+                raise UsageError(f"{path}: this is not the file of a batch, which would be locked: remove it")
 
     def _empty_work(self):
         """Empties the folder of work; if this run is alone, also those of shares that were killed."""
@@ -71,12 +85,30 @@ def storing():
 
 def stored(task):
     """What is noted of a task's results; None where there are none, they are not whole, or of something else."""
+    record = noted(task)
+    return record if record and record["key"] == task.key else None
+
+
+def noted(task):
+    """The same of whatever the results were made of."""
     try:
-        record = json.loads((task.folder / RECORD).read_bytes())
+        record = json.loads(whole_file.read(task.folder / RECORD, MOST_BYTES))
+        if not _is_record(record):
+            return None
         is_whole = all((task.folder / name).stat().st_size == size for name, size in record["files"].items())
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, RecursionError):
         return None
-    return record if is_whole and record["key"] == task.key else None
+    return record if is_whole else None
+
+
+def _is_record(found):
+    """Whether it has what `publish` notes, each of its kind: other programs write into folders, too."""
+    kinds = {"name": str, "key": str, "status": str, "message": str, "seconds": (int, float), "files": dict}
+    if not isinstance(found, dict) or not all(isinstance(found.get(name), kind) for name, kind in kinds.items()):
+        return False
+    level, skipped = found.get("verdict"), found.get("skipped", 0)
+    is_known = found["status"] in ALL and (level is None or level in LEVELS) and isinstance(skipped, int)
+    return is_known and all(Path(name).name == name for name in found["files"])
 
 
 def publish(task, record, files):

@@ -10,7 +10,7 @@ from urllib.parse import quote
 
 from ..console import shown
 from ..verdicts import LEVELS, Verdict
-from .journal import RECORD
+from .journal import noted
 from .status import DONE
 
 TEMPLATE = Path(__file__).with_name("overview.html")
@@ -65,11 +65,10 @@ class Overview:
 
 def _asset(task):
     """(task, record, report); None where nothing is there."""
-    try:
-        record = json.loads((task.folder / RECORD).read_bytes())
-        report = json.loads((task.folder / "report.json").read_bytes()) if "report.json" in record["files"] else {}
-    except FileNotFoundError:
+    record = noted(task)
+    if record is None:
         return None
+    report = json.loads((task.folder / "report.json").read_bytes()) if "report.json" in record["files"] else {}
     return task, record, report
 
 

@@ -4,6 +4,7 @@ import hashlib
 from functools import partial
 
 from . import blend, places, sources
+from .journal import noted
 from .task import Task, key
 
 ASSETS, SCENES = "assets", ".blend"  # folders of the results: of assets, and of what Blender read of scenes
@@ -24,12 +25,12 @@ class Plan:
 
     def tasks(self):
         """The tasks of the mesh files, and of the objects of the scenes that were read."""
-        opened = [opening for opening in self.openings if (opening.folder / blend.OBJECTS).exists()]
+        opened = [opening for opening in self.openings if _is_read(opening)]
         return self._meshes + [task for opening in opened for task in self._objects(opening)]
 
     def unopened(self):
         """The scenes that were not read: each is an asset in itself, which is not done."""
-        return [opening for opening in self.openings if not (opening.folder / blend.OBJECTS).exists()]
+        return [opening for opening in self.openings if not _is_read(opening)]
 
     def _opening(self, source):
         problem, digest = _examined(source)
@@ -71,6 +72,11 @@ class Plan:
             threads=self._threads,
             **more,
         )
+
+
+def _is_read(opening):
+    """Whether its objects are there, as they were listed."""
+    return noted(opening) is not None and (opening.folder / blend.OBJECTS).exists()
 
 
 def _examined(source):

@@ -1,7 +1,7 @@
 """The process that does the work on assets, one after the other, and may fail at any of them.
 
-python -m holomorph.batch.worker CONNECTION LIFELINE MEMORY: file descriptors of the connection to the process that
-started it, and of a pipe that ends when that one does; bytes that each asset may take.
+python -P .../holomorph/batch/start.py CONNECTION LIFELINE MEMORY: file descriptors of the connection to the process
+that started it, and of a pipe that ends when that one does; bytes that each asset may take.
 """
 
 import os
@@ -9,14 +9,17 @@ import resource
 import signal
 import sys
 import threading
+import time
 from multiprocessing.connection import Connection
 
 import numpy as np
 
-from .. import Surface, conformal_structure
+from .. import Surface, conformal_structure, unexpected
 from .errors import StorageError
 from .journal import publish, storing
-from .status import MEMORY
+from .status import CRASHED, MEMORY
+
+FAULT = "fault.txt"  # beside the record of an asset: what is to be sent
 
 
 def main():
@@ -41,6 +44,7 @@ def main():
 
 def _done(task):
     """The record of a task whose results are written, or that lacks memory, or a StorageError."""
+    start = time.perf_counter()
     try:
         with storing():
             return publish(task, *task.run())
@@ -48,6 +52,11 @@ def _done(task):
         return _without_memory(task)
     except StorageError as error:
         return error
+    except Exception as error:  # noqa: BLE001  the outer door of an asset: other assets are done
+        message = f"{unexpected.sentence(error)}; please send {FAULT}, which holds no mesh"
+        record = {"status": CRASHED, "message": message, "seconds": time.perf_counter() - start}
+        with storing():
+            return publish(task, record, {FAULT: unexpected.report(error).encode(errors="backslashreplace")})
 
 
 def _without_memory(_task):
@@ -88,7 +97,3 @@ def _end_with_parent(lifeline):
     """Ends this process and the programs it started when the one that started it is gone."""
     os.read(lifeline, 1)
     os.killpg(0, signal.SIGKILL)
-
-
-if __name__ == "__main__":
-    main()

@@ -12,11 +12,13 @@ import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from multiprocessing import Pipe
+from pathlib import Path
 
 from .journal import publish
 from .status import CRASHED, MEMORY, TIME
 
 MEMORY_SHARE = 0.8  # part of a machine's memory, for all its workers together
+START = Path(__file__).with_name("start.py").absolute()
 ATTEMPTS = 2  # at an asset whose process ends: it may have been ended from outside
 
 
@@ -95,12 +97,12 @@ class Worker:
             arguments = [str(other.fileno()), str(lifeline), str(self._limits.memory)]
             threads = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": str(self._limits.threads)}
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "holomorph.batch.worker", *arguments],
+                [sys.executable, "-P", str(START), *arguments],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 pass_fds=(other.fileno(), lifeline),
                 start_new_session=True,  # Ctrl-C is for the process that has the terminal
-                env=os.environ | threads,
+                env=os.environ | threads | _python_path(),
             )
             ours.pop_all()  # are closed with the process
 
@@ -122,6 +124,12 @@ class Worker:
         os.close(self._lifeline)
         self._process = None
         return f"was ended by {signal.Signals(-code).name}" if code < 0 else f"ended with {code}"
+
+
+def _python_path():
+    """What the environment says of where modules are, without the current folder, for which an empty entry stands."""
+    entries = os.environ.get("PYTHONPATH", "").split(os.pathsep)
+    return {"PYTHONPATH": os.pathsep.join(os.path.abspath(entry) for entry in entries if entry)}
 
 
 def machine_memory():

@@ -23,6 +23,8 @@ def read(path):
         kept = []
         while True:
             kept.append(np.ones(2**22))  # 32 MB
+    if kind == "fault":
+        return 1 / 0
     if kind == "lost" and _is_first(path):
         os.kill(os.getpid(), signal.SIGKILL)
     if kind == "slow":

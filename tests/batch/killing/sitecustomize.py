@@ -17,5 +17,5 @@ def count(event, arguments):
             os.kill(os.getpid(), signal.SIGKILL)
 
 
-if (WHO == "worker") == ("holomorph.batch.worker" in sys.orig_argv):
+if (WHO == "worker") == (sys.orig_argv[2:3] and sys.orig_argv[2].endswith("batch/start.py")):
     sys.addaudithook(count)

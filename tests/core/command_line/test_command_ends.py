@@ -123,6 +123,28 @@ def test_little_memory(megabytes, mesh, tmp_path):
         assert_one_sentence(done, 1, "ulimit -v")
 
 
+def test_what_nothing_foresaw(tmp_path):
+    """One sentence, a status of its own, and a report to send, that says where it happened."""
+    code = "import sys; from holomorph import console; sys.exit(console.ended(lambda: {}['no such\\nkey']))"
+    command = [sys.executable, "-c", code, "batch", "a b.obj"]
+    environment = os.environ | {"TMPDIR": str(tmp_path)}
+    done = subprocess.run(command, env=environment, stderr=subprocess.PIPE, text=True, timeout=SECONDS)
+    assert_one_sentence(done, 70, "a fault of Holomorph, not of the data: KeyError")
+    (report,) = tmp_path.iterdir()
+    assert str(report) in done.stderr
+    told = report.read_text()
+    assert "in <lambda>" in told and "'a b.obj'" in told and report.stat().st_mode & 0o077 == 0
+
+
+def test_what_nothing_foresaw_where_no_report_can_be_written(tmp_path):
+    code = "import sys; from holomorph import console; sys.exit(console.ended(lambda: 1 / 0))"
+    limited = ["bash", "-c", f'ulimit -f 0; exec {sys.executable} -c "$1"', "-", code]
+    done = subprocess.run(
+        limited, env=os.environ | {"TMPDIR": "/dev/full"}, stderr=subprocess.PIPE, text=True, timeout=SECONDS
+    )
+    assert_one_sentence(done, 70, "the report could not be written")
+
+
 def test_a_name_in_a_sentence(mesh, tmp_path):
     """Neither a line more, nor what a terminal acts on."""
     done = run(mesh, "--output", tmp_path / "two\nlines\x1b[2J\udcff" / "out.obj")

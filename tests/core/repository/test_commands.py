@@ -78,6 +78,8 @@ def fault(line):
         extras = re.findall(r"\[(\w+)\]", line)
         known = tomllib.loads(text_of("pyproject.toml"))["project"]["optional-dependencies"]
         return "" if set(extras) <= set(known) else f"{line}: no such extra"
+    if words[:2] == ["blender", "-b"] and "--disable-autoexec" not in words:
+        return f"{line}: a .blend file would run its scripts"
     if words[0] in ELSEWHERE:
         test = ELSEWHERE[words[0]]
         return "" if not test or (ROOT / test).is_file() else f"{line}: {test} is gone"
@@ -96,6 +98,7 @@ def test_commands_are_those_of_programs(page):
 def test_a_wrong_command_is_found():
     for line in (
         "scripts/nothing",
+        "blender -b --python-exit-code 1 --python addon/headless.py -- a.obj",
         "scripts/test --fast",
         "holomorph batch a --no",
         "pip install 'holomorph[all]'",
