@@ -84,14 +84,14 @@ class HOLOMORPH_OT_relief(OnTiling, bpy.types.Operator):
         )
 
     def finish(self, step, work, time_has_passed):
-        self._skipped = work.skipped
+        self._work_done = work
         return super().finish(step, work, time_has_passed)
 
     def write(self, step, obj, found):
         from ..things import geometry, relief
 
         made = geometry.write_relief(step, obj, found[0])
-        return f"{made.name}: {relief.sentence(found[0], self._millimetres, self._skipped, self._heights)}"
+        return f"{made.name}: {relief.sentence(found[0], self._millimetres, self._work_done)}"
 
 
 def _millimetres(units):

@@ -25,13 +25,14 @@ class PartsWork(jobs.Work):
     progress: object = None
     found: list = field(default_factory=list)
     problem: str = ""
+    parts: tuple = ()  # connected ones, `holomorph.Surface`s
 
     def __post_init__(self):
         super().__init__(self.progress)
 
     def work(self):
         library, refusals = native.load(), []
-        components = self.polygons.surface(strict=False).components
+        self.parts = components = self.polygons.surface(strict=False).components
         for done, part in enumerate(components):
             ask = library.progress.scaled(
                 self.ask, done / len(components) * FOUND, (done + 1) / len(components) * FOUND

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The surface of an object raised by a picture that repeats in its tiles. No bpy here: it runs in a worker thread."""
 
+import importlib
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -42,6 +43,7 @@ class RaisingWork(parts.PartsWork):
     depth: float = 0.0  # 0 for `AUTOMATIC_DEPTH`
     options: dict = field(default_factory=dict)  # of `holomorph.TiledSurface.relief`
     skipped: int = 0
+    inside_out: int = 0  # closed parts
 
     def look(self, tiled, ask):
         self.depth = self.depth or AUTOMATIC_DEPTH * _side(tiled)
@@ -59,6 +61,8 @@ class RaisingWork(parts.PartsWork):
         super().work()
         if self.problem:
             return
+        shells = importlib.import_module(f"{native.load().__name__}.shells")
+        self.inside_out = len(shells.inside_out(self.parts))
         made = native.load().relief.joined(self.found)
         if not self.ask(parts.FOUND, "crossings"):
             raise native.load().Cancelled("cancelled during the search for crossing triangles")
@@ -74,12 +78,14 @@ def _side(tiled):
     return float(np.sqrt(tiled.surface.area / area)) if area > 0 else 0.0
 
 
-def sentence(relief, millimetres, skipped, heights):
-    """The sentence that tells of a relief. millimetres : in a unit of its positions; heights : (h, w)"""
+def sentence(relief, millimetres, work):
+    """The sentence that tells of a relief. millimetres : in a unit of its positions; work : its `RaisingWork`"""
     told = [f"{len(relief.triangles):,} triangles, {relief.depth * millimetres:.3g} mm deep"]
-    if skipped:
-        told.append(f"{skipped} parts without a tiling stay flat")
-    rows, columns = heights.shape
+    if work.skipped:
+        told.append(f"{work.skipped} parts without a tiling stay flat")
+    if work.inside_out:
+        told.append(f"inside out: {work.inside_out} closed parts; recalculate their normals")
+    rows, columns = work.heights.shape
     if rows != columns:
         told.append(native.load().relief.stretched_sentence(columns, rows))
     if relief.is_full:

@@ -9,9 +9,15 @@ SAMPLES = 5  # vertices of a shell that decide whether it lies inside another on
 
 
 def outward(surface):
-    """(the surface with every closed part the right way round, how many were not). A part lies as deep as there are
-    closed parts around it: at an even depth it bounds the solid from outside, and its volume is positive."""
-    closed = [part for part in surface.components if not part.boundary_count]
+    """(the surface with every closed part the right way round, how many were not), see `inside_out`."""
+    wrong = inside_out(surface.components)
+    return (_turned(surface, wrong), len(wrong)) if wrong else (surface, 0)
+
+
+def inside_out(parts):
+    """The closed ones of some parts that are the wrong way round. A part lies as deep as there are closed parts around
+    it: at an even depth it bounds the solid from outside, and its volume is positive."""
+    closed = [part for part in parts if not part.boundary_count]
     boxes = np.array([[part.vertices.min(axis=0), part.vertices.max(axis=0)] for part in closed]).reshape(-1, 2, 3)
     wrong = []
     for k, part in enumerate(closed):
@@ -19,7 +25,7 @@ def outward(surface):
         depth = sum(_is_inside(part, closed[other]) for other in around if other != k)
         if (-1) ** depth * volume(part.vertices, part.triangles) < 0:
             wrong.append(part)
-    return (_turned(surface, wrong), len(wrong)) if wrong else (surface, 0)
+    return wrong
 
 
 def turned_sentence(count):

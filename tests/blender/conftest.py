@@ -3,6 +3,8 @@
 Everything is unregistered at the end: the Python modules of Blender 4.2 and 4.5 crash or hang at exit otherwise.
 """
 
+import tempfile
+
 import bpy
 import pytest
 from loaded_addon import ADDON, module
@@ -14,6 +16,14 @@ def addon():
     package.register()
     yield package
     package.unregister()
+
+
+@pytest.fixture(scope="session", autouse=True)
+def reports(tmp_path_factory):
+    """Where reports on errors are written that tests raise."""
+    before, tempfile.tempdir = tempfile.tempdir, str(tmp_path_factory.mktemp("reports"))
+    yield
+    tempfile.tempdir = before
 
 
 @pytest.fixture(autouse=True)

@@ -3,7 +3,6 @@
 import json
 
 import bpy
-import holomorph
 import numpy as np
 import pytest
 from exchange_formats import may_write_gltf, needs_usd
@@ -13,6 +12,7 @@ from picked_faces import add_own_map
 from scenes import grid_arrays, mesh_io, select, torus, torus_arrays, uv_maps
 
 exchange = module("command_line.exchange")
+holomorph = module("native").load()
 FORMATS = [
     *(pytest.param(suffix, marks=may_write_gltf) for suffix in (".glb", ".gltf")),
     ".fbx",

@@ -4,12 +4,12 @@ import struct
 import zlib
 
 import bpy
-import holomorph
 import numpy as np
 import pytest
 from loaded_addon import module
 
 image_io, relief = module("scene.image_io"), module("things.relief")
+holomorph = module("native").load()
 KINDS = {0: 1, 2: 3, 4: 2, 6: 4}  # of PNG: grey, colours, each with alpha; channels
 
 

@@ -170,9 +170,13 @@ def test_it_tells_of_crossings_and_of_plain_parts():
         triangles, crossings = np.zeros((9, 3)), np.array([[1, 2], [1, 3]])
         depth, safe_depth, error, is_full = 0.2, 0.1, 0.5, True
 
-    assert relief.sentence(Found, 1000.0, 2) == (
-        "9 triangles, 200 mm deep; 2 parts without a tiling stay flat; up to 1e+02 mm off: allow more triangles to "
-        "follow the picture; it crosses itself in 3 triangles: up to 1e+02 mm deep it does not"
+    class Work:
+        skipped, inside_out, heights = 2, 1, np.eye(4, 8)
+
+    assert relief.sentence(Found, 1000.0, Work) == (
+        "9 triangles, 200 mm deep; 2 parts without a tiling stay flat; inside out: 1 closed parts; recalculate their "
+        "normals; the picture has 8 x 4 pixels: each tile shows it stretched to a square, by 2; up to 1e+02 mm off: "
+        "allow more triangles to follow the picture; it crosses itself in 3 triangles: up to 1e+02 mm deep it does not"
     )
 
 

@@ -9,6 +9,8 @@ namespace {
 
 using Index = Eigen::Index;
 
+constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side, between which heights are sampled
+
 // The pixel of `count` in which x lies; the tile is from 0 to 1, and repeats.
 Index cell(double x, Index count) {
   const double turn = x - std::floor(x);
@@ -57,6 +59,33 @@ HeightImage::HeightImage(Pixels pixels) {
 double HeightImage::rest(const Point& tile, int level) const {
   const Pixels& values = levels_[level].around;
   return values(cell(tile[1], values.rows()), cell(tile[0], values.cols()));
+}
+
+double HeightImage::error(const HeightTriangle& t, double level, double finest) const {
+  if (t.shares == std::array{0.0, 0.0, 0.0}) return 0;
+  double longest = 0;  // in pixels
+  for (int i = 0; i < 3; ++i) {
+    const Point &from = t.tiles[i], &to = t.tiles[(i + 1) % 3];
+    longest = std::max(longest, std::hypot((to[0] - from[0]) * columns(), (to[1] - from[1]) * rows()));
+  }
+  if (longest < finest) return 0;
+  const int parts = static_cast<int>(std::clamp(std::ceil(longest) + 1, double{kFewest}, double{kMost}));
+  const double step = longest / parts;
+  const int depth = step <= 1 ? 0 : std::min(std::ilogb(step) + 1, level_count() - 1);
+  double error = 0;
+  for (int i = 0; i <= parts; ++i) {
+    for (int j = 0; i + j <= parts; ++j) {
+      const double y = static_cast<double>(i) / parts, z = static_cast<double>(j) / parts, x = 1 - y - z;
+      const auto linear = [=](double a, double b, double c) { return x * a + y * b + z * c; };
+      const Point place{linear(t.tiles[0][0], t.tiles[1][0], t.tiles[2][0]),
+                        linear(t.tiles[0][1], t.tiles[1][1], t.tiles[2][1])};
+      const double share = linear(t.shares[0], t.shares[1], t.shares[2]);
+      const double flat = linear(t.heights[0], t.heights[1], t.heights[2]);
+      const double off = std::abs(share * (at(place, depth) - level) - flat);
+      error = std::max(error, off + (depth > 0 ? share * rest(place, depth) : 0));
+    }
+  }
+  return error;
 }
 
 double HeightImage::bilinear(const Pixels& pixels, double u, double v) {

@@ -2,11 +2,19 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "tiles/orientation.h"
 
 namespace holomorph::tiles {
+
+/// Heights that are linear on a triangle.
+struct HeightTriangle {
+  std::array<Point, 3> tiles;
+  std::array<double, 3> shares;  ///< of the heights of the image
+  std::array<double, 3> heights;
+};
 
 class HeightImage {
  public:
@@ -24,6 +32,11 @@ class HeightImage {
 
   /// Bounds how far the image is from `at` of this level, within one pixel of the level around a point.
   double rest(const Point& tile, int level) const;
+
+  /// The largest error of a triangle's heights against those of the image, less a level, at a grid of its points. The
+  /// level of the pyramid is so coarse that its pixels cover the gaps of the grid, and the bound of what it loses is
+  /// added. 0 for triangles whose sides are shorter than `finest` pixels, and without shares.
+  double error(const HeightTriangle& triangle, double level, double finest) const;
 
  private:
   struct Level {

@@ -11,7 +11,6 @@ namespace holomorph::tiles {
 namespace {
 
 constexpr int kNone = -1, kReported = 4096;
-constexpr int kFewest = 3, kMost = 12;  // parts of a triangle's side, between which heights are sampled
 constexpr double kLeastTolerance = 1e-4;
 constexpr double kSharp = 1e-9;  // difference of normals, which rounding does not make
 
@@ -37,13 +36,6 @@ struct Candidate {
 
 std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
-// The vector by which both faces of an edge stay parallel to themselves. The normals differ at a sharp edge alone.
-Eigen::Vector3d between_faces(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
-  const Eigen::Vector3d mean = (one + other) / 2, unit = (one.normalized() + other.normalized()) / 2;
-  constexpr double least = 0.25;  // at sharper edges the vector is shorter
-  return one == other ? mean : Eigen::Vector3d(mean / std::max(unit.squaredNorm(), least));
-}
-
 class Refining {
  public:
   Refining(const mesh::Surface& surface, const TileCoordinates& coordinates, std::vector<ReliefSite> sites,
@@ -62,10 +54,10 @@ class Refining {
       own = {surface.triangles[t], {kNone, kNone, kNone}, {}, corners[t].normals, corners[t].are_reflex, t};
       for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 2; ++k) own.tiles[i][k] = coordinates.points[t][i][k] / coordinates.unit;
-        // The same from every triangle at the vertex: tile coordinates differ by whole tiles, and the image has period
-        // 1. Around poles, where they do not, the share is 0.
         const Eigen::Vector3d& moved = sites_[own.vertices[i]].normal;
         if ((moved - own.normals[i]).norm() > kSharp * moved.norm()) is_sharp_[own.vertices[i]] = 1;
+        // The same from every triangle at the vertex: tile coordinates differ by whole tiles, and the image has period
+        // 1. Around poles, where they do not, the share is 0.
         heights_[own.vertices[i]] = height(sites_[own.vertices[i]].share, own.tiles[i]);
         int& other = first[surface.triangle_edges[t][i]];
         if (other != kNone) {
@@ -103,38 +95,20 @@ class Refining {
       error_ = std::max(error_, error);
   }
 
-  // The largest error of the triangle's heights at a grid of its points. The level of the image is so coarse that its
-  // pixels cover the gaps of the grid, and the bound of what it loses is added.
   double error_of(const Triangle& t) const {
-    const auto& [a, b, c] = t.vertices;
-    if (sites_[a].share == 0 && sites_[b].share == 0 && sites_[c].share == 0) return 0;
-    double longest = 0;  // in pixels
-    for (int i = 0; i < 3; ++i) {
-      const Point &from = t.tiles[i], &to = t.tiles[(i + 1) % 3];
-      longest = std::max(longest, std::hypot((to[0] - from[0]) * image_.columns(), (to[1] - from[1]) * image_.rows()));
-    }
-    if (longest < options_.finest_pixels) return 0;
-    const int parts = static_cast<int>(std::clamp(std::ceil(longest) + 1, double{kFewest}, double{kMost}));
-    const double step = longest / parts;
-    const int level = step <= 1 ? 0 : std::min(std::ilogb(step) + 1, image_.level_count() - 1);
-    double error = 0;
-    for (int i = 0; i <= parts; ++i) {
-      for (int j = 0; i + j <= parts; ++j) {
-        const double y = static_cast<double>(i) / parts, z = static_cast<double>(j) / parts, x = 1 - y - z;
-        const Point at{x * t.tiles[0][0] + y * t.tiles[1][0] + z * t.tiles[2][0],
-                       x * t.tiles[0][1] + y * t.tiles[1][1] + z * t.tiles[2][1]};
-        const double share = x * sites_[a].share + y * sites_[b].share + z * sites_[c].share;
-        const double flat = x * heights_[a] + y * heights_[b] + z * heights_[c];
-        const double off = std::abs(share * (image_.at(at, level) - options_.level) - flat);
-        error = std::max(error, off + (level > 0 ? share * image_.rest(at, level) : 0));
-      }
-    }
-    return error;
+    const auto of = [&t](const auto& value) {
+      return std::array{value(t.vertices[0]), value(t.vertices[1]), value(t.vertices[2])};
+    };
+    const auto shares = of([this](int v) { return sites_[v].share; });
+    const auto heights = of([this](int v) { return heights_[v]; });
+    return image_.error({t.tiles, shares, heights}, options_.level, options_.finest_pixels);
   }
 
   // Just above the tolerance where a triangle is large for how near it is to a sharp edge, so that errors of heights
   // come first; the more, the larger it is.
   double error_of_direction(const Triangle& t) const {
+    const auto is_moved = [this](int v) { return std::abs(heights_[v]) > options_.tolerance; };
+    if (std::none_of(t.vertices.begin(), t.vertices.end(), is_moved)) return 0;
     double excess = 0;
     for (int i = 0; i < 3; ++i) {
       const int v = t.vertices[i];

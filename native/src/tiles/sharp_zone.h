@@ -6,6 +6,13 @@
 
 namespace holomorph::tiles {
 
+/// The vector by which both faces of an edge stay parallel to themselves. The normals differ at a sharp edge alone.
+inline Eigen::Vector3d between_faces(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+  constexpr double least = 0.25;  // at sharper edges the vector is shorter
+  const Eigen::Vector3d mean = (one + other) / 2, unit = (one.normalized() + other.normalized()) / 2;
+  return one == other ? mean : Eigen::Vector3d(mean / std::max(unit.squaredNorm(), least));
+}
+
 /// What a point of a surface has of the nearest sharp edge. At the edge the vector by which the surface is moved
 /// differs from that of the smooth part beside it by `aside`. From there on that gets less, in proportion to the
 /// distance.

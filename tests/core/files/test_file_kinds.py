@@ -168,6 +168,13 @@ def test_the_first_byte_after_a_header_is_never_a_part_of_it(newline, byte, tmp_
     assert abs(surface.vertices[0] - MIXED.vertices[0]).max() < 1e-12
 
 
+def test_elements_that_no_header_announces_are_told(tmp_path):
+    content = PLY.replace(b"element face 19", b"element face 17")
+    surface = read(tmp_path, "a.ply", content)
+    assert len(surface.face_offsets) - 1 == MIXED.face_count - 2
+    assert re.search(r"has \d+ bytes after the last element", told(surface))
+
+
 def test_the_coloured_ones_say_what_is_not_kept(tmp_path):
     assert "colours" in told(read(tmp_path, "a.ply", ply_text(MIXED)))
     coloured = off(MIXED, head="COFF\n{} {} 0\n", vertex="{!r} {!r} {!r} 255 0 0 255")

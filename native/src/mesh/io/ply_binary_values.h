@@ -1,6 +1,7 @@
 // The elements of a binary PLY file of either byte order, value by value.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace holomorph::mesh::ply {
 
-/// Values as bytes. Bytes after the last element are ignored: some writers pad.
+/// Values as bytes.
 template <std::endian order>
 class BinaryValues {
  public:
@@ -61,7 +62,13 @@ class BinaryValues {
     }
   }
   void skip(Type type, std::int64_t values) { advance(size_of(type) * static_cast<std::size_t>(values)); }
-  void finish() {}
+  /// What follows the last element is not read: some writers pad. @return a sentence about anything else
+  std::string finish() const {
+    const auto rest = file_.bytes.begin() + static_cast<std::ptrdiff_t>(position_);
+    const auto is_padding = [](char c) { return c == '\0' || c == '\n' || c == '\r' || c == ' ' || c == '\x1A'; };
+    if (std::all_of(rest, file_.bytes.end(), is_padding)) return {};
+    return "the file has " + std::to_string(bytes_left()) + " bytes after the last element that its header announces";
+  }
   [[noreturn]] void fail(const std::string& reason) const {
     throw InvalidMesh(file_.name + ", byte " + std::to_string(position_) + ", element " + quoted(element_->name) + " " +
                       std::to_string(row_) + ": " + reason);

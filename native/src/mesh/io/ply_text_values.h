@@ -35,8 +35,9 @@ class TextValues {
   void skip(Type, std::int64_t values) {
     for (std::int64_t i = 0; i < values; ++i) word();
   }
-  void finish() {
+  std::string finish() {
     if (!scan_.at_end()) scan_.fail("the file goes on after the last element that its header announces");
+    return {};
   }
   [[noreturn]] void fail(const std::string& reason) const { scan_.fail(reason); }
 

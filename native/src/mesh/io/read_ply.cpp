@@ -148,7 +148,7 @@ GivenPolygons read_body(const FileText& file, const Header& header) {
     else
       skip_element(values, element);
   }
-  values.finish();
+  if (std::string note = values.finish(); !note.empty()) mesh.file.notes.push_back(std::move(note));
   return mesh;
 }
 
