@@ -5,14 +5,13 @@
 #include <queue>
 #include <tuple>
 
-#include "tiles/sharp_zone.h"
+#include "tiles/sharp_zones.h"
 
 namespace holomorph::tiles {
 namespace {
 
 constexpr int kNone = -1, kReported = 4096;
 constexpr double kLeastTolerance = 1e-4;
-constexpr double kSharp = 1e-9;  // difference of normals, which rounding does not make
 
 // Side i runs from corner i to corner i + 1.
 struct Triangle {
@@ -44,8 +43,7 @@ class Refining {
         options_(options),
         sites_(std::move(sites)),
         heights_(sites_.size(), 0.0),
-        zones_(sites_.size()),
-        is_sharp_(sites_.size(), 0) {
+        zones_(sites_, options.depth) {
     const int count = static_cast<int>(surface.triangles.size());
     triangles_.resize(count);
     std::vector<int> first(surface.edges.size(), kNone);  // 3 t + i of the first side at each edge
@@ -54,8 +52,7 @@ class Refining {
       own = {surface.triangles[t], {kNone, kNone, kNone}, {}, corners[t].normals, corners[t].are_reflex, t};
       for (int i = 0; i < 3; ++i) {
         for (int k = 0; k < 2; ++k) own.tiles[i][k] = coordinates.points[t][i][k] / coordinates.unit;
-        const Eigen::Vector3d& moved = sites_[own.vertices[i]].normal;
-        if ((moved - own.normals[i]).norm() > kSharp * moved.norm()) is_sharp_[own.vertices[i]] = 1;
+        zones_.add_corner(own.vertices[i], own.normals[i]);
         // The same from every triangle at the vertex: tile coordinates differ by whole tiles, and the image has period
         // 1. Around poles, where they do not, the share is 0.
         heights_[own.vertices[i]] = height(sites_[own.vertices[i]].share, own.tiles[i]);
@@ -111,38 +108,12 @@ class Refining {
     if (std::none_of(t.vertices.begin(), t.vertices.end(), is_moved)) return 0;
     double excess = 0;
     for (int i = 0; i < 3; ++i) {
-      const int v = t.vertices[i];
-      if (sites_[v].share == 0) continue;
-      for (const int w : {t.vertices[(i + 1) % 3], t.vertices[(i + 2) % 3]}) {
-        const SharpZone zone = zone_of(v, t.normals[i], t.are_reflex[i]);
-        if (zone.is_empty()) continue;
-        const double across = std::abs(zone.distance(sites_[w].position) - zone.distance(sites_[v].position));
-        if (across > zone_width()) excess = std::max(excess, 1 - zone_width() / across);
-      }
+      if (sites_[t.vertices[i]].share == 0) continue;
+      const SharpZone zone = zones_.of(t.vertices[i], t.normals[i], t.are_reflex[i]);
+      for (int k = 1; k < 3; ++k)
+        excess = std::max(excess, zones_.excess(zone, t.vertices[i], t.vertices[(i + k) % 3]));
     }
     return excess == 0 ? 0 : std::max(options_.tolerance, kLeastTolerance) * (1 + excess);
-  }
-
-  // With triangles as large as the zone, all that leans lies within a depth.
-  double zone_width() const { return options_.depth / 2; }
-
-  // The zone of a vertex on a smooth part of the surface with this normal there.
-  SharpZone zone_of(int v, const Eigen::Vector3d& normal, bool is_reflex) const {
-    if (!is_sharp_[v]) return zones_[v];
-    const Eigen::Vector3d aside = sites_[v].normal - normal;
-    return aside.norm() > kSharp * normal.norm()
-               ? SharpZone::at_edge(aside, sites_[v].position, zones_[v].out, is_reflex)
-               : SharpZone{};
-  }
-
-  // That of the middle of a side, to which the nearest edge counts. @param normals at both ends
-  SharpZone zone_between(const Triangle& t, int i, const CornerNormals& normals) const {
-    const int next = (i + 1) % 3, a = t.vertices[i], b = t.vertices[next];
-    const Eigen::Vector3d middle = (sites_[a].position + sites_[b].position) / 2;
-    const SharpZone one = zone_of(a, normals[0], t.are_reflex[i]), other = zone_of(b, normals[1], t.are_reflex[next]);
-    const auto away = [&](const SharpZone& zone) { return zone.is_empty() ? zone_width() : zone.distance(middle); };
-    if (std::min(away(one), away(other)) >= zone_width()) return {};
-    return away(one) <= away(other) ? one : other;
   }
 
   double squared_length(int a, int b) const { return (sites_[a].position - sites_[b].position).squaredNorm(); }
@@ -205,12 +176,12 @@ class Refining {
     // Position and share stay linear along the side, and so do the normals of each triangle. The height is sampled
     // anew.
     const CornerNormals ends = side_normals(own, i);
-    const SharpZone zone = zone_between(own, i, ends);
+    const SharpZone zone = zones_.between(zones_.of(a, ends[0], own.are_reflex[i]),
+                                          zones_.of(b, ends[1], own.are_reflex[(i + 1) % 3]), a, b);
+    const bool is_sharp = ends[2] != (own.normals[i] + own.normals[(i + 1) % 3]) / 2;
+    zones_.add_middle(zone, a, b, is_sharp);
     const Eigen::Vector3d at = (sites_[a].position + sites_[b].position) / 2;
-    sites_.push_back({at, ends[2] + zone.rest(at, zone_width()), (sites_[a].share + sites_[b].share) / 2});
-    is_sharp_.push_back(ends[2] != (own.normals[i] + own.normals[(i + 1) % 3]) / 2);
-    zones_.push_back(zone);
-    if (is_sharp_.back()) zones_.back().out = (sites_[b].position - sites_[a].position).normalized();
+    sites_.push_back({at, ends[2] + zones_.rest(zone, at), (sites_[a].share + sites_[b].share) / 2});
     const Point &p = own.tiles[i], &q = own.tiles[(i + 1) % 3];
     heights_.push_back(height(sites_[middle].share, {(p[0] + q[0]) / 2, (p[1] + q[1]) / 2}));
     const int second = halve(t, i, middle);
@@ -274,8 +245,7 @@ class Refining {
   const ReliefOptions& options_;
   std::vector<ReliefSite> sites_;  // #V
   std::vector<double> heights_;    // #V
-  std::vector<SharpZone> zones_;   // #V; on a sharp edge `out` alone is used, for its direction
-  std::vector<char> is_sharp_;     // #V
+  SharpZones zones_;               // of the sites
   std::vector<Triangle> triangles_;
   std::priority_queue<Candidate> candidates_;  // those that are off by more than the tolerance, and earlier versions
   double error_ = 0;                           // of the others

@@ -4,16 +4,10 @@
 #include <Eigen/Core>
 
 #include "tiles/height_image.h"
+#include "tiles/relief_sites.h"
 #include "tiles/tile_coordinates.h"
 
 namespace holomorph::tiles {
-
-/// The quantities at a vertex that are interpolated linearly on every triangle.
-struct ReliefSite {
-  Eigen::Vector3d position;
-  Eigen::Vector3d normal;  ///< by which a height of 1 moves the surface, over the depth
-  double share = 1;  ///< factor of the height; 0 at all vertices of triangles at poles, where UVs do not fit together
-};
 
 struct ReliefOptions {
   double level = 0;          ///< the height that is not displaced
@@ -21,16 +15,6 @@ struct ReliefOptions {
   int most_triangles = 0;    ///< beyond this number none is split, whatever its error
   double finest_pixels = 1;  ///< triangles whose sides are shorter are not split
   double depth = 0;          ///< by which a height of 1 moves the surface: so near sharp edges it may lean
-};
-
-/// The normals at the corners of a triangle, each of the smooth part of the surface around it: across a sharp edge they
-/// differ. Elsewhere they are those of the vertices.
-using CornerNormals = std::array<Eigen::Vector3d, 3>;
-
-/// What the corners of a triangle have of the smooth part around them.
-struct SmoothCorners {
-  CornerNormals normals;
-  std::array<bool, 3> are_reflex{};  ///< it takes more than half of the vertex's surroundings
 };
 
 struct Relief {
