@@ -124,7 +124,7 @@ std::vector<int> indices_in(const std::vector<int>& whole, std::vector<int> part
 }
 
 // The rest of a surface that has parts without area.
-CutSurface without_flat_parts(CutSurface given, Execution& execution) {
+CutSurface without_flat_parts(CutSurface given, const FileRecord& file, Execution& execution) {
   if (given.surface.repairs.zero_area_faces.empty()) return given;
   const std::vector<char> flat = flat_components(given.surface);
   if (std::find(flat.begin(), flat.end(), 1) == flat.end()) return given;
@@ -133,7 +133,7 @@ CutSurface without_flat_parts(CutSurface given, Execution& execution) {
     (flat[given.surface.face_component[f]] ? faces : rest).push_back(f);
   PolygonPart part = PolygonParts(given.surface.polygons).take(std::move(rest));
   faces = indices_in(given.face_index, std::move(faces));
-  given.refused.push_back({faces, "face " + std::to_string(faces.front()) + " has no area, nor have faces beside it"});
+  given.refused.push_back({faces, "face " + file.face(faces.front()) + " has no area, nor have faces beside it"});
   given.surface = make_surface(std::move(part.polygons), execution);
   given.vertex_index = indices_in(given.vertex_index, std::move(part.vertex_index));
   given.face_index = indices_in(given.face_index, std::move(part.face_index));
@@ -158,6 +158,7 @@ CutSurface as_given(Polygons polygons, std::exception_ptr& failure, Execution& e
 template <class Index>
 CutSurface cut_surface_of(BasicPolygons<Index> given, Execution& execution) {
   check_layout(given);
+  const FileRecord file = given.file;
   const int vertex_count = static_cast<int>(given.vertices.size());
   std::exception_ptr failure;
   CutSurface result;
@@ -179,7 +180,7 @@ CutSurface cut_surface_of(BasicPolygons<Index> given, Execution& execution) {
     }
   }
   result.given_vertex_count = vertex_count;
-  return without_flat_parts(std::move(result), execution);
+  return without_flat_parts(std::move(result), file, execution);
 }
 
 }  // namespace

@@ -29,21 +29,21 @@ bool has_one_of(const BasicPolygons<Index>& mesh, int face, const std::vector<in
   });
 }
 
-std::string wild_text(int vertex) {
-  return "vertex " + std::to_string(vertex) + " is more than 1e9 times as far away as the mesh is large";
+std::string wild_text(const FileRecord& file, int vertex) {
+  return "vertex " + file.vertex(vertex) + " is more than 1e9 times as far away as the mesh is large";
 }
 
 template <class Index>
 void refuse_wild(const BasicPolygons<Index>& mesh) {
   const std::vector<int> wild = wild_vertices(mesh);
-  if (!wild.empty()) throw InvalidMesh(wild_text(wild.front()));
+  if (!wild.empty()) throw InvalidMesh(wild_text(mesh.file, wild.front()));
 }
 
 template <class Index>
 UsableFaces usable(BasicPolygons<Index> given) {
   std::array<RefusedFaces, 5> by_fault;  // those with wild vertices are the last
   const std::vector<int> wild = wild_vertices(given);
-  if (!wild.empty()) by_fault.back().reason = wild_text(wild.front());
+  if (!wild.empty()) by_fault.back().reason = wild_text(given.file, wild.front());
   std::vector<int> faces;
   for (int f = 0; f + 1 < static_cast<int>(given.face_offsets.size()); ++f) {
     const FaceFault fault = fault_of_face(given, f);
