@@ -40,9 +40,13 @@ def write_torus(path, n=24, m=12):
         np.savetxt(file, quads, fmt="f %d %d %d %d")
 
 
+def dynamic(library):
+    return subprocess.run(["readelf", "-dlW", library], capture_output=True, text=True, check=True).stdout
+
+
 def needed(library):
     """The libraries that a shared library asks for."""
-    output = subprocess.run(["readelf", "-d", library], capture_output=True, text=True, check=True).stdout
+    output = dynamic(library)
     return {line.split("[")[1].rstrip("]") for line in output.splitlines() if "(NEEDED)" in line}
 
 
@@ -56,6 +60,14 @@ def test_the_wheels_are_self_contained(dist, tmp_path):
             assert needed(library) <= inside | SYSTEM, library.name
         # The reference BLAS, and a second copy of OpenBLAS under another name, stay out.
         assert not [name for name in inside if name.startswith(("libblas", "liblapack"))]
+
+
+def test_tables_of_functions_are_read_only(dist, tmp_path):
+    """All are found when the module is loaded: full RELRO."""
+    for wheel in dist.glob("*.whl"):
+        zipfile.ZipFile(wheel).extractall(tmp_path / wheel.name)
+        (module,) = (tmp_path / wheel.name).rglob("_native*.so")
+        assert "GNU_RELRO" in dynamic(module) and "BIND_NOW" in dynamic(module)
 
 
 def test_the_extension_is_valid(dist, bpy_python):
