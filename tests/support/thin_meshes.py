@@ -7,13 +7,13 @@ from holomorph import Surface, rectangle_map
 SQUARE = families.cut_quads(families.grid_quads(5, 5).reshape(5, 5, 4)[:4, :4].reshape(-1, 4))
 
 
-def square_with(point):
-    """The modulus of the unit square in 32 triangles, one more vertex at `point` beside one of their sides, and its
-    bounds."""
+def square_with(point, ends=(6, 12)):
+    """The modulus of the unit square in 32 triangles, one more vertex at `point` beside the inner side with these ends,
+    by default a diagonal, and its bounds."""
     x, y = (index.ravel() / 4 for index in np.indices((5, 5)))
     vertices = np.column_stack([x, y, 0 * x])
     faces = SQUARE.tolist()
-    a, b = 6, 12  # both in the interior
+    a, b = ends
     across = next(f for f in faces if a in f and b in f)
     apex = next(v for v in across if v not in (a, b))
     faces.remove(across)

@@ -1,4 +1,4 @@
-"""How maps look: twelve models, the kind of map that each gets, and figures that it keeps.
+"""How maps look: thirteen models, the kind of map that each gets, and figures that it keeps.
 
 The figures are those of maps that were looked at under a checker, with a tenth to spare: beyond, a map looks worse, or
 is another one. `pytest -s` prints them, and seconds of the processor.
@@ -58,6 +58,7 @@ MODELS = {
     "pretzel": lambda: Surface.read(ROOT / "examples" / "pretzel.obj"),
     "knot": lambda: surface_of(families.torus_knot(150, 8)),
     "torus": lambda: surface_of(families.torus(24, 18, jitter=0.2)),
+    "thick torus": lambda: surface_of(families.torus(30, 20, R=1.5)),
     "torus with a hole": lambda: surface_of(families.punctured_torus(24, 18)),
     "limbs": lambda: surface_of(limbs()),
     "spikes": lambda: surface_of(spikes()),
@@ -73,6 +74,7 @@ LOOKS = {
     "pretzel": Looks("tiling", (0, 0), 2.4, 4.4, 1.25, (5.0, 5.9), "Even"),
     "knot": Looks("tiling", (0, 0), 1.6, 1.7, 1.12, (3.5, 4.3), "Even"),
     "torus": Looks("tiling", (3, 3), 2.8, 5.0, 1.3, (2.8, 3.6), "Even, slightly sheared"),
+    "thick torus": Looks("tiling", (6, 6), 2.7, 8.4, 1.3, (3.3, 4.1), "Even, slightly sheared"),
     "torus with a hole": Looks("tiling", (3, 3), 3.0, 4.4, 1.31, (2.9, 3.6), "Even, slightly sheared"),
     "limbs": Looks("mixed", (4, 4), 3.3, 8.5, 1.4, (3.8, 4.7), "Even, slightly sheared"),
     "spikes": Looks("tiling", (4, 4), 2.6, 5.0, 1.18, (2.8, 3.6), "Even"),
