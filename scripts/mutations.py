@@ -22,6 +22,8 @@ MEMORY = CORE + "structure/test_memory_limit.py::test_the_estimate_and_the_peak"
 EQUIVALENCE = CORE + "moduli/test_equivalence_rounding.py"
 DENSE = "native:*CertainBounds*"
 DIGITS = "native:DoubleDouble*"
+SLIVERS = CORE + "mesh/test_slivers.py"
+WILD = CORE + "mesh/test_wild_vertices.py"
 
 
 class Mutation(NamedTuple):
@@ -164,4 +166,15 @@ MUTATIONS = (
         ("copies", "SINGLE = 2.0**-22", "SINGLE = 2.0**-18", PARTS),
         ("copies-tenth", "SINGLE = 2.0**-22", "SINGLE = 0.1 * 2.0**-22", PARTS),
     )
+    | of(ROOM + "mesh/wild_vertices.h", ("wild", "kWild = 1e9", "kWild = 1e13", WILD))
+    | of(
+        ROOM + "mesh/slivers.cpp",
+        ("slivers-shortest-sides", "surface.edge_lengths[a] > surface", "surface.edge_lengths[a] < surface", SLIVERS),
+        ("slivers-rounding", "kCoordinateRounding = 0x1p-20", "kCoordinateRounding = 0x1p-40", SLIVERS),
+    )
+    | of(ROOM + "mesh/continuations.cpp", ("slivers-as-others", "? 2 : 0;  // what", "? 0 : 0;  // what", SLIVERS))
+    | of(ROOM + "islands/cuts_to_disks.cpp", ("paths-stop", "kShortest = 1e-12", "kShortest = 0", SLIVERS))
+    | of(PACKAGE + "cut_open.py", ("paths-stop-at-places", "SHORTEST = 1e-12", "SHORTEST = 0.0", SLIVERS))
+    | of(PACKAGE + "hard_edges.py", ("slivers-own-normals", "[surface._native.sliver_owners()]", "", SLIVERS))
+    | of(PACKAGE + "island_map.py", ("same-place", "SAME = 1e-5", "SAME = 1e-6", SLIVERS))
 )
