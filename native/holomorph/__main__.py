@@ -40,12 +40,15 @@ def main(arguments=None):
         return relief(arguments[1:])
     options = _parser().parse_args(arguments)
     try:
-        check_options(options.solver, options.threads)
-        check_thresholds(options.thresholds, options.solver)
         whole_file.check_places(options.mesh, options.output, [options.report], options.overwrite)
         _check_output(options.output, options.texture)
     except (ValueError, OSError) as error:
         return failed(EXIT_USAGE, error)
+    try:
+        check_options(options.solver, options.threads)
+        check_thresholds(options.thresholds, options.solver)
+    except ValueError as error:
+        return failed(EXIT_REFUSED, error)
     try:
         report = mapped(options)
     except (Error, OSError) as error:

@@ -21,7 +21,8 @@ Hand = type(
     (module("operators.availability").Explained,),
     {name: method for name, method in vars(drag.HOLOMORPH_OT_drag_poles).items() if isinstance(method, FunctionType)},
 )
-Hand.report = lambda self, kinds, text: None
+told = []  # errors, which Blender raises when the operator has ended
+Hand.report = lambda self, kinds, text: told.append(text) if "ERROR" in kinds else None
 
 
 class Window:
@@ -78,10 +79,14 @@ def window(monkeypatch):
 def dragged(window, key):
     """What the operator returns where the pole is dragged, the texture follows, and `key` ends it."""
     window[:] = [Window()]
+    told.clear()
     context, hand = window[0], Hand()
 
     def event(kind, value="PRESS"):
-        return hand.modal(context, SimpleNamespace(type=kind, value=value, mouse_x=HERE[0], mouse_y=HERE[1]))
+        result = hand.modal(context, SimpleNamespace(type=kind, value=value, mouse_x=HERE[0], mouse_y=HERE[1]))
+        if told:
+            raise RuntimeError(told[0])
+        return result
 
     if hand.invoke(context, None) != {"RUNNING_MODAL"}:
         raise RuntimeError("refused")  # as Blender does
@@ -107,5 +112,6 @@ def test_drag_by_hand(window):
     def nothing_is_left():
         assert (window[0].timers, window[0].text, module("overlays.overlay").dragged) == ([], None, {})
 
-    lines = partial(Lines, begin="invoke", guards=("modal", "_giving_up"))
+    # Neither the guards nor what calls them: an error there is none of the operator's.
+    lines = partial(Lines, begin="invoke", guards=("modal", "_giving_up", "call", "event", "dragged"))
     check(press, lines, raises=ERRORS, then=nothing_is_left)

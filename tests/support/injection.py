@@ -102,16 +102,23 @@ class Trial:
         bpy.ops.wm.open_mainfile(filepath=self._path)
         self._before = file_state()
         self.changes, self.met = differences(self._before, self._after), run.met
+        # Whether the last error was raised where it is heard: how often a hand that drags is asked depends on the
+        # clock, and Python closes a generator that nobody needs any more.
+        self.was_met = False
 
     def left_by(self, stop, error):
         """(what is another afterwards, what was raised) where this error is raised at this stop; nothing is another
         either if all was done already, as where a line that tells of progress is met less often than before."""
-        raised = None
+        raised, unheard, hook = None, [], sys.unraisablehook
+        sys.unraisablehook = unheard.append
         with self._lines(stop, error) as traced:
             try:
                 self._press()
             except BaseException as problem:  # noqa: BLE001  whatever comes of it is told
                 raised = problem
+            finally:
+                sys.unraisablehook = hook
+        self.was_met = traced.is_raised and not unheard
         found = file_state()
         is_done = found == self._after and PUT_BACK not in str(raised)  # what is run when all is done
         if is_done or not traced.is_raised:
@@ -152,7 +159,7 @@ def check(press, lines=Lines, raises=RuntimeError, then=lambda: None):
         error = ERRORS[index % len(ERRORS)]
         left, raised = trial.left_by(stop, error)
         assert not left, (stop, error)
-        assert isinstance(raised, raises), (stop, error)
+        assert isinstance(raised, raises) or not trial.was_met, (stop, error)
         then()
 
 

@@ -4,7 +4,7 @@ import hashlib
 from functools import partial
 
 from . import blend, places, sources
-from .journal import noted
+from .journal import RECORD, noted
 from .task import Task, key
 
 ASSETS, SCENES = "assets", ".blend"  # folders of the results: of assets, and of what Blender read of scenes
@@ -75,8 +75,9 @@ class Plan:
 
 
 def _is_read(opening):
-    """Whether its objects are there, as they were listed."""
-    return noted(opening) is not None and (opening.folder / blend.OBJECTS).exists()
+    """Whether its objects are there, as they were listed: a record of another shape is that of another program."""
+    is_own = noted(opening) is not None or not (opening.folder / RECORD).exists()
+    return is_own and (opening.folder / blend.OBJECTS).exists()
 
 
 def _examined(source):
