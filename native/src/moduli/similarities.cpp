@@ -70,7 +70,9 @@ class Search {
       a[i] = scale_ * length(a_, side);
       b[i] = length(b_, image);
     }
-    const double dilatation = this->dilatation(a, b), size = std::abs(std::log(b[0] / a[0]));
+    // A triangle without area has no dilatation; the same lengths need none.
+    const double dilatation = std::equal(a, a + 3, b) ? 0 : this->dilatation(a, b),
+                 size = std::abs(std::log(b[0] / a[0]));
     if (!(std::max(dilatation, size) <= kSimilar)) return false;
     largest_ = std::max(largest_, dilatation);
     return true;

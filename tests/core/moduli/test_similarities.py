@@ -5,7 +5,7 @@ import flat_cones
 import numpy as np
 import pytest
 import regular_maps
-from holomorph import _native
+from holomorph import Surface, _native
 from moebius_images import moebius_image
 from solved import surface_of
 
@@ -47,6 +47,17 @@ def test_one_moved_vertex_is_seen(name):
         vertices = mesh.vertices.copy()
         vertices[v] *= 1 + 1e-6
         assert similarity(mesh, families.replace(mesh, vertices=vertices)) is None
+
+
+def test_a_mesh_with_a_triangle_without_area_is_similar_to_itself():
+    mesh = MESHES["torus"]
+    a, b, c = mesh.corners[:3]  # the middle of a side becomes a vertex, of the first triangle alone
+    vertices = np.vstack([mesh.vertices, (mesh.vertices[a] + mesh.vertices[b]) / 2])
+    new = len(mesh.vertices)
+    faces = np.vstack([[[a, new, c], [new, b, c], [a, b, new]], mesh.corners[3:].reshape(-1, 3)])
+    surface = Surface(vertices, faces)
+    assert len(surface.repairs.zero_area_faces) == 1
+    assert _native.similarity(surface._native, surface._native, 1, None) == 0
 
 
 def test_other_surfaces_are_not_similar():
