@@ -24,8 +24,8 @@ def curve_period_matrix(coefficients: ArrayLike) -> PeriodMatrix:
     """The `PeriodMatrix`, (g, g), of the curve y^2 = f(x), f of degree 2g + 1 or 2g + 2: what a mesh may be compared
     with by `conformally_equivalent`.
 
-    Its `error` bounds the errors of the integrals and those of the branch points, where coefficients are only known to
-    their rounding. Roots near each other make it large.
+    Its `error` bounds the errors of the integrals and of the branch points. Integer coefficients are exact, others are
+    only known to their rounding, and roots near each other make that large.
 
     coefficients : (d + 1,) real or complex, that of the highest power first: [1, 0, 0, 0, -1, 0] for x^5 - x
 
